@@ -30,7 +30,7 @@ COMMANDS = {
     "sweep": ["sweep", _STUDY, "--set", _OVER, "--workers", "2", "--no-plots"],
     "compare": ["compare", str(SMALL), str(ROOT / "campaigns/small_compression.yaml"), "--points", "0"],
     "explorer": ["explore", str(SMALL), "--no-open"],
-    "verify": ["verify", _RUN, "--no-pictures"],
+    "verify": ["verify", _RUN],
 }
 """What is ended, in a folder of its own; each gets `--out`."""
 FIRST = {

@@ -33,7 +33,7 @@ from attack import Attack
 
 from tvimdesign.base.deadline import CLOCK
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
-from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, read_study, read_tree

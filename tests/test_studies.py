@@ -13,7 +13,7 @@ import trimesh
 from support import ROOT, STUDIES, Command
 
 from tvimdesign.report.output.results_format import results_schema
-from tvimdesign.report.robot.joint_model import make_bodies
+from tvimdesign.robot.joint_model import make_bodies
 from tvimdesign.study import read_study
 
 FILES = {

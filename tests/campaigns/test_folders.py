@@ -13,8 +13,7 @@ import pytest
 import random_studies
 from attack import Attack
 
-from tvimdesign.base import atomic_files
-from tvimdesign.report.output import manifest
+from tvimdesign.base import atomic_files, manifest
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study_text
 

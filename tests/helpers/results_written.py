@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tvimdesign.report.output.manifest import MANIFEST
+from tvimdesign.base.manifest import MANIFEST
 from tvimdesign.report.output.results_folder import ResultsFolder
 
 FILES = {"results.csv": "a,b\n", "plots/heat.png": "png", "cad/step/rotor.step": "step"}

@@ -4,7 +4,7 @@ from functools import cache
 
 from support import ROOT
 
-from tvimdesign.report.robot.joint_model import JointModel, RigidBody, joint_model
+from tvimdesign.robot.joint_model import JointModel, RigidBody, joint_model
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 

@@ -7,10 +7,10 @@ from opened_page import Opened
 from small_sweeps import plan
 
 from tvimdesign.page.page_file import FILE
-from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.sweep.sweep_figures import CellTable
-from tvimdesign.report.sweep.sweep_page import write_sweep_page
+from tvimdesign.report.output.command import Command
+from tvimdesign.report.sweep.sweep_page import sweep_page
 from tvimdesign.sweep.gather import columns
+from tvimdesign.sweep.swept_cells import CellTable
 
 STUDY = """
 mode: shear
@@ -27,9 +27,8 @@ def test_a_sweep_is_drawn_and_its_cells_are_brushed(opened: Callable[..., Opened
         ended = ["refused", None, None, "no"] if number == 0 else ["evaluated", number % 2, 0.1, ""]
         values = [None if number == 0 else float("inf") if number == 1 else 10.0 + number] * outputs
         list(table.seeing([[number + 1, *asked.axis_values(number), *ended, *values]]))
-    with ResultsFolder(out) as folder:
-        write_sweep_page(asked, table, folder, b"")
-        folder.finish("swept", {}, {})
+    with Command(out) as command:
+        command.finish("swept", {}, {}, page=sweep_page(asked, table, command))
     found = opened(out / FILE)
     found.figure("curves")
     figure = found.figure("brushed")

@@ -76,6 +76,6 @@ def test_what_is_verified_stands_beside_the_results_while_it_is_solved(
     out = tmp_path / "out"
     design = write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     with pytest.raises(SimulationError, match="the mesh has no end"):
-        verify_design.verify_design(design, out, "", overwrite=True, pictures=False, as_json=False)
+        verify_design.verify_design(design, out, "", overwrite=True, as_json=False)
     assert seen[0].parent == out / UNFINISHED
     assert [path.name for path in out.iterdir()] == ["manifest.json"]

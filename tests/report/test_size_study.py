@@ -9,8 +9,8 @@ import pytest
 from support import Command
 
 from tvimdesign.base.errors import InfeasibleError, InputError
-from tvimdesign.report.run.check_study import refuse_what_cannot_be
 from tvimdesign.report.run.study_files import sized_text
+from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 from tvimdesign.study import Study, read_study_text
 from tvimdesign.study.sizing import JointTask
 

@@ -8,7 +8,7 @@ import pytest
 from answers import shipped_answer
 from comparable import COMPRESSION, SHEAR
 
-from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve import anchored_search, result, search
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import Start

@@ -16,8 +16,7 @@ from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import margin_text, value_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, drawings
-from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.run.why import sentences, why_rows
+from tvimdesign.report.run.reasons import complaint, sentences, why_rows
 from tvimdesign.study.design import Design, write_design
 from tvimdesign.study.text.mistakes import did_you_mean
 
@@ -287,7 +286,7 @@ class Result(Generic[StudyT]):
         `timestep`, such as "0.5 ms", is that of the simulation; without it one that suits the bench's load. Raises
         GeometryError where the solids are not the design's, InputError for a time step that is none.
         """
-        from tvimdesign.report.robot.robot_files import write_models
+        from tvimdesign.report.robot_files import write_models
 
         step = parse_quantity(timestep, "s") if timestep else None
         with ResultsFolder(Path(folder), overwrite) as written, shown_progress(progress) as say:

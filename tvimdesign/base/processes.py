@@ -13,8 +13,9 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from enum import IntEnum
+from queue import SimpleQueue
 from types import TracebackType
-from typing import Any, TypeVar
+from typing import IO, Any, Self, TypeVar
 
 import psutil
 
@@ -155,6 +156,52 @@ def communicate(process: subprocess.Popen[Any], limit: float = LIMIT) -> tuple[A
     Raises ProcessorTimeError if the process exceeds its limit; the caller then ends it.
     """
     return wait_for(ProcessorLimit(process.pid, limit), lambda seconds: process.communicate(timeout=seconds))
+
+
+class FedProcess:
+    """A child process that is sent lines of text while this one works on; ended if it has not ended when it is left.
+
+    A thread sends them: a pipe holds little, and a process that loads its libraries reads nothing.
+    """
+
+    def __init__(self, child: subprocess.Popen[str], niceness: Niceness | None = None) -> None:
+        """Take a process whose input is a pipe of text."""
+        self.child, stream = child, child.stdin
+        assert stream is not None
+        child.stdin = None  # closed by the thread, which `communicate` must not do meanwhile
+        if niceness is not None:
+            set_low_priority(child.pid, niceness)
+        self._lines: SimpleQueue[str | None] = SimpleQueue()
+        self._sender = threading.Thread(target=self._send_all, args=(stream,), daemon=True)
+        self._sender.start()
+
+    def send(self, text: str) -> None:
+        """Send a line, and come back at once."""
+        self._lines.put(f"{text}\n")
+
+    def send_no_more(self) -> None:
+        """Close the input of the process once everything is sent."""
+        self._lines.put(None)
+
+    def _send_all(self, stream: IO[str]) -> None:
+        with suppress(OSError, ValueError):  # a process that has died reads no more
+            for line in iter(self._lines.get, None):
+                stream.write(line)
+                stream.flush()
+        with suppress(OSError):
+            stream.close()
+
+    def __enter__(self) -> Self:
+        """Return itself."""
+        return self
+
+    def __exit__(self, *raised: object) -> None:
+        """End the process and all that it started, if it has not ended."""
+        if self.child.poll() is None:
+            end_process_tree(self.child.pid)
+        self.send_no_more()
+        self._sender.join()
+        self.child.communicate()
 
 
 _GROUPS = os.name == "posix"

@@ -10,7 +10,6 @@ import typer
 from tvimdesign.base.errors import InputError
 from tvimdesign.cli import options
 from tvimdesign.cli.design_commands import bench, compare, explore, robot, simulate, sweep, tolerate, verify
-from tvimdesign.cli.options import AsJson, FePython, Out, Overwrite, Settings, StudyFile, default_folder, name_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -43,11 +42,11 @@ def _options(
 
 @app.command()
 def run(
-    study: StudyFile,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    cad: Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, 3MF, drawings, assembly.")] = True,
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
+    study: options.StudyFile,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    cad: options.Cad = True,
+    plots: options.Plots = True,
     sensitivities: Annotated[
         bool, typer.Option("--sensitivities", help="Write what every variable does to every output at the design.")
     ] = False,
@@ -57,26 +56,23 @@ def run(
     ] = False,
     prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
-    time_limit: Annotated[
-        str,
-        typer.Option("--time-limit", metavar="TIME", help="End the run then, with the best design found; 30 min."),
-    ] = "",
+    time_limit: options.TimeLimit = "",
     verified: Annotated[
         bool, typer.Option("--verify", help="Check the design against finite elements after it, as `verify` does.")
     ] = False,
-    fe_python: FePython = "",
-    settings: Settings = None,
-    json: AsJson = False,
+    fe_python: options.FePython = "",
+    settings: options.Settings = None,
+    json: options.AsJson = False,
 ) -> None:
     """Optimise or evaluate a study; write a folder of results."""
     from tvimdesign.report.run.run_study import run_study
 
-    folder = out or default_folder(study)
+    folder = out or options.default_folder(study)
     after = _verification(folder, fe_python, overwrite=overwrite, told=not json) if verified else None
     run_study(
         study, folder, overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
         prove=prove, resume=resume, full=full, as_json=json,
-        settings=[*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])],
+        settings=options.changes(settings, time_limit),
     )  # fmt: skip
     if after:
         after()
@@ -92,18 +88,18 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
 
     require_fe(fe_python or sys.executable)
     out = folder_of_verification(run)
-    return lambda: verify_design(run, out, fe_python, overwrite=overwrite, pictures=True, as_json=False, told=told)
+    return lambda: verify_design(run, out, fe_python, overwrite=overwrite, as_json=False, told=told)
 
 
 @app.command()
 def check(
-    study: StudyFile,
+    study: options.StudyFile,
     deep: Annotated[
         bool,
         typer.Option("--deep", help="Build the problem too: scaling, conditioning, derivatives, what depends on what."),
     ] = False,
-    settings: Settings = None,
-    json: AsJson = False,
+    settings: options.Settings = None,
+    json: options.AsJson = False,
 ) -> None:
     """Check a study: every mistake, and limits that conflict."""
     if deep:
@@ -161,17 +157,19 @@ def size(
     file: Annotated[Path, typer.Option("--study", help="Study file to write, and to edit afterwards.")] = Path(
         "joint.yaml"
     ),
-    out: Out = None,
-    overwrite: Overwrite = False,
-    cad: Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, 3MF, drawings, assembly.")] = True,
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
-    json: AsJson = False,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    cad: options.Cad = True,
+    plots: options.Plots = True,
+    json: options.AsJson = False,
 ) -> None:
     """Size a joint from five numbers; give a verdict. Writes a study with its hardware and ranges, and runs it."""
     from tvimdesign.report.run.study_files import size_study
 
     numbers = {"torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply}
-    size_study(file, numbers, out or default_folder(file), overwrite=overwrite, cad=cad, plots=plots, as_json=json)
+    size_study(
+        file, numbers, out or options.default_folder(file), overwrite=overwrite, cad=cad, plots=plots, as_json=json
+    )
 
 
 @app.command()
@@ -195,20 +193,20 @@ def cad(
     cells: Annotated[
         str, typer.Option("--cells", metavar="CELLS", help="Cells of the sweep, such as 3,7-9, or best.")
     ] = "",
-    out: Out = None,
-    overwrite: Overwrite = False,
-    json: AsJson = False,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    json: options.AsJson = False,
 ) -> None:
     """Make parts: STEP, print files, drawings, checks. They go into a folder beside the run's, ending in -cad."""
     if cells:
-        from tvimdesign.report.sweep.cell_parts import make_parts_of_cells
+        from tvimdesign.report.sweep.sweep_study import make_parts_of_cells
 
-        folder = out or design.parent / f"{name_of(design)}-cad"
+        folder = out or design.parent / f"{options.name_of(design)}-cad"
         make_parts_of_cells(design, folder, cells, overwrite=overwrite, as_json=json)
         return
     from tvimdesign.report.run.run_study import make_parts
 
-    make_parts(design, out or default_folder(design), overwrite=overwrite, as_json=json)
+    make_parts(design, out or options.default_folder(design), overwrite=overwrite, as_json=json)
 
 
 app.command()(robot)
@@ -245,9 +243,9 @@ def fit(
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder for the results; results/<first file>-fit unless given.")
     ] = None,
-    overwrite: Overwrite = False,
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure of the residuals.")] = True,
-    json: AsJson = False,
+    overwrite: options.Overwrite = False,
+    plots: options.Plots = True,
+    json: options.AsJson = False,
 ) -> None:
     """Fit measured data. Writes parameters with intervals, and a record for studies."""
     from tvimdesign.report.fit.fit_files import fit_files, list_kinds
@@ -278,15 +276,15 @@ PaperOut = Annotated[
 
 
 @app.command()
-def paper_check(out: PaperOut = None, overwrite: Overwrite = False, json: AsJson = False) -> None:
+def paper_check(out: PaperOut = None, overwrite: options.Overwrite = False, json: options.AsJson = False) -> None:
     """Recompute the numbers of the paper."""
     from tvimdesign.report.paper.paper_check import print_paper_check
 
     print_paper_check(as_json=json)
     if out:
-        from tvimdesign.report.paper.level_sets import print_level_sets
+        from tvimdesign.report.paper.level_sets import write_level_sets
 
-        print_level_sets(out, overwrite=overwrite, as_json=json)
+        write_level_sets(out, overwrite=overwrite, as_json=json)
 
 
 @app.command()
@@ -302,7 +300,7 @@ def rows(
             autocompletion=options.rows,
         ),
     ] = "",
-    json: AsJson = False,
+    json: options.AsJson = False,
 ) -> None:
     """List the names a study may use. Prints groups, then inputs, choices and outputs with units and limits."""
     from tvimdesign.report.rows import print_rows

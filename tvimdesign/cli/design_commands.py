@@ -8,106 +8,90 @@ from typing import Annotated
 import typer
 
 from tvimdesign.cli import options
-from tvimdesign.cli.options import (
-    AsJson,
-    FePython,
-    Out,
-    Overwrite,
-    ResultOfRun,
-    Resume,
-    Scheduler,
-    Settings,
-    Shard,
-    StudyFile,
-    StudyOrDesign,
-    Workers,
-    name_of,
-)
 from tvimdesign.simulation.virtual_tests import TESTS
 
 
 def robot(
-    result: ResultOfRun,
+    result: options.ResultOfRun,
     timestep: Annotated[
         str,
         typer.Option(
             "--timestep", metavar="TIME", help="Time step of the simulation, such as '0.5 ms'; chosen unless given."
         ),
     ] = "",
-    out: Out = None,
-    overwrite: Overwrite = False,
-    json: AsJson = False,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    json: options.AsJson = False,
 ) -> None:
     """Write the joint for simulators: MJCF, URDF, FMU. The folder is results/<name>-robot."""
     from tvimdesign.base.units import parse_quantity
-    from tvimdesign.report.robot.robot_files import write_robot
+    from tvimdesign.report.robot_files import write_robot
 
-    folder = out or Path("results") / f"{name_of(result)}-robot"
+    folder = out or options.results(result, "robot")
     step = parse_quantity(timestep, "s") if timestep else None
     write_robot(result, folder, step, overwrite=overwrite, as_json=json)
 
 
 def bench(
-    result: ResultOfRun,
+    result: options.ResultOfRun,
     measured: Annotated[
         Path | None,
         typer.Option("--measured", metavar="FOLDER", help="A folder of `bench` whose tables are filled: fit them."),
     ] = None,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure.")] = True,
-    json: AsJson = False,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    plots: options.Plots = True,
+    json: options.AsJson = False,
 ) -> None:
     """Write tests of a module for a laboratory. Protocols, blank tables and predictions go to results/<name>-bench."""
     from tvimdesign.report.bench.bench_files import write_bench
 
-    folder = out or Path("results") / f"{name_of(result)}-{'measured' if measured else 'bench'}"
+    folder = out or options.results(result, "measured" if measured else "bench")
     write_bench(result, folder, measured, overwrite=overwrite, plots=plots, as_json=json)
 
 
 def simulate(
-    study: StudyOrDesign,
+    study: options.StudyOrDesign,
     test: Annotated[
         str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.", autocompletion=options.tests)
     ] = "",
-    out: Out = None,
-    overwrite: Overwrite = False,
-    settings: Settings = None,
-    json: AsJson = False,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    settings: options.Settings = None,
+    json: options.AsJson = False,
 ) -> None:
     """Simulate creep, release, sine or step. Writes curves and a figure into results/<study>-<test>."""
     from tvimdesign.report.simulate_study import simulate_study
 
-    folder = out or Path("results") / f"{name_of(study)}-{test}"
+    folder = out or options.results(study, test)
     simulate_study(study, test, folder, overwrite=overwrite, as_json=json, settings=settings or ())
 
 
 def verify(
-    result: ResultOfRun,
-    fe_python: FePython = "",
-    pictures: Annotated[bool, typer.Option("--pictures/--no-pictures", help="Draw the stress on the parts.")] = True,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    json: AsJson = False,
+    result: options.ResultOfRun,
+    fe_python: options.FePython = "",
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    json: options.AsJson = False,
 ) -> None:
     """Check a design against finite elements of its parts. The folder is results/<name>-verified."""
     from tvimdesign.report.verify_design import verify_design
 
-    folder = out or Path("results") / f"{name_of(result)}-verified"
-    verify_design(result, folder, fe_python, overwrite=overwrite, pictures=pictures, as_json=json)
+    folder = out or options.results(result, "verified")
+    verify_design(result, folder, fe_python, overwrite=overwrite, as_json=json)
 
 
 def tolerate(
-    study: StudyOrDesign,
+    study: options.StudyOrDesign,
     samples: Annotated[int, typer.Option("--samples", help="Modules drawn; the next power of two.")] = 65536,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    json: AsJson = False,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    json: options.AsJson = False,
 ) -> None:
     """Analyse tolerances and yield. Worst case, RSS and Monte Carlo; the folder is results/<study>-tolerances."""
     from tvimdesign.report.tolerate.tolerate_study import tolerate_study
 
-    folder = out or Path("results") / f"{name_of(study)}-tolerances"
+    folder = out or options.results(study, "tolerances")
     tolerate_study(study, folder, samples, overwrite=overwrite, as_json=json)
 
 
@@ -125,10 +109,10 @@ def compare(
         typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
     ] = None,
     points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; no fronts unless given.")] = 0,
-    overwrite: Overwrite = False,
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
-    settings: Settings = None,
-    json: AsJson = False,
+    overwrite: options.Overwrite = False,
+    plots: options.Plots = True,
+    settings: options.Settings = None,
+    json: options.AsJson = False,
 ) -> None:
     """Compare studies, or results of finished runs. Studies have the same requirements, optimised and as drawn."""
     from tvimdesign.report.compare.compare_studies import compare_studies
@@ -140,29 +124,27 @@ def compare(
 
 
 def sweep(
-    study: StudyFile,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    resume: Resume = False,
-    workers: Workers = 0,
-    shard: Shard = "",
-    scheduler: Scheduler = "",
+    study: options.StudyFile,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    resume: options.Resume = False,
+    workers: options.Workers = 0,
+    shard: options.Shard = "",
+    scheduler: options.Scheduler = "",
     parquet: Annotated[bool, typer.Option("--parquet", help="Write cells.parquet too.")] = False,
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure.")] = True,
-    time_limit: Annotated[
-        str, typer.Option("--time-limit", metavar="TIME", help="End the search of a cell then; 30 min.")
-    ] = "",
-    settings: Settings = None,
-    json: AsJson = False,
+    plots: options.Plots = True,
+    time_limit: options.TimeLimit = "",
+    settings: options.Settings = None,
+    json: options.AsJson = False,
 ) -> None:
     """Run every cell of a study's sweep; gather a table. The folder is results/<study>-sweep."""
     from tvimdesign.report.sweep.sweep_study import sweep_study
     from tvimdesign.sweep.run_sweep import Executor
 
     sweep_study(
-        study, out or Path("results") / f"{name_of(study)}-sweep", Executor.of(workers, scheduler, shard),
+        study, out or options.results(study, "sweep"), Executor.of(workers, scheduler, shard),
         overwrite=overwrite, resume=resume, parquet=parquet, plots=plots, as_json=json,
-        settings=[*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])],
+        settings=options.changes(settings, time_limit),
     )  # fmt: skip
 
 
@@ -184,10 +166,10 @@ def explore(
     ] = "",
     browse: Annotated[bool, typer.Option("--open/--no-open", help="Open the page in the browser.")] = True,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Begin again, without what was done before.")] = False,
-    settings: Settings = None,
+    settings: options.Settings = None,
 ) -> None:
     """Evaluate and optimise with sliders in a browser. This machine serves the page."""
     from tvimdesign.explore.server import serve
 
-    folder = out or Path("results") / f"{name_of(source)}-explore"
+    folder = out or options.results(source, "explore")
     serve(source, folder, port, token, overwrite=overwrite, browse=browse, settings=settings or ())

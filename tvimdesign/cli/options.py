@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated
 
@@ -21,50 +22,23 @@ def designs_and_studies(incomplete: str) -> list[str]:
     return _files(incomplete, (*_STUDIES, ".json"))
 
 
-def tests(incomplete: str) -> list[str]:
-    """Complete virtual tests."""
-    from tvimdesign.simulation.virtual_tests import TESTS
+def _completing(place: str) -> Callable[[str], list[str]]:
+    """Return a completion of the names that `module:name` has, or returns; the module is loaded on Tab."""
 
-    return _beginning(TESTS, incomplete)
+    def complete(incomplete: str) -> list[str]:
+        module, _, name = place.partition(":")
+        names = getattr(import_module(module), name)
+        return [name for name in (names() if callable(names) else names) if name.startswith(incomplete)]
 
-
-def kinds(incomplete: str) -> list[str]:
-    """Complete kinds of measurement."""
-    from tvimdesign.report.fit import kind_sheets
-
-    return _beginning(kind_sheets(), incomplete)
+    return complete
 
 
-def examples(incomplete: str) -> list[str]:
-    """Complete shipped studies."""
-    from tvimdesign.report.run.study_files import example_names
-
-    return _beginning(example_names(), incomplete)
-
-
-def modes(incomplete: str) -> list[str]:
-    """Complete modes of a module."""
-    from tvimdesign.report.rows import mode_names
-
-    return _beginning(mode_names(), incomplete)
-
-
-def rows(incomplete: str) -> list[str]:
-    """Complete names of rows of either mode."""
-    from tvimdesign.report.rows import row_names
-
-    return _beginning(row_names(), incomplete)
-
-
-def settings(incomplete: str) -> list[str]:
-    """Complete inputs and choices, and outputs after `require.`, each with the `=` of a setting."""
-    from tvimdesign.report.rows import setting_names
-
-    return _beginning(setting_names(), incomplete)
-
-
-def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
-    return [name for name in names if name.startswith(incomplete)]
+tests = _completing("tvimdesign.simulation.virtual_tests:TESTS")
+kinds = _completing("tvimdesign.report.fit:kind_sheets")
+examples = _completing("tvimdesign.report.run.study_files:examples")
+modes = _completing("tvimdesign.report.rows:MODES")
+rows = _completing("tvimdesign.report.rows:row_names")
+settings = _completing("tvimdesign.report.rows:setting_names")
 
 
 def _files(incomplete: str, endings: tuple[str, ...]) -> list[str]:
@@ -107,6 +81,12 @@ Out = Annotated[
     Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study's file> unless given.")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the results of an earlier run in that folder.")]
+Cad = Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, 3MF, drawings, assembly.")]
+Plots = Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")]
+TimeLimit = Annotated[
+    str,
+    typer.Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min."),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print results as JSON.")]
 FePython = Annotated[
     str,
@@ -125,6 +105,16 @@ Scheduler = Annotated[
 Resume = Annotated[
     bool, typer.Option("--resume", help="Go on in that folder: cells that are there are not computed again.")
 ]
+
+
+def changes(settings: Sequence[str] | None, time_limit: str) -> list[str]:
+    """Return the changes to a study, with its time limit if one is given."""
+    return [*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])]
+
+
+def results(source: Path, ending: str) -> Path:
+    """Return results/<name>-<ending>, the default folder of a command on a study or a result."""
+    return Path("results") / f"{name_of(source)}-{ending}"
 
 
 def default_folder(source: Path) -> Path:

@@ -170,5 +170,3 @@ class Page:
     carried: Mapping[str, bytes] = field(default_factory=dict)
     """Files that links of the page lead to, by address: a page in a mail has no folder beside it. First come those
     that matter most; those for which the page has no room are left to the folder."""
-    made_from: str = ""
-    """Mark of what it was made from, by which a page that is there already is known to be the same."""

@@ -13,10 +13,10 @@ from rich.table import Table as Grid
 from rich.text import Text
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import pretty
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
-from tvimdesign.report.output.numbers import number
+from tvimdesign.report.output.numbers import in_unit
 from tvimdesign.report.output.terminal import wide_console
 from tvimdesign.study.resolve import words_of
 from tvimdesign.study.text.mistakes import did_you_mean, synonyms
@@ -44,11 +44,6 @@ def print_rows(mode: str, word: str, as_json: bool) -> None:
 def named_rows(mode: str) -> list[Quantity]:
     """Return the rows that a study may name, in the table's order. Raises InputError for no such mode."""
     return [row for row in table_for(mode).quantities if not (isinstance(row, Output) and (row.hidden or row.instant))]
-
-
-def mode_names() -> tuple[str, ...]:
-    """Return the modes."""
-    return MODES
 
 
 def row_names() -> list[str]:
@@ -140,12 +135,12 @@ def _plain(row: Quantity) -> dict[str, Any]:
         ends = (row.lower, row.upper)
         if row.record and not math.isfinite(row.upper):
             return _entry(row, kind, row.unit, f"from {row.record[0]}", "", name)
-        default = "" if row.default is None else number(from_si(row.default, row.unit))
+        default = "" if row.default is None else in_unit(row.default, row.unit)
         if row.record and not row.falls_back:
             default = f"from {row.record[0]}"
-        allowed = " to ".join(number(from_si(end, row.unit)) if math.isfinite(end) else "any" for end in ends)
+        allowed = " to ".join(in_unit(end, row.unit) if math.isfinite(end) else "any" for end in ends)
         return _entry(row, kind, row.unit, default, allowed, name)
-    rules = "; ".join(f"{r.sense} {number(from_si(r.value, row.unit))}" for r in row.rules)
+    rules = "; ".join(f"{r.sense} {in_unit(r.value, row.unit)}" for r in row.rules)
     return _entry(row, "output", row.unit, "", rules, name)
 
 
@@ -175,4 +170,4 @@ def _range(row: Input) -> str:
         return f"the range of {row.range_of[1]} of {row.range_of[0]}"
     if row.low is None or row.high is None:
         return ""
-    return " to ".join(number(from_si(end, row.unit)) for end in (row.low, row.high))
+    return " to ".join(in_unit(end, row.unit) for end in (row.low, row.high))

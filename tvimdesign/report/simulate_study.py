@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-from rich.markup import escape
-
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
-from tvimdesign.page.blocks import Block, Drawn, Grid, Page, Points, Section
-from tvimdesign.report.output.command import Command, design_file
-from tvimdesign.report.output.numbers import finite, head, number
-from tvimdesign.report.output.page_sections import grid, made_by_words, study_section, there, versions_section
+from tvimdesign.page.blocks import Block, Drawn, Grid, Points, Section
+from tvimdesign.report.output.command import Command, design_file, record_files
+from tvimdesign.report.output.numbers import curves_csv, finite, head, in_unit
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.tables import curves_csv
-from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.virtual_tests import find_test
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
@@ -52,10 +46,17 @@ def simulate_study(
             folder.write(f"{sheet.name}.csv", sheet_csv(sheet))
         command.finish_plots()
         text = tested.decode() if isinstance(tested, bytes) else tested
-        page = _page(folder, study.name, trial, figure, text)
-        inputs = {"tested": source, **_records(resolved)}
+        drawn = Drawn("curves", "lines.js", trial.title, figure, libraries=["echarts"])
+        first: list[Block] = [findings_table(trial), Points(trial.notes)]
+        page = command.page(
+            f"{study.name}: {trial.title}", f"virtual test {trial.test}", "TESTED", first,
+            [Section("curves", "Curves", [drawn])], study=text,
+            files={f"{sheet.name}.csv": f"{sheet.name.replace('_', ' ')} as CSV" for sheet in trial.sheets},
+        )  # fmt: skip
+        choices = {row.name: getattr(resolved.values[row.name], "name", "") for row in resolved.table.choices}
+        inputs = {"tested": source, **record_files(study, choices)}
         command.finish("tested", inputs, study.model_dump(mode="json"), page=page)
-    command.report(reported, lambda console: _print_trial(trial, console), "Curves, figure and findings are")
+    command.report(reported, "Curves, figure and findings are")
 
 
 def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[str]]:
@@ -73,17 +74,6 @@ def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[st
     return resolved, [
         f"Module: the start of {source}, not its optimum; run it and give the run's design.json to test that."
     ]
-
-
-def _records(resolved: ResolvedModule) -> dict[str, Path]:
-    """Return files of the catalogue records the module is made of."""
-    return {
-        f"{row.category}/{resolved.values[row.name].name}": resolved.study.catalog.path(
-            row.category, resolved.values[row.name].name
-        )
-        for row in resolved.table.choices
-        if row.category and resolved.values[row.name] not in row.options
-    }
 
 
 def sheet_csv(sheet: CurveTable) -> str:
@@ -158,26 +148,6 @@ def _line(line: PlottedLine, sheet: CurveTable) -> dict[str, Any]:
     }
 
 
-def _page(folder: ResultsFolder, name: str, trial: Trial, figure: Mapping[str, Any], study: str) -> Page:
-    """Return the page of one test of the module of that name; `figure` is what its figure is drawn from."""
-    drawn = Drawn("curves", "lines.js", trial.title, figure, libraries=["echarts"])
-    files = {f"{sheet.name}.csv": f"{sheet.name.replace('_', ' ')} as CSV" for sheet in trial.sheets}
-    sections = [Section("curves", "Curves", [drawn]), study_section(study), versions_section(folder)]
-    first: list[Block] = [findings_table(trial), Points(trial.notes)]
-    return Page(
-        f"{name}: {trial.title}", f"virtual test {trial.test}", "TESTED", "", first, None, sections,
-        made_by_words(folder), there(folder, files),
-    )  # fmt: skip
-
-
-def _print_trial(trial: Trial, console: Console) -> None:
-    """Print what was read off for people: an interval, and no one number, where history decides."""
-    console.print(f"[bold]{escape(trial.title)}[/bold]")
-    print_grid(findings_table(trial), console)
-    for note in trial.notes:
-        console.print(f"[dim]{escape(note)}[/dim]")
-
-
 def findings_table(trial: Trial) -> Grid:
     """Return what was read off, a row for each finding."""
     rows = [(finding.name, _value(finding), pretty(finding.unit), finding.meaning) for finding in trial.findings]
@@ -186,4 +156,4 @@ def findings_table(trial: Trial) -> Grid:
 
 def _value(finding: Finding) -> str:
     shown = [finding.value] if finding.low is None or finding.high is None else [finding.low, finding.high]
-    return " to ".join(number(from_si(value, finding.unit)) for value in shown)
+    return " to ".join(in_unit(value, finding.unit) for value in shown)

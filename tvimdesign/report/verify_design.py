@@ -6,6 +6,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 from rich.markup import escape
@@ -15,11 +16,12 @@ from tvimdesign.base.record import Record
 from tvimdesign.cad.fe.model_comparison import HEAT, SOLVERS, TIMES, Compared, compared
 from tvimdesign.cad.fe.run_solvers import Solved, require_fe, run_solvers
 from tvimdesign.cad.fe.warm_joint import WarmJoint, softening_time
+from tvimdesign.page.blocks import Block, Page, Points
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress
-from tvimdesign.report.run.verification_section import page, print_rows, put_on_page, table_csv, verified, verify_page
+from tvimdesign.report.run.verification_section import FILES, far, put_on_page, table_csv, verified, verify_sections
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design
 
@@ -31,9 +33,7 @@ TITLES = {
 }  # fmt: skip
 
 
-def verify_design(
-    path: Path, out: Path, fe_python: str, *, overwrite: bool, pictures: bool, as_json: bool, told: bool = True
-) -> None:
+def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_json: bool, told: bool = True) -> None:
     """Solve the parts of a design and write the folder, and the section of its run's page where it has one.
 
     Nothing is printed unless `told`. Raises InputError, SimulationError, OutputError.
@@ -48,14 +48,23 @@ def verify_design(
         with TemporaryDirectory(dir=command.folder.path, prefix=_WORK) as work:
             rows, solved = _solved(design, module, Path(work).resolve(), python, command.progress)
             data = verified(rows, solved)
-            _write(command, design.name, rows, solved, Path(work), pictures=pictures)
-        page = verify_page(command.folder, design.name, rows, solved)
+            _write(command, data, rows, solved, Path(work))
+        page = verify_page(command, design.name, data, rows)
         command.finish("verified", {"design": source}, design.study, page=page)
     on_page = put_on_page(out, source.parent)
     if told:
         also = f"{escape(str(source.parent))}/{FILE} shows table and pictures, too; they are" if on_page else ""
         where = also or "report.html with table and pictures is"
-        command.report({**data, "on_page_of_run": on_page}, lambda console: print_rows(rows, console), where)
+        command.report({**data, "on_page_of_run": on_page}, where)
+
+
+def verify_page(command: Command, name: str, data: dict[str, Any], rows: list[Compared]) -> Page:
+    """Return the page of a verification, whose folder has the pictures."""
+    beyond = len(far(rows))
+    status = "ALL WITHIN 10 %" if not beyond else f"{beyond} OF {len(rows)} BEYOND 10 %"
+    sections = verify_sections(command.folder.path, data)
+    first: list[Block] = [Points([data["summary"]])]
+    return command.page(name, "verification", status, first, sections, tone="warn" if beyond else "good", files=FILES)
 
 
 def solvers_of(design: Design) -> tuple[str, ...]:
@@ -100,16 +109,14 @@ def _solved(
 
 
 def _write(
-    command: Command, name: str, rows: list[Compared], solved: dict[str, Solved], work: Path, *, pictures: bool
-) -> None:
+    command: Command, data: dict[str, Any], rows: list[Compared], solved: dict[str, Solved], work: Path
+) -> None:  # fmt: skip
     folder = command.folder
-    folder.write_json("verify.json", verified(rows, solved))
+    folder.write_json("verify.json", data)
     folder.write("verify.csv", table_csv(rows))
-    folder.write("verify.md", page(name, rows, solved, pictures=pictures))
-    if pictures:
-        command.progress("verify: drawing the fields")
-        for solver, solution in solved.items():
-            _draw(folder, work, solver, solution)
+    command.progress("verify: drawing the fields")
+    for solver, solution in solved.items():
+        _draw(folder, work, solver, solution)
 
 
 def _export(design: Design, folder: Path) -> None:

@@ -92,6 +92,12 @@ def study_file(tree: StudyTree) -> str | bytes:
     return tree_yaml(tree) if tree.changes or tree.path is None else tree.path.read_bytes()
 
 
+def study_text(tree: StudyTree) -> str:
+    """Return what `study_file` returns as text."""
+    text = study_file(tree)
+    return text if isinstance(text, str) else text.decode("utf-8-sig")
+
+
 def with_settings(tree: StudyTree, settings: Sequenced[str]) -> StudyTree:
     """Return the tree after settings of the form `name=value`; a malformed one is a problem of the tree."""
     for setting in settings:

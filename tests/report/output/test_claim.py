@@ -13,8 +13,8 @@ import pytest
 from results_written import finished, killed, texts
 
 from tvimdesign.base.atomic_files import RUN, UNFINISHED, atomic_write
+from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import FolderInUseError
-from tvimdesign.report.output.claim import FORMAT
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.sweep.sweep_study import joined
 from tvimdesign.sweep.shards import SHARDS
@@ -41,7 +41,7 @@ def test_a_run_on_another_host_is_not_taken_for_dead(tmp_path: Path) -> None:
 def test_without_locks_the_process_that_a_claim_names_is_looked_up(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("tvimdesign.report.output.claim._locked", lambda *_, **__: None)
+    monkeypatch.setattr("tvimdesign.base.claim._locked", lambda *_, **__: None)
     with ResultsFolder(tmp_path) as folder, pytest.raises(FolderInUseError):
         ResultsFolder(folder.out)
     killed(tmp_path, "overwrite")

@@ -11,11 +11,11 @@ import pytest
 from results_written import FILES, finished, killed, texts
 
 from tvimdesign.base.atomic_files import UNFINISHED, atomic_write
+from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import interrupt_handler
+from tvimdesign.base.manifest import MANIFEST, read_manifest
 from tvimdesign.report.output import results_folder
-from tvimdesign.report.output.claim import FORMAT
-from tvimdesign.report.output.manifest import MANIFEST, read_manifest
 from tvimdesign.report.output.results_folder import ResultsFolder
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.paper import level_sets
-from tvimdesign.report.paper.level_sets import print_level_sets, write_level_sets
+from tvimdesign.report.paper.level_sets import write_level_sets
 
 pytestmark = pytest.mark.slow
 
@@ -18,7 +18,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(level_sets, "THICKNESSES", level_sets.THICKNESSES[::3])
         patch.setattr(level_sets, "AGAINST", {"hot_contact": [100.0, 1e4], "current": [1.5, 2.0, 2.5]})
-        return write_level_sets(tmp_path_factory.mktemp("paper") / "out", overwrite=False)
+        out = tmp_path_factory.mktemp("paper") / "out"
+        write_level_sets(out, overwrite=False, as_json=True)
+    return out
 
 
 def _rows(path: Path) -> list[dict[str, str]]:
@@ -46,4 +48,4 @@ def test_the_table_the_grid_and_the_figure_are_written(folder: Path) -> None:
         "paper_case_choices.csv", "response_times.csv",
     }  # fmt: skip
     with pytest.raises(InputError, match="--overwrite"):
-        print_level_sets(folder, overwrite=False, as_json=True)
+        write_level_sets(folder, overwrite=False, as_json=True)

@@ -9,8 +9,8 @@ import pytest
 from robot_models import model_of, module_of
 
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.report.robot.joint_model import JointModel, JointState
-from tvimdesign.report.robot.model_files import held_angles, maxwell_hinges, mjcf, without_spring
+from tvimdesign.robot.joint_model import JointModel, JointState
+from tvimdesign.robot.model_files import held_angles, maxwell_hinges, mjcf, without_spring
 from tvimdesign.simulation.joint_tests.release import ANGLE, release
 from tvimdesign.simulation.trial import Trial
 

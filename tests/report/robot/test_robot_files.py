@@ -19,8 +19,8 @@ from urdf_parser_py import xml_reflection
 from urdf_parser_py.urdf import URDF
 
 from tvimdesign.base.atomic_files import TABLE_ENCODING
-from tvimdesign.report.robot.joint_model import make_bodies
-from tvimdesign.report.robot.model_files import urdf
+from tvimdesign.robot.joint_model import make_bodies
+from tvimdesign.robot.model_files import urdf
 from tvimdesign.study.design import write_design
 
 PAGE = ROOT / "docs/how-to/robot.md"

@@ -18,8 +18,8 @@ from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.first_screen import LINES, NARROW_LINES, first_screen, verdict_of
+from tvimdesign.report.run.reasons import binding
 from tvimdesign.report.run.uncertainty_data import Uncertainty
-from tvimdesign.report.run.why import binding
 from tvimdesign.solve.result import answer
 from tvimdesign.study import drawn, read_study, read_study_text
 from tvimdesign.study.resolve import record_checks

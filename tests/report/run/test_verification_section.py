@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 
 from tvimdesign.base.atomic_files import digest_of
+from tvimdesign.base.manifest import MANIFEST
 from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.blocks import Page, Picture, Points, Section, Words
-from tvimdesign.report.output.manifest import MANIFEST
 from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.verification_section import (
@@ -64,6 +64,7 @@ def test_the_page_takes_the_fields_it_has_room_for(tmp_path: Path) -> None:
     for name, size in (("joint", 1000), ("spring", 1_500_000), ("link", 2000)):
         (folder / f"{name}.png").write_bytes(b"x" * size)
     words = [block.says for block in verification_section(folder, run, 1e5).blocks if isinstance(block, Picture)]
-    assert words == ["Stress in the frozen joint", "Stress in the link"]
+    assert words == ["Stress in the frozen joint, bent by the torque on its core",
+                     "Stress in the link under a force in its tool hole"]  # fmt: skip
     assert put_on_page(folder, run)
     assert (run / "report.html").read_text().count("data:image/png") == 3

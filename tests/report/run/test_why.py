@@ -6,7 +6,7 @@ import io
 import pytest
 
 from tvimdesign.device import table_for
-from tvimdesign.report.run.why import binding, sentences, slack, slack_in_words, why_csv, why_rows
+from tvimdesign.report.run.reasons import binding, sentences, slack, slack_in_words, why_csv, why_rows
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 

@@ -12,10 +12,10 @@ from support import Command
 from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.cad.cad_report import CadReport
-from tvimdesign.report.sweep import cell_parts
-from tvimdesign.report.sweep.cell_parts import chosen_cells, make_parts_of_cells
-from tvimdesign.report.sweep.swept_cells import open_cells
+from tvimdesign.report.sweep import sweep_study as cell_parts
+from tvimdesign.report.sweep.sweep_study import chosen_cells, make_parts_of_cells
 from tvimdesign.study.design import read_design
+from tvimdesign.sweep.swept_cells import open_cells
 
 STUDY = """
 mode: shear
@@ -41,7 +41,7 @@ def test_cells_are_named_by_numbers_ranges_and_as_the_best(sweep: Path) -> None:
     wrong = {"x": "'x' is no cell", "2-1": "'2-1' is no cell", "0": "cell 0", "2-4": "the cells 1 to 3"}
     for words, said in wrong.items():
         with pytest.raises(InputError, match=said):
-            cells.found(chosen_cells(words, cells)[0])
+            cells.cell(chosen_cells(words, cells)[0])
     with pytest.raises(InputError, match="cell 3: it has no answer, so no parts"):
         make_parts_of_cells(sweep, sweep.parent / "parts", "1-3", overwrite=False, as_json=True)
 

@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 
 from tvimdesign.report.figures.analysis_figures import sweep
-from tvimdesign.report.sweep.sweep_figures import CellTable, figure_data
+from tvimdesign.report.sweep.sweep_figures import figure_data
 from tvimdesign.study.tree import tree_of_values
 from tvimdesign.sweep.plan import SweepPlan, plan_of
+from tvimdesign.sweep.swept_cells import CellTable
 
 THICKNESS = {"from": "0.6 mm", "to": "2 mm"}
 

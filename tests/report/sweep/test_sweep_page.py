@@ -1,4 +1,4 @@
-"""The page of a sweep: what it shows, the commands of its cells, and that it is made anew only where it changed."""
+"""The page of a sweep: what it shows, the commands of its cells and what it leaves out."""
 
 import html
 import json
@@ -12,15 +12,14 @@ import html5lib
 import pytest
 
 from tvimdesign.page.page_file import FILE
-from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.sweep import sweep_figures as cell_table
-from tvimdesign.report.sweep import sweep_page
-from tvimdesign.report.sweep.sweep_figures import CellTable
-from tvimdesign.report.sweep.sweep_page import CellCommands, kept_page, write_sweep_page
+from tvimdesign.report.output.command import Command
+from tvimdesign.report.sweep.sweep_page import CellCommands, sweep_page
 from tvimdesign.study import given, read_tree
 from tvimdesign.study.tree import tree_of_file, tree_of_text, tree_of_values
+from tvimdesign.sweep import swept_cells as cell_table
 from tvimdesign.sweep.gather import columns
 from tvimdesign.sweep.plan import SweepPlan, plan_of
+from tvimdesign.sweep.swept_cells import CellTable
 
 THICKNESS = {"from": "0.6 mm", "to": "2 mm"}
 GRID: dict[str, Any] = {"over": {"pcl_thickness": {**THICKNESS, "count": 3}, "rate_model": ["smi", "bending"]}}
@@ -54,11 +53,10 @@ def row(asked: SweepPlan, number: int, mass: float | None) -> list[Any]:
     return [number, *asked.axis_values(number - 1), *told, *(outputs[name] for name in names)]
 
 
-def page(asked: SweepPlan, table: CellTable, out: Path, kept: bytes = b"") -> str:
-    with ResultsFolder(out, overwrite=True) as folder:
-        folder.write("cells.csv", "cell\n")
-        write_sweep_page(asked, table, folder, kept)
-        folder.finish("swept", {}, {})
+def page(asked: SweepPlan, table: CellTable, out: Path) -> str:
+    with Command(out, overwrite=True) as command:
+        command.folder.write("cells.csv", "cell\n")
+        command.finish("swept", {}, {}, page=sweep_page(asked, table, command))
     text = (out / FILE).read_text("utf-8")
     html5lib.HTMLParser(strict=True).parse(text)
     return text
@@ -75,7 +73,8 @@ def test_it_says_what_was_swept_and_how_it_ended(tmp_path: Path) -> None:
     assert "5 OF 6 CELLS EVALUATED" in text
     assert "<code>pcl_thickness</code> from 0.6 mm to 2 mm, 3 values; <code>rate_model</code>: smi, bending" in text
     assert "grid; each cell is evaluated" in text
-    assert "3 g in cell 5, among the feasible cells" in text
+    assert "3 g in cell 5 (" in text
+    assert "), among the feasible cells" in text
     failed = text[text.index('<section id="failed"') :]
     assert "no such &lt;module&gt;" in failed[: failed.index("</section>")]
     assert "every cell as CSV" in text
@@ -106,23 +105,6 @@ def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path: Path, monke
     assert "3 of 8 cells are in this table, one in 3. cells.csv and cells.sqlite have all." in text
     assert "The first 1 of 2; `reason` in cells.csv has all." in text
     assert [point["number"] for point in drawn(text)["brushed"]["points"]] == [1, 4, 7]
-
-
-def test_a_page_is_put_back_unless_it_would_be_another(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked, out = plan(GRID), tmp_path / "out"
-    masses = [5.0, 6.0, 4.0, None, 3.0, 2.0]
-    first = page(asked, seen(asked, masses), out)
-
-    def none(*_: Any) -> None:
-        raise AssertionError("nothing is to be made")
-
-    with monkeypatch.context() as patched:
-        patched.setattr(sweep_page, "write_page", none)
-        assert page(asked, seen(asked, masses), out, kept_page(out)) == first
-        with pytest.raises(AssertionError, match="nothing is to be made"):
-            page(asked, seen(asked, [5.5, *masses[1:]]), out, first.encode())
-    assert page(asked, seen(asked, [5.5, *masses[1:]]), out, first.encode()) != first
-    assert kept_page(tmp_path / "none") == b""
 
 
 def settings(command: str) -> list[str]:

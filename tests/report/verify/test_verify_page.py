@@ -11,8 +11,9 @@ from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.cli import commands
 from tvimdesign.page.page_file import page_html
-from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.run.verification_section import far, verify_page
+from tvimdesign.report.output.command import Command as OutputCommand
+from tvimdesign.report.run.verification_section import far, verified
+from tvimdesign.report.verify_design import verify_page
 
 PIXEL = bytes.fromhex(
     "89504e470d0a1a0a0000000d4948445200000001000000010806000000"
@@ -28,9 +29,9 @@ def test_rows_pictures_and_solvers_are_on_the_page_worst_first(tmp_path: Path) -
     solved = {
         name: Solved({"unknowns": 2e4, "seconds": 33.0, "gigabytes": 0.7}, {}, tmp_path) for name in ("joint", "heat")
     }
-    with ResultsFolder(tmp_path / "out", False) as folder:
-        folder.write("heat.png", PIXEL)
-        page = verify_page(folder, "Wrist", rows, solved)
+    with OutputCommand(tmp_path / "out") as command:
+        command.folder.write("heat.png", PIXEL)
+        page = verify_page(command, "Wrist", verified(rows, solved), rows)
         text = page_html(page).decode()
     assert page.status == "1 OF 2 BEYOND 10 %"
     assert page.tone == "warn"

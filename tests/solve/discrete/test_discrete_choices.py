@@ -12,7 +12,7 @@ from small_studies import COMPRESSION_BLOCKS
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
-from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve.discrete.combinations import Begin, enumerated_here
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation

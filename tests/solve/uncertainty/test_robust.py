@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
-from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.run.uncertainty_data import below_yield, cost_of_margins, yield_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.constraints import Constraint

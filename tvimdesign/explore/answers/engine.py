@@ -16,7 +16,7 @@ from tvimdesign.explore.answers.quick_model import Evaluated, QuickModel
 from tvimdesign.explore.answers.shown import Shown, finite_data, shown_design
 from tvimdesign.explore.states.state import State, set_values, text_of, tree_of
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
-from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve.nlp.constraints import impossible, refuse_contradictory, refuse_impossible
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import OPTIMAL

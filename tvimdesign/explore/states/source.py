@@ -12,11 +12,12 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.explore.states.messages import Way
 from tvimdesign.explore.states.state import State, beginning, refuse_other_folders
 from tvimdesign.report.output.numbers import axis_label
-from tvimdesign.report.sweep.swept_cells import SweptCells, is_sweep, open_cells
+from tvimdesign.report.sweep.sweep_figures import shown_cells
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import Design, read_design
 from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_values, tree_yaml
+from tvimdesign.sweep.swept_cells import SweptCells, is_sweep, open_cells
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,7 @@ class Source:
     def points_shown(self) -> dict[str, Any] | None:
         """Return the points of the front or the cells of the sweep in the table's units; None for a study."""
         if self.cells:
-            return self.cells.shown()
+            return shown_cells(self.cells)
         if self.front is None or not self.front["points"]:
             return None
         names, table = list(self.front["units_of_values"]), self.study.table
@@ -106,7 +107,7 @@ def _sweep(folder: Path, settings: Sequence[str]) -> Source:
 
 def _state_of(cells: SweptCells, number: int) -> State:
     """Return the state that shows a cell, evaluated; a cell without an answer is computed again."""
-    cell = cells.found(number)
+    cell = cells.cell(number)
     way: Way = "evaluate" if cell.answered or not cell.study.vary else "optimize"
     return State(way=way, changes=cell.changes, at={**beginning(cell.study), **cell.at})
 

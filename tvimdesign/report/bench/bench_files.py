@@ -103,7 +103,7 @@ def write_bench(path: Path, out: Path, filled: Path | None, *, overwrite: bool, 
         command.finish_plots()
         command.finish("compared" if filled else "written", {"design": source}, design.study)
     where = "Fits, figure and records are" if filled else "Protocols, blank tables and predictions are"
-    command.report(data, lambda console: _print(predictions, measured, records, console), where)
+    command.report(data, where, lambda console: _print(predictions, measured, records, console))
 
 
 def predict(design: Design, source: Path) -> list[Prediction]:

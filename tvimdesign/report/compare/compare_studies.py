@@ -18,9 +18,17 @@ from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_job import finished_run, nothing_found
-from tvimdesign.report.compare.comparison_page import comparison_page, drawings, print_comparison, summary_text
+from tvimdesign.report.compare.comparison_page import (
+    FILES,
+    comparison_sections,
+    drawings,
+    first_blocks,
+    summary_text,
+    title_of,
+)
 from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.output.command import Command, design_file, done_in_part
+from tvimdesign.report.output.page_sections import tone_of
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.study import Study, read_tree
@@ -28,7 +36,7 @@ from tvimdesign.study.conditions import Case, refuse_unequal
 from tvimdesign.study.design import Design, design_json, read_design
 from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.source import printable
-from tvimdesign.study.tree import study_file, tree_of_file
+from tvimdesign.study.tree import study_text, tree_of_file
 
 
 def compare_studies(
@@ -65,21 +73,22 @@ def compare_studies(
             )
         outcome = Outcome(cases, answers_by_label)
         outcome.seconds["all answers"] = time.perf_counter() - began
-        command.begin_plots(drawings(outcome), " against ".join(case.study.name for case in cases.values()))
+        command.begin_plots(drawings(outcome), title_of(outcome))
         outcome.seconds["whole"] = time.perf_counter() - began
         _write(command.folder, outcome, texts)
         command.failures += [TvimError(text) for text in outcome.failures]
         command.finish_plots("drawing the plots")
         studies = {label: case.study.model_dump(mode="json") for label, case in cases.items()}
         inputs = {label: design_file(path) for label, path in zip(cases, paths, strict=True)}
-        page = comparison_page(command.folder, outcome, texts)
+        status = "PARTLY DONE" if outcome.failures else f"COMPARED {COMPARISONS[outcome.which].upper()}"
+        page = command.page(
+            title_of(outcome), "comparison", status, first_blocks(outcome), comparison_sections(outcome, texts),
+            tone=tone_of(status.lower()), files=FILES,
+        )  # fmt: skip
         command.finish("compared", inputs, studies, outcome.seconds, page)
     codes = {trouble["exit_code"] for _, trouble in outcome.troubles}
     infeasible = codes == {InfeasibleError.exit_code} and len(command.failures) == len(outcome.troubles)
-    command.report(
-        outcome.plain(), lambda console: print_comparison(outcome, console), "Results are",
-        _no_design if infeasible else done_in_part,
-    )  # fmt: skip
+    command.report(outcome.plain(), "Results are", error=_no_design if infeasible else done_in_part)
 
 
 def is_result(path: Path) -> bool:
@@ -101,7 +110,7 @@ def labelled(cases: Sequence[Case], paths: Sequence[Path]) -> dict[str, Case]:
 
 def _studies(paths: Sequence[Path], settings: Sequence[str]) -> list[Case]:
     """Read studies. Raises StudyError with everything that is wrong with any of them, or differs between them."""
-    from tvimdesign.report.run.check_study import refuse_what_cannot_be
+    from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 
     problems: list[Mistake] = []
     cases = []
@@ -137,8 +146,7 @@ def _study_text(case: Case, settings: Sequence[str]) -> str:
     """Return a study as it was answered, as text."""
     if case.path.suffix == ".json":
         return json.dumps(read_design(case.path).study, indent=2)
-    text = study_file(tree_of_file(case.path, settings))
-    return text if isinstance(text, str) else text.decode()
+    return study_text(tree_of_file(case.path, settings))
 
 
 def _write(folder: ResultsFolder, outcome: Outcome, texts: dict[str, str]) -> None:

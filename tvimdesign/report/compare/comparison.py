@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Iterator, Mapping
 from functools import cached_property
@@ -23,7 +21,7 @@ from tvimdesign.report.compare.comparison_table import (
     standing,
     wins,
 )
-from tvimdesign.report.output.numbers import head
+from tvimdesign.report.output.numbers import csv_text, head
 from tvimdesign.solve.pareto.front_shape import leads
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
@@ -127,13 +125,13 @@ class Outcome:
     def fronts_csv(self) -> str:
         """Return a line for each point of each front, every input and output of its design in a column."""
         names = list(dict.fromkeys(name for _, _, point in self._points() for name in point["values"]))
-        stream = io.StringIO()
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(["study", "front", *(f"{name} [{pretty(self.unit(name))}]" for name in names)])
-        for label, front, point in self._points():
-            values = [self._in_unit(name, point["values"].get(name)) for name in names]
-            writer.writerow([label, front, *("" if value is None else f"{value:.8g}" for value in values)])
-        return stream.getvalue()
+        heads = {name: f"{name} [{pretty(self.unit(name))}]" for name in names}
+        rows = [
+            {"study": label, "front": front,
+             **{heads[name]: self._in_unit(name, value) for name, value in point["values"].items()}}
+            for label, front, point in self._points()
+        ]  # fmt: skip
+        return csv_text(rows, ["study", "front", *heads.values()], 8)
 
     def _points(self) -> Iterator[tuple[str, str, dict[str, Any]]]:
         for (first, second), fronts in self.fronts.items():

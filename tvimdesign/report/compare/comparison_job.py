@@ -21,13 +21,11 @@ from typing import Any
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
-from tvimdesign.base.units import from_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.tables import results
-from tvimdesign.report.output.thresholds import soft_in_words
-from tvimdesign.report.run.infeasible_report import above_rating, complaint, starts_reported
+from tvimdesign.report.output.tables import results, soft_in_words
+from tvimdesign.report.run.reasons import PRICE_SHOWN, above_rating, complaint, starts_reported
+from tvimdesign.report.run.run_plot_data import depths, through_the_layer
 from tvimdesign.report.run.uncertainty_data import below_yield
-from tvimdesign.report.run.why import PRICE_SHOWN
 from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
 from tvimdesign.simulation.virtual_tests import find_test
@@ -211,11 +209,8 @@ class ComparisonJob:
     def _heat(self, of: StudyResult) -> dict[str, Any]:
         """Return temperatures [degC] through the polymer while it heats: a row for each depth [mm]."""
         history = of.histories["softening"]
-        cells = [name for name in history if name.startswith("cell_")]
-        depth = from_si(self.table.evaluate(of.design.values, ["pcl_depth"])["pcl_depth"], "mm")
-        depths = [0.0, *((i + 0.5) / len(cells) * depth for i in range(len(cells))), depth]
-        rows = [history[name] for name in ("near_face", *cells, "far_face")]
-        return {"time": history["time"], "depth": depths, "temperature": rows}
+        rows = [history[name] for name in through_the_layer(history)]
+        return {"time": history["time"], "depth": depths(of, self.table), "temperature": rows}
 
 
 def main(arguments: list[str]) -> int:

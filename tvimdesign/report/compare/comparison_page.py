@@ -1,11 +1,7 @@
-"""The page of a comparison, and what its figures are drawn from.
-
-The summary of a comparison, for the terminal and for summary.txt.
-"""
+"""A comparison as sections of text, tables and figures, and what its pictures are drawn from."""
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -14,14 +10,13 @@ from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign.base.units import format_quantity, from_si, pretty
-from tvimdesign.page.blocks import Block, Drawn, Folded, Grid, Listing, Page, Points, Section, Warned, Words
+from tvimdesign.page.blocks import Block, Drawn, Folded, Grid, Listing, Points, Section, Warned, Words
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_table import Row
-from tvimdesign.report.output.numbers import axis_label, number
-from tvimdesign.report.output.page_sections import grid, made_by_words, there, tone_of, versions_section
+from tvimdesign.report.output.numbers import axis_label, in_unit, number
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.terminal import WIDTH, OwnMarkupConsole, print_grid
+from tvimdesign.report.output.terminal import WIDTH, plain_text, print_section
 
 _STILL = 1e-3
 """Share of its angle by which a released link has moved where its curve begins: the axis of time is logarithmic."""
@@ -109,7 +104,7 @@ def _heat(outcome: Outcome) -> dict[str, Any]:
     return {"title": title, "studies": studies, "coldest": min(every), "hottest": max(every), "melting": melting}
 
 
-_FILES = {"summary.txt": "all of this as text", "compare.csv": "every output", "fronts.csv": "the fronts"}
+FILES = {"summary.txt": "all of this as text", "compare.csv": "every output", "fronts.csv": "the fronts"}
 _LINES = {
     "fronts": "The fronts: each point is a whole design.",
     "release": "The link of each module released from the same angle.",
@@ -117,29 +112,39 @@ _LINES = {
 """Figures of lines, with what they show."""
 
 
-def comparison_page(folder: ResultsFolder, outcome: Outcome, texts: Mapping[str, str]) -> Page:
-    """Return the page of compared studies; `texts` are the studies' files."""
-    troubles = outcome.failures
-    verdict = "PARTLY DONE" if troubles else f"COMPARED {COMPARISONS[outcome.which].upper()}"
+def comparison_sections(outcome: Outcome, texts: Mapping[str, str]) -> list[Section]:
+    """Return what follows, the tables it follows from, figures and the studies; `texts` are the studies' files."""
+    follows, troubles = outcome.conclusions[1:], outcome.failures
+    return [
+        *([Section("follows", "What follows", [Points(follows)])] if follows else []),
+        _side_by_side(outcome),
+        *_figures(outcome),
+        Section("searches", "How they were found", [Points(list(_searches(outcome)))]),
+        *([Section("not-done", "Not done", [Points(troubles)])] if troubles else []),
+        _studies(texts),
+    ]
+
+
+def first_blocks(outcome: Outcome) -> list[Block]:
+    """Return the conclusion with its conditions, and the warnings."""
     warnings = [(text, "") for text in warnings_of(outcome)]
-    lead, *others = outcome.conclusions
-    first: list[Block] = [Words([lead]), *([Warned(warnings)] if warnings else [])]
-    follows = [Section("follows", "What follows", [Points(others)])] if others else []
-    sections = [*follows, _side_by_side(outcome), *_figures(outcome)]
-    sections += [Section("not-done", "Not done", [Points(troubles)])] if troubles else []
-    sections += [_studies(texts), versions_section(folder)]
-    title = " against ".join(entrant.study.name for entrant in outcome.entrants.values())
-    return Page(
-        title,
-        "comparison",
-        verdict,
-        tone_of(verdict),
-        first,
-        None,
-        sections,
-        made_by_words(folder),
-        there(folder, _FILES),
-    )
+    return [Words(outcome.conclusions[:1]), *([Warned(warnings)] if warnings else [])]
+
+
+def title_of(outcome: Outcome) -> str:
+    """Return the names of the studies."""
+    return " against ".join(entrant.study.name for entrant in outcome.entrants.values())
+
+
+def summary_text(outcome: Outcome) -> str:
+    """Return the text and the tables of the page that are not folded."""
+
+    def show(console: Console) -> None:
+        console.print(f"[bold]{escape(title_of(outcome))}[/bold]", soft_wrap=True)
+        for section in (Section("first", "", first_blocks(outcome)), *comparison_sections(outcome, {})):
+            print_section(section, console, folded=False)
+
+    return plain_text(show, WIDTH)
 
 
 def _side_by_side(outcome: Outcome) -> Section:
@@ -175,35 +180,6 @@ def _studies(texts: Mapping[str, str]) -> Section:
     return Section("study", "Studies", listed)
 
 
-def print_comparison(outcome: Outcome, console: Console) -> None:
-    """Print a comparison for people: what follows first, then the tables it follows from."""
-    console.print(f"[bold]{escape(' against '.join(outcome.entrants))}[/bold]")
-    for sentence in outcome.conclusions:
-        console.print(f"- {escape(sentence)}")
-    console.print()
-    for table in reported_rows(outcome):
-        print_grid(table, console)
-    for which, alone in outcome.alone.items():
-        shown = [f"{label}: {row.name} {_value(row, label, with_unit=True)}" for label, row in alone if row.headline]
-        if shown:
-            console.print(
-                f"[dim]{COMPARISONS[which].capitalize()}, not in every study: {escape('; '.join(shown))}.[/dim]"
-            )
-    _print_soft(outcome, console)
-    _print_searches(outcome, console)
-    _print_fronts(outcome, console)
-    _print_warnings(outcome, console)
-    for failure in outcome.failures:
-        console.print(f"[red]Not done[/red] {escape(failure)}")
-
-
-def summary_text(outcome: Outcome) -> str:
-    """Format the summary as plain text."""
-    stream = io.StringIO()
-    print_comparison(outcome, OwnMarkupConsole(file=stream, width=WIDTH, highlight=False, color_system=None))
-    return stream.getvalue()
-
-
 def reported_rows(outcome: Outcome) -> list[Grid]:
     """Tabulate headlines and requirements side by side, a table for each comparison."""
     required = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
@@ -233,50 +209,41 @@ def side_by_side(title: str, rows: Sequence[Row]) -> Grid:
 def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
     """Return a value for people; low to high where history leaves it open."""
     if label in row.ends:
-        return " to ".join(number(from_si(end, row.unit), 2) for end in row.ends[label])
+        return " to ".join(in_unit(end, row.unit, 2) for end in row.ends[label])
     value = row.values[label]
     if with_unit and math.isfinite(value):
         return format_quantity(value, row.unit)
-    return "-" if math.isnan(value) else number(from_si(value, row.unit))
+    return "-" if math.isnan(value) else in_unit(value, row.unit)
 
 
-def _print_soft(outcome: Outcome, console: Console) -> None:
-    """Print at which impedance the joint counts as soft: it differs between studies."""
+def _searches(outcome: Outcome) -> Iterator[str]:
+    """Yield what is not in every study, what soft means, how optima and fronts were found, and what is accepted."""
     which = outcome.which
+    for comparison, alone in outcome.alone.items():
+        shown = [f"{label}: {row.name} {_value(row, label, with_unit=True)}" for label, row in alone if row.headline]
+        if shown:
+            yield f"{COMPARISONS[comparison].capitalize()}, not in every study: {'; '.join(shown)}."
     texts = [f"{label}: {answer[which]['soft']}" for label, answer in outcome.found.items() if which in answer]
     if texts:
-        console.print(f"[dim]Soft is, {COMPARISONS[which]}, {escape('; '.join(texts))}.[/dim]")
-
-
-def _print_searches(outcome: Outcome, console: Console) -> None:
+        yield f"Soft is, {COMPARISONS[which]}, {'; '.join(texts)}."
     for label, answer in outcome.found.items():
-        reported: dict[str, Any] | None = answer.get("optimised")
-        if reported is None:
-            continue
-        if not reported["optima"]:
-            continue
-        seconds = answer["seconds"].get("optimised")
-        optima = [f"{optimum['objective']:.5g}" for optimum in reported["optima"]]
-        agree = "all at one optimum" if len(optima) == 1 else f"at {len(optima)} optima"
-        console.print(
-            f"[dim]{escape(label)}: {reported['converged']} of {reported['starts']} starts converged, {agree}, "
-            f"objective {', '.join(optima)} over what is drawn on average"
-            f"{'' if seconds is None else f'; {seconds:.1f} s'}.[/dim]"
-        )
-
-
-def _print_warnings(outcome: Outcome, console: Console) -> None:
-    for label, names in accepted(outcome):
-        console.print(f"{escape(label)} is beyond its rating, as its study accepts: {', '.join(names)}.")
-    for warning in warnings_of(outcome):
-        console.print(f"[yellow]Warning[/yellow] {escape(warning)}.")
-
-
-def accepted(outcome: Outcome) -> Iterator[tuple[str, list[str]]]:
-    """Return (study, ratings) of what is beyond its rating, as its study accepts."""
-    for label, answer in outcome.found.items():
-        if names := answer.get(outcome.which, {}).get("accepting"):
-            yield label, names
+        search, seconds = answer.get("optimised"), answer["seconds"].get("optimised")
+        if search and search["optima"]:
+            optima = [f"{optimum['objective']:.5g}" for optimum in search["optima"]]
+            agree = "all at one optimum" if len(optima) == 1 else f"at {len(optima)} optima"
+            took = "" if seconds is None else f"; {seconds:.1f} s"
+            yield (
+                f"{label}: {search['converged']} of {search['starts']} starts converged, {agree}, objective "
+                f"{', '.join(optima)} over what is drawn on average{took}."
+            )
+        if names := answer.get(which, {}).get("accepting"):
+            yield f"{label} is beyond its rating, as its study accepts: {', '.join(names)}."
+    for (first, second), fronts in outcome.fronts.items():
+        for label, front in fronts.items():
+            points = [f"{len(front['points'])} points", *front["notes"]]
+            points += [f"{front['dominated']} more are no better in anything"] if front["dominated"] else []
+            points += [f"no design at {failure['where']}: {failure['reason']}" for failure in front["failures"]]
+            yield f"Front of {first} against {second}, {label}: {'; '.join(points)}."
 
 
 def warnings_of(outcome: Outcome) -> Iterator[str]:
@@ -286,14 +253,3 @@ def warnings_of(outcome: Outcome) -> Iterator[str]:
             value = math.inf if warning["value"] is None else warning["value"]
             value = format_quantity(value, outcome.unit(warning["output"]))
             yield f"{label}: {warning['output']} is {value}: {warning['because']}"
-
-
-def _print_fronts(outcome: Outcome, console: Console) -> None:
-    for (first, second), fronts in outcome.fronts.items():
-        for label, front in fronts.items():
-            reported = [f"{len(front['points'])} points", *front["notes"]]
-            reported += [f"{front['dominated']} more are no better in anything"] if front["dominated"] else []
-            reported += [f"no design at {failure['where']}: {failure['reason']}" for failure in front["failures"]]
-            console.print(
-                f"[dim]Front of {first} against {second}, {escape(label)}: {escape('; '.join(reported))}.[/dim]"
-            )

@@ -5,8 +5,6 @@ Conclusions of a comparison, in sentences with their conditions; every number in
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +12,7 @@ from typing import Any, Literal
 
 from tvimdesign.base.units import format_quantity, from_si, pretty, si_unit
 from tvimdesign.device import Output, Table
-from tvimdesign.report.output.numbers import finite, number
+from tvimdesign.report.output.numbers import csv_text, finite, listed, number
 from tvimdesign.solve.pareto.front_shape import ALIKE, Lead
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
@@ -129,9 +127,7 @@ def compare_csv(rows: Mapping[str, Sequence[Row]], alone: Mapping[str, Sequence[
     labels = list(dict.fromkeys(label for each in rows.values() for row in each for label in row.values))
     heads = ["comparison", "output", "unit", *labels]
     heads += [f"{what} {label}" for label in labels[1:] for what in ("ratio", "verdict")]
-    stream = io.StringIO()
-    writer = csv.DictWriter(stream, [*heads, "meaning"], lineterminator="\n", restval="")
-    writer.writeheader()
+    lines = []
     for comparison, each in rows.items():
         for row in (*each, *(row for _, row in alone.get(comparison, ()))):
             reported = plain(row)
@@ -139,8 +135,8 @@ def compare_csv(rows: Mapping[str, Sequence[Row]], alone: Mapping[str, Sequence[
             entry |= {label: "never" if value is None else value for label, value in reported["values"].items()}
             entry |= {f"ratio {label}": "" if r is None else r for label, r in reported["ratio"].items()}
             entry |= {f"verdict {label}": verdict for label, verdict in reported["verdict"].items()}
-            writer.writerow(entry)
-    return stream.getvalue()
+            lines.append(entry)
+    return csv_text(lines, [*heads, "meaning"])
 
 
 _TIMES_FROM = 1.5
@@ -200,7 +196,7 @@ def conditions(entrants: Mapping[str, Case]) -> list[str]:
 def against(label: str, first: str, rows: Sequence[Row], names: Sequence[str]) -> str:
     """Return how a study stands against the first: `compression is 2.1 times slower (...) than shear`."""
     differences = [text for row in rows if row.name in names for text in [_difference(row, label)] if text]
-    return f"{label} is {_listed(differences)} than {first}" if differences else f"{label} and {first} do not differ"
+    return f"{label} is {listed(differences)} than {first}" if differences else f"{label} and {first} do not differ"
 
 
 def _difference(row: Row, label: str) -> str:
@@ -221,10 +217,6 @@ def _factor(factor: float, less: bool) -> str:
     if factor >= _TIMES_FROM:
         return f"{number(factor, 2)} times "
     return f"{number(100.0 * (1.0 - 1.0 / factor if less else factor - 1.0), 2)} % "
-
-
-def _listed(words: Sequence[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
 def standing(contest: ParetoComparison) -> str:

@@ -55,7 +55,7 @@ def fit_files(
         folder.write("residuals.csv", residuals_csv(measured.measurement.fit))
         command.finish_plots()
         command.finish("fitted", {path.name: path for path in paths}, {})
-    command.report(data, lambda console: _print(measured, written, console), "Values, residuals and figure are")
+    command.report(data, "Values, residuals and figure are", lambda console: _print(measured, written, console))
 
 
 def list_kinds(as_json: bool) -> None:

@@ -22,7 +22,7 @@ def best_rows(choosing: Choosing, table: Table) -> tuple[tuple[str, ...], list[t
     best = choosing.best[0]
     rows = []
     for combination in choosing.best:
-        choices = (_shown(name, value, table) for name, value in combination.choices.items())
+        choices = (choice_text(name, value, table) for name, value in combination.choices.items())
         shares = (combination.objective / best.objective - 1.0, *_shares(combination, best).values())
         rows.append((*choices, *(f"{share:+.1%}" for share in shares)))
     return (*best.choices, "objective", *best.values), rows
@@ -40,7 +40,7 @@ def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | flo
     best = _own(choosing, own)
     if best is None:
         chosen = ", ".join(
-            f"{name} {_shown(name, own[name], table)}" for name in between.choices if own and name in own
+            f"{name} {choice_text(name, own[name], table)}" for name in between.choices if own and name in own
         )
         return f"The price of going standard is not known of {chosen}, which margins led to: it is not among the best."
     moved = []
@@ -49,7 +49,7 @@ def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | flo
         if isinstance(value, str) and value != free:
             moved.append(f"{name} {value} instead of {free}")
         elif isinstance(value, float) and isinstance(free, float) and abs(value - free) > _NEAR * abs(value):
-            moved.append(f"{name} {_shown(name, value, table)} instead of {_between(name, free, table)}")
+            moved.append(f"{name} {choice_text(name, value, table)} instead of {_between(name, free, table)}")
     if not moved:
         return "Going standard costs nothing: the best design has listed sizes anyway."
     shares = ", ".join(f"{name} {share:+.1%}" for name, share in _shares(best, between).items())
@@ -173,8 +173,9 @@ def _shares(standard: Standard, other: Standard) -> dict[str, float]:
     return {name: value / other.values[name] - 1.0 for name, value in standard.values.items()}
 
 
-def _shown(name: str, value: str | float, table: Table) -> str:
-    return value if isinstance(value, str) else format_quantity(value, table.unit(name))
+def choice_text(name: str, word: str | float, table: Table) -> str:
+    """Return a record's name as it is, a listed size in its unit."""
+    return word if isinstance(word, str) else format_quantity(word, table.unit(name))
 
 
 def _between(name: str, value: float, table: Table) -> str:

@@ -13,10 +13,12 @@ from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign.base.errors import InputError, TvimError
-from tvimdesign.page.blocks import Page
+from tvimdesign.page.blocks import Block, Page, Section, Tone
+from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
-from tvimdesign.report.output.terminal import Progress, progress_output, wide_console
+from tvimdesign.report.output.terminal import Progress, print_section, progress_output, wide_console
+from tvimdesign.study import Study
 
 PARTLY_DONE = "partly done"
 """Status in a manifest."""
@@ -39,9 +41,13 @@ class Command:
         """
         self.out, self.as_json, self.resume = out, as_json, resume
         self.failures: list[TvimError] = []
+        self.missing: list[str] = []
+        """What is not installed, which is no failure."""
         self._claim, self._plots, self._progress = (overwrite, resume, keep), plots, progress
         self._plotter: PlotProcess | None = None
         self._drawn = False
+        self.headline, self.shown = "", list[Section]()
+        """What is printed at the end; `page` sets both."""
         self._stack = ExitStack()
 
     def __enter__(self) -> Command:
@@ -58,15 +64,22 @@ class Command:
         """Stop what draws and release the folder."""
         self._stack.__exit__(kind, value, at)
 
-    def start_plotter(self) -> None:
+    def start_plotter(self, *, gives_way: bool = False) -> None:
         """Start the process that draws, so that it is ready when there is something to draw."""
-        self._plotter = self._plotter or self._stack.enter_context(PlotProcess())
+        self._plotter = self._plotter or self._stack.enter_context(PlotProcess(gives_way=gives_way))
 
-    def begin_plots(self, drawings: Sequence[Drawing], study: str, *, vector: bool = True) -> None:
+    def begin_plots(
+        self, drawings: Sequence[Drawing], study: str, *, vector: bool = True, folder: str = ""
+    ) -> None:  # fmt: skip
         """Start to draw plots, signed with the study's name, if a plotter was started."""
         self._drawn = bool(drawings)
         if self._plotter and drawings:
-            self._plotter.begin(self.folder.path, drawings, study, vector=vector)
+            self._plotter.begin(self.folder.path / folder, drawings, study, vector=vector)
+
+    def add_plot(self, make: Callable[[], Drawing], study: str, ending: str) -> None:
+        """Start to draw one more plot if there are plots, from what was not known before."""
+        if self._plotter and self._drawn:
+            self._plotter.add(self.folder.path, make(), study, ending)
 
     def finish_plots(
         self, what: str = "drawing the figure", again: str = "repeat the command with --overwrite"
@@ -77,6 +90,19 @@ class Command:
             with noting(self.failures):
                 self._plotter.finish(again)
 
+    def page(
+        self, title: str, kind: str, status: str, first: Sequence[Block], sections: Sequence[Section], *,
+        tone: Tone = "", files: Mapping[str, str] | None = None, study: str = "",
+    ) -> Page:  # fmt: skip
+        """Return the page, which ends with the study's file, if given, and versions; it links those `files` that exist.
+
+        Its text and tables that are not folded are what `report` prints.
+        """
+        self.headline, self.shown = f"{title}: {status}", [Section("first", "", first), *sections]
+        last = [*([study_section(study)] if study else []), versions_section(self.folder)]
+        made_by, existing = made_by_words(self.folder), there(self.folder, files or {})
+        return Page(title, kind, status, tone, first, None, [*sections, *last], made_by, existing)
+
     def finish(
         self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float] | None = None,
         page: Page | None = None,
@@ -84,27 +110,37 @@ class Command:
         """Write the page and the manifest, and put the results in place."""
         self.progress("")
         if page:
-            from tvimdesign.report.output.page_sections import write_page
-
             write_page(self.folder, page)
         self.folder.finish(PARTLY_DONE if self.failures else status, inputs, study, timing)
 
     def report(
-        self, data: Mapping[str, Any], show: Callable[[Console], None], where: str,
+        self, data: Mapping[str, Any] | None, where: str, show: Callable[[Console], None] | None = None,
         error: Callable[[list[TvimError]], TvimError] | None = None,
     ) -> None:  # fmt: skip
-        """Print the results as JSON, or for people; `where` says what is in the folder.
+        """Print the results as JSON, if there are any, or for people; `where` says what is in the folder.
+
+        People see what the page has, or what `show` prints.
 
         Raises noted failures as one `error`, with exit code 4 unless another is given.
         """
-        if self.as_json:
-            print(json.dumps({**data, "folder": str(self.out), **not_done(self.failures)}, indent=2, allow_nan=False))
-        else:
+        if self.as_json and data is not None:
+            print(json.dumps({**data, **self.account()}, indent=2, allow_nan=False))
+        elif not self.as_json:
             console = wide_console()
-            show(console)
-            console.print(f"\n{where} in [bold]{escape(str(self.out))}[/bold]", soft_wrap=True)
+            if show:
+                show(console)
+            if self.headline:
+                console.print(f"[bold]{escape(self.headline)}[/bold]", soft_wrap=True)
+            for section in self.shown:
+                print_section(section, console, folded=False)
+            if where:
+                console.print(f"\n{where} in [bold]{escape(str(self.out))}[/bold]", soft_wrap=True)
         if self.failures:
             raise (error or done_in_part)(self.failures)
+
+    def account(self) -> dict[str, Any]:
+        """Return the fields that the output of `--json` ends with: the folder, and what was not done."""
+        return {"folder": str(self.out), "not_done": [*self.missing, *map(str, self.failures)]}
 
 
 @contextmanager
@@ -125,9 +161,13 @@ def done_in_part(failures: list[TvimError]) -> TvimError:
     return error
 
 
-def not_done(failures: list[TvimError]) -> dict[str, list[str]]:
-    """Return the failures as the field that the output of `--json` has."""
-    return {"not_done": [str(failure) for failure in failures]}
+def record_files(study: Study, choices: Mapping[str, str]) -> dict[str, Path]:
+    """Return the files of the catalogue's records that a module with these choices is made of."""
+    return {
+        f"{row.category}/{choices[row.name]}": study.catalog.path(row.category, choices[row.name])
+        for row in study.table.choices
+        if row.category and choices[row.name] not in ("", *row.options)
+    }
 
 
 def design_file(path: Path) -> Path:

@@ -6,9 +6,11 @@ One unit system in files: every bare number is in SI. A number that people read 
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any, Literal
@@ -116,17 +118,41 @@ def number_entry(value: float, unit: str, ends: Ends | None = None) -> NumberEnt
     }
 
 
+def listed(words: Sequence[str]) -> str:
+    """Return `a, b and c`."""
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def all_finite(data: Any) -> Any:
+    """Return plain data with null for what is not finite."""
+    if isinstance(data, Mapping):
+        return {key: all_finite(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [all_finite(value) for value in data]
+    return finite(data) if isinstance(data, float) else data
+
+
 def finite(value: float | None) -> float | None:
     """Return a number, or None for what never happens: JSON has no infinity."""
     return value if value is not None and math.isfinite(value) else None
 
 
-def number(value: float, digits: int = 4) -> str:
-    """Return a number for people: `digits` significant figures, no needless zeros, `never` for an infinite time."""
-    if math.isinf(value):
+def number(value: float | None, digits: int = 4) -> str:
+    """Return a number for people: `digits` significant figures, no needless zeros, `never` for what does not happen."""
+    if value is None or math.isinf(value):
         return "never"
     text = f"{value:.{digits}g}"
     return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
+
+
+def in_unit(value: float, unit: str, digits: int = 4) -> str:
+    """Return a number (SI) for people, in a unit."""
+    return number(from_si(value, unit), digits)
+
+
+def with_unit(value: float, unit: str, digits: int = 4) -> str:
+    """Return a number (SI) for people with its unit; `never` has none."""
+    return number(value) if math.isinf(value) else f"{in_unit(value, unit, digits)} {pretty(unit)}".rstrip()
 
 
 def percent(share: float, digits: int = 3) -> str:
@@ -136,7 +162,7 @@ def percent(share: float, digits: int = 3) -> str:
 
 def ends_text(low: float | None, high: float | None, digits: int = 3) -> str:
     """Return an interval for people, `38 to 104`; what never happens has no end."""
-    return " to ".join("never" if end is None else number(end, digits) for end in (low, high))
+    return " to ".join(number(end, digits) for end in (low, high))
 
 
 def range_text(interval: Mapping[str, Any] | None) -> str:
@@ -146,3 +172,34 @@ def range_text(interval: Mapping[str, Any] | None) -> str:
     text = ends_text(interval["low"], interval["high"])
     value = ends_text(interval["value"], interval["value"])
     return "" if text == value else text
+
+
+def csv_text(rows: Iterable[Mapping[str, Any]], columns: Sequence[str] = (), digits: int = 0) -> str:
+    """Return rows as CSV.
+
+    Parameters
+    ----------
+    rows : Iterable of Mapping
+        Cells by their columns; what a row lacks, or has as None, is empty.
+    columns : Sequence of str, optional
+        Columns, in order; those of the first row unless given.
+    digits : int, optional
+        Significant digits of floats; all that they have unless given.
+    """
+    listed, stream = list(rows), io.StringIO()
+    heads = columns or (list(listed[0]) if listed else [])
+    writer = csv.DictWriter(stream, heads, lineterminator="\n", extrasaction="ignore")
+    writer.writeheader()
+    for row in listed:
+        shown = (
+            (name, f"{cell:.{digits}g}" if digits and isinstance(cell, float) else cell) for name, cell in row.items()
+        )
+        writer.writerow(dict(shown))
+    return stream.getvalue()
+
+
+def curves_csv(curves: Mapping[str, Sequence[float]], units: Mapping[str, str], other: str) -> str:
+    """Return columns of equal length as CSV, headed by name and unit; `other` is the unit of what is not in `units`."""
+    heads = [f"{name} [{pretty(units.get(name, other)) or 1}]" for name in curves]
+    rows = zip(*(map(float, values) for values in curves.values()), strict=True)
+    return csv_text((dict(zip(heads, row, strict=True)) for row in rows), heads, 8)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Listing, Page, Section, Tone, Words
 from tvimdesign.page.page_file import FILE, page_html
+from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.results_folder import ResultsFolder
 
+NEVER = 1e300
+"""What `never` is sorted by."""
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
 _TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
     ("bad", re.compile(r"\bviolated\b|\bbroken\b|\bfailure\b|\bworse\b")),
@@ -43,10 +47,16 @@ def grid(
     return Grid(caption, [Head(text, i in right) for i, text in enumerate(named)], cells, note)
 
 
+def number_cell(value: float | None, digits: int = 4) -> Cell:
+    """Return a number as a cell; what never happens is sorted beyond all others."""
+    beyond = value is None or not math.isfinite(value)
+    return Cell(number(value, digits), math.copysign(NEVER, value or 1.0) if beyond else value)
+
+
 def sort_key(text: str) -> float | None:
     """Return the number a text begins with; of `never` one beyond all others."""
     if text == "never":
-        return 1e300
+        return NEVER
     match = _NUMBER.match(text.replace("−", "-"))
     return float(match[0]) if match else None
 
@@ -56,8 +66,8 @@ def study_section(text: str) -> Section:
     return Section("study", "Study", [Listing("The study's file", text)])
 
 
-def versions_section(folder: ResultsFolder, inputs: Mapping[str, str] | None = None) -> Section:
-    """Return what made the page: versions, commit, and the records the module was made from."""
+def versions_section(folder: ResultsFolder) -> Section:
+    """Return what made the page: versions and commit."""
     made_by = folder.made_by
     libraries = ", ".join(f"{name} {version}" for name, version in made_by["libraries"].items() if version)
     rows = [
@@ -66,8 +76,7 @@ def versions_section(folder: ResultsFolder, inputs: Mapping[str, str] | None = N
         ("Libraries", libraries),
     ]
     words = Words(["`manifest.json` beside this page has hashes of everything that went in and came out."])
-    records = [Facts([*(inputs or {}).items()])] if inputs else []
-    return Section("versions", "Versions", [Facts(rows), *records, words])
+    return Section("versions", "Versions", [Facts(rows), words])
 
 
 def commit_words(made_by: Mapping[str, Any]) -> str:

@@ -7,24 +7,21 @@ writes a file of each ending for each drawing. `PlotProcess` is the other end.
 
 from __future__ import annotations
 
-import contextlib
 import gc
 import json
 import os
 import signal
 import subprocess
 import sys
-import threading
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
-from types import TracebackType
 from typing import Any, NamedTuple
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.processes import Niceness, ProcessorTimeError, communicate, end_process_tree, set_low_priority
+from tvimdesign.base.processes import FedProcess, Niceness, ProcessorTimeError, communicate
 
 PROCESSOR_LIMIT = 600.0
 """Seconds of processor time for all plots of a command; they take about five."""
@@ -38,86 +35,47 @@ class Drawing(NamedTuple):
     data: dict[str, Any]
 
 
-class PlotProcess:
+class PlotProcess(FedProcess):
     """A process that has matplotlib loaded by the time there is something to draw; stopped if there never is."""
 
     def __init__(self, *, gives_way: bool = False) -> None:
-        """Start it, at low priority: the first screen and parts need the processors first."""
-        self._child = start_child(
-            "tvimdesign.report.output.plot_process",
-            stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        """Start it, at low priority if the first screen and parts need the processors first."""
+        child = start_child(
+            "tvimdesign.report.output.plot_process", stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE, text=True, encoding="utf-8", errors="replace",
         )  # fmt: skip
-        self._sender: threading.Thread | None = None
-        if gives_way:
-            set_low_priority(self._child.pid, Niceness.FAR)
-
-    def _no_more(self) -> None:
-        """Close the process's input once everything is sent, so that it ends when all is drawn."""
-        stream, self._child.stdin = self._child.stdin, None
-        sender = self._sender
-
-        def close() -> None:
-            if sender:
-                sender.join()
-            with contextlib.suppress(BrokenPipeError):
-                if stream:
-                    stream.close()
-
-        threading.Thread(target=close, daemon=True).start()
-
-    def __enter__(self) -> PlotProcess:
-        """Return itself."""
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
-        """End the process if it has not ended."""
-        if self._child.poll() is None:
-            end_process_tree(self._child.pid)
-        self._child.communicate()
+        super().__init__(child, Niceness.FAR if gives_way else None)
 
     def begin(self, folder: Path, drawings: Sequence[Drawing], study: str, *, vector: bool = True) -> None:
         """Ask for every plot, signed with the study's name, and come back at once; `vector` for PDF and SVG as well."""
-        endings = ["png", "pdf", "svg"] if vector else ["png"]
-        self._ask(folder, drawings, study, endings)
+        self._ask(folder, drawings, study, ["png", "pdf", "svg"] if vector else ["png"])
+
+    def add(self, folder: Path, drawing: Drawing, study: str, ending: str) -> None:
+        """Ask for one more file after `begin`, of what was not known before."""
+        self._ask(folder, [drawing], study, [ending])
 
     def _ask(self, folder: Path, drawings: Sequence[Drawing], study: str, endings: Sequence[str]) -> None:
         request = {
             "folder": str(folder.resolve()), "study": study, "endings": endings,
             "drawings": [drawing._asdict() for drawing in drawings],
         }  # fmt: skip
-        message, stream, before = f"{json.dumps(request)}\n".encode(), self._child.stdin, self._sender
-
-        def send() -> None:
-            if before:
-                before.join()
-            assert stream is not None
-            with contextlib.suppress(BrokenPipeError):  # a process that has died says why in `finish`
-                stream.write(message)
-                stream.flush()
-
-        # A pipe holds little, and the process reads only once matplotlib is loaded.
-        self._sender = threading.Thread(target=send, daemon=True)
-        self._sender.start()
-
-    def add(self, folder: Path, drawing: Drawing, study: str, ending: str) -> None:
-        """Ask for one more file after `begin`, of what was not known before."""
-        self._ask(folder, [drawing], study, [ending])
+        self.send(json.dumps(request))
 
     def finish(self, again: str = "repeat the command with --overwrite") -> None:
         """Wait until every plot is in the folder. Raises TvimError if that fails; `again` says how to get the plots.
 
         Write all numbers before.
         """
-        self._no_more()
+        self.send_no_more()
         try:
-            _, complaint = communicate(self._child, PROCESSOR_LIMIT)
+            _, complaint = communicate(self.child, PROCESSOR_LIMIT)
         except ProcessorTimeError as error:
             reason = str(error)
         else:
-            if self._child.returncode == 0:
+            if self.child.returncode == 0:
                 return
-            lines = complaint.decode(errors="replace").strip().splitlines()
-            reason = lines[-1] if lines else f"the process ended with code {self._child.returncode}"
+            lines = complaint.strip().splitlines()
+            reason = lines[-1] if lines else f"the process ended with code {self.child.returncode}"
         raise TvimError(f"the plots could not be drawn: {reason}. All numbers are written; for the plots, {again}")
 
 

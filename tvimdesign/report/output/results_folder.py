@@ -25,10 +25,10 @@ from tvimdesign.base.atomic_files import (
     make_folder,
     recorded,
 )
+from tvimdesign.base.claim import FORMAT, RUNNING, Claim, is_run
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import raise_pending
-from tvimdesign.report.output.claim import FORMAT, RUNNING, Claim, is_run
-from tvimdesign.report.output.manifest import (
+from tvimdesign.base.manifest import (
     MANIFEST,
     Manifest,
     discard_unfinished,

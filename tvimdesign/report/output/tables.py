@@ -1,24 +1,76 @@
-"""An answer as rows in the units people read: the tables of the terminal, of results.json and of results.csv."""
+"""An answer as rows in the units people read: the tables of the terminal, of results.json and of results.csv.
+
+Meaning of "soft" and "stiff" in a module, in words: an impedance at a frequency, and what it is a multiple of.
+"""
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from typing import Any, cast
 
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Input, Table
 from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
-from tvimdesign.report.output.numbers import finite, head, number, number_entry, percent
-from tvimdesign.report.output.provenance import FindRecord, provenance
+from tvimdesign.report.output.numbers import all_finite, csv_text, finite, head, in_unit, number, number_entry, percent
 from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, IntervalEntry, ValueEntry, Yield
-from tvimdesign.report.output.thresholds import notes
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp.solution import ActiveConstraint, YieldReached
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
-from tvimdesign.study.design import catalog_of
+from tvimdesign.study.design import Design, catalog_of
+from tvimdesign.study.provenance import FindRecord, provenance
+
+_MULTIPLES = {2.0: "twice", 3.0: "three times"}
+_PARTS = {2.0: "half of", 3.0: "a third of"}
+Value = Callable[[str], float]
+"""A number (SI) by its full name."""
+
+
+def soft_in_words(design: Design, table: Table) -> str:
+    """Return `|Z| <= 12.7 N·m/rad at 1 Hz, twice hot`: what the joint is from `softening_time` on."""
+    return _soft(design.value, design.choices["impedance_targets"], table)
+
+
+def soft_of_module(resolved: ResolvedModule) -> str:
+    """Return what soft means in a module that is no design."""
+    return _soft(resolved.quantity, str(resolved.values["impedance_targets"]), resolved.table)
+
+
+def stiff_in_words(design: Design, table: Table) -> str:
+    """Return `|Z| >= 231 N·m/rad at 1 Hz, half of cold`: what the joint is from `stiffening_time` on."""
+    band = design.value("stiffening_band")
+    of = "stiff_impedance" if design.choices["impedance_targets"] == "stated" else "cold"
+    return f"{_at('>=', 'stiff', 'cold', design.value, table)}, {_PARTS.get(band, f'1/{band:.3g} of')} {of}"
+
+
+def notes(design: Design, table: Table) -> dict[str, str]:
+    """Return what must be known to read an output right, by its name: of times, what the joint is then."""
+    soft, stiff = f"soft: {soft_in_words(design, table)}", f"stiff: {stiff_in_words(design, table)}"
+    points = {"softening_time": soft, "stiffening_time": stiff, "equilibrium_stiffening_time": stiff}
+    if design.choices["response_criterion"] == "softening":
+        points["response_time"] = soft
+    if design.choices["stiffening_criterion"] == "impedance":
+        points["return_time"] = stiff
+    return points
+
+
+def meaning(name: str, design: Design, table: Table) -> str:
+    """Return what an output is, with what must be known to read it."""
+    note = notes(design, table).get(name)
+    return table.quantity(name).description + (f" ({note})" if note else "")
+
+
+def _soft(value: Value, targets: str, table: Table) -> str:
+    band = value("softening_band")
+    of = "soft_impedance" if targets == "stated" else "hot"
+    return f"{_at('<=', 'soft', 'hot', value, table)}, {_MULTIPLES.get(band, f'{band:.3g} times')} {of}"
+
+
+def _at(sense: str, which: str, point: str, value: Value, table: Table) -> str:
+    threshold = format_quantity(value(f"{which}_threshold"), table.unit(f"{which}_threshold"), digits=3)
+    return f"|Z| {sense} {threshold} at {format_quantity(value(f'frequency@{point}'), 'Hz')}"
+
 
 NOTHING = 5e-4
 """Margin, as a share, below which a limit binds."""
@@ -34,7 +86,7 @@ def value_text(answer: StudyResult, name: str, table: Table, *, rounded: bool = 
     if name not in answer.intervals:
         value = from_si(answer.design.value(name), unit)
         return number(_rounded(value) if rounded else value)
-    low, high = (number(from_si(end, unit), 2) for end in answer.intervals[name])
+    low, high = (in_unit(end, unit, 2) for end in answer.intervals[name])
     return f"{low} to {high}"
 
 
@@ -146,7 +198,7 @@ def results(answer: StudyResult, table: Table) -> Answered:
         "choosing": choosing_data(
             answer.solution.choosing if answer.solution else None, table, choices_with_margins(answer)
         ),
-        "solution": _all_finite(design.solution) or None,
+        "solution": all_finite(design.solution) or None,
     }
 
 
@@ -173,38 +225,18 @@ def _entry(name: str, value: float, answer: StudyResult, table: Table, find_reco
     }
 
 
-def _all_finite(data: Any) -> Any:
-    """Return plain data with null for what is not finite."""
-    if isinstance(data, Mapping):
-        return {key: _all_finite(value) for key, value in data.items()}
-    if isinstance(data, list | tuple):
-        return [_all_finite(value) for value in data]
-    return finite(data) if isinstance(data, float) else data
-
-
 def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, IntervalEntry] | None = None) -> str:
     """Return the values of `results` as CSV, in the units people read, with status, range and source.
 
     `may_be_low` to `may_be_high` are the intervals over unmeasured inputs; `measure_first` carries most of one.
     """
-    stream = io.StringIO()
     columns = ["name", "value", "unit", "status", "low", "high", "source", "kind", "group", "description", "note",
                "idealized", "may_be_low", "may_be_high", "measure_first"]  # fmt: skip
-    writer = csv.DictWriter(stream, columns, lineterminator="\n", extrasaction="ignore")
-    writer.writeheader()
+    rows = []
     for name, entry in entries.items():
         interval = (intervals or {}).get(name)
         may_be = interval and {"may_be_low": interval["low"],
                                "may_be_high": "never" if interval["high"] is None else interval["high"],
                                "measure_first": next(iter(interval["shares"]), "")}  # fmt: skip
-        writer.writerow({"name": name, **entry, **(may_be or {})})
-    return stream.getvalue()
-
-
-def curves_csv(curves: Mapping[str, list[float]], units: Mapping[str, str], other: str) -> str:
-    """Return columns of equal length as CSV, headed by name and unit; `other` is the unit of what is not in `units`."""
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(f"{name} [{pretty(units.get(name, other)) or 1}]" for name in curves)
-    writer.writerows([f"{value:.8g}" for value in row] for row in zip(*curves.values(), strict=True))
-    return stream.getvalue()
+        rows.append({"name": name, **entry, **(may_be or {})})
+    return csv_text(rows, columns)

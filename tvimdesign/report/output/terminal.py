@@ -5,6 +5,7 @@ Terminal output while a run works: results on standard output, progress on stand
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import textwrap
@@ -14,6 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
+from rich.box import HORIZONTALS
 from rich.console import Console
 from rich.errors import MarkupError
 from rich.markup import escape
@@ -37,9 +39,9 @@ def wrapped(text: str, width: int, begin: str = "", indent: str = "") -> list[st
     )
 
 
-def block(label: str, text: str, width: int) -> list[str]:
-    """Return a paragraph that begins with its label."""
-    return wrapped(text, width, label.ljust(LABEL), " " * LABEL)
+def block(label: str, text: str, width: int, column: int = LABEL) -> list[str]:
+    """Return a paragraph that begins with its label, in a column of its own."""
+    return wrapped(text, width, label.ljust(column), " " * column)
 
 
 def joined(parts: Iterable[str], width: int, indent: str = "") -> list[str]:
@@ -66,11 +68,28 @@ def columns(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> list[st
     ]
 
 
-def print_section(section: Section, console: Console) -> None:
+def print_section(section: Section, console: Console, *, folded: bool = True) -> None:
     """Print the text and the tables of a section under its title; figures and pictures are left to the page."""
-    console.print(f"\n[bold]{section.title.upper()}[/bold]")
-    for item in section.blocks:
+    blocks = [item for item in section.blocks if _is_text(item, folded=folded)]
+    if blocks and section.title:
+        console.print(f"\n[bold]{section.title.upper()}[/bold]")
+    for item in blocks:
         print_block(item, console)
+
+
+def _is_text(item: Block, *, folded: bool) -> bool:
+    if isinstance(item, Folded):
+        return folded
+    if isinstance(item, Words | Points):
+        return bool(item.lines)
+    return isinstance(item, Grid | Facts | Warned) and bool(item.rows)
+
+
+def plain_text(show: Callable[[Console], None], width: int) -> str:
+    """Return what is printed on a console as text for a file."""
+    stream = io.StringIO()
+    show(OwnMarkupConsole(file=stream, width=width, color_system=None, highlight=False))
+    return "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n"
 
 
 def print_block(item: Block, console: Console) -> None:
@@ -78,8 +97,9 @@ def print_block(item: Block, console: Console) -> None:
     if isinstance(item, Grid):
         print_grid(item, console)
     elif isinstance(item, Facts):
+        column = max([LABEL, *(len(label) + 1 for label, _ in item.rows)])
         for label, text in item.rows:
-            print_lines(block(label, text, console.width), console)
+            print_lines(block(label, text, console.width, column), console)
     elif isinstance(item, Words | Points):
         for line in item.lines:
             console.print(escape(line))
@@ -91,14 +111,15 @@ def print_block(item: Block, console: Console) -> None:
             print_block(within, console)
 
 
-def print_grid(grid: Grid, console: Console) -> None:
-    """Print a table that has rows, and its note."""
+def print_grid(grid: Grid, console: Console, *, lines: bool = False) -> None:
+    """Print a table that has rows, and its note; `lines` between rows of long texts."""
     if not grid.rows:
         return
-    table = Table(title=grid.caption or None, title_justify="left", title_style="bold", box=None, pad_edge=False,
-                  padding=(0, 2, 0, 0), header_style="dim")  # fmt: skip
+    table = Table(title=grid.caption or None, title_justify="left", title_style="bold", pad_edge=False,
+                  show_lines=lines, box=HORIZONTALS if lines else None, padding=(0, 2, 0, 0),
+                  header_style="dim")  # fmt: skip
     for i, head in enumerate(grid.heads):
-        table.add_column(head.text, justify="right" if head.right else "left", no_wrap=i == 0)
+        table.add_column(head.text, justify="right" if head.right else "left", no_wrap=i == 0 and not lines)
     for row in grid.rows:
         table.add_row(*(Text(cell.text, style=_STYLES[cell.tone]) for cell in row))
     console.print(table)

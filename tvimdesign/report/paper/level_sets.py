@@ -6,22 +6,17 @@ the reconstructed module and writes tables and a figure; beside them, what the r
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.markup import escape
 
-from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.output.command import PARTLY_DONE, done_in_part, noting
-from tvimdesign.report.output.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.terminal import progress_output, wide_console
+from tvimdesign.report.output.command import Command
+from tvimdesign.report.output.numbers import csv_text
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.paper_case import from_paper, published_model
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -35,43 +30,27 @@ AGAINST = {
 }
 
 
-def write_level_sets(out: Path, overwrite: bool) -> Path:
-    """Compute and draw them, and write the folder; returns it. Raises InputError where the folder is in use.
+def write_level_sets(out: Path, *, overwrite: bool, as_json: bool) -> None:
+    """Compute and draw them, and write the folder. Raises InputError where the folder is in use.
 
-    Raises TvimError once all but the plots is done.
+    Raises TvimError once all but the plots is done. Nothing is printed for scripts: the paper check was.
     """
     model, wanted, thin = published_model(), from_paper("response_time"), list(THICKNESSES)
-    failures: list[TvimError] = []
-    with ResultsFolder(out, overwrite) as folder, progress_output() as say, PlotProcess() as drawing:
+    with Command(out, overwrite=overwrite, as_json=as_json, plots=True) as command:
+        folder, say = command.folder, command.progress
         sets = [level_set(model, name, list(values), thin, wanted, say) for name, values in AGAINST.items()]
         say("what the ratio of compression to shear hangs on: every assumed input through its range")
         case = Drawing("paper_case", "comparison_figures.tornado", paper_case.figure_data())
-        say("drawing")
-        drawing.begin(
-            folder.path,
-            [Drawing("level_sets", "comparison_figures.level_sets", _figure_data(sets, model, wanted)), case],
-            "The paper's module, reconstructed",
-        )
+        lines = Drawing("level_sets", "comparison_figures.level_sets", _figure_data(sets, model, wanted))
+        command.begin_plots([lines, case], "The paper's module, reconstructed")
         units = {each.parameter: model.table.unit(each.parameter) for each in sets}
         folder.write("level_sets.csv", _table(_line_rows(sets, units)))
         folder.write("response_times.csv", _table(_time_rows(sets, units)))
-        folder.write("paper_case.csv", _table(_in_cells(paper_case.table_rows())))
-        folder.write("paper_case_choices.csv", _table(_in_cells(paper_case.alternative_rows())))
-        with noting(failures):
-            drawing.finish()
-        folder.finish(PARTLY_DONE if failures else "evaluated", {}, {})
-    if failures:
-        raise done_in_part(failures)
-    return folder.path
-
-
-def print_level_sets(out: Path, overwrite: bool, as_json: bool) -> None:
-    """Write the folder, and tell people where it is; scripts know."""
-    folder = write_level_sets(out, overwrite)
-    if not as_json:
-        wide_console().print(
-            f"\nWhat gives the paper's response times is in [bold]{escape(str(folder))}[/bold]", soft_wrap=True
-        )
+        folder.write("paper_case.csv", _table(paper_case.table_rows()))
+        folder.write("paper_case_choices.csv", _table(paper_case.alternative_rows()))
+        command.finish_plots("drawing")
+        command.finish("evaluated", {}, {})
+    command.report(None, "What gives the paper's response times is")
 
 
 def _figure_data(sets: list[LevelSet], model: DeviceFunctions, wanted: float) -> dict[str, Any]:
@@ -95,37 +74,30 @@ def _panel(level_line: LevelSet, model: DeviceFunctions) -> dict[str, Any]:
     }
 
 
-def _line_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str, str]]:
+def _line_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str, str | float]]:
     for each in sets:
-        unit = units[each.parameter]
         for i, value in enumerate(each.values):
-            lines = {f"pcl_thickness for {place} [mm]": _cell(1e3 * each.line[place][i]) for place in PLACES}
-            yield {"parameter": each.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit, **lines}
+            lines = {f"pcl_thickness for {place} [mm]": 1e3 * each.line[place][i] for place in PLACES}
+            yield {**_place(each, float(value), units), **lines}
 
 
-def _time_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str, str]]:
+def _time_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str, str | float]]:
     for each in sets:
-        unit = units[each.parameter]
         for i, value in enumerate(each.values):
             for j, thickness in enumerate(each.thicknesses):
-                times = {f"{place} [s]": _cell(each.times[place][i, j]) for place in PLACES}
-                place = {"parameter": each.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit}
-                yield {**place, "pcl_thickness [mm]": f"{1e3 * thickness:.6g}", **times}
+                times = {f"{place} [s]": each.times[place][i, j] for place in PLACES}
+                yield {**_place(each, float(value), units), "pcl_thickness [mm]": 1e3 * thickness, **times}
 
 
-def _in_cells(rows: Iterable[dict[str, str | float]]) -> Iterable[dict[str, str]]:
-    for row in rows:
-        yield {name: value if isinstance(value, str) else _cell(value) for name, value in row.items()}
+def _place(each: LevelSet, value: float, units: dict[str, str]) -> dict[str, str | float]:
+    unit = units[each.parameter]
+    return {"parameter": each.parameter, "value": from_si(value, unit), "unit": unit}
 
 
-def _cell(value: float) -> str:
-    """Return a number, or nothing where there is none."""
-    return f"{value:.6g}" if math.isfinite(value) else ""
+def _table(rows: Iterable[Mapping[str, str | float]]) -> str:
+    """Return rows as CSV; a number that is none is empty."""
+    return csv_text(({name: _cell(cell) for name, cell in row.items()} for row in rows), digits=6)
 
 
-def _table(rows: Iterable[dict[str, str]]) -> str:
-    listed, stream = list(rows), io.StringIO()
-    writer = csv.DictWriter(stream, list(listed[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(listed)
-    return stream.getvalue()
+def _cell(value: str | float) -> str | float | None:
+    return value if isinstance(value, str) or math.isfinite(value) else None

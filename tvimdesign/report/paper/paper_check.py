@@ -17,6 +17,8 @@ from functools import cache
 from tvimdesign.base.units import from_si
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.springs import spring
+from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.terminal import print_grid, wide_console
 from tvimdesign.report.paper import rheometer_rows, spring_rows
 from tvimdesign.report.paper.paper_case import (
     claims,
@@ -175,13 +177,6 @@ def print_paper_check(as_json: bool) -> None:
     if as_json:
         print(json.dumps([asdict(row) for row in rows], indent=2, ensure_ascii=False))
         return
-    from rich.table import Table as Grid
-
-    from tvimdesign.report.output.terminal import wide_console
-
-    grid = Grid(title="The paper against its own numbers", title_justify="left", show_lines=True)
-    for column, share in (("the paper says", 3), ("computed here", 5), ("verdict", 3)):
-        grid.add_column(column, ratio=share)
-    for row in rows:
-        grid.add_row(f"{row.claim}\n[dim]{row.where}[/dim]", row.computed, row.verdict)
-    wide_console().print(grid)
+    rows_of_text = [(f"{row.claim} ({row.where})", row.computed, row.verdict) for row in rows]
+    heads = ("the paper says", "computed here", "verdict")
+    print_grid(grid("The paper against its own numbers", heads, rows_of_text, code=()), wide_console(), lines=True)

@@ -5,8 +5,6 @@ Sensitivities of headline outputs to variables at the design, as a table on file
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -17,7 +15,7 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.device import Table
 from tvimdesign.report.output.command import noting
-from tvimdesign.report.output.numbers import name_in_words
+from tvimdesign.report.output.numbers import csv_text, name_in_words
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
@@ -25,14 +23,14 @@ from tvimdesign.report.output.tables import results
 from tvimdesign.report.output.terminal import Progress, duration
 from tvimdesign.report.run.blocks.warnings import RunWarning, warnings_of
 from tvimdesign.report.run.front_report import FrontOfRun
-from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
-from tvimdesign.report.run.why import why
+from tvimdesign.report.run.reasons import conflicts_reported, starts_reported, why
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import Designed, StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
 from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities, entries, output_sensitivities
 from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.resolve import record_checks
+from tvimdesign.study.text.values import difference_unit
 from tvimdesign.study.tree import StudyTree
 
 _SHOWN = 5e-3
@@ -57,22 +55,16 @@ def sensitivities(answer: StudyResult, deadline: Deadline) -> tuple[OutputSensit
 
 def sensitivities_csv(sensitivities_of_outputs: OutputSensitivities, resolved: ResolvedModule) -> str:
     """Return a line for each output and variable: logarithmic and plain derivative, and what 1 % more adds."""
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    table = resolved.table
-    writer.writerow(["output", "variable", "log_derivative", "derivative", "derivative_unit", "per_percent", "unit"])
+    table, rows = resolved.table, []
     for entry in entries(sensitivities_of_outputs, resolved):
-        of, by = (_difference(table.unit(name)) for name in (entry.output, entry.variable))
-        derivative = from_si(entry.derivative, of) * to_si(1.0, by)
-        share = "" if entry.logarithmic is None else f"{entry.logarithmic:.6g}"
-        units = f"{pretty(of) or 1} / {pretty(by) or 1}"
-        added = f"{from_si(entry.per_hundredth, of):.6g}"
-        writer.writerow([entry.output, entry.variable, share, f"{derivative:.6g}", units, added, pretty(of)])
-    return stream.getvalue()
-
-
-def _difference(unit: str) -> str:
-    return "K" if unit == "degC" else unit
+        of, by = (difference_unit(table.unit(name)) for name in (entry.output, entry.variable))
+        rows.append({
+            "output": entry.output, "variable": entry.variable, "log_derivative": entry.logarithmic,
+            "derivative": from_si(entry.derivative, of) * to_si(1.0, by),
+            "derivative_unit": f"{pretty(of) or 1} / {pretty(by) or 1}",
+            "per_percent": from_si(entry.per_hundredth, of), "unit": pretty(of),
+        })  # fmt: skip
+    return csv_text(rows, digits=6)
 
 
 def heat_map(sensitivities_of_outputs: OutputSensitivities, resolved: ResolvedModule) -> dict[str, Any]:

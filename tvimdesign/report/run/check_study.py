@@ -8,29 +8,28 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tvimdesign.base.deadline import Deadline
-from tvimdesign.base.errors import InputError, SimulationError
+from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.device import Choice
-from tvimdesign.report.output.numbers import number
-from tvimdesign.report.output.terminal import Progress, progress_output, wide_console
-from tvimdesign.report.run.infeasible_report import endings
-from tvimdesign.study import Range, Study, read_tree
+from tvimdesign.report.output.numbers import all_finite, number
+from tvimdesign.report.output.terminal import progress_output, wide_console
+from tvimdesign.report.run.reasons import endings
+from tvimdesign.study import Study, read_tree
 from tvimdesign.study.resolve import record_checks
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import swept_cells
 
 if TYPE_CHECKING:
-    from tvimdesign.solve.infeasibility.inspection import Conditioning, DerivativeCheck, Structure, ValueRange
-    from tvimdesign.solve.nlp.solution import Start
+    from tvimdesign.solve.infeasibility.inspection import Conditioning, DerivativeCheck, Diagnostics, Structure
 
 
 def check_study(path: Path, settings: Sequence[str] = (), *, as_json: bool) -> None:
     """Print what a study asks. Raises StudyError with every mistake, and what `refuse_what_cannot_be` raises."""
+    from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
+
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
     refuse_what_cannot_be(study)
@@ -38,23 +37,6 @@ def check_study(path: Path, settings: Sequence[str] = (), *, as_json: bool) -> N
     print(study.model_dump_json(indent=2) if as_json else describe(study))
     if cells and not as_json:
         print(f"Its sweep has {cells} cells.")
-
-
-def refuse_what_cannot_be(study: Study, *, proof: bool = True, deadline: Deadline | None = None) -> Study:
-    """Return the study. Raises InputError for requirements that no module can meet, InfeasibleError for conflicts.
-
-    With `proof`, a study that optimises is also refused for conflicts that arithmetic alone shows, which takes a fifth
-    of a second, and for stated target impedances out of reach, which takes a second where there are such.
-    """
-    from tvimdesign.solve.nlp.constraints import refuse_impossible
-
-    refuse_impossible(study)
-    if proof and study.task == "optimize":
-        from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible, refuse_unreachable
-
-        refuse_infeasible(study, deadline)
-        refuse_unreachable(study, deadline)
-    return study
 
 
 def describe(study: Study) -> str:
@@ -80,37 +62,11 @@ def foreseen_ratings(study: Study) -> list[str]:
     ]
 
 
-_BADLY_SCALED = 1e8
-_NEARLY_SINGULAR = 1e12
-_SHOWN = 12
-
-
-@dataclass(frozen=True)
-class Diagnostics:
-    """Everything the check found."""
-
-    rows: ValueRange
-    columns: ValueRange
-    conditioning: Conditioning
-    derivatives: DerivativeCheck
-    structure: Structure
-    start: Start
-    """One run of the solver from the first point."""
-
-    @property
-    def sound(self) -> bool:
-        """True if nothing speaks against the problem."""
-        return (
-            self.derivatives.right
-            and not self.structure.idle
-            and not self.structure.goal_flat
-            and self.conditioning.equations < _NEARLY_SINGULAR
-            and max(self.rows.ratio, self.columns.ratio) < _BADLY_SCALED
-        )
-
-
 def check_deep(study: Study, *, as_json: bool) -> None:
     """Check a study, build its problem and look at that. Raises InputError, InfeasibleError."""
+    from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
+    from tvimdesign.solve.infeasibility.inspection import inspect_study
+
     refuse_what_cannot_be(study)
     with progress_output() as progress:
         diagnostics = inspect_study(study, progress)
@@ -122,35 +78,6 @@ def check_deep(study: Study, *, as_json: bool) -> None:
     console.print(describe(study), markup=False, soft_wrap=True)
     for line in in_words(diagnostics):
         console.print(line, markup=False, soft_wrap=True)
-
-
-def inspect_study(study: Study, progress: Progress) -> Diagnostics:
-    """Build the problem of a study at its start's records, inspect it, and solve it once. Raises InputError."""
-    from tvimdesign.solve.infeasibility.inspection import Inspection
-    from tvimdesign.solve.optimizer.optimizer import Optimizer
-
-    table = study.table
-    if not any(isinstance(vary, Range) for vary in study.vary.values()):
-        raise InputError(f"{study.name}: varies no number between limits, so there is no problem to look at deeper")
-    numbers = {name: vary for name, vary in study.vary.items() if not isinstance(table.quantity(name), Choice)}
-    words = {
-        name: str(vary.values[0])
-        for name, vary in study.vary.items()
-        if name not in numbers and not isinstance(vary, Range) and name not in study.module
-    }
-    study = study.model_copy(update={"vary": numbers, "module": {**study.module, **words}})
-    progress("building the problem")
-    optimizer = Optimizer(study, progress=progress)
-    inspection = Inspection(optimizer)
-    rows, columns = inspection.scaling()
-    progress("comparing derivatives with differences")
-    derivatives = inspection.derivatives()
-    progress("conditioning")
-    conditioning = inspection.conditioning()
-    structure = inspection.structure()
-    progress("solving once")
-    start = optimizer.solve(begin=inspection.begin).start
-    return Diagnostics(rows, columns, conditioning, derivatives, structure, start)
 
 
 def in_words(diagnostics: Diagnostics) -> list[str]:
@@ -173,16 +100,15 @@ def _scaling(diagnostics: Diagnostics) -> list[str]:
     for what, spread in (("rows", diagnostics.rows), ("unknowns", diagnostics.columns)):
         (most, greatest), (least, smallest) = spread.largest, spread.smallest
         lines.append(
-            f"{_mark(spread.ratio < _BADLY_SCALED)} scaling of {what}: greatest derivative {number(greatest, 2)} "
+            f"{_mark(spread.good)} scaling of {what}: greatest derivative {number(greatest, 2)} "
             f"({most}), least {number(smallest, 2)} ({least}); {spread.ratio:.1e} apart."
         )
     return lines
 
 
 def _conditioning(conditioning: Conditioning) -> list[str]:
-    good = conditioning.equations < _NEARLY_SINGULAR
     lines = [
-        f"{_mark(good)} conditioning: equations of heat and time {conditioning.equations:.1e}; "
+        f"{_mark(conditioning.good)} conditioning: equations of heat and time {conditioning.equations:.1e}; "
         f"limits and goal by the variables {_number(conditioning.decisions)}."
     ]
     lines += [
@@ -227,13 +153,5 @@ def plain(diagnostics: Diagnostics) -> dict[str, Any]:
     """Return the check as plain data; null for what is infinite."""
     reported = asdict(diagnostics) | {"sound": diagnostics.sound}
     reported["start"].pop("seconds")
-    finite: dict[str, Any] = _finite(reported)
-    return finite
-
-
-def _finite(data: Any) -> Any:
-    if isinstance(data, dict):
-        return {key: _finite(value) for key, value in data.items()}
-    if isinstance(data, list | tuple):
-        return [_finite(value) for value in data]
-    return None if isinstance(data, float) and not math.isfinite(data) else data
+    plain_data: dict[str, Any] = all_finite(reported)
+    return plain_data

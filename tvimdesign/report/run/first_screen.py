@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 from rich.console import Console
@@ -12,9 +11,9 @@ from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import (
     DOT,
-    OwnMarkupConsole,
     columns,
     joined,
+    plain_text,
     print_block,
     print_lines,
     print_section,
@@ -172,19 +171,9 @@ def print_everything(answered: AnsweredStudy, console: Console, seconds: float |
         print_section(section, console)
 
 
-def print_result(answered: AnsweredStudy, console: Console, seconds: float, after: int, *, full: bool) -> None:
-    """Print the first screen, or everything."""
-    if full:
-        print_everything(answered, console, seconds)
-    else:
-        print_first_screen(answered, console, seconds, after)
-
-
 def write_summary(answered: AnsweredStudy, folder: ResultsFolder) -> None:
     """Write summary.txt: the first screen and every table; without seconds, so that it is the same every time."""
-    stream = io.StringIO()
-    print_everything(answered, OwnMarkupConsole(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False))
-    folder.write(FILE, "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n")
+    folder.write(FILE, plain_text(lambda console: print_everything(answered, console), _FILE_WIDTH))
 
 
 def look_first(folder: str, width: int) -> list[str]:

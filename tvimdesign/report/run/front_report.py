@@ -5,8 +5,6 @@ Keeps the points of a front in the results folder while it is sought, so that a 
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -22,7 +20,7 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import AboveRatingError, InputError, TvimError
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.output.numbers import axis_label, finite, head
+from tvimdesign.report.output.numbers import axis_label, csv_text, finite, head
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults
@@ -151,19 +149,20 @@ def said_of_ratings(above: Sequence[tuple[str, ...]]) -> str:
 
 def front_csv(front: FrontEntry) -> str:
     """Return a line for each point, in units; its yield and the ratings it is beyond, if any point has them."""
-    points, more = front["points"], []
-    if any("yield_share" in point for point in points):
-        more.append(("yield", [str(point.get("yield_share", "")) for point in points]))
-    if any("above_rating" in point for point in points):
-        more.append(("above_rating", [" ".join(point.get("above_rating", ())) for point in points]))
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    heads = [f"{name} [{unit}]" for name, unit in front["units_of_values"].items()]
-    writer.writerow(["point", "status", *heads, *(name for name, _ in more)])
-    for i, point in enumerate(points):
-        values = ("inf" if value is None else f"{value:.8g}" for value in point["values"].values())
-        writer.writerow([point["number"], point["status"], *values, *(column[i] for _, column in more)])
-    return stream.getvalue()
+    points, rows = front["points"], []
+    yields, above = (any(key in point for point in points) for key in ("yield_share", "above_rating"))
+    for point in points:
+        values = point["values"].items()
+        row = {"point": point["number"], "status": point["status"]}
+        row |= {_head(name, front): math.inf if value is None else value for name, value in values}
+        row |= {"yield": str(point.get("yield_share", ""))} if yields else {}
+        rows.append(row | ({"above_rating": " ".join(point.get("above_rating", ()))} if above else {}))
+    columns = list(rows[0]) if rows else ["point", "status", *(_head(name, front) for name in front["units_of_values"])]
+    return csv_text(rows, columns, 8)
+
+
+def _head(name: str, front: FrontEntry) -> str:
+    return f"{name} [{front['units_of_values'][name]}]"
 
 
 def status(front: Front, place: int) -> str:

@@ -14,14 +14,15 @@ from typing import Any
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.cad.cad_report import PREVIEW
-from tvimdesign.device import Choice, Table
+from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
-from tvimdesign.report.output.numbers import FORMAT, UNITS, axis_label
+from tvimdesign.report.output.command import record_files
+from tvimdesign.report.output.numbers import FORMAT, UNITS, axis_label, curves_csv
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry, RefusedRun
-from tvimdesign.report.output.tables import curves_csv, results_csv
+from tvimdesign.report.output.tables import results_csv
 from tvimdesign.report.output.terminal import DOT, Progress
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.facts import Fact, main_facts, more_facts
@@ -48,14 +49,14 @@ from tvimdesign.report.run.parts_sections import (
     spring_section,
     steps_section,
 )
+from tvimdesign.report.run.reasons import why_csv
 from tvimdesign.report.run.run_plot_data import PLACES, plot_data, through_the_layer
 from tvimdesign.report.run.verification_section import verification_sections
-from tvimdesign.report.run.why import why_csv
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 from tvimdesign.study.design import write_design
-from tvimdesign.study.tree import StudyTree, study_file
+from tvimdesign.study.tree import StudyTree, study_file, study_text
 
 _FILES = {
     "summary.pdf": "this screen as one page", "summary.txt": "all tables as text", "results.csv": "every value",
@@ -223,15 +224,13 @@ def refused_page(folder: ResultsFolder, tree: StudyTree, study: Study, reason: s
 
 def _last(folder: ResultsFolder, tree: StudyTree) -> list[Section]:
     """Return the study and what made the page."""
-    text = study_file(tree)
-    return [folded(study_section(text if isinstance(text, str) else text.decode())), folded(versions_section(folder))]
+    return [folded(study_section(study_text(tree))), folded(versions_section(folder))]
 
 
 def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
     result, table = answered.result, answered.study.table
-    folder.write("study.yaml", study_file(answered.tree))
-    folder.write("study.resolved.json", answered.study.model_dump_json(indent=2) + "\n")
+    write_study(folder, answered.tree, answered.study)
     write_results(folder, answered)
     if result.solution and result.found:
         folder.write("why.csv", why_csv(result, table))
@@ -243,6 +242,12 @@ def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     folder.write("impedance.csv", curves_csv(result.sweep, units, "1"))
     answered.front.write(folder, result)
     return write_design(result.design, folder.path / "design.json")
+
+
+def write_study(folder: ResultsFolder, tree: StudyTree, study: Study) -> None:
+    """Write the study as it was given, and with every default."""
+    folder.write("study.yaml", study_file(tree))
+    folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
 
 
 def write_results(folder: ResultsFolder, answered: AnsweredStudy) -> None:
@@ -261,12 +266,7 @@ def finish(folder: ResultsFolder, answered: AnsweredStudy) -> None:
 
 def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:
     """Return the files of the study, if it has one, and of the records the design uses."""
-    path, choices = answered.tree.path, answered.result.design.choices
-    records = {
-        f"{row.category}/{choices[row.name]}": answered.study.catalog.path(row.category, choices[row.name])
-        for row in answered.study.table.quantities
-        if isinstance(row, Choice) and row.category and choices[row.name] not in row.options
-    }
+    path, records = answered.tree.path, record_files(answered.study, answered.result.design.choices)
     return {"study": path, **records} if path else records
 
 
@@ -286,12 +286,9 @@ def write_failure(
     try:
         yield
     except InfeasibleError as error:
-        from tvimdesign.report.output.page_sections import write_page
-
         progress("")  # raises KeyboardInterrupt where a solver swallowed one, and its failure looks like a conflict
         refused = refused_run(study, error)
-        folder.write("study.yaml", study_file(tree))
-        folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
+        write_study(folder, tree, study)
         folder.write_json("results.json", refused)
         folder.write("summary.txt", f"{study.name}: no design.\n{error}\n")
         write_page(folder, refused_page(folder, tree, study, str(error)))

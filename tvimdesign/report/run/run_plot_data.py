@@ -53,7 +53,7 @@ def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
             "soft": shown("soft_threshold"),
             "stiff": shown("stiff_threshold"),
             "target": shown("target_temperature"),
-            "depths": _depths(answer, table),
+            "depths": depths(answer, table),
         },
         "stiffness_and_damping": {
             **phases,
@@ -88,7 +88,7 @@ def through_the_layer(curves: Curves) -> list[str]:
     return ["near_face", *(name for name in curves if name.startswith("cell_")), "far_face"]
 
 
-def _depths(answer: StudyResult, table: Table) -> list[float]:
+def depths(answer: StudyResult, table: Table) -> list[float]:
     """Return the depths [mm] from the Peltier side at which a profile has its temperatures."""
     depth = from_si(table.evaluate(answer.design.values, ["pcl_depth"])["pcl_depth"], "mm")
     cells = sum(name.startswith("cell_") for name in answer.histories["softening"])

@@ -15,8 +15,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.markup import escape
-
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.environment import how_to_install
 from tvimdesign.base.errors import (
@@ -27,10 +25,12 @@ from tvimdesign.base.errors import (
     TimeOverError,
     TvimError,
 )
-from tvimdesign.report.output.command import done_in_part, noting
+from tvimdesign.page.blocks import Section, Words
+from tvimdesign.report.output.command import Command, done_in_part, noting
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.terminal import Progress, progress_output, wide_console
-from tvimdesign.report.run.check_study import refuse_what_cannot_be
+from tvimdesign.report.output.terminal import Progress, print_lines, print_section, progress_output, wide_console
+from tvimdesign.report.run.parts_of_design import BackgroundPartsJob, in_short, plain_report, refuse_failed, worst_first
+from tvimdesign.report.run.parts_sections import checks_grid
 from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study, read_tree
@@ -39,10 +39,10 @@ from tvimdesign.study.tree import tree_of_file
 from tvimdesign.study.written_studies import started_at, study_text
 
 if TYPE_CHECKING:
-    from tvimdesign.report.output.plot_process import PlotProcess
-    from tvimdesign.report.output.results_format import Parts
+    from rich.console import Console
+
+    from tvimdesign.cad.cad_report import CadReport
     from tvimdesign.report.run.answered_study import AnsweredStudy
-    from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
     from tvimdesign.report.run.uncertainty_process import UncertaintyProcess
     from tvimdesign.solve.nlp.solution import Solution
     from tvimdesign.solve.result import Designed
@@ -65,14 +65,16 @@ def run_study(
     study = read_tree(tree)
     deadline = Deadline(study.solver.time_limit)
     _check(study, deadline, as_json=as_json)
-    without = how_to_install("cad") if cad and study.write.cad else ""
-    with ExitStack() as stack:
-        folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
+    cad = cad and study.write.cad
+    without = how_to_install("cad") if cad else ""
+    with Command(out, overwrite=overwrite, resume=resume, as_json=as_json) as command, ExitStack() as stack:
+        folder, progress = command.folder, command.progress
         # Begun before what solves and reports is loaded here: both take their time to load as much.
-        making = stack.enter_context(_parts_ahead(study.mode)) if cad and study.write.cad and not without else None
-        drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
+        making = stack.enter_context(BackgroundPartsJob(study.mode)) if cad and not without else None
+        if plots and study.write.plots:
+            command.start_plotter(gives_way=True)
         from tvimdesign.report.run.answered_study import answer_study, drawings
-        from tvimdesign.report.run.first_screen import print_result, write_summary
+        from tvimdesign.report.run.first_screen import write_summary
         from tvimdesign.report.run.run_page import (
             finish,
             summary_sheet,
@@ -85,7 +87,6 @@ def run_study(
         from tvimdesign.solve.search import optimize
 
         best = stack.enter_context(keeping_best(folder))
-        progress = stack.enter_context(progress_output())
         uncertainty = stack.enter_context(uncertainty_process(study))
         with write_failure(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
@@ -99,37 +100,38 @@ def run_study(
                 designed=_asked_of_design(making, folder, uncertainty),
                 deadline=deadline,
             )
-        result, failures = answered.result, answered.failures
-        if drawing and result.found:
+        result, command.failures = answered.result, answered.failures
+        if result.found:
             vector = bool(making) or study.write.vector
-            drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
+            command.begin_plots(drawings(answered), study.name, vector=vector, folder="plots")
+            command.missing = [f"parts: {without}"] if without else []
         write_answer(folder, answered)  # before this run waits for other processes
         _wait_for_uncertainty(answered, uncertainty, progress)
         write_results(folder, answered)
         write_summary(answered, folder)
         progress("")
         if not as_json:
-            after = 2 if making and result.found else 1
-            print_result(answered, wide_console(), time.perf_counter() - began, after, full=full)
+            _print_result(answered, time.perf_counter() - began, with_parts=making is not None, full=full)
         if making and result.found:
-            with noting(failures):
-                answered.reported["cad"] = _parts(making, progress, as_json, in_full=full)
+            _add_parts(making, answered, command, full=full)
         elif making:
             making.stop()
-        if drawing and result.found:
-            progress("drawing the plots")
-            folder.look_up_versions()
-            drawing.add(folder.path, summary_sheet(folder, answered), study.name, "pdf")
-            with noting(failures):
-                drawing.finish()
+        command.add_plot(lambda: summary_sheet(folder, answered), study.name, "pdf")
+        folder.look_up_versions()
+        command.finish_plots("drawing the plots")
         write_run_page(folder, answered)
         finish(folder, answered)
-    _say_last(answered, folder.out, failures, without if result.found else "", as_json=as_json)
-    _end_as(answered)
+
+    show = partial(_print_last, command)
+    command.report(answered.reported, "", show, lambda failures: _ending(answered) or done_in_part(failures))
+    if ending := _ending(answered):
+        raise ending
 
 
 def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
     """Raise what `check` raises; print the JSON of a study whose limits conflict."""
+    from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
+
     try:
         with progress_output() as progress:
             progress("checking whether the requirements conflict")
@@ -140,18 +142,6 @@ def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
 
             print(json.dumps(refused_run(study, error), indent=2))
         raise
-
-
-def _parts_ahead(mode: str) -> BackgroundPartsJob:
-    from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
-
-    return BackgroundPartsJob(mode)
-
-
-def _plots_ahead() -> PlotProcess:
-    from tvimdesign.report.output.plot_process import PlotProcess
-
-    return PlotProcess(gives_way=True)
 
 
 def _asked_of_design(
@@ -190,79 +180,71 @@ def _wait_for_uncertainty(
         note_no_uncertainty(answered, error)
 
 
-def _end_as(answered: AnsweredStudy) -> None:
-    """Raise what a run that is written ends with, where it is no plain success."""
-    from tvimdesign.report.run.infeasible_report import above_rating, complaint
+def _print_result(answered: AnsweredStudy, seconds: float, *, with_parts: bool, full: bool) -> None:
+    """Print everything, or the first screen with room for what follows it: the parts of a design, and the folder."""
+    from tvimdesign.report.run.first_screen import print_everything, print_first_screen
+
+    if full:
+        print_everything(answered, wide_console(), seconds)
+    else:
+        print_first_screen(answered, wide_console(), seconds, 2 if with_parts and answered.result.found else 1)
+
+
+def _add_parts(making: BackgroundPartsJob, answered: AnsweredStudy, command: Command, *, full: bool) -> None:
+    """Wait for the parts, report and print their checks; a failure is noted."""
+    with noting(command.failures):
+        report = making.finish(command.progress)
+        answered.reported["cad"] = plain_report(report)
+        if not command.as_json:
+            print_section(parts_section(report, full=full), wide_console())
+        refuse_failed(report)
+
+
+def _print_last(command: Command, console: Console) -> None:
+    """Print what is not installed, and where to look first."""
+    from tvimdesign.report.run.first_screen import look_first
+
+    for text in command.missing:
+        console.print(f"No {text}", markup=False, soft_wrap=True)
+    print_lines(look_first(str(command.out), console.width), console)
+
+
+def _ending(answered: AnsweredStudy) -> TvimError | None:
+    """Return what a run that is written ends with, where its design is no plain success."""
+    from tvimdesign.report.run.reasons import above_rating, complaint
     from tvimdesign.report.run.uncertainty_data import below_yield
 
     result, table = answered.result, answered.study.table
     if not result.found:
-        raise InfeasibleError(complaint(result, table))
+        return InfeasibleError(complaint(result, table))
     if refused := above_rating(result, table):
-        raise AboveRatingError(refused)
-    if missed := below_yield(result):
-        raise BelowYieldError(missed)
-    if answered.failures:
-        raise done_in_part(answered.failures)
-
-
-def _say_last(
-    answered: AnsweredStudy, folder: Path, failures: Sequence[TvimError], without: str, *, as_json: bool
-) -> None:  # fmt: skip
-    """Print the JSON, or where to look first; `without` says what is not installed, if anything is not."""
-    from tvimdesign.report.output.terminal import print_lines
-    from tvimdesign.report.run.first_screen import look_first
-
-    if as_json:
-        not_done = [*([f"parts: {without}"] if without else []), *(str(failure) for failure in failures)]
-        more = {"folder": str(folder), "not_done": not_done}
-        print(json.dumps({**answered.reported, **more}, indent=2, allow_nan=False))
-        return
-    console = wide_console()
-    if without:
-        console.print(f"No parts: {without}", markup=False, soft_wrap=True)
-    print_lines(look_first(str(folder), console.width), console)
+        return AboveRatingError(refused)
+    return BelowYieldError(missed) if (missed := below_yield(result)) else None
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
     """Make the parts of a design.json, or of a study, which is answered first."""
-    from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
-
     if source.suffix != ".json":
         run_study(source, out, overwrite=overwrite, cad=True, plots=False, as_json=as_json)
         return
-    design = read_design(source)
-    failures: list[TvimError] = []
-    with ResultsFolder(out, overwrite) as folder:
-        written = write_design(design, folder.path / "design.json")
-        alone = BackgroundPartsJob(design.mode, gives_way=False)
-        with progress_output() as progress, noting(failures), alone as making:
-            making.begin_with(written, folder.path)
-            report = _parts(making, progress, as_json, in_full=True)
-            if as_json:
-                print(json.dumps(report, indent=2))
-            else:
-                wide_console().print(f"Parts are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
-        folder.finish("parts failed" if failures else design.status, {"design": source}, design.study)
-    if failures:
-        raise done_in_part(failures)
+    design, data = read_design(source), None
+    with Command(out, overwrite=overwrite, as_json=as_json) as command:
+        written = write_design(design, command.folder.path / DESIGN)
+        with noting(command.failures), BackgroundPartsJob(design.mode, gives_way=False) as making:
+            making.begin_with(written, command.folder.path)
+            report = making.finish(command.progress)
+            data, command.shown = plain_report(report), [parts_section(report, full=True)]
+            refuse_failed(report)
+        status = "parts failed" if command.failures else design.status
+        command.folder.finish(status, {"design": source}, design.study)
+    command.report(data, "Parts are")
 
 
-def _parts(making: BackgroundPartsJob, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
-    """Wait for the parts and print what was found. Raises GeometryError where a check fails."""
-    from tvimdesign.report.output.terminal import print_grid, print_lines, wrapped
-    from tvimdesign.report.run.parts_of_design import in_short, plain_report, refuse_failed, worst_first
-    from tvimdesign.report.run.parts_sections import checks_grid
-
-    report = making.finish(progress)
-    console = wide_console()
-    if not as_json and in_full:
-        failed = [check.plain() for check in worst_first(report.checks)]
-        print_grid(checks_grid("Checks on the solids that did not pass", failed[:_CHECKS]), console)
-    if not as_json:
-        print_lines(wrapped(f"Parts: {in_short(report.checks)}", console.width, indent="  "), console)
-    refuse_failed(report)
-    return plain_report(report)
+def parts_section(report: CadReport, *, full: bool) -> Section:
+    """Return how many checks passed; in full, the worst that did not first."""
+    failed = [check.plain() for check in worst_first(report.checks)]
+    failures = [checks_grid("Checks on the solids that did not pass", failed[:_CHECKS])] if full else []
+    return Section("parts", "", [*failures, Words([f"Parts: {in_short(report.checks)}"])])
 
 
 DESIGN = "design.json"

@@ -10,7 +10,6 @@ from typing import Any
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.report.run.check_study import refuse_what_cannot_be
 from tvimdesign.study import read_study_text
 from tvimdesign.study.design import read_design
 from tvimdesign.study.sizing import LARGEST, JointTask, hardware_by_fit, study_text
@@ -29,11 +28,6 @@ def list_examples() -> None:
     """Print the shipped studies, each with what it is about."""
     for name, about in examples().items():
         print(f"{name}\n    {about}")
-
-
-def example_names() -> tuple[str, ...]:
-    """Return names of the shipped studies."""
-    return tuple(examples())
 
 
 def write_new_study(file: Path | None, example: str = "", result: Path | None = None) -> None:
@@ -110,6 +104,8 @@ def _fits(task: JointTask) -> bool:
 
 def _refusal(text: str, name: str) -> str:
     """Return why a study cannot be answered; empty if no conflict is seen before the search."""
+    from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
+
     try:
         refuse_what_cannot_be(read_study_text(text, name))
     except (InputError, InfeasibleError) as error:

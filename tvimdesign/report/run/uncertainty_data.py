@@ -15,7 +15,7 @@ from typing import Any
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.output.numbers import finite, number, number_entry, percent
+from tvimdesign.report.output.numbers import finite, in_unit, number_entry, percent, with_unit
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
@@ -229,9 +229,7 @@ def lost_in_words(lost: LostTo) -> str:
 
 def _change(name: str, before: float, after: float, table: Table) -> str:
     unit = table.unit(name)
-    change = (
-        f"{name} {number(from_si(before, unit), _DIGITS)} to {number(from_si(after, unit), _DIGITS)} {pretty(unit)}"
-    )
+    change = f"{name} {in_unit(before, unit, _DIGITS)} to {with_unit(after, unit, _DIGITS)}"
     if not (math.isfinite(before) and math.isfinite(after) and before):
         return change.rstrip()
     return f"{change.rstrip()} ({100.0 * (after / before - 1.0):+.2g} %)"

@@ -14,10 +14,7 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 from importlib import import_module
-from queue import SimpleQueue
-from types import TracebackType
 from typing import Any
 
 from tvimdesign.base.child_process import follow_parent, start_child
@@ -25,11 +22,10 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.processes import (
     CHECK_EVERY,
+    FedProcess,
     Niceness,
     ProcessorLimit,
     ProcessorTimeError,
-    end_process_tree,
-    set_low_priority,
 )
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
@@ -47,49 +43,26 @@ def uncertainty_process(study: Study) -> contextlib.AbstractContextManager[Uncer
     return contextlib.nullcontext() if os.environ.get(SPREAD) == "off" else UncertaintyProcess(study)
 
 
-class UncertaintyProcess:
+class UncertaintyProcess(FedProcess):
     """A process that has the compiler and scipy loaded by the time there is a design; stopped if there never is."""
 
     def __init__(self, study: Study) -> None:
         """Start it, and let it compile the study's module."""
         self.begun = False
         """True once a design was asked for."""
-        self._child = start_child(
+        child = start_child(
             "tvimdesign.report.run.uncertainty_process",
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, encoding="utf-8",
         )  # fmt: skip
-        set_low_priority(self._child.pid, Niceness.LOW)  # to the solver
-        self._lines: SimpleQueue[str] = SimpleQueue()
-        self._lines.put(study.model_dump_json() + "\n")
-        self._writing = threading.Thread(target=self._write, daemon=True)
-        self._writing.start()
-
-    def __enter__(self) -> UncertaintyProcess:
-        """Return itself."""
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
-        """End the process if it has not ended."""
-        if self._child.poll() is None:
-            end_process_tree(self._child.pid)
-        self._lines.put("")
-        self._writing.join()
-        self._child.communicate()
+        super().__init__(child, Niceness.LOW)  # to the solver
+        self.send(study.model_dump_json())
 
     def begin(self, design: Design, *, yield_known: bool = False) -> None:
         """Ask for a design's, without its yield if that is known, and come back at once."""
         self.begun = True
-        self._lines.put(f"{design.model_dump_json()}\n{json.dumps(yield_known)}\n")
-        self._lines.put("")
-
-    def _write(self) -> None:
-        """Write the lines, from a thread: a process that compiles reads nothing, and a pipe holds no design."""
-        stdin = self._child.stdin
-        assert stdin is not None
-        with contextlib.suppress(OSError, ValueError):  # a process that has died has nothing to say
-            for line in iter(self._lines.get, ""):
-                stdin.write(line)
-                stdin.flush()
+        self.send(design.model_dump_json())
+        self.send(json.dumps(yield_known))
+        self.send_no_more()
 
     def finish(self, deadline: Deadline = NEVER) -> dict[str, Any]:
         """Return what `Uncertainty` says of the design. Raises TvimError, with how to get it, if the process fails.
@@ -97,11 +70,11 @@ class UncertaintyProcess:
         Raises TimeOverError if the deadline passes first.
         """
         try:
-            reply = self._heard(deadline)
+            reply = self._reply(deadline)
         except ProcessorTimeError as error:
             reason = str(error)
         else:
-            code = self._child.returncode
+            code = self.child.returncode
             uncertainty: dict[str, Any] = (
                 json.loads(reply) if code == 0 else {"error": f"its process ended with code {code}"}
             )
@@ -113,16 +86,13 @@ class UncertaintyProcess:
             "for the yield and the ranges, run `tvimdesign tolerate` with the results folder"
         )
 
-    def _heard(self, deadline: Deadline) -> str:
+    def _reply(self, deadline: Deadline) -> str:
         """Return the output of the process. Raises ProcessorTimeError, TimeOverError."""
-        watch = ProcessorLimit(self._child.pid, PROCESSOR_LIMIT)
+        watch = ProcessorLimit(self.child.pid, PROCESSOR_LIMIT)
         while True:
             deadline.check(STEP)
-            timeout = min(CHECK_EVERY, deadline.remaining)
             with contextlib.suppress(subprocess.TimeoutExpired):
-                self._writing.join(timeout)
-                if not self._writing.is_alive():
-                    return str(self._child.communicate(timeout=timeout)[0])
+                return str(self.child.communicate(timeout=min(CHECK_EVERY, deadline.remaining))[0])
             watch.check()
 
 

@@ -2,28 +2,21 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-import math
-import re
 import shlex
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
-from tvimdesign import __version__
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Choice
 from tvimdesign.page.blocks import Block, Cell, Facts, Folded, Grid, Head, Listing, Page, Section, Tone, Words
-from tvimdesign.page.page_file import FILE
+from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import number
-from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
-from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.sweep.sweep_figures import CellTable, figure_data, figures
+from tvimdesign.report.output.page_sections import number_cell
+from tvimdesign.report.sweep.sweep_figures import figure_data, figures
 from tvimdesign.study import given
-from tvimdesign.study.tree import study_file
+from tvimdesign.study.tree import study_text
 from tvimdesign.sweep.gather import Column, Value, columns
 from tvimdesign.sweep.plan import SweepPlan, written
+from tvimdesign.sweep.swept_cells import CellTable
 
 _DIGITS = 12
 _PLAIN = frozenset('"$`\\!')
@@ -81,7 +74,6 @@ def _quoted(setting: str) -> str:
 MOST_OUTPUTS = 12
 """Outputs of the page's table; `cells.csv` has all."""
 _TONES: dict[str, Tone] = {"infeasible": "bad", "refused": "bad", "crashed": "bad", "above_rating": "warn"}
-_NEVER = 1e300
 
 
 def cells_grid(plan: SweepPlan, seen: CellTable) -> Grid:
@@ -131,7 +123,7 @@ def _cell(value: Value, column: Column) -> Cell:
         return Cell(value.replace("_", " ") if column.name == "status" else value, tone=_tone(value, column))
     if column.name in {"cell", "broken"}:
         return Cell(str(int(value)), value, "warn" if column.name == "broken" and value else "")
-    return Cell(number(value), value if math.isfinite(value) else math.copysign(_NEVER, value))
+    return number_cell(value)
 
 
 def _tone(value: str, column: Column) -> Tone:
@@ -142,41 +134,12 @@ _FILES = {
     "cells.csv": "every cell as CSV", "cells.sqlite": "as SQLite", "cells.parquet": "as Parquet",
     "sweep.json": "columns with units and meanings", "sweep.png": "the figure",
 }  # fmt: skip
-_MARK = re.compile(rb'<meta name="made-from" content="([0-9a-f]+)">')
 _FEW = 8
 """Values of an axis that are listed one by one."""
 
 
-def kept_page(folder: Path) -> bytes:
-    """Return the page that a folder has; empty where there is none. A sweep that is resumed clears it away."""
-    try:
-        return (folder / FILE).read_bytes()
-    except OSError:
-        return b""
-
-
-def write_sweep_page(plan: SweepPlan, seen: CellTable, folder: ResultsFolder, earlier: bytes) -> None:
-    """Write the page, or restore the one that an earlier sweep made from the same."""
-    files, study = there(folder, _FILES), _study_text(plan)
-    mark = _mark_of(plan, seen, folder.out, [files, study])
-    mark_match = _MARK.search(earlier[:2000])
-    if mark_match and mark_match[1].decode() == mark:
-        folder.write(FILE, earlier)
-        return
-    write_page(folder, _page(plan, seen, folder, files, study, mark))
-
-
-def _mark_of(plan: SweepPlan, seen: CellTable, folder: Path, more: list[Any]) -> str:
-    """Mark of a page: of what it tells, of the commands in it, and of the version that makes it."""
-    commands = CellCommands(plan, folder)
-    content = [seen.statuses, seen.keeping, seen.best, seen.failures, commands.run(1), commands.explore(1)]
-    text = json.dumps([__version__, content, seen.listed, seen.failed, *more], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def _page(
-    plan: SweepPlan, seen: CellTable, folder: ResultsFolder, files: Mapping[str, str], study: str, mark: str
-) -> Page:
+def sweep_page(plan: SweepPlan, seen: CellTable, command: Command) -> Page:
+    """Return the page of a sweep, whose tables and figure the folder has."""
     answered = plan.count - seen.failures
     done = "EVALUATED" if plan.task == "evaluate" else "OPTIMISED"
     verdict = f"{answered if seen.failures == 0 else f'{answered} OF {plan.count}'} CELLS {done}"
@@ -184,15 +147,14 @@ def _page(
     sections = [Section("curves", "Figure", [lines])] if lines else []
     sections += [Section("cells", "Cells", [*([brushed] if brushed else []), cells_grid(plan, seen)])]
     sections += [Section("failed", "Cells without an answer", [failed_grid(plan, seen)])] if seen.failures else []
-    sections += [_commands(seen, CellCommands(plan, folder.out))] if answered else []
-    sections += [study_section(study), versions_section(folder)]
-    return Page(
-        plan.study.name, f"sweep of a {plan.study.mode} module", verdict, "warn" if seen.failures else "",
-        [_glance(plan, seen)], None, sections, made_by_words(folder), files, made_from=mark,
+    sections += [_commands(seen, CellCommands(plan, command.out))] if answered else []
+    return command.page(
+        plan.study.name, f"sweep of a {plan.study.mode} module", verdict, [swept_facts(plan, seen)], sections,
+        tone="warn" if seen.failures else "", files=_FILES, study=study_text(plan.written),
     )  # fmt: skip
 
 
-def _glance(plan: SweepPlan, seen: CellTable) -> Facts:
+def swept_facts(plan: SweepPlan, seen: CellTable) -> Facts:
     """Return what was swept and how, how the cells ended, and the least of what is to be small."""
     ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in seen.statuses.items())
     task = "each cell is evaluated" if plan.task == "evaluate" else "each cell is optimised"
@@ -202,7 +164,11 @@ def _glance(plan: SweepPlan, seen: CellTable) -> Facts:
     rows += [("Every limit kept", f"in {seen.keeping} of {plan.count} cells")]
     for name, best in seen.best.items():
         value = f"{number(best['value'])} {pretty(best['unit'])}".strip()
-        rows += [(f"Least {name}", f"{value} in cell {best['cell']}, among the feasible cells")]
+        texts = plan.points.texts(int(best["cell"]) - 1)
+        at = ", ".join(f"{axis.name} {text}" for axis, text in zip(plan.axes, texts, strict=True))
+        rows += [(f"Least {name}", f"{value} in cell {best['cell']:g} ({at}), among the feasible cells")]
+    if not seen.best:
+        rows += [("Feasible", "no cell: `reason` in the table says which limits each breaks")]
     return Facts(rows)
 
 
@@ -237,8 +203,3 @@ def _commands(seen: CellTable, commands: CellCommands) -> Section:
     if with_answer:
         blocks += [Folded("The command of each cell of the table", [Listing("Commands of the cells", every)])]
     return Section("open", "Open a cell", blocks)
-
-
-def _study_text(plan: SweepPlan) -> str:
-    text = study_file(plan.written)
-    return text if isinstance(text, str) else text.decode("utf-8-sig")

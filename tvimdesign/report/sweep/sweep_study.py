@@ -1,74 +1,47 @@
-"""The command sweep, from a study file to a finished folder: the order of things, what is written and shown.
+"""The command sweep, from a study file to a finished folder, and the parts of chosen cells.
 
 The folder of a sweep that the jobs of an array share: the job after which every cell is there gathers them.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 
-from tvimdesign import __version__
 from tvimdesign.base.atomic_files import recorded
-from tvimdesign.base.errors import FolderInUseError, InputError
-from tvimdesign.base.units import pretty
+from tvimdesign.base.claim import IN_PARTS, Claim
+from tvimdesign.base.environment import require_extra
+from tvimdesign.base.errors import FolderInUseError, GeometryError, InputError, TvimError
+from tvimdesign.base.manifest import seed
+from tvimdesign.page.blocks import Facts, Grid, Section
 from tvimdesign.page.page_file import FILE
-from tvimdesign.report.output.claim import IN_PARTS, Claim
-from tvimdesign.report.output.command import Command, not_done
-from tvimdesign.report.output.manifest import seed
-from tvimdesign.report.output.numbers import head, number
+from tvimdesign.report.output.command import Command
+from tvimdesign.report.output.numbers import csv_text, head
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_folder import prepare, recovered, say
+from tvimdesign.report.output.results_folder import ResultsFolder, prepare, recovered, say
 from tvimdesign.report.output.terminal import Progress, duration, progress_output, wide_console
-from tvimdesign.report.sweep.sweep_figures import CellTable, figure_data
-from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
-from tvimdesign.study.tree import study_file, tree_of_file
+from tvimdesign.report.run.parts_of_design import make_parts_of
+from tvimdesign.report.sweep.sweep_figures import figure_data
+from tvimdesign.report.sweep.sweep_page import sweep_page, swept_facts
+from tvimdesign.solve.result import answer
+from tvimdesign.study import read_tree
+from tvimdesign.study.design import design_json
+from tvimdesign.study.tree import StudyTree, study_file, tree_of_file
 from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
 from tvimdesign.sweep.plan import SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import Executor, SweepDone, run_sweep
 from tvimdesign.sweep.shards import SHARDS, Shards
-
-DRAWN_FROM = "drawn_from"
-"""Name of the figure's mark in sweep.json."""
-
-
-def print_sweep(summary: dict[str, Any], plan: SweepPlan, console: Console) -> None:
-    """Print how the cells ended, the best of them, and where to look first."""
-    run = summary["run"]
-    done = "evaluated" if summary["task"] == "evaluate" else "optimised"
-    console.print(f"[bold]{escape(summary['study'])}[/bold]: {summary['cells']} cells {done} ({summary['method']})")
-    ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in summary["statuses"].items())
-    console.print(f"  {escape(ended)}", soft_wrap=True)
-    console.print(f"  {run['reused']} reused, {run['computed']} computed in {duration(run['seconds'])}{_work(run)}")
-    for name, best in summary["best"].items():
-        console.print(f"  least {name}: {_best(best, plan)}", soft_wrap=True)
-    if not summary["best"]:
-        console.print("  no cell is feasible: `reason` in the table says which limits each breaks")
-
-
-def _work(run: dict[str, Any]) -> str:
-    if not run["computed"]:
-        return ""
-    each = f", {1e3 * run['cells_s'] / max(run['cells'], 1):.0f} ms of the processor a cell"
-    died = f", {run['died']} workers died and were replaced" if run["died"] else ""
-    return each + died
-
-
-def _best(best: dict[str, Any], plan: SweepPlan) -> str:
-    texts = plan.points.texts(int(best["cell"]) - 1)
-    at = ", ".join(f"{axis.name} {text}" for axis, text in zip(plan.axes, texts, strict=True))
-    unit = pretty(best["unit"])
-    return escape(f"{number(best['value'])}{f' {unit}' if unit else ''} in cell {best['cell']:g} ({at})")
+from tvimdesign.sweep.swept_cells import CellFound, CellTable, SweptCells, open_cells
 
 
 def sweep_study(
@@ -89,7 +62,7 @@ def sweep_study(
         if part is None:
             return
         summary = part
-    command.report(summary, lambda console: print_sweep(summary, plan, console), f"{FILE} and the tables are")
+    command.report(summary, f"{FILE} and the tables are")
 
 
 def sweep_folder(
@@ -105,14 +78,12 @@ def sweep_folder(
 
 
 def _swept(plan: SweepPlan, executor: Executor, command: Command, *, parquet: bool, plots: bool) -> dict[str, Any]:
-    resume = command.resume
-    earlier = (kept_figure(command.out), kept_page(command.out)) if resume else (KeptFigure(), b"")
     with command:
-        if plots and plan.study.write.plots and not earlier[0].mark:
+        if plots and plan.study.write.plots:
             command.start_plotter()  # while the cells are computed
         began = time.perf_counter()
         done = run_sweep(plan, command.folder.path, executor, command.progress)
-        return _gathered(plan, command, done, earlier, parquet=parquet, plots=plots, began=began)
+        return _gathered(plan, command, done, parquet=parquet, plots=plots, began=began)
 
 
 def _part(
@@ -128,16 +99,15 @@ def _part(
         except InputError:  # another job, which ended at the same time, gathers
             gatherer = None
         if gatherer:
-            return _gathered(plan, command, done, (KeptFigure(), b""), parquet=parquet, plots=plots, began=began)
+            return _gathered(plan, command, done, parquet=parquet, plots=plots, began=began)
     say_part(done, executor, command.out, wide_console(), as_json=command.as_json)
     return None
 
 
 def _gathered(
-    plan: SweepPlan, command: Command, done: SweepDone, prior: tuple[KeptFigure, bytes], *, parquet: bool, plots: bool,
-    began: float,
-) -> dict[str, Any]:  # fmt: skip
-    """Write the tables, the figure, the page and the manifest; `kept` are figure and page of an earlier sweep."""
+    plan: SweepPlan, command: Command, done: SweepDone, *, parquet: bool, plots: bool, began: float
+) -> dict[str, Any]:
+    """Write the tables, the figure, the page and the manifest."""
     folder = command.folder
     command.progress("gathering the cells")
     seen = CellTable(plan)
@@ -155,56 +125,28 @@ def _gathered(
     folder.write("study.yaml", study_file(plan.written))
     folder.write_json("sweep.json", results)
     if plots and plan.study.write.plots:
-        mark = _draw(plan, command, figure_data(plan, seen), prior[0])
-        if not command.failures:
-            results[DRAWN_FROM] = mark
-            folder.write_json("sweep.json", results)
-    write_sweep_page(plan, seen, folder, prior[1])
+        command.start_plotter()
+        drawing = Drawing("sweep", "analysis_figures.sweep", figure_data(plan, seen))
+        command.begin_plots([drawing], plan.study.name, vector=plan.study.write.vector)
+        folder.look_up_versions()
+        command.finish_plots(again="repeat the command with --resume")
+    page = sweep_page(plan, seen, command)
     spent = {name: round(value, 3) for name, value in asdict(done.spent).items()}
     seconds = time.perf_counter() - began
     timing = {"seconds": round(seconds, 3), "reused": done.reused, "computed": done.computed, **spent}
+    facts = Facts([*swept_facts(plan, seen).rows, ("This run", _in_short(timing))])
+    command.shown = [Section("sweep", "", [facts])]
     inputs = {"study": plan.tree.path} if plan.tree.path else {}
-    command.finish("swept", inputs, {"solver": {"seed": plan.block.seed}}, timing)
-    return {**results, "run": timing, "folder": str(folder.out), **not_done(command.failures)}
+    command.finish("swept", inputs, {"solver": {"seed": plan.block.seed}}, timing, page)
+    return {**results, "run": timing, **command.account()}
 
 
-@dataclass(frozen=True)
-class KeptFigure:
-    """Files of a figure, and the mark of what it was drawn from; both empty where there is none."""
-
-    mark: str = ""
-    files: dict[str, bytes] = field(default_factory=dict)
-
-
-def mark_of(data: dict[str, Any], *, vector: bool) -> str:
-    """Mark of a figure: of its data, its forms, and the version that draws it."""
-    text = json.dumps([__version__, vector, data], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def kept_figure(folder: Path) -> KeptFigure:
-    """Return the figure that a folder has; its files are read, as a sweep that is resumed clears them away."""
-    try:
-        mark = json.loads((folder / "sweep.json").read_bytes()).get(DRAWN_FROM, "")
-        files = {path.name: path.read_bytes() for path in folder.glob("sweep.*") if path.suffix != ".json"}
-    except (OSError, ValueError, AttributeError):
-        return KeptFigure()
-    return KeptFigure(mark, files) if mark and files else KeptFigure()
-
-
-def _draw(plan: SweepPlan, command: Command, data: dict[str, Any], earlier: KeptFigure) -> str:
-    """Draw the figure, or restore an earlier one that was drawn from the same; return its mark."""
-    vector, folder = plan.study.write.vector, command.folder
-    mark = mark_of(data, vector=vector)
-    if mark == earlier.mark:
-        for name, content in earlier.files.items():
-            folder.write(name, content)
-        return mark
-    command.start_plotter()
-    command.begin_plots([Drawing("sweep", "analysis_figures.sweep", data)], plan.study.name, vector=vector)
-    folder.look_up_versions()
-    command.finish_plots(again="repeat the command with --resume")
-    return mark
+def _in_short(run: Mapping[str, Any]) -> str:
+    """Return how many cells a run reused and computed, in which time."""
+    clauses = [f"{run['reused']} reused, {run['computed']} computed in {duration(run['seconds'])}"]
+    if run["computed"]:
+        clauses.append(f"{1e3 * run['cells_s'] / max(run['cells'], 1):.0f} ms of the processor a cell")
+    return ", ".join([*clauses, *([f"{run['died']} workers died and were replaced"] if run["died"] else [])])
 
 
 @contextmanager
@@ -256,3 +198,89 @@ def say_part(done: SweepDone, executor: Executor, out: Path, console: Console, *
         f"[bold]{escape(str(out))}[/bold]",
         soft_wrap=True,
     )
+
+
+_MADE, _FAILED, _NONE = "made", "checks_fail", "not_made"
+
+
+def folder_of(number: int | str) -> str:
+    """Return the folder of a cell's parts."""
+    return f"cell-{number}"
+
+
+def chosen_cells(words: str, cells: SweptCells) -> list[int]:
+    """Return numbers from words such as `3,7-9` or `best`. Raises InputError for a word that names no cell."""
+    numbers: list[int] = []
+    for word in words.replace(" ", "").split(","):
+        first, dash, last = word.partition("-")
+        if word == "best":
+            numbers += cells.best
+        elif first.isdecimal() and (last.isdecimal() or not dash) and int(first) <= int(last or first):
+            if int(last or first) > cells.plan.count:
+                raise InputError(f"--cells {words}: the sweep has the cells 1 to {cells.plan.count}")
+            numbers += range(int(first), int(last or first) + 1)
+        else:
+            raise InputError(f"--cells {words}: {word!r} is no cell; name some such as 3,7-9, or best")
+    if not numbers:
+        raise InputError(f"--cells {words}: no cell of the sweep has an answer, so no parts")
+    return list(dict.fromkeys(numbers))
+
+
+def _evaluated(cell: CellFound) -> StudyTree:
+    """Return the study of a cell's module. Raises InputError for a cell without an answer, or with a profile."""
+    if not cell.answered:
+        raise InputError(f"cell {cell.number}: it has no answer, so no parts; `reason` in its table says why")
+    if cell.study.profile.pieces():
+        raise InputError(
+            f"cell {cell.number}: its current follows a profile, which a sweep's table does not hold; the page of the "
+            "sweep has the command that runs it"
+        )
+    return cell.fixed
+
+
+def make_parts_of_cells(source: Path, out: Path, words: str, *, overwrite: bool, as_json: bool) -> None:
+    """Make the parts of chosen cells of a sweep.
+
+    Raises InputError, OutputError; GeometryError at the end where some cell's could not be made, or break a check.
+    """
+    require_extra("cad", "parts")
+    cells = open_cells(source)
+    studies = {number: _evaluated(cells.cell(number)) for number in chosen_cells(words, cells)}
+    with Command(out, overwrite=overwrite, as_json=as_json) as command:
+        rows = [_made(command.folder, number, study, command.progress) for number, study in studies.items()]
+        command.folder.write("parts.csv", csv_text(rows))
+        reported: dict[str, Any] = {**head(), "sweep": str(source), "cells": rows}
+        command.folder.write_json("parts.json", reported)
+        command.headline, command.shown = f"Parts of {len(rows)} cells", [Section("cells", "", [_table(rows)])]
+        command.finish("parts made", {"study": source / "study.yaml"}, {})
+    command.report(reported, "Parts are")
+    failed = [row for row in rows if row["status"] != _MADE]
+    if failed:
+        lines = [f"  cell {row['cell']}: {row['status'].replace('_', ' ')}: {row['reason']}" for row in failed]
+        raise GeometryError(
+            f"parts of {len(failed)} of {len(rows)} cells are not as they should be:\n" + "\n".join(lines)
+        )
+
+
+def _made(folder: ResultsFolder, number: int, study: StudyTree, progress: Progress) -> dict[str, Any]:
+    """Make the parts of one cell; return its row of the table."""
+    name, status, reason, checks, failed = folder_of(number), _MADE, "", 0, 0
+    progress(f"parts of cell {number}")
+    try:
+        design = folder.write(f"{name}/design.json", design_json(answer(read_tree(study)).design))
+        report = make_parts_of(design, design.parent / "cad", progress)
+        checks, failed = len(report.checks), len(report.failed)
+        if failed:
+            status, reason = _FAILED, "; ".join(check.text for check in report.failed)
+    except TvimError as error:
+        status, reason = _NONE, str(error)
+    return {"cell": number, "status": status, "checks": checks, "failed": failed, "folder": name, "reason": reason}
+
+
+def _table(rows: Sequence[dict[str, Any]]) -> Grid:
+    cells = [
+        (str(row["cell"]), row["status"].replace("_", " "), f"{row['checks'] - row['failed']} of {row['checks']}",
+         row["folder"])
+        for row in rows
+    ]  # fmt: skip
+    return grid("", ("cell", "parts", "checks that pass", "folder"), cells, right=(0, 2))

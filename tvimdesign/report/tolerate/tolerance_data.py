@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
 from tvimdesign.base.units import from_si, pretty, si_unit, to_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.numbers import axis_label, head, name_in_words
+from tvimdesign.report.output.numbers import axis_label, finite, head, name_in_words
 from tvimdesign.report.run.uncertainty_data import interval_entry
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp.constraints import in_words
@@ -39,10 +37,10 @@ def output_rows(spread: Spread, table: Table) -> Iterator[Row]:
             "as_drawn": spread.nominal[i], "worst_low": spread.worst.low[i], "worst_high": spread.worst.high[i],
             "mean": spread.drawn.mean[i], "low": spread.drawn.low[i], "high": spread.drawn.high[i],
         }  # fmt: skip
-        shown = {key: _finite(from_si(float(value), unit)) for key, value in values.items()}
+        shown = {key: finite(from_si(float(value), unit)) for key, value in values.items()}
         deviations = {
-            "deviation_rss": _finite(from_si(float(spread.deviation[i]), difference_unit(unit))),
-            "deviation": _finite(from_si(float(spread.drawn.deviation[i]), difference_unit(unit))),
+            "deviation_rss": finite(from_si(float(spread.deviation[i]), difference_unit(unit))),
+            "deviation": finite(from_si(float(spread.drawn.deviation[i]), difference_unit(unit))),
         }
         yield {"output": name, "unit": pretty(unit), **shown, **deviations, "never": float(spread.drawn.never[i])}
 
@@ -54,7 +52,7 @@ def limit_rows(spread: Spread, table: Table) -> Iterator[Row]:
             "limit": in_words(limit_yield.limit, table), "output": limit_yield.limit.output,
             "origin": limit_yield.limit.origin,
             "yield": limit_yield.share.share, "yield_low": limit_yield.share.low, "yield_high": limit_yield.share.high,
-            "cpk": _finite(limit_yield.capability),
+            "cpk": finite(limit_yield.capability),
         }  # fmt: skip
 
 
@@ -75,16 +73,6 @@ def contributor_rows(spread: Spread, table: Table, study: Study) -> Iterator[Row
                 "share": float(spread.shares[i, j]), "sobol_first": float(spread.first[i, j]),
                 "sobol_total": float(spread.total[i, j]),
             }  # fmt: skip
-
-
-def as_csv(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows of one kind as CSV."""
-    stream = io.StringIO()
-    writer = csv.DictWriter(stream, list(rows[0]) if rows else [], lineterminator="\n")
-    writer.writeheader()
-    for row in rows:
-        writer.writerow({key: f"{value:.6g}" if isinstance(value, float) else value for key, value in row.items()})
-    return stream.getvalue()
 
 
 def reported(spread: Spread, preload: Preload | None, table: Table, study: Study, samples: int) -> dict[str, Any]:
@@ -112,7 +100,7 @@ def _outputs_in_si(spread: Spread, table: Table) -> Iterator[dict[str, str | flo
         "deviation_rss": spread.deviation, "deviation": spread.drawn.deviation,
     }  # fmt: skip
     for i, name in enumerate(spread.outputs):
-        numbers = {key: _finite(float(column[i])) for key, column in columns.items()}
+        numbers = {key: finite(float(column[i])) for key, column in columns.items()}
         yield {**numbers, "unit": pretty(si_unit(table.unit(name)))}
 
 
@@ -124,11 +112,6 @@ def _preload(preload: Preload) -> dict[str, float]:
         "yield_as_bought": preload.yield_as_bought.share,
         "yield_adjusted": preload.yield_adjusted.share,
     }
-
-
-def _finite(value: float) -> float | None:
-    """Return null for what never happens: JSON has no infinity."""
-    return value if math.isfinite(value) else None
 
 
 _FEWEST = 4

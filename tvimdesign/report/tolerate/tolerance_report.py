@@ -10,39 +10,26 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from rich.console import Console
-from rich.markup import escape
 
 from tvimdesign.device import Table
-from tvimdesign.page.blocks import Block, Folded, Grid, Page, Picture, Points, Section
-from tvimdesign.report.output.numbers import number
-from tvimdesign.report.output.page_sections import grid, made_by_words, study_section, there, versions_section
+from tvimdesign.page.blocks import Block, Folded, Grid, Picture, Section
+from tvimdesign.report.output.numbers import ends_text, number
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.terminal import print_grid
-from tvimdesign.report.tolerate.tolerance_data import spreads, unknown_rows
+from tvimdesign.report.run.blocks.tables import intervals_grid
+from tvimdesign.report.tolerate.tolerance_data import spreads
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.uncertainty.tolerance import Kept, Preload, Spread
-
-
-def print_tolerances(spread: Spread, data: Mapping[str, Any], table: Table, console: Console) -> None:
-    """Print what varies from part to part, and what is to be said of both blocks."""
-    for note in data["notes"]:
-        console.print(f"[dim]{escape(note)}[/dim]")
-    for shown in (spread_table(spread, data), concern_table(spread, table), robustness_table(data)):
-        print_grid(shown, console)
-    for sentence in data["sentences"]:
-        console.print(escape(sentence))
-    print_grid(unknown_table(data["not_known"]), console)
 
 
 def spread_table(spread: Spread, data: Mapping[str, Any]) -> Grid:
     """Return what is asked or minimised and spreads: by worst case, root-sum-square and modules drawn at random."""
     heads = ("", "as drawn", "worst case", "rss sd", "mc mean", "mc sd", "99.73 %", "unit", "most by")
     rows = [
-        (row["output"], _shown(row["as_drawn"]), _span(row["worst_low"], row["worst_high"]),
-         _shown(row["deviation_rss"]), _shown(row["mean"]), _shown(row["deviation"]),
-         _span(row["low"], row["high"]), row["unit"], _most_by(spread, i))
+        (row["output"], number(row["as_drawn"]), ends_text(row["worst_low"], row["worst_high"], 4),
+         number(row["deviation_rss"]), number(row["mean"]), number(row["deviation"]),
+         ends_text(row["low"], row["high"], 4), row["unit"], _most_by(spread, i))
         for i, row in enumerate(data["outputs"])
         if row["output"] in spread.asked and spreads(spread, i)
     ]  # fmt: skip
@@ -74,60 +61,32 @@ def _most_by(spread: Spread, i: int) -> str:
     return f"{spread.contributors[most].name} {100.0 * spread.shares[i, most]:.0f} %"
 
 
-def unknown_table(data: Mapping[str, Any]) -> Grid:
-    """Return the intervals of outputs over the ranges of unmeasured inputs."""
-    rows = []
-    for row in unknown_rows(data):
-        if row["low"] == row["high"]:
-            continue
-        alone = _span(row["one_at_a_time_low"], row["one_at_a_time_high"])
-        first = f"{row['measure_first']} {100.0 * float(row['share'] or 0.0):.0f} %" if row["measure_first"] else ""
-        cells = (str(row["output"]), _shown(row["as_drawn"]), alone, _span(row["low"], row["high"]))
-        rows.append((*cells, str(row["unit"]), first))
-    heads = ("", "as drawn", "one at a time", "all together, 95 %", "unit", "measure first")
-    return grid("Unmeasured inputs", heads, rows, right=(1, 2, 3), code=(0, 5))
-
-
-def _shown(value: float | None) -> str:
-    return "never" if value is None else number(value)
-
-
-def _span(low: float | None, high: float | None) -> str:
-    return f"{_shown(low)} to {_shown(high)}"
-
-
-_FILES = {
+FILES = {
     "outputs.csv": "spread of every output", "limits.csv": "yield of every limit",
     "contributors.csv": "who contributes", "not_known.csv": "unmeasured inputs",
 }  # fmt: skip
 _FIGURE = "spread.png"
 
 
-def tolerance_page(
-    folder: ResultsFolder, name: str, spread: Spread, data: Mapping[str, Any], table: Table, study: str
-) -> Page:
-    """Return the page of one module's tolerances; `data` is that of tolerances.json."""
+def verdict(data: Mapping[str, Any]) -> str:
+    """Return the yield with its interval."""
     share = data["yield"]
     low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
-    verdict = f"{100.0 * share['share']:.3g} % OF MODULES SATISFY ALL LIMITS ({low} to {high})"
-    varies: list[Block] = [spread_table(spread, data)]
-    varies += [
-        shown_table for shown_table in (concern_table(spread, table), robustness_table(data)) if shown_table.rows
-    ]
+    return f"{100.0 * share['share']:.3g} % OF MODULES SATISFY ALL LIMITS ({low} to {high})"
+
+
+def sections_of(folder: ResultsFolder, spread: Spread, data: Mapping[str, Any], table: Table) -> list[Section]:
+    """Return what varies from part to part, then ranges over unmeasured inputs; `data` is that of tolerances.json."""
+    grids = (spread_table(spread, data), concern_table(spread, table), robustness_table(data))
+    varies: list[Block] = [grid for grid in grids if grid.rows]
     picture = folder.path / _FIGURE
     if picture.exists():
         says = "Who contributes how much to each output's spread, and how modules drawn at random spread"
         varies.append(Picture(picture.read_bytes(), says, says))
     varies.append(Folded("Every limit and who contributes", [_limits(data), _contributors(data)]))
-    unknown = unknown_table(data["not_known"])
-    sections = [
-        Section("parts", "From part to part", varies),
-        *([Section("assumptions", "Unmeasured inputs", [unknown])] if unknown.rows else []),
-        study_section(study),
-        versions_section(folder),
-    ]
-    first = [Points(data["sentences"]), Points(data["notes"])]
-    return Page(name, "tolerances", verdict, "", first, None, sections, made_by_words(folder), there(folder, _FILES))
+    unknown = intervals_grid(data["not_known"]["intervals"])
+    unmeasured = [Section("assumptions", "Unmeasured inputs", [unknown])] if unknown.rows else []
+    return [Section("parts", "From part to part", varies), *unmeasured]
 
 
 def _limits(data: Mapping[str, Any]) -> Block:

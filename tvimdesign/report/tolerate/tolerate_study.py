@@ -10,14 +10,15 @@ from typing import Any
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
+from tvimdesign.page.blocks import Points
 from tvimdesign.report.output.command import Command, design_file
+from tvimdesign.report.output.numbers import csv_text
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.tables import soft_of_module
 from tvimdesign.report.output.terminal import Progress
-from tvimdesign.report.output.thresholds import soft_of_module
-from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.tolerate.tolerance_data import (
-    as_csv,
     contributor_rows,
     epistemic_uncertainty,
     figure_data,
@@ -28,7 +29,7 @@ from tvimdesign.report.tolerate.tolerance_data import (
     unknown_rows,
     unknown_sentences,
 )
-from tvimdesign.report.tolerate.tolerance_report import print_tolerances, sentences, tolerance_page
+from tvimdesign.report.tolerate.tolerance_report import FILES, sections_of, sentences, verdict
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
@@ -81,9 +82,12 @@ def tolerate_study(
         _write(folder, source, subject, data, spread, table)
         command.begin_plots([Drawing("spread", "analysis_figures.spread", figure_data(spread, table))], study.name)
         command.finish_plots()
-        page = tolerance_page(folder, study.name, spread, data, table, source.read_text("utf-8"))
+        page = command.page(
+            study.name, "tolerances", verdict(data), [Points(data["sentences"]), Points(data["notes"])],
+            sections_of(folder, spread, data, table), study=source.read_text("utf-8"), files=FILES,
+        )  # fmt: skip
         command.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"), page=page)
-    command.report(data, lambda console: print_tolerances(spread, data, table, console), "Tables and figure are")
+    command.report(data, "Tables and figure are")
 
 
 def _study(source: Path) -> Study:
@@ -150,7 +154,7 @@ def _write(
     if subject.design is not None:
         write_design(subject.design, folder.path / "design.json")
     folder.write_json("tolerances.json", data)
-    folder.write("outputs.csv", as_csv(list(output_rows(spread, table))))
-    folder.write("limits.csv", as_csv(list(limit_rows(spread, table))))
-    folder.write("not_known.csv", as_csv(unknown_rows(data["not_known"])))
-    folder.write("contributors.csv", as_csv(list(contributor_rows(spread, table, subject.resolved.study))))
+    folder.write("outputs.csv", csv_text(output_rows(spread, table), digits=6))
+    folder.write("limits.csv", csv_text(limit_rows(spread, table), digits=6))
+    folder.write("not_known.csv", csv_text(unknown_rows(data["not_known"]), digits=6))
+    folder.write("contributors.csv", csv_text(contributor_rows(spread, table, subject.resolved.study), digits=6))

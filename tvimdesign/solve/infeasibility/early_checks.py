@@ -18,6 +18,7 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
+from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.mixture import discrete_records, with_records
 from tvimdesign.solve.nlp.solution import ConflictSet
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -147,3 +148,16 @@ def _fixed(optimizer: Optimizer, conflict_set: ConflictSet) -> str:
         return f"choose another `{brought[most]}`: its {most} moves it more than all that is varied"
     value = format_quantity(float(model.start[model.index[most]]), table.unit(most))
     return f"vary {most} ({value}), which moves it more than all that is varied"
+
+
+def refuse_what_cannot_be(study: Study, *, proof: bool = True, deadline: Deadline | None = None) -> Study:
+    """Return the study. Raises InputError for requirements that no module can meet, InfeasibleError for conflicts.
+
+    With `proof`, a study that optimises is also refused for conflicts that arithmetic alone shows, which takes a fifth
+    of a second, and for stated target impedances out of reach, which takes a second where there are such.
+    """
+    refuse_impossible(study)
+    if proof and study.task == "optimize":
+        refuse_infeasible(study, deadline)
+        refuse_unreachable(study, deadline)
+    return study

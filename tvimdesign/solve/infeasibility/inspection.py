@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.errors import InputError
+from tvimdesign.device import Choice
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, is_constant
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.problem_parts import Objective
+from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study import Range, Study
 
 STEP = 1e-4
 """Step of the differences, in unknowns, which are logarithms or of order one; fourth order, so its error is 1e-16."""
@@ -25,6 +29,8 @@ DEPENDENT = 1e-9
 _FLAT = 1e-3
 """Size of a row's derivatives below which it is flat, and differences are rounding."""
 _PART = 0.1
+_BADLY_SCALED = 1e8
+_NEARLY_SINGULAR = 1e12
 _WORST = 3
 _RANDOM = 4
 
@@ -41,6 +47,11 @@ class ValueRange:
         """Largest over smallest."""
         return self.largest[1] / self.smallest[1]
 
+    @property
+    def good(self) -> bool:
+        """True if the solver need not mind the range."""
+        return self.ratio < _BADLY_SCALED
+
 
 @dataclass(frozen=True)
 class Conditioning:
@@ -52,6 +63,11 @@ class Conditioning:
     """Greatest over least singular value of limits and objective by the free numbers, rows scaled to one."""
     objectives: tuple[tuple[str, ...], ...]
     """Free numbers that can be traded for each other without any limit or the objective noticing."""
+
+    @property
+    def good(self) -> bool:
+        """True if the equations are far from singular."""
+        return self.equations < _NEARLY_SINGULAR
 
 
 @dataclass(frozen=True)
@@ -207,3 +223,54 @@ def row_names(problem: Problem) -> list[str]:
     names += ["slew of the supply"] * problem.slope_count
     names += [f"{event} within the horizon" for event in problem.unlimited]
     return names + ["samples below their peak"] * problem.sample_count
+
+
+@dataclass(frozen=True)
+class Diagnostics:
+    """Everything the check found."""
+
+    rows: ValueRange
+    columns: ValueRange
+    conditioning: Conditioning
+    derivatives: DerivativeCheck
+    structure: Structure
+    start: Start
+    """One run of the solver from the first point."""
+
+    @property
+    def sound(self) -> bool:
+        """True if nothing speaks against the problem."""
+        return (
+            self.derivatives.right
+            and not self.structure.idle
+            and not self.structure.goal_flat
+            and self.conditioning.good
+            and self.rows.good
+            and self.columns.good
+        )
+
+
+def inspect_study(study: Study, progress: Callable[[str], None]) -> Diagnostics:
+    """Build the problem of a study at its start's records, inspect it, and solve it once. Raises InputError."""
+    table = study.table
+    if not any(isinstance(vary, Range) for vary in study.vary.values()):
+        raise InputError(f"{study.name}: varies no number between limits, so there is no problem to look at deeper")
+    numbers = {name: vary for name, vary in study.vary.items() if not isinstance(table.quantity(name), Choice)}
+    words = {
+        name: str(vary.values[0])
+        for name, vary in study.vary.items()
+        if name not in numbers and not isinstance(vary, Range) and name not in study.module
+    }
+    study = study.model_copy(update={"vary": numbers, "module": {**study.module, **words}})
+    progress("building the problem")
+    optimizer = Optimizer(study, progress=progress)
+    inspection = Inspection(optimizer)
+    rows, columns = inspection.scaling()
+    progress("comparing derivatives with differences")
+    derivatives = inspection.derivatives()
+    progress("conditioning")
+    conditioning = inspection.conditioning()
+    structure = inspection.structure()
+    progress("solving once")
+    start = optimizer.solve(begin=inspection.begin).start
+    return Diagnostics(rows, columns, conditioning, derivatives, structure, start)

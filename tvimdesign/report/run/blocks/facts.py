@@ -8,15 +8,25 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
-from tvimdesign.report.output.numbers import ends_text, in_labels, label, number, percent, range_text
+from tvimdesign.report.output.choices_tables import choice_text
+from tvimdesign.report.output.numbers import (
+    ends_text,
+    in_labels,
+    in_unit,
+    label,
+    number,
+    percent,
+    range_text,
+    with_unit,
+)
+from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.output.terminal import DOT
-from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.blocks.tables import torque_path
 from tvimdesign.report.run.blocks.verdict import measure_first, most_in_doubt
+from tvimdesign.report.run.reasons import binding
 from tvimdesign.report.run.uncertainty_data import cost_of_margins, gain_without_margins, reached_in_words, yield_of
-from tvimdesign.report.run.why import binding
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
 
@@ -59,7 +69,7 @@ class _Values:
     def __call__(self, name: str) -> str:
         """Return one value with its unit, and its range in brackets."""
         value, unit = self.values[name], self.table.unit(name)
-        text = "never" if math.isinf(value) else f"{number(from_si(value, unit), _DIGITS)} {pretty(unit)}".rstrip()
+        text = with_unit(value, unit, _DIGITS)
         ends = range_text(self.intervals.get(name))
         return f"{text} ({ends})" if ends else text
 
@@ -113,7 +123,7 @@ def _lost_motion(value: _Values) -> list[Fact]:
     for name, whole, words, sources in _LOST:
         lost, of, unit = value.values[name], value.values[whole], value.table.unit(name)
         if lost > _LARGE * of:
-            numbers = " of ".join(number(from_si(amount, unit), _DIGITS) for amount in (lost, of))
+            numbers = " of ".join(in_unit(amount, unit, _DIGITS) for amount in (lost, of))
             parts.append(f"{words}{numbers} {pretty(unit)} ({100.0 * lost / of:.0f} %)")
             most.append(label(max(sources, key=lambda source: value.values[source])))
     return [Fact("Lost motion", parts, f"most by {' and '.join(most)}")] if parts else []
@@ -250,8 +260,8 @@ def _idealized(idealization: Any, answer: StudyResult, table: Table) -> str:
 
 def _as_drawn(name: str, drawn: float, answer: StudyResult, table: Table) -> str:
     unit = table.unit(name)
-    there = "no module" if math.isnan(drawn) else f"{number(from_si(drawn, unit))} {pretty(unit)}".rstrip()
-    return f"{name} {number(from_si(answer.design.value(name), unit))}, as drawn {there}"
+    there = "no module" if math.isnan(drawn) else with_unit(drawn, unit)
+    return f"{name} {in_unit(answer.design.value(name), unit)}, as drawn {there}"
 
 
 def front_fact(front: Any, table: Table) -> list[Fact]:
@@ -301,11 +311,6 @@ def _of_design(answer: StudyResult, name: str, listed: str | float) -> str | flo
     """Return the design's own choice of a record or a size, which is `listed` in the ranking."""
     own = answer.design.choices.get(name) if isinstance(listed, str) else answer.design.values.get(name)
     return listed if own is None else own
-
-
-def choice_text(name: str, word: str | float, table: Table) -> str:
-    """Return a record's name as it is, a listed size in its unit."""
-    return word if isinstance(word, str) else format_quantity(word, table.unit(name))
 
 
 def _current(answer: StudyResult, table: Table) -> list[Fact]:

@@ -9,7 +9,7 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Cell, Grid, Head, Tone
-from tvimdesign.report.output.numbers import ends_text, label, number, range_text
+from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, range_text
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, on_limit, value_text
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
@@ -83,11 +83,11 @@ def requirements_grid(rows: Sequence[Requirement]) -> Grid:
 
 def _limit_text(limits: Sequence[Mapping[str, Any]], unit: str) -> str:
     """Return `5.2 to 5.8 N·m/rad` for two ends, else each end with its sense."""
-    ends = {limit["sense"]: number(from_si(limit["limit"], unit), 6) for limit in limits}
+    ends = {limit["sense"]: in_unit(limit["limit"], unit, 6) for limit in limits}
     if len(limits) == 2 and len(ends) == 2:
         text = f"{ends['>=']} to {ends['<=']}"
     else:
-        text = ", ".join(f"{limit['sense']} {number(from_si(limit['limit'], unit), 6)}" for limit in limits)
+        text = ", ".join(f"{limit['sense']} {in_unit(limit['limit'], unit, 6)}" for limit in limits)
     return f"{text} {pretty(unit)}".rstrip()
 
 

@@ -9,14 +9,14 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Input, table_for
 from tvimdesign.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
 from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
-from tvimdesign.report.output.numbers import in_labels, number, percent
+from tvimdesign.report.output.numbers import in_labels, percent
+from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
 from tvimdesign.report.run.blocks.verdict import objective_in_words
-from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.reasons import complaint, sentences, slack_in_words
 from tvimdesign.report.run.uncertainty_data import lost_in_words, yield_of
-from tvimdesign.report.run.why import sentences, slack_in_words
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import StudyResult
 
@@ -172,7 +172,7 @@ def _points(front: FrontEntry, names: list[str]) -> Grid:
 def _point(point: FrontPoint, names: list[str], yields: bool) -> list[Cell]:
     values = [point["values"][name] for name in names]
     cells = [Cell(str(point["number"]), point["number"])]
-    cells += [Cell("never", 1e300) if value is None else Cell(number(value), value) for value in values]
+    cells += [number_cell(value) for value in values]
     if yields:
         share = point.get("yield_share", 0.0)
         cells.append(Cell(percent(share), share))
@@ -189,7 +189,7 @@ def values_grid(values: Mapping[str, Any]) -> Grid:
     heads = [Head(text, text == "value") for text in ("name", "group", "value", "unit", "status", "meaning", "source")]
     cells = [
         [Cell(name, code=True), Cell(value["group"]),
-         Cell("never", 1e300) if value["value"] is None else Cell(number(value["value"], 6), value["value"]),
+         number_cell(value["value"], 6),
          *(Cell(value[key]) for key in ("unit", "status", "description", "source"))]
         for name, value in values.items()
     ]  # fmt: skip

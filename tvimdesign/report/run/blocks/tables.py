@@ -10,12 +10,11 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Output, Table, table_for
 from tvimdesign.page.blocks import Grid
 from tvimdesign.report.output.choices_tables import best_rows
-from tvimdesign.report.output.numbers import ends_text, number, range_text
+from tvimdesign.report.output.numbers import ends_text, in_unit, number, range_text
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.tables import NOTHING, margin_text, mark, value_text
-from tvimdesign.report.output.thresholds import meaning
+from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
 from tvimdesign.report.run.blocks.verdict import unreached_points
-from tvimdesign.report.run.why import binding
+from tvimdesign.report.run.reasons import binding
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
@@ -35,7 +34,7 @@ def variables_grid(answer: StudyResult) -> Grid:
             rows.append((name, "", answer.design.choices[name], "", ", ".join(str(v) for v in vary["values"])))
             continue
         unit = table.unit(name)
-        start, end = (number(from_si(value, unit)) for value in (first[name], answer.design.values[name]))
+        start, end = (in_unit(value, unit) for value in (first[name], answer.design.values[name]))
         ends = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
         allowed = ends_text(from_si(ends[0], unit), from_si(ends[1], unit), 4)
         rows.append((name, start, end, pretty(unit), allowed + ("" if "lower" in vary else ", listed")))
@@ -139,7 +138,7 @@ def profile_grid(answer: StudyResult) -> Grid:
     for name, default in answer.constant_current.items():
         unit = table.unit(name)
         values = (answer.design.value(name), *([best.values[name]] if best else []), default)
-        texts = (number(from_si(value, unit)) for value in values)
+        texts = (in_unit(value, unit) for value in values)
         rows.append((name, *texts, pretty(unit), meaning(name, answer.design, table)))
     heads = ("", "profile", *(["best constant"] if best else []), "default", "unit", "meaning")
     return grid("What letting the current change buys", heads, rows, right=(1, 2, 3) if best else (1, 2))
@@ -193,7 +192,7 @@ def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
     for output, interval in intervals.items():
         if interval["low"] == interval["high"]:
             continue
-        texts = (ends_text(end, end, 4).partition(" to ")[0] for end in map(interval.get, ("value", "low", "high")))
+        texts = (number(interval[end]) for end in ("value", "low", "high"))
         alone, first = interval["one_at_a_time"], next(iter(interval["shares"]), "")
         share = f"{100.0 * interval['shares'][first]:.0f} %" if first else ""
         half = f"{len(interval['to_halve'])}" if interval["to_halve"] else "many"
@@ -211,7 +210,7 @@ def assumptions_grid(assumptions: Mapping[str, Sequence[Mapping[str, Any]]]) -> 
     rows = []
     for output, inputs in assumptions.items():
         for i, row in enumerate(inputs):
-            ends = ("never" if row[end] is None else number(row[end]) for end in ("output_at_low", "output_at_high"))
+            ends = (number(row[end]) for end in ("output_at_low", "output_at_high"))
             values = (number(row["value"]), number(row["low"]), number(row["high"]), row["unit"])
             rows.append((output if i == 0 else "", *ends, row["output_unit"], row["input"], *values))
     return grid("What depends on assumed values", heads, rows, right=(1, 2, 5, 6, 7))

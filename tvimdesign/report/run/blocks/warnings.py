@@ -15,7 +15,7 @@ from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Table, table_for
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.output.terminal import duration
-from tvimdesign.report.run.infeasible_report import endings
+from tvimdesign.report.run.reasons import endings
 from tvimdesign.solve.nlp.constraints import advice_of, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import ConstraintCheck, StudyResult

@@ -19,7 +19,7 @@ import numpy as np
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer
-from tvimdesign.report.robot.model_files import document, numbers
+from tvimdesign.robot.model_files import document, numbers
 from tvimdesign.simulation.joint_tests.case import one_sided
 from tvimdesign.simulation.link_motion.sampled_motion import PER_DECADE
 from tvimdesign.simulation.working_cycle.casadi_setup import ca

@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 from tvimdesign.base.atomic_files import whole_file
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
-from tvimdesign.report.robot.fmu.joint_equations import (
+from tvimdesign.robot.joint_equations import (
     IDENTIFIER,
     JointEquations,
     Variable,
@@ -53,7 +53,7 @@ class WrittenFmu:
     variables: tuple[Variable, ...]
 
     @property
-    def told(self) -> str:
+    def summary(self) -> str:
         """A sentence for people."""
         if self.platform:
             return f"{self.path.name} holds heat and torque for co-simulation, built for {self.platform}."
@@ -96,7 +96,7 @@ _ABOUT = "Heat and torque of a thermo-active variable impedance joint. Written b
 
 def source_files(equations: JointEquations, variables: tuple[Variable, ...], beside: Path) -> dict[str, str]:
     """Return the C code by name; `sizes.h` has a place for the GUID."""
-    own = files("tvimdesign.report.robot.fmu") / "source"
+    own = files("tvimdesign.robot") / "fmu_source"
     written = {
         file.name: file.read_text(encoding="utf-8") for file in own.iterdir() if file.name.endswith((".c", ".h"))
     }

@@ -5,20 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-from rich.markup import escape
-
+from tvimdesign.page.blocks import Block, Points, Section
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.report.output.command import Command, design_file
-from tvimdesign.report.output.numbers import head, number
+from tvimdesign.report.output.numbers import curves_csv, head, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.tables import curves_csv
-from tvimdesign.report.output.terminal import Progress, print_grid
-from tvimdesign.report.robot.fmu.fmu_file import WrittenFmu, write_fmu
-from tvimdesign.report.robot.joint_model import JointModel, joint_model, make_bodies, refuse_step
-from tvimdesign.report.robot.model_files import mjcf, urdf
+from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.parts_of_design import refuse_failed
+from tvimdesign.robot.fmu_file import WrittenFmu, write_fmu
+from tvimdesign.robot.joint_model import JointModel, joint_model, make_bodies, refuse_step
+from tvimdesign.robot.model_files import mjcf, urdf
 from tvimdesign.simulation.working_cycle.curves import impedance_sweep
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design, write_design
@@ -82,9 +79,10 @@ def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, a
     design = read_design(source)
     with Command(out, overwrite=overwrite, as_json=as_json) as command:
         model, fmu = write_models(design, command.folder, step, command.progress)
+        title = f"{model.name}: joint for simulators, time step {number(1e3 * model.step)} ms"
+        command.headline, command.shown = title, [Section("states", "", model_blocks(model, fmu))]
         command.finish("written", {"design": source}, design.study)
-    data = plain_model(model, fmu)
-    command.report(data, lambda console: _print_model(model, fmu, console), "MJCF, URDF, FMU, meshes and tables are")
+    command.report(plain_model(model, fmu), "MJCF, URDF, FMU, meshes and tables are")
 
 
 def write_models(
@@ -143,14 +141,11 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
     }
 
 
-def _print_model(model: JointModel, fmu: WrittenFmu, console: Console) -> None:
-    console.print(f"[bold]{escape(model.name)}[/bold]: joint for simulators, time step {number(1e3 * model.step)} ms")
+def model_blocks(model: JointModel, fmu: WrittenFmu) -> list[Block]:
+    """Return the states, what the models leave out, and the FMU."""
     rows = []
     for row, state in zip(zip(*states(model).values(), strict=True), model.states, strict=True):
         temperature, frequency, stiffness, damping = row[:4]
         rows.append((state.point, *map(number, (temperature, stiffness, damping, frequency))))
     heads = ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz")
-    print_grid(grid("", heads, rows, right=(1, 2, 3, 4)), console)
-    for sentence in model.left_out:
-        console.print(f"[dim]{escape(sentence)}[/dim]")
-    console.print(escape(fmu.told), soft_wrap=True)
+    return [grid("", heads, rows, right=(1, 2, 3, 4)), Points([*model.left_out, fmu.summary])]

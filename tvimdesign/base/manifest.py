@@ -27,8 +27,8 @@ from tvimdesign.base.atomic_files import (
     record,
     recorded,
 )
+from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import InputError
-from tvimdesign.report.output.claim import FORMAT
 
 MANIFEST = "manifest.json"
 _SEAL = "seal"

@@ -16,7 +16,7 @@ from robot_models import module_of
 from support import ROOT, are_gone
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.report.robot.fmu.fmu_file import compiled, write_fmu
+from tvimdesign.robot.fmu_file import compiled, write_fmu
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +25,7 @@ def without_compiler(tmp_path_factory: pytest.TempPathFactory) -> Path:
         patched.setenv("CC", "no-such-compiler")
         written = write_fmu(module_of("shear"), tmp_path_factory.mktemp("fmu") / "joint.fmu")
     assert written.platform == ""
-    assert "no C compiler was found (cc, gcc, clang, or the one that CC names)" in written.told
+    assert "no C compiler was found (cc, gcc, clang, or the one that CC names)" in written.summary
     return written.path
 
 
@@ -92,7 +92,7 @@ def test_an_interrupt_ends_the_compiler_s_processes(tmp_path: Path, monkeypatch:
 KILLED = """
 import sys
 from pathlib import Path
-from tvimdesign.report.robot.fmu.fmu_file import compiled
+from tvimdesign.robot.fmu_file import compiled
 compiled({"one.c": ""}, ".so", Path(sys.argv[1]))
 """
 

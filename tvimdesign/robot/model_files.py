@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.report.robot.joint_model import JointModel, JointState, RigidBody, header
+from tvimdesign.robot.joint_model import JointModel, JointState, RigidBody, header
 
 
 def numbers(*values: float) -> str:

@@ -14,7 +14,7 @@ import pytest
 from fmpy.fmi2 import FMU2Slave
 from robot_models import module_of
 
-from tvimdesign.report.robot.fmu.fmu_file import write_fmu
+from tvimdesign.robot.fmu_file import write_fmu
 from tvimdesign.simulation.joint_tests.release import release
 from tvimdesign.simulation.working_cycle.curves import Curves, phase_history
 from tvimdesign.simulation.working_cycle.cycle import Simulator
