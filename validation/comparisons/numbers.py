@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.units import read_quantity, to_si
+from tvimdesign.base.units import to_si
 
 Array = NDArray[np.float64]
 
@@ -16,8 +16,8 @@ Array = NDArray[np.float64]
 def si(value: Any) -> float:
     """Convert a quantity such as "0.072 in" to SI; return a bare number unchanged."""
     if isinstance(value, str):
-        number, unit = read_quantity(value)
-        return to_si(number, unit)
+        number, _, unit = value.strip().partition(" ")
+        return to_si(float(number), unit or "1")
     return float(value)
 
 
