@@ -1,19 +1,13 @@
 """Benchmarks give all contenders the same problem, and tell a right answer from a wrong one."""
 
-from itertools import islice
-from typing import Any, cast
-
 import numpy as np
 import pytest
 import switch
-from aiohttp import ClientWebSocketResponse
 from as_plain_python import by_hand, hand_module
 from contenders import Once, by_tvimdesign, lsoda
-from explore_drags import Hand
 from front import ManyDesigns
 from optimum import exact
 from reference_problem import Reference, study
-from support import ROOT
 
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
@@ -112,33 +106,6 @@ def test_a_generation_is_given_the_same_problem(reference: Reference) -> None:
         assert outputs[0, i] == pytest.approx(seconds, rel=2e-3)
         assert residuals[:-1, i] == pytest.approx(reference.rows(design, seconds)[1:], rel=1e-9, abs=1e-12)
         assert residuals[-1, i] < 0.0
-
-
-@pytest.fixture
-def hand() -> Hand:
-    """A hand that nobody answers."""
-    return Hand(cast(ClientWebSocketResponse, None), read_study(ROOT / "studies/paper_shear.yaml"))
-
-
-def test_no_drag_says_what_was_said_before_for_it_would_not_be_answered(hand: Hand) -> None:
-    for drags in (hand.variables(), hand.requirements()):
-        told: dict[str, Any] = {}
-        for drag in islice(drags, 3000):
-            said = drag.get("text", drag.get("texts"))
-            assert told.get(drag["name"]) != said
-            told[drag["name"]] = said
-
-
-def test_a_drag_to_where_there_is_no_module_is_taken_back_to_where_one_was(hand: Hand) -> None:
-    drags = hand.variables()
-    for _ in range(50):
-        hand.is_refused = False
-        there = next(drags)
-        hand.is_refused = True
-        back = next(drags)
-        assert back["name"] == there["name"]
-        assert float(back["text"].split()[0]) == pytest.approx(hand.values[back["name"]], rel=1e-8)
-        assert back["text"] != there["text"]
 
 
 @pytest.fixture(scope="module")

@@ -39,7 +39,7 @@ def losses(tmp_path: Path, count: int) -> Iterator[str]:
 
 
 def test_no_byte_of_the_user_s_is_changed_or_removed(tmp_path: Path) -> None:
-    assert list(losses(tmp_path, 40)) == []
+    assert list(losses(tmp_path, 20)) == []
 
 
 @pytest.mark.parametrize("broken", ["digest", "rename", "links"])

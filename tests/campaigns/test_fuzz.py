@@ -13,7 +13,7 @@ import fuzz
 import pytest
 from fuzzing import watched
 from fuzzing.kind import Drawn, Kind
-from fuzzing.mutations import ODD, mutated_data, mutated_table, mutated_text, paths
+from fuzzing.mutations import ODD, mutated_data
 from support import ROOT, run_process
 
 USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "column_maps"]
@@ -131,12 +131,3 @@ def test_an_input_that_ends_the_process_is_at_fault_and_others_are_tried(
     assert [(chunk.first, chunk.end) for chunk in found] == [(0, 4), (4, 6)]
     assert found[0].failures[0].startswith("3: ends the process (7)")
     assert found[1].failures == []
-
-
-def test_mutations_change_a_text_a_table_and_data() -> None:
-    draw = random.Random(1)
-    assert len({mutated_text("mode: shear\n", draw) for _ in range(50)}) > 25
-    assert len({mutated_table("time [s];angle [deg]\n0;1\n1;2\n", draw) for _ in range(50)}) > 25
-    plain = {"a": [1, {"b": 2}]}
-    assert list(paths(plain)) == [("a",), ("a", 0), ("a", 1), ("a", 1, "b")]
-    assert any(mutated_data(json.dumps(plain), list(paths(plain)), draw) != plain for _ in range(5))

@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -10,7 +9,6 @@ from pathlib import Path
 
 import kills
 import pytest
-from ended_commands import coarse_python
 from explorer_talk import Conversation, not_kept
 from kills import Try
 
@@ -64,17 +62,6 @@ def test_parts_of_cells_that_are_ended_leave_nothing_behind(number: signal.Signa
     own = tmp_path / "one"
     own.mkdir()
     assert kills.faults_after(Try("cells", number, 8.0), own) == []
-
-
-@pytest.mark.skipif(shutil.which("awk") is None, reason="the stand-in multiplies by awk")
-def test_verify_is_ended_with_larger_elements(tmp_path: Path) -> None:
-    python = coarse_python(Path(sys.executable), tmp_path)
-    says = [python, "-c", "import sys; print(sys.argv[1:])", "two words", "--coarser", "1.5", "last"]
-    done = subprocess.run(says, capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "['two words', '--coarser', '9', 'last']"
-    for size, made in (("1.0", "1.0"), ("1.6", "9.6")):
-        says = [python, "-c", "import sys; print(sys.argv[3])", "solvers/heat.py", "--coarser", size]
-        assert subprocess.run(says, capture_output=True, text=True, check=True).stdout.strip() == made
 
 
 ENDS = """

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import same
 from oracle import fits, frozen_files, messages, optima, study_outputs, subjects
-from oracle.compare import Renames, Value, base_name, differences, relative_difference
+from oracle.compare import Renames, Value, differences, relative_difference
 from oracle.frozen_files import read_frozen, write_frozen
 
 import tvimdesign
@@ -72,19 +72,6 @@ def test_renames() -> None:
     assert found(now, renames=replace(renames, renamed={})) == [
         ("stiffness@hot", "5.0", "lost"), ("rate@hot", "added", "5.0"),
     ]  # fmt: skip
-
-
-@pytest.mark.parametrize("name", ["a", "limit:a >=", "limit:a@hot >= 2", "hidden:a[count]", "without motion:a@hot"])
-def test_base_name(name: str) -> None:
-    assert base_name(name) == "a"
-
-
-@pytest.mark.parametrize(
-    ("frozen", "now"),
-    [("limit:a >=", "limit:b >="), ("hidden:a[sum]", "hidden:b[sum]"), ("a@hot", "b@hot"), ("a_margin", "a_margin")],
-)
-def test_a_rename_keeps_group_and_point(frozen: str, now: str) -> None:
-    assert Renames({"a": "b"}).name_now(frozen) == now
 
 
 def test_a_renamed_input_is_set_by_its_name_of_today() -> None:
@@ -201,12 +188,6 @@ def test_freeze_then_same(answers: Answers, capsys: pytest.CaptureFixture[str]) 
     assert same.main(["--only", "fit", "--freeze"]) == 0
     assert same.main(["--only", "fit"]) == 0
     assert capsys.readouterr().out.splitlines()[-1] == "same  fit: 2 compared, 2 values, 0 differ"
-
-
-def test_an_unknown_study_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        same.main(["--studies", "nowhere"])
-    assert "no such study: nowhere" in capsys.readouterr().err
 
 
 def test_every_study_is_frozen() -> None:

@@ -175,17 +175,6 @@ def test_sensitivities_along_the_lengths_of_steps(pendulum: Motion) -> None:
         assert slopes[:, j] == pytest.approx(found, rel=1e-6, abs=1e-7)
 
 
-def test_the_slope_along_the_last_length_tends_to_the_rate(pendulum: Motion) -> None:
-    y, k, lengths = np.array([1.0, 0.2]), np.array([2.0, 0.1]), np.full(200, 0.005)
-    of_lengths = np.zeros((200, 1))
-    of_lengths[-1] = 1.0
-    state, slopes = with_slopes(
-        pendulum, y, np.zeros((2, 1)), lengths, k, np.zeros((2, 1)), np.zeros_like, None, of_lengths
-    )
-    ((rate, _),) = [pendulum.rates.values(state, np.zeros(1), k)[0]]
-    assert slopes[0, 0] == pytest.approx(rate, rel=1e-5)
-
-
 def test_a_step_without_directions_is_the_step_with_them(pendulum: Motion) -> None:
     y, k, lengths = np.array([1.0, 0.2]), np.array([2.0, 0.1]), np.full(5, 0.2)
     with_them, _ = with_slopes(pendulum, y, np.eye(2), lengths, k, np.zeros((2, 2)))

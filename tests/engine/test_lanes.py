@@ -40,10 +40,6 @@ def test_powers_are_right_where_their_logarithms_are_small() -> None:
     assert np.max(np.abs(found / given[0].astype(np.longdouble) ** given[1] - 1.0)) < 3e-15
 
 
-def test_registers_begin_at_a_line_of_the_cache() -> None:
-    assert all(vectors.registers(rows).ctypes.data % 64 == 0 for rows in range(1, 40))
-
-
 def test_quotients_that_share_a_divisor_may_be_products() -> None:
     x = ca.SX.sym("x", 3)
     results = [ca.vertcat(x[0] / x[2], x[1] / x[2], x[0] / x[1]), x[2]]

@@ -25,11 +25,7 @@ class CvodesSimulator:
         self.tolerance, self.steps = tolerance, steps
         self._phases: dict[str, PhaseSimulator] = {}
 
-    def run_to_show(
-        self,
-        inputs: Array,
-        current_profiles: Mapping[str, CurrentProfile] | None = None,
-    ) -> Cycle:
+    def run_to_show(self, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None) -> Cycle:
         """Simulate all phases with samples enough to draw each, however short it is.
 
         A first simulation finds out how long they take, and seeks nothing else: so the same inputs have the same

@@ -5,7 +5,7 @@ from functools import cache
 from typing import Any
 
 import pytest
-from support import tight
+from support import fine, tight
 
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -50,5 +50,17 @@ def switch_of(build: Build) -> Callable[[str], Cycle]:
     def run(design: str) -> Cycle:
         model = build(design)
         return tight(model).run(model.start)
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def judged(build: Build) -> Callable[[str], Cycle]:
+    """The switch of one of the designs as CVODES has it."""
+
+    @cache
+    def run(design: str) -> Cycle:
+        model = build(design)
+        return fine(model).run(model.start)
 
     return run

@@ -200,17 +200,6 @@ def test_ten_random_starts_find_one_profile() -> None:
     assert len(solution.distinct_optima()) == 1
 
 
-@pytest.mark.slow
-def test_ten_random_starts_of_the_cycle_end_in_reported_optima() -> None:
-    solution = solve(CYCLE.replace("starts: 1", "starts: 11"))
-    assert sum(start.converged for start in solution.starts) >= 10
-    reported = [start.objective for start in solution.distinct_optima()]
-    assert solution.objective == pytest.approx(min(reported), rel=1e-3)
-    for start in solution.starts:
-        if start.converged:
-            assert any(abs(start.objective - objective) <= 1e-4 * objective for objective in reported)
-
-
 def test_a_profile_nothing_depends_on_is_refused() -> None:
     text = CYCLE.replace("minimize: cycle_time", "minimize: response_time").replace(
         '  stiffening_peak_voltage: "<= 6 V"\n', ""

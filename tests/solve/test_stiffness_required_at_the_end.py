@@ -1,15 +1,11 @@
 """Stiffness at the end of the switch and of the way back: as simulated, as required, and frozen or not."""
 
-from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 import pytest
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
@@ -65,38 +61,6 @@ def test_simulation_confirms_the_stiffness_required_at_the_end() -> None:
     assert held.design.values["softened_stiffness"] < 0.99 * free
     active = [limit.output for limit in held.solution.held if abs(limit.residual) < 1e-4] if held.solution else []
     assert "softened_stiffness" in active
-
-
-def test_many_designs_at_once_end_where_the_simulator_ends(
-    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> None:
-    model, cycle = build(), switch_of("as it is")
-    moving = ["current", "ambient_temperature"]
-    columns = np.array([[1.5, 1.2, 1.6], [293.15, 298.15, 290.15]])
-    ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
-    kernel = CycleKernel(model, moving, [*ENDS, "peak_power"])
-    found = dict(zip(kernel.names, kernel(columns, Pace(ends, cycle.balances)), strict=True))
-    for i, column in enumerate(columns.T):
-        inputs = model.start.copy()
-        inputs[[model.index[name] for name in moving]] = column
-        values = Simulator(model).run(inputs, phases=["softening"]).values
-        for name in ENDS:
-            assert found[name][i] == pytest.approx(values[name], rel=2e-3), name
-
-
-def test_a_switch_that_never_ends_has_no_end_to_be_soft_at(
-    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> None:
-    model, cycle = build(), switch_of("as it is")
-    inputs = model.start.copy()
-    inputs[model.index["current"]] = 0.05
-    values = Simulator(model).run(inputs, phases=["softening"]).values
-    ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
-    kernel = CycleKernel(model, ["current"], ENDS)
-    many = kernel(np.array([[0.05, 1.5]]), Pace(ends, cycle.balances))
-    assert all(np.isinf(values[name]) for name in ENDS)
-    assert np.all(np.isinf(many[:, 0]))
-    assert np.all(np.isfinite(many[:, 1]))
 
 
 @pytest.mark.parametrize(

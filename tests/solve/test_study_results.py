@@ -1,19 +1,21 @@
 """Results of studies: a feasible design without optimality, its account, walls that a process can make, a yardstick."""
 
+import re
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from answers import shipped_answer
 from comparable import COMPRESSION, SHEAR
 
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import parse_quantity
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve import anchored_search, result, search
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.nlp.solution import Start
+from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, Array, Run
-from tvimdesign.solve.result import _plain, answer
+from tvimdesign.solve.result import answer
 from tvimdesign.study import Study, read_study_text
 
 STUDY = """
@@ -55,27 +57,6 @@ def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
     assert complaint(found, study.table).startswith(
         "test: no design known to be the best one (not converged: a feasible design"
     )
-
-
-def account(seconds: float) -> dict[str, Any]:
-    """Return the account of a search of two starts that took as long each."""
-    starts = [
-        Start(number, "Solve_Succeeded", True, 20 + number, 0.5, seconds, {"wire_diameter": 1e-3}, {"wire_diameter": w})
-        for number, w in ((1, 1.1e-3), (2, 1.3e-3))
-    ]
-    found: Any = SimpleNamespace(
-        objective=0.5, reference={"module_mass": 0.1}, starts=starts, held=[], distinct_optima=lambda: starts[:1]
-    )
-    return _plain(found)
-
-
-def test_an_account_lists_every_start_whatever_time_it_took() -> None:
-    assert account(0.7) == account(31.0)
-    first, second = account(0.7)["starts"]
-    assert (first["number"], first["iterations"], first["end"]) == (1, 21, {"wire_diameter": 1.1e-3})
-    assert (second["number"], second["converged"], second["begin"]) == (2, True, {"wire_diameter": 1e-3})
-    assert account(0.7)["distinct_optima"] == [1]
-    assert _plain(None) == {}
 
 
 @pytest.mark.gate
@@ -148,3 +129,32 @@ def test_only_what_is_minimised_is_measured(text: str) -> None:
     assert found is not None
     assert found.keys() == {"module_mass", "response_time"}
     assert all(value > 0.0 for value in found.values())
+
+
+NARROW = "vary: {pcl_outer_radius: [12 mm, 20 mm]}\nminimize: module_mass\n"
+
+
+def study_of(text: str) -> Study:
+    """Return a study in shear mode."""
+    return read_study_text(f"mode: shear\n{text}", "test")
+
+
+def refusal(study: Study) -> str:
+    """Return the message that refuses a study."""
+    with pytest.raises(InputError) as caught:
+        refuse_impossible(study)
+    return str(caught.value)
+
+
+def test_the_values_that_clash_are_named_with_the_defaults() -> None:
+    assert "It follows from pcl_outer_radius 20 mm, pcl_inner_radius 26 mm (default)." in refusal(study_of(NARROW))
+
+
+@pytest.mark.parametrize("text", [NARROW, "module: {placement_radius: 20 mm}\n"])
+def test_each_cure_that_is_advised_cures(text: str) -> None:
+    study = study_of(text)
+    cures = re.findall(r"(\w+) (\S+ mm)[,.]", refusal(study).partition("One of these is enough: ")[2])
+    assert cures
+    for name, value in cures:
+        module = {**study.module, name: parse_quantity(value, "mm")}
+        refuse_impossible(study.model_copy(update={"module": module}))

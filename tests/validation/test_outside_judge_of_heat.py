@@ -43,6 +43,14 @@ def test_the_plane_that_was_judged_is_today_s(case: str) -> None:
     assert {name: judge.time(name, switch) for name in judged} == pytest.approx(judged, rel=2e-3)
 
 
+@pytest.mark.slow
+def test_the_ring_takes_as_long_with_half_as_many_cells_again() -> None:
+    model = model_of(STUDIES / "wrist_compression.yaml")
+    coarse, fine = (Judge(model, plane_of(model, cells)) for cells in (1.0, 1.5))
+    times = [judge.time("softening_time", judge.heated(150.0, 60)) for judge in (coarse, fine)]
+    assert times[0] == pytest.approx(times[1], rel=0.01)
+
+
 def areas(drawing: Drawing) -> dict[str, float]:
     """Area of each material [m2]."""
     found: dict[str, float] = defaultdict(float)

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from comparisons.numbers import Array
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import polymer
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 NO_MELTING = polymer.Melting(1900.0, 1900.0, 1.0, 5000.0, 5001.0, 1e-3)
 COLD = 295.15
@@ -49,8 +50,12 @@ def integrate(
     stack: heat.Stack, begin: Array, times: Sequence[float], tolerance: float = 1e-9, current: float = 0.0
 ) -> History:
     """Integrate a stack to each of the given times from a state; neighbours alone couple, so the Jacobian is banded."""
+    # Compiled: a stack takes thousands of steps, and numpy needs ten times as long for each.
+    symbols = ca.SX.sym("state", len(begin))
+    written = heat.rates(np.reshape(symbols, (len(begin),)), stack, current)
+    rates = ca.Function("rates", [symbols], [ca.vertcat(*written)])
     results = solve_ivp(
-        lambda _, y: heat.rates(y, stack, current), (0.0, times[-1]), begin, method="LSODA", t_eval=times,
+        lambda _, y: np.asarray(rates(y)).ravel(), (0.0, times[-1]), begin, method="LSODA", t_eval=times,
         lband=1, uband=1, rtol=tolerance, atol=tolerance * 1e-3,
     )  # fmt: skip
     if not results.success:

@@ -14,18 +14,18 @@ from tvimdesign.physics.heat_flow.lumps import Link, Slope
 Array = NDArray[np.float64]
 
 
-def second_difference(count: int, walls: float) -> Array:
-    """Conduction along a row of `count` cells of a length of one; `walls` is 2 where both ends are at 0, 0 for none."""
+def conduction(count: int, length: float, first: float, last: float) -> Array:
+    """Conduction along a row of cells; at either end 2 where it is held at 0, 0 where nothing passes."""
     diagonal = np.full(count, 2.0)
-    diagonal[[0, -1]] = 1.0 + walls
-    return count**2 * (np.diag(diagonal) - np.eye(count, k=1) - np.eye(count, k=-1))
+    diagonal[0], diagonal[-1] = 1.0 + first, 1.0 + last
+    return (np.diag(diagonal) - np.eye(count, k=1) - np.eye(count, k=-1)) * (count / length) ** 2
 
 
 def layer_that_loses(flux: Array, width: float, across: int) -> Array:
     """Temperatures of a layer of depth and conductivity one, faces at 0, that loses a flux over its end, by column."""
     deep = len(flux)
-    inside = kron(second_difference(across, 0.0) / width**2, eye(deep)) + kron(
-        eye(across), second_difference(deep, 2.0)
+    inside = kron(conduction(across, 1.0, 0.0, 0.0) / width**2, eye(deep)) + kron(
+        eye(across), conduction(deep, 1.0, 2.0, 2.0)
     )
     source = np.zeros((across, deep))
     source[-1] = -flux * across / width
@@ -54,7 +54,7 @@ def test_evenly_falling_heat_cools_the_mean_as_the_end_does() -> None:
     mean = np.mean(layer_that_loses(flux, width, across))
     share = shape_factors.FALLING * shape_factors.gap_end_depth(0.0)
     sink = 2.0 * (1.0 - heights) * share / width
-    column = np.linalg.solve(second_difference(deep, 2.0), -sink)
+    column = np.linalg.solve(conduction(deep, 1.0, 2.0, 2.0), -sink)
     assert np.mean(column) == pytest.approx(mean, rel=0.01)
 
 
@@ -130,13 +130,6 @@ def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat() -> Non
     assert found["hot"][0] == pytest.approx(-3.0)
     # Seven, five, three and one sixteenth: it falls evenly to nothing at the far face.
     assert found["layer"][0] == pytest.approx(-7.0 * np.array([7.0, 5.0, 3.0, 1.0]) / 16.0)
-
-
-def conduction(count: int, length: float, first: float, last: float) -> Array:
-    """Conduction along a row of cells; at either end 2 where it is held at 0, 0 where nothing passes."""
-    diagonal = np.full(count, 2.0)
-    diagonal[0], diagonal[-1] = 1.0 + first, 1.0 + last
-    return (np.diag(diagonal) - np.eye(count, k=1) - np.eye(count, k=-1)) * (count / length) ** 2
 
 
 @pytest.mark.parametrize("slenderness", [0.8, 2.0, 6.0])

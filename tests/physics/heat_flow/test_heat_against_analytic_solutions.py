@@ -190,37 +190,6 @@ def test_error_falls_with_the_square_of_the_cell(bare_stack: Make, integrate: Ru
     assert orders == pytest.approx(2.0, abs=0.15)
 
 
-def test_slab_with_its_face_at_a_new_temperature_follows_as_tabulated(bare_stack: Make, integrate: Run) -> None:
-    # The insulated face of a slab of L is the mid-plane of one of 2 L with both faces stepped.
-    fourier = [0.1, 0.2, 0.5, 1.0]
-    stack = bare_stack(hot_capacity=1e12)
-    begin = heat.initial_state(stack, 60, COLD)
-    begin[1] += 0.5
-    history = integrate(stack, begin, [fo * FOURIER_TIME for fo in fourier])
-    left = [1.0 - (p.far - COLD) / 50.0 for p in history.profiles()]
-    assert left == pytest.approx([0.94931, 0.77231, 0.37078, 0.10798], rel=HALF_PERCENT)
-
-
-@pytest.mark.parametrize(("stefan", "expected"), [(0.1, 0.220016), (2.0, 0.800601)])
-def test_melting_front_advances_as_stefan_and_neumann_found(
-    bare_stack: Make, integrate: Run, stefan: float, expected: float
-) -> None:
-    # One phase: solid at its melting point, face at T_w. The front is at 2 l sqrt(a t) with
-    # sqrt(pi) l exp(l^2) erf l = c (T_w - T_m)/L.
-    root = brentq(lambda x: np.sqrt(np.pi) * x * np.exp(x**2) * erf(x) - stefan, 1e-3, 3.0)
-    assert root == pytest.approx(expected, rel=1e-5)
-    stack = bare_stack(hot_capacity=1e12, melting=ALL_BUT_ISOTHERMAL)
-    begin = heat.initial_state(stack, 40, MELTING_POINT)
-    begin[1] += stefan * LATENT / SPECIFIC_HEAT / heat.TEMPERATURE_SCALE
-    diffusivity = 0.2 / (1145.0 * SPECIFIC_HEAT)
-    depth = np.array([0.4, 0.6, 0.8])  # mm
-    times = (1e-3 * depth / (2.0 * expected)) ** 2 / diffusivity
-    history = integrate(stack, begin, list(times), tolerance=1e-6)
-    molten = [1e-3 * (1.0 - np.mean(p.fractions)) for p in history.profiles()]
-    found = np.array(molten) / (2.0 * np.sqrt(diffusivity * times))
-    assert found == pytest.approx([expected] * 3, rel=HALF_PERCENT)
-
-
 def test_part_molten_layer_conducts_between_solid_and_melt(bare_stack: Make) -> None:
     stack = bare_stack(melting=polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0), conductivity_melt=0.1)
     for celsius, conductivity in ((22.0, 0.2), (57.5, 0.15), (100.0, 0.1)):

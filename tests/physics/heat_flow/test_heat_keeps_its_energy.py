@@ -1,5 +1,6 @@
-"""First law over a whole switch, losses integrated alongside; and the response times others found for such a stack."""
+"""Stored energy by hand, and the response times others found for such a stack."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,6 @@ AREA = 1579.2e-6  # m^2, Exley et al., table I
 AMBIENT, TARGET = 295.15, 373.15
 PCL = polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
 FLEXIBLE = peltier.PeltierModule(0.025, 3.0, 0.12)
-PETG = {"plate_conductivity": 0.24, "plate_heat_capacity": 1270.0 * 1200.0, "plate_thickness": 4e-3}
 ALUMINIUM = {"plate_conductivity": 167.0, "plate_heat_capacity": 2700.0 * 896.0, "plate_thickness": 2e-3}
 # A plate that takes 3 W/m^2 K from the layer and stores next to nothing.
 LOSS_ONLY = {"plate_conductivity": 1e3, "plate_heat_capacity": 1e3, "plate_surface": lumps.Surface(AREA, 3.0)}
@@ -61,27 +61,6 @@ def face_times(stack: heat.Stack, current: float = 1.5, cells: int = 12) -> tupl
     return float(found.t_events[0][0]), float(found.t_events[1][0])
 
 
-@pytest.mark.gate
-@pytest.mark.parametrize("current", [1.5, -1.0])
-def test_electrical_energy_is_stored_or_lost_to_a_millionth(current: float) -> None:
-    stack = stack_of(FLEXIBLE, 2.5, cold_capacity=4.0)
-    begin = heat.initial_state(stack, 12, AMBIENT)
-
-    def rates(_: float, y: np.ndarray) -> np.ndarray:
-        state = y[:-2]
-        now = heat.profile(state, stack)
-        # What the air takes, from the temperatures; the first law is not told the flows of the model.
-        plate_half = 0.5 * 4e-3 / 3 / 0.24 + 1.0 / 10.0
-        lost = 15.0 * AREA * (now.cold - AMBIENT) + AREA * (now.plate[-1] - AMBIENT) / plate_half
-        return np.append(heat.rates(state, stack, current), [heat.electrical_power(now, stack, current), lost])
-
-    end = solve_ivp(rates, (0.0, 120.0), np.append(begin, [0.0, 0.0]), method="BDF", rtol=1e-9, atol=1e-11).y[:, -1]
-    stored = heat.stored_energy(end[:-2], stack) - heat.stored_energy(begin, stack)
-    supplied, lost = end[-2:]
-    assert supplied > 100.0
-    assert stored + lost == pytest.approx(supplied, rel=1e-6)
-
-
 def test_stored_energy_is_mass_times_specific_heat_times_warming() -> None:
     stack = stack_of(FLEXIBLE, 2.5, cold_capacity=4.0)
     layer = 1145.0 * AREA * 1e-3 * (231.65e3)  # 22 to 100 degC: 51.8 + 106.375 + 73.5 kJ/kg
@@ -111,47 +90,33 @@ def test_response_times_come_near_an_independent_calculation(
     assert found == pytest.approx((near, far), rel=0.02)
 
 
-def test_a_plate_that_stores_heat_slows_the_far_face() -> None:
-    # 4 mm of PETG can take 1270 * 1200 * 4e-3 = 6.1 kJ/m^2 K, 1 mm of layer 1145 * 231e3/78 * 1e-3 = 3.4 kJ/m^2 K.
-    without = face_times(stack_of(FLEXIBLE, 2.9, **LOSS_ONLY))
-    within = face_times(stack_of(FLEXIBLE, 2.9, **PETG))
-    assert 1.3 * without[0] < within[0]
-    assert 1.6 * without[1] < within[1]
+BEHIND = {"insulated": {"plate_heat_capacity": 1.0, **INSULATED}, "aluminium": ALUMINIUM}
+
+
+def far_time(power: float, thickness: float, behind: str = "insulated") -> float:
+    """Time in which a constant heat into the near face of the layer brings its far one to 100 degC."""
+    pads = peltier.PeltierModule(0.0, 2.0 * power, 0.0)
+    stack = stack_of(pads, 1e-3, cold_capacity=1e9, thickness=thickness, **BEHIND[behind])
+    return face_times(stack, current=1.0)[1]
+
+
+@cache
+def power_for_70_seconds(thickness: float, behind: str) -> float:
+    return float(brentq(lambda power: far_time(power, thickness, behind) - 70.0, 5.0, 18.0, xtol=1e-2))
 
 
 @pytest.mark.parametrize(
-    ("thickness", "changes", "watts"),
-    [(1e-3, INSULATED, 5.9), (2e-3, INSULATED, 13.0), (1e-3, ALUMINIUM, 15.9)],
-    ids=["1 mm insulated", "2 mm insulated", "1 mm under 2 mm of aluminium"],
+    ("thickness", "behind", "watts"), [(1e-3, "insulated", 5.9), (2e-3, "insulated", 13.0), (1e-3, "aluminium", 15.9)]
 )
 def test_power_for_70_seconds_is_about_that_of_an_independent_calculation(
-    thickness: float, changes: dict[str, Any], watts: float
+    thickness: float, behind: str, watts: float
 ) -> None:
-    # Constant heat into the layer's near face, far face at 100 degC after 70 s. The properties of that calculation are
-    # within the published ranges but not known: its heat is 5 % less than that of the middle of the ranges.
-    def late(power: float) -> float:
-        stack = stack_of(
-            peltier.PeltierModule(0.0, 2.0 * power, 0.0), 1e-3, cold_capacity=1e9, thickness=thickness,
-            **({"plate_heat_capacity": 1.0} | changes),
-        )  # fmt: skip
-        return face_times(stack, current=1.0)[1] - 70.0
-
-    assert brentq(late, 0.8 * watts, 1.3 * watts, xtol=1e-2) == pytest.approx(watts, rel=0.07)
+    # The properties of that calculation are within the published ranges but not known: its heat is 5 % less than that
+    # of the middle of the ranges. Its aluminium is 2 mm thick.
+    assert power_for_70_seconds(thickness, behind) == pytest.approx(watts, rel=0.07)
 
 
 @pytest.mark.parametrize(("thickness", "thicker"), [(1e-3, 1.95e-3), (2e-3, 3.63e-3)])
 def test_twice_the_time_takes_nearly_twice_the_layer(thickness: float, thicker: float) -> None:
     # The paper's 140 s against 70 s, by the same independent calculation: a question of depth alone.
-    def far_time(power: float, depth: float) -> float:
-        stack = stack_of(
-            peltier.PeltierModule(0.0, 2.0 * power, 0.0),
-            1e-3,
-            cold_capacity=1e9,
-            thickness=depth,
-            plate_heat_capacity=1.0,
-            **INSULATED,
-        )
-        return face_times(stack, current=1.0)[1]
-
-    power = brentq(lambda watts: far_time(watts, thickness) - 70.0, 5.0, 16.0, xtol=1e-2)
-    assert far_time(power, thicker) == pytest.approx(140.0, rel=0.02)
+    assert far_time(power_for_70_seconds(thickness, "insulated"), thicker) == pytest.approx(140.0, rel=0.02)

@@ -9,7 +9,6 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.catalog import Catalog
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import polymer
 
@@ -25,25 +24,6 @@ modules = st.builds(
     resistance=st.floats(0.1, 10.0),
     conductance=st.floats(0.01, 2.0),
 )
-
-
-@pytest.mark.parametrize("name", SHEETS)
-def test_parameters_follow_from_the_data_sheet(name: str) -> None:
-    sheet, (seebeck, resistance, conductance) = SHEETS[name]
-    found = textbook.from_data_sheet(*sheet)
-    assert found.seebeck == pytest.approx(seebeck * 1e-3, rel=5e-3)
-    assert found.resistance == pytest.approx(resistance, rel=5e-3)
-    assert found.conductance == pytest.approx(conductance, rel=5e-3)
-
-
-@pytest.mark.parametrize("name", SHEETS)
-def test_the_catalogues_parameters_are_those_of_its_data_sheet(name: str) -> None:
-    record = Catalog().record("peltiers", name)
-    fields = ("max_current", "max_voltage", "max_temperature_difference", "hot_side_temperature")
-    expected = textbook.from_data_sheet(*(record.value(field) for field in fields))
-    assert (record.value("seebeck"), record.value("resistance"), record.value("conductance")) == pytest.approx(
-        tuple(expected), rel=1e-4
-    )
 
 
 @pytest.mark.parametrize("name", SHEETS)

@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import casadi as ca
 import numpy as np
 import pytest
 from hypothesis import given
@@ -76,17 +75,6 @@ def test_contacts_are_more_free_height_as_in_two_dimensions(free: float, contact
     into = walled_layer(free, contact)[0, heights() > free] / (0.5 + contact * ACROSS)
     ours = walled_end((free + 2.0 * AT_CORNER * contact) / (1.0 + 2.0 * contact))
     assert ours.wall == pytest.approx(np.sum(into), rel=0.025)
-
-
-def test_symbols_and_numbers_agree() -> None:
-    free = ca.SX.sym("free")
-    end = walled_end(free)
-    symbolic = ca.Function(
-        "end", [free], [ca.vertcat(*end, *sheeted_end(free, 0.5), cooled_end(free, 0.1, 0.3), fallen(free, 0.1, 0.3))]
-    )
-    plain = walled_end(0.2)
-    numbers = [*plain, *sheeted_end(0.2, 0.5), cooled_end(0.2, 0.1, 0.3), fallen(0.2, 0.1, 0.3)]
-    assert np.asarray(symbolic(0.2)).ravel() == pytest.approx(numbers, rel=1e-12)
 
 
 @pytest.mark.parametrize(("free", "layer"), [(0.1, 0.4), (0.2, 0.5), (0.15, 0.25)])
@@ -215,11 +203,6 @@ def passed(conductivities: Conductivities, low: float, high: float) -> float:
         return conductivities.solid + molten * (conductivities.melt - conductivities.solid)
 
     return float(quad(at, low, high, points=[MELTING.start, MELTING.end], limit=200)[0])
-
-
-@pytest.mark.parametrize("share", [0.2, 0.5, 0.9])
-def test_one_conductivity_shares_the_temperature_itself(share: float) -> None:
-    assert shared(share, 363.0, 303.0, Conductivities(0.2, 0.2), MELTING) == pytest.approx(303.0 + 60.0 * share)
 
 
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9])

@@ -4,7 +4,6 @@ import csv
 from typing import Any
 
 import bonded_block
-import casadi as ca
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,10 +13,6 @@ from support import ROOT
 from tvimdesign.physics.layers import block, layer
 
 Modes = list[tuple[float, float]]
-MELT = [(2.07e-2, 82.0), (6.5e-3, 104.0), (2.07e-3, 131.0), (6.5e-4, 165.0), (2.07e-4, 207.0), (6.5e-5, 261.0)]
-SOLID = [(1e10, 2.1e5), (10.0, 1.8e4), (1.0, 1.7e4), (0.1, 1.9e4), (0.01, 1.9e4), (0.001, 2.6e4)]
-HALF = [(300.0, 5.6e3), (0.4, 1.8e3), (0.05, 2.0e3), (8e-3, 2.4e3), (1.5e-3, 2.7e3), (2e-4, 3.5e3)]
-NAMED = pytest.mark.parametrize("modes", [MELT, HALF, SOLID], ids=["melt", "half frozen", "solid"])
 SPECTRA = st.lists(
     st.tuples(st.floats(-5.0, 10.0), st.floats(-2.0, 6.0)),
     min_size=1,
@@ -97,45 +92,10 @@ def test_longer_hold_never_loses_less(modes: Modes, hold: float, more: float) ->
     assert 0.0 <= block.relaxation_loss(shorter, modes) <= block.relaxation_loss(longer, modes) + 1e-12 <= 1.0 + 1e-11
 
 
-@NAMED
-def test_symbols_give_what_floats_give(modes: Modes) -> None:
-    names = [ca.SX.sym(name) for name in ("time", "width", "depth", "shear")]
-
-    def rows(time: Any, width: Any, depth: Any, shear: Any) -> list[Any]:
-        shape = block.shape_factor(width, 10e-3, depth)
-        return [
-            block.relaxation_loss(time, modes),
-            block.stiffness(apparent_modulus(shear, block.bulk_modulus(411e6, 0.45), shape), 4, 2e-4, 0.03, depth),
-        ]
-
-    numbers = (0.02, 20e-3, 6e-3, 1.2e8)
-    symbolic = ca.vertcat(*rows(*names))
-    found = np.asarray(ca.Function("found", names, [symbolic])(*numbers)).ravel()
-    assert found == pytest.approx([float(row) for row in rows(*numbers)], rel=1e-12)
-
-
-def test_limits_of_slender_and_flat_blocks() -> None:
-    youngs, poisson = 400e6, 0.45
-    shear, bulk = youngs / (2.0 * (1.0 + poisson)), block.bulk_modulus(youngs, poisson)
-
-    def apparent(shape: float) -> float:
-        shearing = 3.0 * shear * block.shape_stiffening(shape)
-        return 1.0 / (1.0 / shearing + 1.0 / block.volumetric_modulus(bulk, shape))
-
-    assert bulk == pytest.approx(1333.3e6, rel=1e-4)
-    assert apparent(0.0) == pytest.approx(youngs, rel=1e-12)
-    assert apparent(100.0) == pytest.approx(bulk, rel=1e-3)
-
-
 def test_a_block_squeezed_to_half_needs_twice_its_plan() -> None:
     # From 6 to 8 mm: 64 - 36 = 28 mm2 of squared radius become 56, and 36 + 56 = 92.
     assert block.squeezed_outer_radius(6e-3, 8e-3, 0.2, 0.1) == pytest.approx(np.sqrt(92e-6), rel=1e-12)
     assert block.squeezed_outer_radius(6e-3, 8e-3, 0.2, 0.0) == pytest.approx(8e-3, rel=1e-12)
-
-
-@pytest.mark.parametrize("modulus", [1e4, 1e8])
-def test_a_block_that_is_alike_all_through_is_soft_all_through(modulus: float) -> None:
-    assert block.soft_share(np.full(12, modulus), np.full(12, 0.3 * modulus)) == pytest.approx(1.0, rel=1e-12)
 
 
 @pytest.mark.parametrize("molten", [1, 3, 9])

@@ -1,7 +1,5 @@
 """The sheared layer against quadrature and against complex arithmetic done by Python."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,11 +7,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
 from tvimdesign.physics.layers import lasting_load, layer
-from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.physics.solids.shapes import sector
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.symbols import symbols
 
 SPAN, INNER, OUTER = 4.0 * 0.8546, 26e-3, 40e-3
 moduli = st.tuples(st.floats(1e2, 1e9), st.floats(1e2, 1e9))
@@ -60,19 +55,6 @@ SOLID = [(1e10, 2.1e5), (10.0, 1.8e4), (1.0, 1.7e4), (0.1, 1.9e4), (0.01, 1.9e4)
 HALF = [(300.0, 56.0), (0.4, 180.0), (0.05, 200.0), (8e-3, 240.0), (1.5e-3, 270.0), (2e-4, 350.0)]
 SPECTRA = {"melt": MELT, "half frozen": HALF, "solid": SOLID, "fluid": [(1.0, 300.0)]}
 WITHIN = 4e-4
-
-
-def test_weights_are_those_that_stehfest_printed() -> None:
-    printed = [1 / 12, -385 / 12, 1279, -46871 / 3, 505465 / 6, -473915 / 2, 1127735 / 3, -1020215 / 3, 328125 / 2,
-               -65625 / 2]  # fmt: skip
-    assert motion.weights(10) == pytest.approx(printed, rel=1e-14)
-
-
-@pytest.mark.parametrize("time", [0.01, 1.0, 30.0])
-def test_known_transforms_come_back(time: float) -> None:
-    assert motion.inverse(lambda s: (1.0 / s**2,), time)[0] == pytest.approx(time, rel=WITHIN)
-    assert motion.inverse(lambda s: (s**-0.5,), time)[0] == pytest.approx(1.0 / np.sqrt(np.pi * time), rel=WITHIN)
-    assert motion.inverse(lambda s: (1.0 / (s + 1.0 / time),), time)[0] == pytest.approx(np.exp(-1.0), rel=WITHIN)
 
 
 @pytest.mark.parametrize("time", [1e-3, 0.3, 4.0, 100.0])
@@ -131,19 +113,3 @@ def test_longer_holds_creep_further_and_never_beyond_the_springs(time: float, mo
         shorter, longer = (lasting_load.held(LOAD, 10.0**t, SPRINGS, STRUCTURE, modes) for t in (time, time + more))
         assert 0.0 <= shorter.set_angle <= longer.set_angle * (1.0 + WITHIN)
         assert longer.set_angle <= longer.angle * (1.0 + WITHIN) <= LOAD / SPRINGS * (1.0 + 2.0 * WITHIN)
-
-
-def test_symbols_and_arrays_give_what_floats_give() -> None:
-    def rows(load: Any, time: Any, springs: Any, stiffness: Any) -> list[Any]:
-        modes = [(0.3, stiffness), (20.0, 2.0 * stiffness)]
-        angle, gap = lasting_load.held(load, time, springs, STRUCTURE, modes)
-        return [angle, gap, lasting_load.impedance_loss(angle, gap, springs, STRUCTURE, modes)]
-
-    names = ca.SX.sym("load, time, springs, stiffness", 4)
-    numbers = np.array([[0.583, 1.0], [3.0, 0.4], [5.61, 9.0], [150.0, 4e4]])
-    found = ca.Function("found", [names], [ca.vertcat(*rows(*symbols(names)))])
-    arrays = rows(*numbers)
-    for i in range(2):
-        floats = [float(row) for row in rows(*(float(number) for number in numbers[:, i]))]
-        assert np.asarray(found(numbers[:, i])).ravel() == pytest.approx(floats, rel=1e-9)
-        assert [row[i] for row in arrays] == pytest.approx(floats, rel=1e-9)

@@ -1,9 +1,8 @@
-"""Shear lag in a lap joint and over a window: Volkersen's result for like sheets, the equations solved by numbers."""
+"""Shear lag in a lap joint, over a window and around a seated plate, against equations solved by numbers."""
 
 import csv
 from typing import Any
 
-import casadi
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -13,7 +12,9 @@ from scipy.sparse import diags_array, eye_array, kron
 from scipy.sparse.linalg import spsolve
 from support import ROOT
 
+from tvimdesign.physics.heat_flow.shape_factors import constriction
 from tvimdesign.physics.layers import shear_lag
+from tvimdesign.physics.solids import seated_plate
 
 with (ROOT / "validation/fe_structure/windows.csv").open(newline="") as file:
     WINDOWS = list(csv.DictReader(file))
@@ -26,11 +27,6 @@ def test_the_edge_of_a_lap_of_like_sheets_bears_what_volkersen_says(reach: float
     # Volkersen 1938, sheets alike: highest over mean stress (p/2) coth(p/2).
     found = shear_lag.edge_rise(layer, sheet, sheet, width)
     assert found == pytest.approx(0.5 * reach / np.tanh(0.5 * reach), rel=1e-12)
-
-
-def test_stiff_sheets_and_windows_of_no_width_change_nothing() -> None:
-    assert shear_lag.edge_rise(1e6, 1e-9, 1e-9, 0.01) == pytest.approx(1.0, rel=1e-6)
-    assert shear_lag.borne_over_window(1e11, 1e-5, 0.0) == pytest.approx(1.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(("first", "second"), [(3e-7, 8e-7), (8e-7, 3e-7)])
@@ -154,12 +150,6 @@ def test_at_the_wall_itself_the_sheet_gives_nothing() -> None:
         assert shear_lag.rim_rise(held, 100.0) == pytest.approx(1.0 + shear_lag.rim_width(held) / 100.0)
 
 
-def test_symbols_give_what_floats_do() -> None:
-    held, reach = casadi.SX.sym("h"), casadi.SX.sym("s")
-    rise = casadi.Function("rise", [held, reach], [shear_lag.rim_rise(held, reach)])
-    assert float(rise(0.44, 0.33)) == pytest.approx(shear_lag.rim_rise(0.44, 0.33), rel=1e-12)
-
-
 def solved(coupled: np.ndarray, enters: np.ndarray, lap: shear_lag.AnnularLap) -> tuple[float, float, float, float]:
     """Rises at both edges over T r_o/J, the upper sheet's share, and the traction's mean square over an even one's.
 
@@ -225,3 +215,43 @@ def test_limits_of_an_annular_lap() -> None:
     lap = shear_lag.annular_lap(1.8e11, 1.0 / 2.9e6, 1.0 / 15e6, (15e-3, 27.5e-3))
     inner, outer = shear_lag.edge_rises(lap)
     assert inner > 3.0 * outer
+
+
+RADII, AROUND = (15e-3, 27.5e-3), 3 * 1.9
+
+
+def seat(floor: float = 0.85e9) -> seated_plate.Seat:
+    return seated_plate.Seat(0.5e-3, 0.9e-3, constriction(0.9 / 6.5), 0.72e9, floor)
+
+
+def test_in_a_stiff_floor_adhesive_is_sheared_as_the_radius() -> None:
+    # Volkersen's layer without stretch: tau = G theta r/g on the areas 2 pi s r t, so T = G theta t s (a^3 + b^3)/g.
+    path = seated_plate.path(seat(1e16), AROUND, RADII, 0.0)
+    turned = 0.5e-3 / (0.72e9 * 0.9e-3 * AROUND * (RADII[0] ** 3 + RADII[1] ** 3))
+    assert path.adhesive == pytest.approx(turned, rel=1e-6)
+    assert path.floor == pytest.approx(0.0, abs=1e-6 * turned)
+    for traction, radius in ((path.inner_traction, RADII[0]), (path.outer_traction, RADII[1])):
+        assert traction == pytest.approx(0.72e9 * turned * radius / 0.5e-3, rel=1e-6)
+
+
+@pytest.mark.parametrize("between", [0.0, 1e-5, 1e-3])
+def test_both_rims_together_bear_the_torque(between: float) -> None:
+    path = seated_plate.path(seat(), AROUND, RADII, between)
+    areas = [AROUND * radius * 0.9e-3 for radius in RADII]
+    borne = path.inner_traction * areas[0] * RADII[0] + path.outer_traction * areas[1] * RADII[1]
+    assert borne == pytest.approx(1.0, rel=1e-12)
+    assert path.inward == pytest.approx(path.inner_traction * areas[0] * RADII[0], rel=1e-12)
+
+
+def test_the_torque_takes_the_ways_that_give_least() -> None:
+    # Castigliano: of all shares the one that is taken stores the least energy.
+    between, bonded = 2e-5, seat()
+    path = seated_plate.path(bonded, AROUND, RADII, between)
+    inner, outer = (sum(seated_plate.slips(bonded)) / (AROUND * radius**3) for radius in RADII)
+
+    def stored(share: float) -> float:
+        return share**2 * (inner + between) + (1.0 - share) ** 2 * outer
+
+    shares = np.linspace(0.0, 1.0, 2001)
+    assert path.inward == pytest.approx(shares[np.argmin([stored(share) for share in shares])], abs=5e-4)
+    assert path.adhesive + path.floor == pytest.approx(stored(path.inward), rel=1e-12)

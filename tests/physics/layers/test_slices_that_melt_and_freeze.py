@@ -1,6 +1,5 @@
 """The law of a changing layer under load: what freezing and melting do to stress, and that neither makes energy."""
 
-import casadi as ca
 import numpy as np
 import pytest
 from hypothesis import given
@@ -85,15 +84,3 @@ def test_equal_slices_are_one_layer() -> None:
     five = lasting_load.loaded_rates(list(np.repeat(torques[:, None], 5, axis=1)), 0.4, many, SUPPORT)
     assert five[0] == pytest.approx(one[0], rel=1e-12)
     assert np.asarray(five[1]) == pytest.approx(np.repeat(np.asarray(one[1]), 5, axis=1), rel=1e-12)
-
-
-def test_symbols_give_what_arrays_give() -> None:
-    now, torques = random_layer(3)
-    symbols = [ca.SX.sym(f"m{i}", 4) for i in range(3)]
-    vectors = lasting_load.Slices(*([ca.DM(row) for row in field] for field in now))
-    speed, changes = lasting_load.loaded_rates(symbols, 0.7, vectors, SUPPORT)
-    energy = lasting_load.stored_energy(0.1, symbols, vectors, SUPPORT)
-    found = ca.Function("found", symbols, [ca.vertcat(speed, *changes, energy)])(*torques)
-    plain_speed, plain_changes = lasting_load.loaded_rates(torques, 0.7, now, SUPPORT)
-    plain = [plain_speed, *np.ravel(plain_changes), lasting_load.stored_energy(0.1, torques, now, SUPPORT)]
-    assert np.asarray(found).ravel() == pytest.approx(np.array(plain), rel=1e-9)

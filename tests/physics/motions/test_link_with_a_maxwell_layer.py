@@ -1,9 +1,7 @@
 """Equations of the link between a layer or one-sided blocks: statics, energy against heat, Laplace transforms."""
 
 from collections.abc import Callable
-from typing import Any
 
-import casadi as ca
 import numpy as np
 import pytest
 import textbook
@@ -57,18 +55,6 @@ def test_energy_grows_by_the_work_done_less_the_heat_made(
     assert heat >= 0.0
     scale = abs(torque * speed) + heat + motion.stored_energy(angle, speed, internal, JOINT, MODES)
     assert growth == pytest.approx(torque * speed - heat, abs=1e-9 * scale + 1e-12)
-
-
-def test_symbols_give_what_floats_give() -> None:
-    names = [ca.SX.sym(name) for name in ("angle", "speed", "q1", "q2", "q3", "torque")]
-    angle, speed, *internal, torque = names
-    symbolic = motion.rates(angle, speed, internal, torque, JOINT, MODES)
-    symbolic.append(motion.stored_energy(angle, speed, internal, JOINT, MODES))
-    numbers = (0.1, -2.0, 0.02, 0.05, 0.0, 0.3)
-    found = ca.Function("found", names, [ca.vertcat(*symbolic)])(*numbers)
-    plain = motion.rates(*numbers[:2], list(numbers[2:5]), numbers[5], JOINT, MODES)
-    plain.append(motion.stored_energy(*numbers[:2], list(numbers[2:5]), JOINT, MODES))
-    assert np.asarray(found).ravel() == pytest.approx(plain, rel=1e-12)
 
 
 PAIRS: dict[str, tuple[Callable[[float], float], Callable[[float], float]]] = {
@@ -148,20 +134,3 @@ def test_energy_falls_by_the_heat_of_the_dashpots(
     heat = sum(k * tau * q**2 for (tau, k), q in zip([*BLOCKS.first, *BLOCKS.second], rate[2:], strict=True))
     scale = heat + one_sided.stored_energy(angle, speed, internal, touching, JOINT, BLOCKS)
     assert growth == pytest.approx(-heat, abs=1e-9 * scale + 1e-12)
-
-
-def test_blocks_symbols_give_what_floats_give() -> None:
-    names = [ca.SX.sym(name) for name in ("angle", "speed", "q1", "q2", "q3", "q4", "q5", "first", "second")]
-
-    def rows(angle: Any, speed: Any, *rest: Any) -> list[Any]:
-        internal, touching = list(rest[:5]), Touching(*rest[5:])
-        return [
-            *one_sided.rates(angle, speed, internal, touching, JOINT, BLOCKS),
-            *one_sided.pulls(angle, internal, BLOCKS),
-            one_sided.gap(internal, BLOCKS),
-            one_sided.stored_energy(angle, speed, internal, touching, JOINT, BLOCKS),
-        ]
-
-    numbers = (0.1, -2.0, 0.02, 0.05, 0.0, 0.1, 0.3, 1.0, 0.0)
-    found = ca.Function("found", names, [ca.vertcat(*rows(*names))])(*numbers)
-    assert np.asarray(found).ravel() == pytest.approx([float(row) for row in rows(*numbers)], rel=1e-12)

@@ -186,12 +186,3 @@ def test_symbols_give_numbers_with_finite_derivatives() -> None:
             assert numbers[0][0] == pytest.approx(transitions.rate(t, p, PCL, MELTING), rel=1e-9, abs=1e-300)
             assert numbers[1][0] == pytest.approx(transitions.solid_fraction(p, PCL), rel=1e-12, abs=1e-15)
             assert np.all(np.isfinite(np.concatenate(numbers)))
-
-
-@given(celsius=st.floats(-20.0, 200.0), psi=st.floats(0.0, 2.3))
-def test_slope_of_the_rate_is_what_differences_show(celsius: float, psi: float) -> None:
-    kelvin = ca.SX.sym("T")
-    slope = ca.Function("slope", [kelvin], [ca.gradient(transitions.rate(kelvin, psi, PCL, MELTING), kelvin)])
-    at, step = CELSIUS + celsius, 1e-4
-    around = [transitions.rate(at + shift, psi, PCL, MELTING) for shift in (-step, step)]
-    assert float(slope(at)) == pytest.approx((around[1] - around[0]) / (2.0 * step), rel=1e-4, abs=1e-7)

@@ -1,8 +1,5 @@
 """The leg of a spring on its pin, against the line constructed with vectors, and against energy."""
 
-from typing import Any
-
-import casadi as ca
 import numpy as np
 import pytest
 import yaml
@@ -53,12 +50,6 @@ def test_direction_is_that_of_the_line_constructed_with_vectors(
     offset = share * (placement - pin)
     expected = constructed_direction(pin, placement, azimuth, offset, hand)
     assert spring.leg_direction(pin, placement, azimuth, offset, hand) == pytest.approx(expected, abs=1e-9)
-
-
-@pytest.mark.parametrize("pin", [12e-3, 28.5e-3, 38e-3, 50e-3])
-def test_ratio_of_a_leg_without_offset_is_pin_radius_over_its_length(pin: float) -> None:
-    # A point p from O and |r - p| from C: p dphi = |r - p| dw.
-    assert abs(spring.leg_ratio(pin, 57e-3, 0.0, 0.0)) == pytest.approx(pin / abs(57e-3 - pin), rel=1e-12)
 
 
 @given(**lengths)
@@ -205,12 +196,3 @@ def test_the_closed_form_is_the_energy_along_the_wire(name: str) -> None:
     # What the closed form leaves out: the slope of the wire, and the bend's own way.
     shape = drawn(SPRINGS[name])
     assert bending_length(shape, POISSON) == pytest.approx(along_the_wire(shape, POISSON), rel=0.02)
-
-
-def test_symbols_give_what_floats_give() -> None:
-    shape = drawn(SPRINGS["s_wide"])
-    symbols: Any = DrawnSpring(*(ca.SX.sym(name) for name in DrawnSpring._fields))
-    outputs = [bending_length(symbols, POISSON), coil_stress_factor(symbols, 1.1), bend_stress_factor(symbols)]
-    found = [float(value) for value in ca.Function("f", list(symbols), outputs)(*shape)]
-    floats = [bending_length(shape, POISSON), coil_stress_factor(shape, 1.1), bend_stress_factor(shape)]
-    assert found == pytest.approx(floats, rel=1e-12)

@@ -58,34 +58,6 @@ def value(trial: Trial, name: str) -> float:
     return next(finding.value for finding in trial.findings if finding.name == name)
 
 
-@pytest.mark.parametrize("kind", ["release", "sine", "step"])
-def test_every_line_is_drawn_from_columns_that_exist(kind: str, request: pytest.FixtureRequest) -> None:
-    trial: Trial = request.getfixturevalue(kind)
-    sheets = {sheet.name: sheet for sheet in trial.sheets}
-    assert len(sheets) == len(trial.sheets)
-    assert len(trial.panels) == (3 if kind == "step" else 2 * 3)  # of each point, motion and loop
-    for sheet in trial.sheets:
-        assert len({len(column.values) for column in sheet.columns}) == 1
-        assert all(np.all(np.isfinite(column.values)) for column in sheet.columns)
-    for line in (line for panel in trial.panels for line in panel.lines):
-        assert len(sheets[line.sheet].column(line.x).values) == len(sheets[line.sheet].column(line.y).values)
-
-
-@pytest.mark.parametrize("kind", ["release", "sine", "step"])
-def test_findings_inside_the_melting_range_are_intervals(kind: str, request: pytest.FixtureRequest) -> None:
-    trial: Trial = request.getfixturevalue(kind)
-    for one in trial.findings:
-        if one.name.endswith("@melting"):
-            assert one.low is not None
-            assert one.high is not None
-            assert one.low <= one.value <= one.high
-        else:
-            assert one.low is None
-            assert one.high is None
-    for end in ("nominal", "low", "high"):
-        assert any(sheet.name.endswith(f"_melting_{end}") for sheet in trial.sheets)
-
-
 def test_hot_link_creeps_back_and_cold_link_rings(resolved: ResolvedModule, release: Trial) -> None:
     assert value(release, "ringing_frequency@hot") == 0.0
     # Three time constants of the melt's viscosity over the springs, a little more for the melt's own memory.

@@ -17,7 +17,6 @@ from tvimdesign.simulation.joint_tests.case import Case, cases
 from tvimdesign.simulation.joint_tests.load_through_cycle import SliceHistory
 from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.link_motion import link
-from tvimdesign.simulation.link_motion.course import Plant
 from tvimdesign.simulation.link_motion.sampled_motion import OneSided
 from tvimdesign.simulation.trial import CurveTable, Trial
 from tvimdesign.simulation.virtual_tests import TESTS, find_test
@@ -194,47 +193,6 @@ def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
         assert value(release, f"backlash@{point}") == 0.0
         assert value(release, f"contact_lost@{point}") == 0.0
     assert not any(one.name.endswith("_events") for one in release.sheets)
-
-
-def test_blocks_that_could_not_part_are_released_as_the_linear_link_is(resolved: ResolvedModule) -> None:
-    bonded = with_rows(resolved, parting_share=0.0)
-    release = release_test.release(bonded, kelvin_voigt=False)
-    case = case_of(bonded, "hot")
-    bonded = Plant(case.joint, case.modes)
-    linear = link.released(bonded, 0.1, link.held(bonded, 0.1, 10.0)).motion
-    assert sheet(release, "release_hot").column("angle").values == pytest.approx(linear.angle, abs=1e-12)
-    assert value(release, "contact_lost@hot") == 0.0
-
-
-@pytest.mark.parametrize("name", ["cold", "hot"])
-def test_blocks_squeezed_beyond_the_swing_are_a_linear_link(resolved: ResolvedModule, name: str) -> None:
-    case = case_of(resolved, name)
-    joint = case.joint
-    # No hold: melt that is squeezed lets go of that as well.
-    held = link.held(case.plant, 0.01, 0.0, precompression=50.0)
-    moved = link.released(case.plant, 0.01, held)
-    both = joint._replace(structure_stiffness=2.0 * joint.structure_stiffness)
-    modes = [(tau, 2.0 * k) for tau, k in case.modes]
-    linear = link.released(Plant(both, modes), 0.01, np.zeros(len(modes))).motion
-    first = min(moved.events[0].time if moved.events else np.inf, linear.times[-1], moved.motion.times[-1])
-    early = moved.motion.times < first
-    assert np.sum(early) > 20
-    angle = np.interp(moved.motion.times[early], linear.times, linear.angle)
-    assert moved.motion.angle[early] == pytest.approx(angle, abs=1e-9)
-    assert moved.lost_share(0.0, first) == 0.0
-
-
-def test_blocks_that_do_not_relax_swing_as_one_spring_and_lose_no_contact(resolved: ResolvedModule) -> None:
-    stiffness = 4e3
-    elastic = replace(resolved, values={**resolved.values, "pcl_modes@cold": [(1e16, 3e3), (1e16, 1e3)]})
-    case = case_of(elastic, "cold")
-    internal = link.held(case.plant, 0.1, 10.0)
-    assert case.plant.gap(internal) == pytest.approx(0.0, abs=1e-15)
-    moved = link.released(case.plant, 0.1, internal, case.friction)
-    support, springs = resolved.quantity("elastic_support@cold"), resolved.quantity("spring_stiffness")
-    rate = np.sqrt((springs + stiffness * support / (stiffness + support)) / resolved.quantity("moving_inertia"))
-    assert moved.motion.angle == pytest.approx(0.1 * np.cos(rate * moved.motion.times), abs=1e-7)
-    assert moved.lost_share(0.0, moved.first_swing()) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_sine_pushes_molten_blocks_aside_and_keeps_frozen_ones(

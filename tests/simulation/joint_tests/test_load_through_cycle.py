@@ -88,9 +88,7 @@ def there_and_back() -> tuple[Carried, Callable[[float], Array]]:
 
 
 @pytest.mark.slow
-def test_loaded_link_moves_as_radau_with_inertia_says(
-    there_and_back: tuple[Carried, Callable[[float], Array]],
-) -> None:
+def test_loaded_link_moves_as_radau_with_inertia_says(there_and_back: tuple[Carried, Callable[[float], Array]]) -> None:
     carried, at = there_and_back
     some = slice(None, None, 20)
     assert carried.angle[some] == pytest.approx(with_inertia(at, 2, carried.times[some]), abs=2e-4 * 0.104)
@@ -109,9 +107,7 @@ def test_link_creeps_as_the_layer_melts_and_stays_when_it_freezes(
     assert carried.unloaded_angle == pytest.approx(carried.angle[-1] - LOAD / frozen, rel=1e-4)
 
 
-def test_every_slice_carries_what_the_springs_leave(
-    there_and_back: tuple[Carried, Callable[[float], Array]],
-) -> None:
+def test_every_slice_carries_what_the_springs_leave(there_and_back: tuple[Carried, Callable[[float], Array]]) -> None:
     carried, _ = there_and_back
     left = LOAD - SPRINGS * carried.angle
     assert np.sum(carried.torques, axis=0) == pytest.approx(np.tile(left, (2, 1)), abs=1e-5 * LOAD)

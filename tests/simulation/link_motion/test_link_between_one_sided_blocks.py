@@ -132,20 +132,6 @@ def test_relaxed_link_meets_the_other_block_when_its_cosine_says() -> None:
 
 
 @NAMED
-def test_pull_is_zero_at_every_event(pair: str) -> None:
-    blocks = PAIRS[pair]
-    moved = link.released(Plant(JOINT, blocks), 0.1, link.held(Plant(JOINT, blocks), 0.1, 10.0))
-    times = moved.motion.times
-    for event in moved.events[:40]:
-        sample = int(np.flatnonzero(times == event.time)[-1])
-        pulls = one_sided.pulls(moved.motion.angle[sample], list(moved.motion.internal[:, sample]), blocks)
-        speed = abs(moved.motion.speed[sample]) + 1e-6
-        stiffness = sum(k for _, k in blocks[event.side])
-        # Angle from the face over speed: an error of time.
-        assert abs(pulls[event.side]) / stiffness / speed < 1e-9 * np.diff(times).max()
-
-
-@NAMED
 def test_no_block_ever_pulls(pair: str) -> None:
     blocks = PAIRS[pair]
     moved = link.released(Plant(JOINT, blocks), 0.1, link.held(Plant(JOINT, blocks), 0.1, 10.0))
@@ -174,26 +160,6 @@ def test_squeezed_blocks_that_keep_contact_are_the_two_sided_link(pair: str) -> 
     assert moved.motion.angle[early] == pytest.approx(linear.angle[wanted], abs=1e-11)
     assert moved.motion.torque[early] == pytest.approx(linear.torque[wanted], abs=1e-8 * abs(linear.torque[0]))
     assert moved.lost_share(0.0, both) == 0.0
-
-
-def test_release_between_swapped_blocks_is_its_mirror_image() -> None:
-    blocks = PAIRS["one side cold"]
-    inner = link.held(Plant(JOINT, blocks), 0.1, 1.0)
-    other = link.held(Plant(JOINT, Blocks(blocks.second, blocks.first)), -0.1, 1.0)
-    assert np.concatenate([other[6:], other[:6]]) == pytest.approx(inner, abs=1e-15)
-    moved = link.released(Plant(JOINT, blocks), 0.1, inner)
-    mirrored = link.released(Plant(JOINT, Blocks(blocks.second, blocks.first)), -0.1, other)
-    early = slice(0, 300)
-    assert mirrored.motion.angle[early] == pytest.approx(-moved.motion.angle[early], abs=1e-9)
-    assert np.array_equal(mirrored.touching[::-1, early], moved.touching[:, early])
-
-
-def test_hold_behind_a_structure_relaxes_with_its_longer_time() -> None:
-    # One mode k behind S: the dashpot follows with tau (S + k)/S; the block behind is not touched and stays free.
-    k, tau = 400.0, 0.1
-    inner = link.held(Plant(JOINT, Blocks([(tau, k)], [(tau, k)])), 0.05, 0.2)
-    assert inner[0] == pytest.approx(0.05 * (1.0 - np.exp(-0.2 * 919.0 / (tau * (919.0 + k)))), rel=1e-9)
-    assert inner[1] == 0.0
 
 
 @pytest.mark.slow
@@ -260,17 +226,6 @@ def test_fluid_blocks_are_pushed_aside_once_and_not_touched_again() -> None:
     assert moved.lost_share(1.0, 4.0) > 0.98
     # In the first period it touches from rest to the crest, and from rest to the trough.
     assert moved.lost_share(0.0, 1.0) == pytest.approx(0.5, abs=0.01)
-
-
-@pytest.mark.parametrize("seconds", [0.1, 1.0, 10.0])
-def test_longer_holds_lose_contact_for_longer(seconds: float) -> None:
-    def lost(hold: float) -> float:
-        moved = link.released(
-            Plant(JOINT, PAIRS["half frozen"]), 0.1, link.held(Plant(JOINT, PAIRS["half frozen"]), 0.1, hold)
-        )
-        return moved.lost_share(0.0, moved.first_swing())
-
-    assert lost(seconds) > lost(0.1 * seconds) > 0.0
 
 
 modes = st.lists(

@@ -175,14 +175,6 @@ def test_modes_in_series_are_those_of_both_one_behind_the_other(layer: Modes, lo
     assert np.max(np.abs(star(0.0, together, hertz) / (one * other / (one + other)) - 1.0)) < 1e-9
 
 
-@pytest.mark.parametrize("layer", [LOSSY_MELT, LOSSY_FROZEN])
-def test_modes_behind_a_spring_alone_are_those_of_both(layer: Modes) -> None:
-    hertz = np.geomspace(1e-8, 1e5, 400)
-    together = star(0.0, in_series(layer, 700.0, []), hertz)
-    one = star(0.0, layer, hertz)
-    assert np.max(np.abs(together / (one * 700.0 / (one + 700.0)) - 1.0)) < 1e-9
-
-
 def test_structures_may_share_a_time_with_the_layer_or_lose_nothing() -> None:
     spring, elements = spectrum(700.0, 28.0, 1.0)
     layer = [(elements[3][0], 90.0), (1e-3, 500.0)]

@@ -238,9 +238,7 @@ def test_cooling_branch_is_drawn_from_the_solid_fractions_it_is_given(resolved: 
     assert any(line.sheet == "cooling" for panel in trial.panels for line in panel.lines)
 
 
-def test_cooled_from_the_melt_it_freezes_below_where_it_melts(
-    resolved: ResolvedModule,
-) -> None:
+def test_cooled_from_the_melt_it_freezes_below_where_it_melts(resolved: ResolvedModule) -> None:
     # Slow cooling freezes polycaprolactone at 35 to 45 degC, 10 K/min at about 30 degC at its fastest.
     trial = oscillation.temperature(resolved)
     half = next(found for found in trial.findings if found.name == "freezing_temperature")

@@ -107,9 +107,7 @@ def test_a_profile_that_is_flat_is_the_constant_current(build: Callable[..., Dev
         assert flat[name] == pytest.approx(constant[name], rel=1e-6), name
 
 
-def test_a_switch_s_end_does_not_depend_on_later_currents(
-    build: Callable[..., DeviceFunctions],
-) -> None:
+def test_a_switch_s_end_does_not_depend_on_later_currents(build: Callable[..., DeviceFunctions]) -> None:
     model = build()
     simulator = tight(model)
     early = simulator.run(model.start, {"softening": evenly(400.0, (2.0,) * 5)}).values["response_time"]

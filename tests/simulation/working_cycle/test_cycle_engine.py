@@ -13,7 +13,7 @@ from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Suppli
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
-from tvimdesign.simulation.working_cycle.trajectory import Array
+from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle
 from tvimdesign.study import drawn, given, read_study, read_study_text
 
 EXACT = 3e-3
@@ -93,11 +93,11 @@ def test_derivatives_under_a_current_that_follows_a_profile(build: Callable[...,
 
 @pytest.mark.parametrize("design", ["as it is", "thin", "thick", "aluminium", "sink"])
 def test_values_an_optimum_is_sought_with_are_near_those_of_cvodes(
-    design: str, build: Callable[..., DeviceFunctions]
+    design: str, build: Callable[..., DeviceFunctions], judged: Callable[[str], Cycle]
 ) -> None:
     model = build(design)
     found = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0))).values
-    judge = fine(model).run(model.start).values
+    judge = judged(design).values
     for i, name in enumerate(model.switch_names):
         assert found[i] == pytest.approx(judge[name], rel=EXACT), name
 
@@ -115,9 +115,7 @@ def test_values_of_a_study_s_optimum_are_near_those_of_cvodes(path: Path) -> Non
     assert max(len(grid.shares) for grid in grids.values()) <= 80
 
 
-def test_values_do_not_depend_on_the_number_of_directions(
-    build: Callable[..., DeviceFunctions],
-) -> None:
+def test_values_do_not_depend_on_the_number_of_directions(build: Callable[..., DeviceFunctions]) -> None:
     model = build()
     grids: dict[str, Grid] = {}
     along = directions(model)

@@ -1,13 +1,11 @@
 """Metals, waxes, glasses and layers that heat themselves: working cycles, and the range of the solid fraction."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 from tvimdesign.device.table.quantity import STIFFENING
-from tvimdesign.simulation.joint_tests.case import histories_at
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at, frozen_on_cooling
@@ -111,43 +109,3 @@ def test_a_wax_in_its_range_is_known_to_kelvins_not_to_history() -> None:
 def test_a_wax_that_cools_is_frozen_as_it_melted_at_any_rate(rate: float) -> None:
     frozen = frozen_on_cooling(resolved(WAX), rate)
     assert [frozen(273.15 + at) for at in (70.0, 57.0, 40.0)] == pytest.approx([0.0, 5.0 / 9.0, 1.0], abs=0.01)
-
-
-KELVIN = 273.15
-
-
-@pytest.fixture(scope="module")
-def histories() -> ResolvedModule:
-    return resolve_study(read_study_text("mode: shear\n", "a test"))
-
-
-def test_sixty_degrees_is_liquid_or_third_or_two_thirds_frozen(histories: ResolvedModule) -> None:
-    # 50 to 65 degC nominal, 55 to 70 at the latest: 60 is two thirds and one third of the way.
-    low, nominal, high = fractions_at(histories, 60.0 + KELVIN)
-    assert low == 0.0
-    assert nominal == pytest.approx(1.0 / 3.0, abs=2e-3)
-    assert high == pytest.approx(2.0 / 3.0, abs=2e-3)
-    shown = [history for history in histories_at(histories, 60.0 + KELVIN) if history.shown]
-    assert [history.name for history in shown] == ["nominal", "low", "high"]
-    assert [history.fraction for history in shown] == [nominal, low, high]
-
-
-@pytest.mark.parametrize(("celsius", "frozen"), [(30.0, 1.0), (44.9, 1.0), (70.1, 0.0), (100.0, 0.0)])
-def test_outside_the_range_of_melting_there_is_one_answer(
-    histories: ResolvedModule, celsius: float, frozen: float
-) -> None:
-    low, nominal, high = fractions_at(histories, celsius + KELVIN)
-    assert low == nominal == high == pytest.approx(frozen, abs=1e-2)
-    assert len(histories_at(histories, celsius + KELVIN)) == 1
-
-
-@pytest.mark.parametrize("celsius", [45.1, 69.9])
-def test_range_reaches_from_the_lowest_start_to_the_highest_end(histories: ResolvedModule, celsius: float) -> None:
-    low, _, high = fractions_at(histories, celsius + KELVIN)
-    assert low == 0.0
-    assert high > low
-
-
-def test_melting_of_a_study_of_its_own_moves_the_range(histories: ResolvedModule) -> None:
-    own = replace(histories, values={**histories.values, "pcl_melting_start": 40.0 + KELVIN})
-    assert fractions_at(own, 42.0 + KELVIN)[0] == 0.0

@@ -1,22 +1,25 @@
-"""What it takes to stay soft: the steady state against a long simulation and against the first law."""
+"""What it takes to stay soft: against a long simulation, the first law, and two dimensions."""
 
+import sys
 from collections.abc import Callable
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from another_stack import FLOOR, AnotherStack, value_of
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from support import tight
+from support import ROOT, tight
+
+sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
+
+from compare import STUDIES, Judge, model_of, plane_of
 
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.study import given, read_study
-
-ROOT = Path(__file__).resolve().parents[3]
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thick", "sink")
@@ -135,3 +138,27 @@ def test_a_steady_state_ignores_last_digits_of_the_switch_s_end() -> None:
         inputs[model.index["pcl_thickness"]] *= 1.0 + 1e-8 * step
         found.append(simulator.run(inputs, phases=["softening"]).values["hold_current"])
     assert found == pytest.approx([found[0]] * 40, rel=1e-8)
+
+
+DAYS = 2e5  # s
+OPTIMUM_OF_THAT_DAY = {
+    "wire_diameter": 1.81288e-3, "coil_diameter": 8e-3, "coil_count": 3.0, "placement_radius": 31.6415e-3,
+    "core_radius": 7.52928e-3, "link_thickness": 5.16203e-3, "pcl_inner_radius": 11.92928e-3,
+    "pcl_outer_radius": 23.84339e-3, "arc_span": 1.3193123, "pcl_thickness": 0.6e-3, "current": 1.6288039,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("study", "sizes"),
+    [("paper_shear", OPTIMUM_OF_THAT_DAY), ("paper_reconstructed", {})],
+    ids=["optimum", "published"],
+)
+def test_the_plane_stays_at_the_target_by_the_product_s_current(study: str, sizes: dict[str, Any]) -> None:
+    path = STUDIES / f"{study}.yaml"
+    model = model_of(path, **sizes)
+    amps = Simulator(model).run(model.start, phases=["softening"]).values["hold_current"]
+    held = model_of(path, **{**sizes, "current": amps})
+    judge = Judge(held, plane_of(held, 0.7))
+    _, states = judge.found.heat(DAYS, 30)
+    rise = judge.known["target_temperature"] - judge.known["ambient_temperature"]
+    assert judge.far_face(states[-1]) - judge.found.ambient == pytest.approx(rise, rel=0.03)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.symbols import Symbols, symbols
+from tvimdesign.simulation.working_cycle.symbols import symbols
 
 WRITTEN: dict[str, Callable[[Any], Any]] = {
     "arithmetic of entries": lambda x: (x[0] + 2.0) * x[1] - 3.0 / x[2] + x[1] ** 2 - 2 ** x[0] + (-x[2]),
@@ -34,12 +34,3 @@ def test_an_expression_of_symbols_is_what_numpy_computes(what: str, values: list
     column = ca.SX.sym("x", 3)
     written = ca.Function("written", [column], [WRITTEN[what](symbols(column))])
     assert float(written(values)) == pytest.approx(float(WRITTEN[what](np.array(values))), rel=1e-13, abs=1e-13)
-
-
-def test_elementwise_expressions_are_quick_and_lengths_must_agree() -> None:
-    x = symbols(ca.SX.sym("x", 3))
-    for value in (x[0] * 2.0, 2.0 / x[1], np.sqrt(x), np.append(x, x[0]), np.sum(x), x[1:], np.fmax(x, 0.0)):
-        assert isinstance(value, Symbols)
-    x = symbols(ca.SX.sym("x", 3))
-    with pytest.raises(RuntimeError, match="Dimension mismatch"):
-        x[1:] * x

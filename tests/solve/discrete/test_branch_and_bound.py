@@ -1,7 +1,7 @@
 """Branch and bound against enumeration, on problems whose optimum within a box is known in closed form."""
 
 import itertools
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -110,21 +110,6 @@ def test_a_bowl_over_two_thousand_combinations_takes_a_few_runs() -> None:
     assert bowl.solved < 40
 
 
-def test_a_list_whose_entries_are_as_good_as_one_another_is_divided_last() -> None:
-    # The first number is far from its sizes and costs nothing, the second is near and costs much.
-    listed = tuple(4.0**power for power in range(8))
-    bowl = Bowl(0, Sizes(("a", "b"), (listed, (10.0, 11.0, 12.0, 13.0))), (2.0, 11.4), (1e-9, 1.0), 5.0, 0.0)
-    node, search = _node(bowl), BranchAndBound(cast("list[Relaxation]", [bowl]), 1)
-    assert search._division(node).axis == 0
-    search._divide(node)
-    costly = next(one for one in search._open if one.run is not None and one.run is not node.run)
-    near = replace(node, box=((0, 7), (0, 3)))
-    search._pseudo_costs_of(node).learn(1, 0, 0.03, 0.05)
-    search._pseudo_costs_of(node).learn(1, 1, 0.05, 0.05)
-    assert costly.bound == pytest.approx(5.0, rel=1e-6)
-    assert search._division(near).axis == 1
-
-
 def _bowl(first: tuple[float, ...], second: tuple[float, ...], centre: tuple[float, ...]) -> Bowl:
     return Bowl(0, Sizes(("a", "b"), (first, second)), centre, (1.0, 1.0), 5.0, 0.0)
 
@@ -132,25 +117,6 @@ def _bowl(first: tuple[float, ...], second: tuple[float, ...], centre: tuple[flo
 def _node(bowl: Bowl, depth: int = 0, *, solved: bool = True) -> Node:
     run = bowl.best_within(bowl.sizes.whole, None)[0] if solved else None
     return Node(cast("Relaxation", bowl), bowl.sizes.whole, 5.0, run, depth, 0)
-
-
-@pytest.mark.parametrize(
-    ("centre", "halves"),
-    [
-        # 2.1 is 5 % from 2 and far from 8; 13 is 26 % from 10: b is split, below 13.
-        ((2.1, 13.0), (((0, 2), (0, 0)), ((0, 2), (1, 3)))),
-        ((3.5, 20.0), (((0, 1), (0, 3)), ((2, 2), (0, 3)))),
-        ((2.0, 39.0), (((0, 2), (0, 2)), ((0, 2), (3, 3)))),
-        # Both are sizes: the longer list is split in its middle.
-        ((2.0, 20.0), (((0, 2), (0, 1)), ((0, 2), (2, 3)))),
-    ],
-)
-def test_a_box_is_split_where_a_number_is_farthest_from_its_sizes(
-    centre: tuple[float, float], halves: tuple[Box, Box]
-) -> None:
-    bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), centre)
-    node = _node(bowl)
-    assert BranchAndBound(cast("list[Relaxation]", [bowl]), 1)._division(node).halves(node.box) == halves
 
 
 def test_unsolved_boxes_are_split_in_the_middle_and_lists_ascend() -> None:
@@ -168,27 +134,3 @@ def test_unsolved_boxes_are_split_in_the_middle_and_lists_ascend() -> None:
     assert len(set(boxes)) == sizes.count == 12
     for one, other in itertools.pairwise(boxes):
         assert sum(abs(a - b) for (a, _), (b, _) in zip(one, other, strict=True)) == 1
-
-
-@pytest.mark.parametrize("fails", [False, True])
-def test_halves_lie_one_deeper_than_the_box_they_are_of(fails: bool) -> None:
-    bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
-    search, node = BranchAndBound(cast("list[Relaxation]", [bowl]), 1), _node(bowl, depth=3)
-    bowl.fails = fails
-    search._divide(node)
-    assert [one.depth for one in search._open] == [4, 4]
-
-
-@pytest.mark.parametrize(("again", "kept", "inside"), [(9.0, 9.0, 0.1), (11.0, 10.0, 0.0), (None, 10.0, 0.0)])
-def test_a_combination_solved_afresh_counts_where_it_is_better(again: float | None, kept: float, inside: float) -> None:
-    def run(objective: float) -> Any:
-        return SimpleNamespace(values={}, start=SimpleNamespace(converged=True, objective=objective))
-
-    afresh = None if again is None else run(again)
-    tree: Any = SimpleNamespace(
-        place=0, thoroughly=lambda _box, _near: afresh, optimizer=SimpleNamespace(deadline=Deadline())
-    )  # fmt: skip
-    search = BranchAndBound([tree], 1, found={(0, ((0, 0),)): run(10.0)})
-    search._begin_afresh()
-    assert search.found[0, ((0, 0),)].start.objective == kept
-    assert search.inside == pytest.approx(inside)

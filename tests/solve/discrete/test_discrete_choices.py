@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 from bonmin import best_by_bonmin
 from choosing import LISTED, by_brute_force, listed
-from small_studies import COMPRESSION_BLOCKS
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
@@ -34,20 +33,6 @@ WEIGHT_SETS = [
     "{envelope_volume: 1, response_time: 4}",
     "{module_mass: 1, switch_energy: 1}",
 ]
-COMPRESSION = (
-    """
-mode: compression
-module: {response_criterion: mean, core_radius: 8 mm, link_dowel: iso_8734_2, rotor_rim: 8 mm, pcl_inner_radius: 13 mm,
-         block_height: 11 mm}
-vary:
-  wire_diameter: {catalog: metric, from: 2.1 mm, to: 2.6 mm}
-  coil_count: {choose: [4, 4.5, 5]}
-  vane_count: {from: 5, to: 6}
-  coil_diameter: [10 mm, 16 mm]
-"""
-    + COMPRESSION_BLOCKS
-    + "solver: {starts: 3, cells: 6, fineness: 0.67}\n"
-)
 
 
 def _chosen(solution: Solution) -> Choosing:
@@ -95,12 +80,6 @@ def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(
 @pytest.mark.parametrize("weights", WEIGHT_SETS)
 def test_it_is_as_good_whatever_is_minimised(weights: str) -> None:
     study = listed(LISTED.replace(WEIGHTS, weights))
-    _agrees(study, optimize(study))
-
-
-@pytest.mark.slow
-def test_it_is_as_good_in_compression() -> None:
-    study = listed(COMPRESSION)
     _agrees(study, optimize(study))
 
 
@@ -169,24 +148,6 @@ def _relaxation(found: Solution) -> Relaxation:
     return relaxation
 
 
-def test_what_arithmetic_alone_rules_out_is_told(found: Solution) -> None:
-    chosen = _chosen(found)
-    reported = tally_in_words(replace(chosen, work=replace(chosen.work, screened=3)))
-    assert "3 sets of sizes needed none, by arithmetic alone." in reported
-    assert "arithmetic" not in tally_in_words(replace(chosen, work=replace(chosen.work, screened=0)))
-
-
-@pytest.mark.slow
-def test_the_order_of_a_list_changes_nothing(found: Solution) -> None:
-    turned = LISTED.replace("{choose: [3, 4]}", "{choose: [4, 3]}").replace(
-        "{from: 3, to: 4, step: 0.5}", "{choose: [4, 3.5, 3]}"
-    )
-    # Objectives are over the study's own start, which is the same module.
-    assert [one.choices for one in _chosen(optimize(listed(turned))).best] == [
-        one.choices for one in _chosen(found).best
-    ]
-
-
 @pytest.mark.gate
 def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
     found: Solution, alone: dict[tuple[float, ...], float]
@@ -208,6 +169,7 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
     assert (wire["si"]["value"], wire["si"]["unit"]) == (pytest.approx(1e-3 * standard), "m")
 
 
+@pytest.mark.gate
 def test_the_price_is_that_of_the_combination_that_margins_led_to(found: Solution) -> None:
     choosing = _chosen(found)
     assert choosing.between is not None
@@ -233,23 +195,6 @@ def test_records_that_differ_in_numbers_share_a_problem_and_optimum() -> None:
     assert runs[0].start.objective == pytest.approx(runs[1].start.objective, rel=1e-6)
     stainless = listed(text.replace("STUFF", "petg, spring_material: stainless_302"))
     assert first.with_records(stainless) is None, "its strength is a table, which is built in"
-
-
-@pytest.mark.slow
-def test_records_and_sizes_are_chosen_together() -> None:
-    text = POWERFUL.replace("arc_count: {choose: [3, 4]}", "structure_material: {choose: [petg, aluminum_6061_t6]}")
-    both = optimize(listed(text))
-    alone = [
-        optimize(listed(text.replace("vary:", f"module: {{structure_material: {name}}}\nvary:").replace(
-            "  structure_material: {choose: [petg, aluminum_6061_t6]}\n", "")))
-        for name in ("petg", "aluminum_6061_t6")
-    ]  # fmt: skip
-    # Objectives are over each study's own start; that of the study that lists both is the common measure.
-    objectives = [
-        sum(one.values[name] / both.reference[name] for name in both.reference) for one in alone if one.feasible
-    ]
-    assert both.objective == pytest.approx(min(objectives), rel=1e-5)
-    assert _chosen(both).combinations == 2 * _chosen(alone[0]).combinations
 
 
 @pytest.mark.slow

@@ -215,14 +215,6 @@ def trees() -> list[Relaxation]:
 
 
 @pytest.mark.slow
-def test_modules_that_no_limit_excludes_reach_an_optimum_from_own_starts(trees: list[Relaxation]) -> None:
-    # A mixed start whose joint is soft before it is heated was no place to begin from.
-    for tree in trees:
-        tree.starts()
-        assert tree.optima
-
-
-@pytest.mark.slow
 def test_records_without_an_optimum_are_begun_at_the_others_optimum(
     trees: list[Relaxation], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -9,7 +9,7 @@ import pytest
 from tvimdesign.base.child_process import PARENT
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete import second_process
-from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task
+from tvimdesign.solve.discrete.box_tasks import Answer, Task
 from tvimdesign.solve.discrete.second_process import ParallelSolver
 from tvimdesign.solve.discrete.trees import ProblemSpec
 from tvimdesign.solve.nlp.solution import Choosing
@@ -113,19 +113,7 @@ def test_none_is_started_in_a_child_of_ours_nor_for_a_few_combinations(
     assert len(started) == 1
 
 
-def test_one_process_answers_in_the_order_of_the_tasks() -> None:
-    class Tree:
-        def best_within(self, box: Any, _near: Any) -> tuple[None, bool]:
-            return None, box == ((1, 1),)
-
-    trees: Any = [Tree()]
-    tasks = [Task(0, ((i, i),), None, "within") for i in range(3)]
-    assert [one.certain for one in OneProcess(trees).solve(tasks)] == [False, True, False]
-
-
-def test_no_wait_for_the_other_process_s_task_once_time_is_up(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_no_wait_for_the_other_process_s_task_once_time_is_up(monkeypatch: pytest.MonkeyPatch) -> None:
     class Tree:
         optimizer = SimpleNamespace(deadline=Deadline(0.0, lambda: 0.0))
 

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 from small_studies import FOUR_SIZES_IN_SHEAR
 
-from tvimdesign.device import table_for
 from tvimdesign.solve.infeasibility.inspection import Inspection
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study_text
 
-TABLE = table_for("shear")
 TIMED = (
     FOUR_SIZES_IN_SHEAR
     + """
@@ -44,20 +42,6 @@ def test_a_wrong_derivative_is_found_and_named() -> None:
     assert not found.right
     assert found.worst[0][:2] == ("spring_stiffness >=", "wire_diameter")
     assert found.worst[0][2] == pytest.approx(1e-3, rel=0.5)
-
-
-def test_rows_and_unknowns_are_named_in_full(inspection: Inspection) -> None:
-    problem = inspection.problem
-    assert len(inspection._columns) == problem.unknown_count
-    assert len(inspection._rows) == problem.row_count + 1
-    rows, columns = inspection.scaling()
-    assert rows.ratio >= 1.0
-    assert columns.ratio >= 1.0
-
-
-def test_without_a_current_profile_there_is_no_equation_to_condition(inspection: Inspection) -> None:
-    assert inspection.problem.equation_count == 0
-    assert inspection.conditioning().equations == 1.0
 
 
 def test_a_driven_phase_s_time_follows_from_current_and_free_numbers() -> None:

@@ -2,18 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import pytest
 from support import ROOT
 
-from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.infeasibility import feasibility_screen
 from tvimdesign.solve.infeasibility.feasibility_screen import (
-    _DRAWN,
     FeasibilityScreen,
     _broken,
     _one_design,
@@ -79,17 +75,6 @@ def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.
     assert found.objective <= usual.objective * (1.0 + 1e-6)
 
 
-def test_the_drawn_designs_of_least_violation_are_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    drawn = [float(number) for number in range(_DRAWN)]
-    breaks = {5.0: 0.1, 2.0: 0.2, 9.0: 0.3}  # the switch of all others never ends
-    monkeypatch.setattr(feasibility_screen, "FeasibilityScreen", lambda _: None)
-    monkeypatch.setattr(feasibility_screen, "_one_design", lambda _, __, seed: np.array([drawn[seed]]))
-    monkeypatch.setattr(feasibility_screen, "_broken", lambda _, inputs: breaks.get(float(inputs[0]), np.inf))
-    optimizer = SimpleNamespace(study=SimpleNamespace(solver=SimpleNamespace(seed=0)), deadline=Deadline())
-    designs = designs_all_over(cast(Any, optimizer))
-    assert [float(inputs[0]) for inputs in designs] == [5.0, 2.0, 9.0]
-
-
 STUDY = """
 mode: shear
 vary: {coil_count: [3, 5], pcl_thickness: [0.6 mm, 2 mm]}
@@ -124,12 +109,3 @@ def test_limits_are_infeasible_if_neither_measure_finds_a_point(
     monkeypatch.setattr(screen, "_least", least)
     assert screen.impossible({}, begins) is impossible
     assert places == [0.0, 1.0, 2.0, 0.0, 2.0][:asked]
-
-
-def test_both_measures_come_to_the_same_where_one_limit_is_broken() -> None:
-    text = STUDY.replace("minimize", "require: {spring_stiffness: '>= 400 N.m/rad'}\nminimize")
-    screen = FeasibilityScreen(optimizer := Optimizer(read_study_text(text, "test")))
-    begin = optimizer.model.start
-    total, worst = (screen._least(solver, {}, begin) for solver in (screen._sum, screen._worst))
-    assert screen.impossible({}, [begin])
-    assert 0.0 < worst <= total * (1.0 + 1e-6)

@@ -1,22 +1,25 @@
 """The problem in the space of the free numbers: derivatives, ends of driven phases, currents, kinks, own rows."""
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
+from explored import SMALL
 from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR
 from support import fine
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.infeasibility.inspection import row_names, unknown_names
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.solve.nlp.problem import LATEST
-from tvimdesign.solve.nlp.problem_parts import FreeCurrent, Objective, Parameters
+from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array
-from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.study import given, read_study_text
+from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
+from tvimdesign.solve.optimizer.parametric_optimizer import ParametricOptimizer
+from tvimdesign.study import Study, given, read_study_text, read_tree
+from tvimdesign.study.tree import tree_of_text, with_settings
 
 ASKED = """
 require:
@@ -239,25 +242,48 @@ def test_a_search_over_the_kink_between_foot_and_holes_ends() -> None:
     assert run.start.iterations < 100
 
 
-CURRENTS_STUDY = """
-mode: shear
-module: {current_slew: %s A/s}
-vary: {current: [0.5 A, 2 A], cooling_current: [0.1 A, 0.9 A]}
-minimize: module_mass
-profile: {softening: 3, stiffening: 2}
-"""
+def _with(*settings: str) -> Study:
+    return read_tree(with_settings(tree_of_text(SMALL, "small.yaml", "small", Path()), settings))
 
 
-def freed(slew: str, phase: str, pieces: int) -> FreeCurrent:
-    """Return the current of a phase, without a problem around it."""
-    optimizer = object.__new__(Optimizer)
-    optimizer.study = read_study_text(CURRENTS_STUDY % slew, "a test")
-    optimizer.table = optimizer.study.table
-    points = tuple(optimizer.study.operating_points)
-    optimizer.model = DeviceFunctions(optimizer.table, given(optimizer.study), points, 4)
-    return optimizer._current(phase, pieces)
+MOVED = {
+    "a limit that binds": ["require.peak_power=<= 9 W"],
+    "ends of a range": ["vary.current=[0.8 A, 1.2 A]"],
+    "a weight": ["minimize.module_mass=4"],
+    "a fixed number": ["core_radius=9.4 mm"],
+    "all of them": ["require.peak_power=<= 10 W", "vary.pcl_thickness=[0.9 mm, 2.2 mm]", "minimize.response_time=2",
+                    "stroke=0.09 rad"],
+}  # fmt: skip
 
 
-def test_each_phase_frees_its_own_current_between_the_study_s_bounds() -> None:
-    assert freed("2", "softening", 3) == FreeCurrent("softening", "current", 3, 0.5, 2.0, 2.0)
-    assert freed("2", "stiffening", 2) == FreeCurrent("stiffening", "cooling_current", 2, 0.1, 0.9, 2.0)
+@pytest.fixture(scope="module")
+def built() -> ParametricOptimizer:
+    return ParametricOptimizer(read_study_text(SMALL))
+
+
+@pytest.mark.parametrize("name", MOVED)
+def test_a_moved_problem_has_the_optimum_of_one_built_for_it(built: ParametricOptimizer, name: str) -> None:
+    first, study = built.solve(built.study), _with(*MOVED[name])
+    assert built.fits(study)
+    moved = built.solve(study, first.run)
+    fresh = Optimizer(study, built.optimizer.reference).solve()
+    assert moved.converged
+    # Both are optima, each with the steps that were placed on its way: these differ most where a range ends.
+    apart = SETTLED if name == "ends of a range" else 2e-6
+    assert moved.run.start.objective == pytest.approx(fresh.start.objective, rel=apart)
+    for variable, value in fresh.start.end.items():
+        assert moved.run.start.end[variable] == pytest.approx(value, rel=10.0 * SETTLED)
+        assert abs(value / first.run.start.end[variable] - 1.0) > 1e-6 or name != "all of them"
+
+
+def test_what_binds_is_told_with_the_ends_of_ranges(built: ParametricOptimizer) -> None:
+    bound = built.solve(_with("require.peak_power=<= 9 W"))
+    assert "peak_power <=" in bound.binding
+    ended = built.solve(_with("vary.current=[0.8 A, 1.1 A]"))
+    assert ended.ends["current"] == "upper"
+
+
+def test_what_is_built_in_does_not_fit(built: ParametricOptimizer) -> None:
+    assert not built.fits(_with("cover=plate"))
+    assert not built.fits(_with("require.holding_torque=>= 1 N.m"))
+    assert not built.fits(_with("solver.cells=10"))

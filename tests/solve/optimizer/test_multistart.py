@@ -85,16 +85,6 @@ def test_points_without_a_module_are_skipped_unsimulated() -> None:
     assert simulated == pytest.approx([2.0, *whole])  # the study's own once
 
 
-def test_a_point_that_cannot_be_simulated_is_no_start() -> None:
-    def takes(size: float) -> float:
-        if size > 10.0:
-            raise SimulationError("it cannot be simulated")
-        return size
-
-    found, _ = searches(3, takes=takes)
-    assert sizes(found) == pytest.approx([2.0, *[size for size in drawn(50) if size <= 10.0][:2]])
-
-
 def test_where_no_point_will_do_the_search_begins_at_the_study_s_own() -> None:
     found, _ = searches(2, takes=lambda _: np.inf)
     assert sizes(found) == [2.0, 2.0]

@@ -56,9 +56,7 @@ LISTED = STUDY.replace("}\nmin", ", pcl_thickness: {from: 0.8 mm, to: 1.2 mm, st
 
 
 @pytest.mark.gate
-def test_a_search_beyond_the_horizon_restarts_before_it_searches_lists(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_search_beyond_the_horizon_restarts_before_it_searches_lists(monkeypatch: pytest.MonkeyPatch) -> None:
     # A random study (20264018) was through its 60 s with the lists of a switch that never ends.
     deadlines: list[Deadline] = []
     monkeypatch.setattr(search, "Deadline", lambda seconds: deadlines.append(Deadline(seconds)) or deadlines[-1])

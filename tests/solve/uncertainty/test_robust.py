@@ -162,15 +162,6 @@ def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
     assert "(`robust`): ask for fewer, or spread less" in complaint(found, study.table)
 
 
-@pytest.mark.slow
-def test_times_are_kept_too() -> None:
-    _, spread = _solved(TIMED)
-    assert _share(spread, "response_time") == pytest.approx(0.5, abs=0.05)
-    robust, spread = _solved(f"{TIMED}robust: {{sigma: 1.5}}\n")
-    assert robust.feasible
-    assert _share(spread, "response_time") == pytest.approx(NormalDist().cdf(1.5), abs=0.015)
-
-
 A, B = Constraint("a", "<=", 1.0, 1.0, "require"), Constraint("b", ">=", 1.0, 1.0, "require")
 
 

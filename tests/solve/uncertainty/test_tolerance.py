@@ -154,20 +154,7 @@ def _asked(module: ResolvedModule) -> list[str]:
     return analysis._requested()
 
 
-@pytest.mark.parametrize(
-    "asks",
-    ["require: {module_mass: '<= 1 kg'}\n", "vary: {wire_diameter: [2 mm, 3 mm]}\nminimize: module_mass\n"],
-    ids=["requires", "minimizes"],
-)
-def test_a_study_that_asks_for_one_thing_is_told_of_that_alone(
-    resolved: Callable[[str], ResolvedModule], asks: str
-) -> None:
-    assert _asked(resolved(f"tolerances:\n{SPRINGS}{asks}")) == ["module_mass"]
-
-
-def test_without_requirements_the_spread_of_the_switch_is_reported(
-    resolved: Callable[[str], ResolvedModule],
-) -> None:
+def test_without_requirements_the_spread_of_the_switch_is_reported(resolved: Callable[[str], ResolvedModule]) -> None:
     module = resolved("tolerances: {pcl_thickness: 0.05 mm}\n")
     asked = set(_asked(module))
     assert {"module_mass", "softening_time", "joint_stiffness@cold"} <= asked

@@ -63,9 +63,7 @@ def freezing_module() -> ResolvedModule:
     return resolve_study(read_study_text(TEXT, "a test"))
 
 
-def test_half_time_and_slope_of_freezing_move_without_their_dependents(
-    freezing_module: ResolvedModule,
-) -> None:
+def test_half_time_and_slope_of_freezing_move_without_their_dependents(freezing_module: ResolvedModule) -> None:
     names = {one.name for one in unmeasured_inputs(freezing_module)}
     assert names >= KINETICS
     assert "pcl_zero_shear_viscosity" in names
