@@ -1,16 +1,22 @@
 """The optimum: equal from all starts, with the reported active constraints, and as good as an enumeration."""
 
+import json
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from small_studies import FOUR_SIZES_IN_SHEAR
+from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR
 from support import ROOT
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve import search
+from tvimdesign.solve.infeasibility.inspection import row_names
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, given, read_study, read_study_text
@@ -230,3 +236,94 @@ def test_where_no_switch_is_found_the_arithmetic_conflict_is_told(monkeypatch: p
     asked = "  spring_stiffness: '>= 9 N.m/rad'\n  spring_fatigue_safety: '>= 3'\nminimize: {peak_power: 1}\n"
     with pytest.raises(InfeasibleError, match=r"cannot hold together.*\n  spring_stiffness.*\n  spring_fatigue_safety"):
         optimize(read_study_text(f"{FOUR_SIZES_IN_SHEAR}require:\n{asked}solver: {{starts: 1}}\n"))
+
+
+BLOCKS_SMALL = (
+    """
+mode: compression
+module:
+  response_criterion: mean
+  core_radius: 8 mm
+  link_dowel: iso_8734_2
+  rotor_rim: 8 mm
+  pcl_inner_radius: 13 mm
+  block_height: 11 mm
+  block_depth: 4 mm
+  vane_thickness: 4 mm
+  coil_diameter: 12 mm
+  coil_count: 6.7
+vary:
+  coil_diameter: [10 mm, 16 mm]
+  coil_count: [4, 9]
+"""
+    + COMPRESSION_BLOCKS
+    + "solver: {starts: 7, seed: 1}\n"
+)
+
+
+@pytest.mark.slow
+def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
+    solution = optimize(read_study_text(BLOCKS_SMALL, "test"), lambda _: None)
+    assert solution.status == "optimal"
+    assert solution.feasible
+    assert all(start.converged for start in solution.starts)
+    objectives = [start.objective for start in solution.starts]
+    assert max(objectives) - min(objectives) <= 1e-4 * min(objectives)
+    for name, value in solution.starts[0].end.items():
+        assert np.allclose([start.end[name] for start in solution.starts], value, rtol=1e-3), name
+    # The mode's own price: the stroke squeezes the block, so its depth cannot be less than twice the way of the vane.
+    assert 0.49 < solution.values["block_strain"] < 0.5005
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("row", "most"), [("backlash@cold", "<= 0.000008 rad"), ("relaxation_loss@cold", "<= 0.003")])
+def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most: str) -> None:
+    def solved(more: str) -> Solution:
+        text = BLOCKS_SMALL.replace("accept:", f"{more}accept:").replace("starts: 7", "starts: 2")
+        return optimize(read_study_text(text, "test"), lambda _: None)
+
+    free, held = solved(""), solved(f'  {row}: "{most}"\n')
+    limit = float(most.split()[1])
+    assert held.status == "optimal"
+    assert all(start.converged for start in held.starts)
+    assert free.values[row] > 1.5 * limit
+    assert held.values[row] == pytest.approx(limit, rel=1e-4)
+    assert held.objective > 1.01 * free.objective
+    assert next(one.shadow_price for one in held.held if one.name == f"{row} <=") > 0.0
+
+
+NUMBERS_ALONE = ["paper_shear", "elbow_printed", "machined_shear", "wrist_joint"]
+"""Shipped studies that choose no record and drive no phase, of those whose optima were frozen under today's rules."""
+
+
+def _frozen(name: str) -> tuple[Optimizer, np.ndarray, dict[str, Any]]:
+    """Return a study's problem, and the inputs and the optimum that are frozen."""
+    frozen = json.loads((ROOT / "campaigns/frozen/studies" / f"{name}.json").read_text(encoding="utf-8"))
+    optimizer = Optimizer(read_study(ROOT / "studies" / f"{name}.yaml"), frozen["optimum"]["reference"])
+    inputs = optimizer.model.start.copy()
+    for one, value in frozen["chosen"].items():
+        inputs[optimizer.model.index[one]] = value
+    return optimizer, inputs, frozen["optimum"]
+
+
+def test_a_frozen_optimum_is_found_from_beside_it() -> None:
+    optimizer, inputs, optimum = _frozen("paper_shear")
+    run = optimizer.solve(begin=inputs, beginning="near")
+    assert run.start.converged
+    assert run.start.objective == pytest.approx(optimum["objective"], rel=1e-4)
+    for free in optimizer.free:
+        place = optimizer.model.index[free.name]
+        assert run.inputs[place] == pytest.approx(inputs[place], rel=2e-3), free.name
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize("name", NUMBERS_ALONE)
+def test_a_frozen_design_keeps_its_limits_and_its_objective(name: str) -> None:
+    """With margins, too: what is not within its limits by them is so without."""
+    optimizer, inputs, optimum = _frozen(name)
+    x, parameters = optimizer.guess(inputs), optimizer.parameters(Objective(optimizer.study.minimize))
+    optimizer.problem.place_grids(x, parameters)
+    point = optimizer.problem.at(x, parameters)
+    assert point.objective == pytest.approx(optimum["objective"], rel=1e-3)
+    worst = int(np.argmax(point.rows))
+    assert point.rows[worst] < 1e-3, row_names(optimizer.problem)[worst]

@@ -1,12 +1,9 @@
 """Shape factors of still air beside tiles and below a lip, against conduction in two dimensions by finite volumes."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix, diags
-from scipy.sparse.linalg import spsolve
+from plane_conduction import conducted, given_off
 
 from tvimdesign.physics.heat_flow.layer_end import below_lip, room
 from tvimdesign.physics.heat_flow.shape_factors import beyond_constriction, ledge_across, ledge_ways
@@ -14,78 +11,32 @@ from tvimdesign.physics.heat_flow.shape_factors import beyond_constriction, ledg
 Array = NDArray[np.float64]
 N = 48
 """Cells over the height of a room, of a clearance or of a ledge."""
-Wall = Callable[[int, int], float | None]
 
 
-def solved(inside: NDArray[np.bool_], wall: Wall, sources: Array | None = None) -> tuple[Array, Callable[[int], float]]:
-    """Temperatures of square cells where `inside`, whose other neighbours are walls of a temperature, or pass nothing.
-
-    And the heat over the conductivity that comes out of walls with a key: ten times the temperature, rounded.
-    """
-    number = -np.ones(inside.shape, dtype=int)
-    number[inside] = np.arange(np.count_nonzero(inside))
-    count = int(number.max()) + 1
-    diagonal, right, pairs, faces = np.zeros(count), np.zeros(count), [], []
-    for (i, j), own in np.ndenumerate(number):
-        if own < 0:
-            continue
-        for a, b in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
-            within = 0 <= a < inside.shape[0] and 0 <= b < inside.shape[1]
-            if within and number[a, b] >= 0:
-                pairs.append((own, number[a, b]))
-                diagonal[own] += 1.0
-            elif (level := wall(a, b)) is not None:
-                diagonal[own] += 2.0
-                right[own] += 2.0 * level
-                faces.append((own, level, a, b))
-    rows, columns = np.array(pairs).T
-    if sources is not None:
-        right += sources[inside]
-    matrix = diags(diagonal) - csr_matrix((np.ones(len(rows)), (rows, columns)), shape=(count, count))
-    found = spsolve(matrix.tocsc(), right)
-    whole = np.full(inside.shape, np.nan)
-    whole[inside] = found
-
-    def given(side: int) -> float:
-        return float(sum(2.0 * (level - found[own]) for own, level, a, b in faces if _side(a, b, inside) == side))
-
-    return whole, given
-
-
-def _side(a: int, b: int, inside: NDArray[np.bool_]) -> int:
-    """0 left, 1 right, 2 below, 3 above, 4 a wall within the frame."""
-    if a < 0:
-        return 0
-    if a == inside.shape[0]:
-        return 1
-    return 2 if b < 0 else 3 if b == inside.shape[1] else 4
+def framed(shape: tuple[int, int], inside: float = np.nan) -> tuple[NDArray[np.bool_], Array]:
+    """A frame around so many cells: of no cell yet, and walls that let no heat pass, those within of a temperature."""
+    kept = np.pad(np.full(shape, inside), 1, constant_values=np.nan)
+    return np.zeros(kept.shape, dtype=bool), kept
 
 
 @pytest.mark.parametrize("width", [0.5, 1.0, 2.0])
 def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width: float) -> None:
-    slot = 4 / N
-    across, gap = int(width * N) + 4, 4
-    # The ceiling ends before the wall; above the slot its own edge is as warm as it is.
-    inside = np.zeros((across, 2 * N), dtype=bool)
-    inside[:, :N] = True
-    inside[-gap:, N:] = True
-
-    def wall(a: int, b: int) -> float | None:
-        if a == across or b < 0:
-            return 0.0
-        if a < 0:
-            return (b + 0.5) / N
-        return None if b == 2 * N else 1.0
-
-    found, given = solved(inside, wall)
-    edge = np.sum(2.0 * (1.0 - found[-gap, N:])) - N / gap
-    tile, floor = given(0), -given(2)
-    ceiling = given(4) - N / gap
+    slot, gap = 4 / N, 4
+    # The ceiling, at one, ends before the wall; above the slot its own edge is as warm as it is. The tile's side falls
+    # evenly; floor and wall are at nothing.
+    inside, kept = framed((int(width * N) + gap, 2 * N), 1.0)
+    inside[1:-1, 1 : N + 1] = inside[-gap - 1 : -1, N + 1 : -1] = True
+    kept[0, 1:-1] = (np.arange(2 * N) + 0.5) / N
+    kept[-1] = kept[:, 0] = 0.0
+    found = conducted(inside, kept)
+    edge = np.sum(2.0 * (1.0 - found[-gap - 1, N + 1 : -1])) - N / gap
+    tile, floor, ceiling = (np.zeros(inside.shape, dtype=bool) for _ in range(3))
+    tile[0] = floor[:, 0] = ceiling[1:-1, 1:-1] = True
     ours = room(width + slot, slot)
     # An even fall brings as much from ceiling to floor as the room is wide below that.
-    assert ours.ceiling + width == pytest.approx(ceiling, abs=0.06)
-    assert width + slot - ours.floor == pytest.approx(floor, abs=0.02)
-    assert ours.tile == pytest.approx(tile, abs=0.02)
+    assert ours.ceiling + width == pytest.approx(given_off(ceiling, found, kept) - N / gap, abs=0.06)
+    assert width + slot - ours.floor == pytest.approx(-given_off(floor, found, kept), abs=0.02)
+    assert ours.tile == pytest.approx(given_off(tile, found, kept), abs=0.02)
     assert edge > 0.0
 
 
@@ -93,36 +44,36 @@ def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width:
 def test_a_clearance_gives_lip_and_floor_as_in_two_dimensions(slot: float) -> None:
     n = 24
     gap, deep, long = int(slot * n), 4 * int(max(slot, 1.0) * n), 5 * n
-    inside = np.zeros((gap + long, deep + n), dtype=bool)
-    inside[:, deep:] = True
-    inside[:gap, :deep] = True
-
-    def end(b: int) -> float:
-        return 1.0 if b < deep else 1.0 - 2.0 / np.pi * np.arcsin((b - deep + 0.5) / n)
-
-    def wall(a: int, b: int) -> float | None:
-        if a < 0:
-            return end(b)
-        return None if a == gap + long or b < 0 else 0.0
-
-    found, given = solved(inside, wall)
+    inside, kept = framed((gap + long, deep + n), 0.0)
+    inside[1:-1, deep + 1 : -1] = inside[1 : gap + 1, 1:-1] = True
+    warm = np.append(np.ones(deep), 1.0 - 2.0 / np.pi * np.arcsin((np.arange(n) + 0.5) / n))
+    kept[0, 1:-1] = warm
+    kept[1:-1, -1] = 0.0
+    found = conducted(inside, kept)
+    pads, lip = (np.zeros(inside.shape, dtype=bool) for _ in range(2))
+    pads[0] = lip[1:-1, -1] = True
     passed = deep / gap
-    into_lip = -given(3)
-    warm = np.array([end(b) for b in range(deep + n)])
-    from_pads = np.sum(warm * 2.0 * (warm - found[0])) - passed
+    from_pads = np.sum(warm * 2.0 * (warm - found[1, 1:-1])) - passed
     to_lip, to_floor = below_lip(slot)
-    floor = given(0) - passed - into_lip
+    floor = given_off(pads, found, kept) - passed + given_off(lip, found, kept)
     assert to_floor == pytest.approx(floor, abs=0.06)
     assert to_lip == pytest.approx(from_pads - floor, abs=0.06)
+
+
+def heated_strip(sources: Array) -> Array:
+    """Temperatures of a strip that is heated in some cells and kept at nothing beyond its end."""
+    inside, kept = framed(sources.shape)
+    inside[1:-1, 1:-1] = True
+    kept[-1] = 0.0
+    return conducted(inside, kept, np.pad(sources, 1))[1:-1, 1:-1]
 
 
 @pytest.mark.parametrize("slenderness", [0.5, 0.8, 2.0])
 def test_a_ledge_s_lower_face_is_colder_as_in_two_dimensions(slenderness: float) -> None:
     wide = int(slenderness * N)
-    inside = np.ones((wide + 3 * N, N), dtype=bool)
-    sources = np.zeros(inside.shape)
+    sources = np.zeros((wide + 3 * N, N))
     sources[:wide, -1] = 1.0 / wide
-    found, _ = solved(inside, lambda a, _: 0.0 if a == wide + 3 * N else None, sources)
+    found = heated_strip(sources)
     ledge = found[:wide]
     top, bottom = (np.mean(ledge[:, k] + 0.5 * (ledge[:, k] - ledge[:, near])) for k, near in ((-1, -2), (0, 1)))
     assert ledge_ways(slenderness)[0] == pytest.approx(top - np.mean(ledge), rel=0.03)
@@ -132,10 +83,9 @@ def test_a_ledge_s_lower_face_is_colder_as_in_two_dimensions(slenderness: float)
 @pytest.mark.parametrize(("begin", "width"), [(0.0, 0.3), (0.3, 0.7)])
 def test_a_lip_s_lower_face_is_warmer_as_in_two_dimensions(begin: float, width: float) -> None:
     share = 1.0 / 3.0
-    inside = np.ones((3 * N, N), dtype=bool)
-    sources = np.zeros(inside.shape)
+    sources = np.zeros((3 * N, N))
     sources[0, : N // 3] = 3.0 / N
-    found, _ = solved(inside, lambda a, _: 0.0 if a == 3 * N else None, sources)
+    found = heated_strip(sources)
     first, last = round(begin * N), round((begin + width) * N)
     face = found[first:last, 0] + 0.5 * (found[first:last, 0] - found[first:last, 1])
     warmer = np.mean(face - np.mean(found[first:last], axis=1))

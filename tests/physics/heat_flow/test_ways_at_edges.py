@@ -3,39 +3,13 @@
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix, diags, identity, kron
+from plane_conduction import conducted
+from scipy.sparse import diags, identity, kron
 from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.heat_flow import shape_factors
 
 Array = NDArray[np.float64]
-
-
-def conducted(inside: NDArray[np.bool_], kept: NDArray[np.float64], source: Array) -> Array:
-    """Temperatures of square cells of a conductivity of one; those outside are walls where `kept` is a number.
-
-    Walls that are kept stand half a cell away; others let no heat pass. `source` is heat into each cell.
-    """
-    number = -np.ones(inside.shape, dtype=int)
-    number[inside] = np.arange(np.count_nonzero(inside))
-    size = np.count_nonzero(inside)
-    diagonal, right, rows, columns = np.zeros(size), source[inside].copy(), [], []
-    for di, dj in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        for i, j in np.argwhere(inside):
-            k, m = i + di, j + dj
-            if not (0 <= k < inside.shape[0] and 0 <= m < inside.shape[1]):
-                continue
-            if inside[k, m]:
-                diagonal[number[i, j]] += 1.0
-                rows.append(number[i, j])
-                columns.append(number[k, m])
-            elif np.isfinite(kept[k, m]):
-                diagonal[number[i, j]] += 2.0
-                right[number[i, j]] += 2.0 * kept[k, m]
-    off = coo_matrix((np.ones(len(rows)), (rows, columns)), shape=(size, size))
-    found = np.full(inside.shape, np.nan)
-    found[inside] = spsolve((diags(diagonal) - off).tocsc(), right)
-    return found
 
 
 @pytest.mark.parametrize(("cells", "slot"), [(48, 4), (48, 12)])
@@ -50,7 +24,7 @@ def test_the_end_of_a_gap_gives_as_in_two_dimensions(cells: int, slot: int) -> N
     height = (np.arange(cells) + 0.5) / cells
     kept[0, 1 : deep + 1], kept[0, deep + 1 : -1] = 1.0, 1.0 - height
     kept[slot + 1 :, deep] = kept[slot + 1, 1 : deep + 1] = kept[:, -1] = 0.0
-    found = conducted(inside, kept, np.zeros(inside.shape))
+    found = conducted(inside, kept)
     flux = 2.0 * (1.0 - height - found[1, deep + 1 : -1])
     assert sum(shape_factors.gap_end(slot / cells)) == pytest.approx(np.sum(flux), rel=0.01)
     # And how deep it lies in what ends there.
@@ -100,7 +74,7 @@ def test_a_step_in_a_sheet_resists_what_conduction_in_two_dimensions_says(share:
     inside[1 : long + 1, 1 : low + 1] = inside[long + 1 : -1, 1:-1] = True
     kept = np.full(inside.shape, np.nan)
     kept[0], kept[-1] = 1.0, 0.0
-    found = conducted(inside, kept, np.zeros(inside.shape))
+    found = conducted(inside, kept)
     passed = np.nansum(2.0 * (1.0 - found[1]))
     assert shape_factors.step(share) == pytest.approx(1.0 / passed - long / low - long / deep, rel=0.02)
 
