@@ -72,6 +72,7 @@ def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> N
     assert by_hand.ByHand().objective(np.log(reference.begin)) == pytest.approx(3.0)
 
 
+@pytest.mark.gate
 def test_the_switch_written_by_hand_is_the_tables(reference: Reference) -> None:
     rows, _ = equations_by_hand(reference.begin)
     assert rows[2] == pytest.approx(lsoda(1e-9)(reference, reference.begin), rel=2e-5)

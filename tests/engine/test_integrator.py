@@ -175,12 +175,6 @@ def test_sensitivities_along_the_lengths_of_steps(pendulum: Motion) -> None:
         assert slopes[:, j] == pytest.approx(found, rel=1e-6, abs=1e-7)
 
 
-def test_a_step_without_directions_is_the_step_with_them(pendulum: Motion) -> None:
-    y, k, lengths = np.array([1.0, 0.2]), np.array([2.0, 0.1]), np.full(5, 0.2)
-    with_them, _ = with_slopes(pendulum, y, np.eye(2), lengths, k, np.zeros((2, 2)))
-    assert with_them.tolist() == stepped(pendulum, y, lengths, k).tolist()
-
-
 def one_error(motion: Motion, y: Array, h: float, k: Array) -> float:
     _, _, v = motion.registers(k, np.zeros((k.size, 0)))
     return float(step_error(motion.system, v, y.copy(), 0.0, 0.0, h, np.zeros(y.size)))

@@ -65,31 +65,6 @@ def test_solutions_are_numpys(case: Case, lanes: int, seed: int) -> None:
     assert one == pytest.approx(many[:, 0], rel=1e-12, abs=1e-14)
 
 
-@given(case=cases())
-def test_factors_multiply_to_the_matrix_in_the_order_of_elimination(case: Case) -> None:
-    pattern, w = factored(case)
-    size = len(case.matrix)
-    lower, upper = np.eye(size), np.zeros((size, size))
-    for i in range(size):
-        upper[i, i] = 1.0 / w[pattern.diagonal[i]]
-        for r in range(pattern.lower_start[i], pattern.lower_start[i + 1]):
-            lower[i, pattern.lower_column[r]] = w[pattern.lower_entry[r]]
-        for r in range(pattern.upper_start[i], pattern.upper_start[i + 1]):
-            upper[i, pattern.upper_column[r]] = w[pattern.upper_entry[r]]
-    expected = case.matrix[np.ix_(pattern.order, pattern.order)]
-    assert lower @ upper == pytest.approx(expected, rel=1e-10, abs=1e-12)
-
-
-@given(case=cases())
-def test_an_order_holds_each_row_once_and_each_entry_has_a_place(case: Case) -> None:
-    pattern, entries, diagonal = pattern_of(len(case.matrix), case.rows, case.columns)
-    assert sorted(pattern.order) == list(range(len(case.matrix)))
-    assert len({*entries, *diagonal}) == len(
-        {*zip(case.rows, case.columns, strict=True), *((i, i) for i in range(len(case.matrix)))}
-    )
-    assert pattern.size <= len(case.matrix) ** 2
-
-
 def test_arrows_and_chains_are_eliminated_without_fill_in() -> None:
     size = 30
     tips = np.arange(1, size)

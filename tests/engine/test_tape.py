@@ -7,12 +7,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from tvimdesign.engine import interpreter
 from tvimdesign.engine.tape import Tape
 
-Array = NDArray[np.float64]
 STEPS = (
     lambda a, b: a + b, lambda a, b: a - b, lambda a, b: a * b, lambda a, b: a / (1.0 + b * b), lambda a, _: ca.sin(a),
     lambda a, _: ca.exp(-a * a), lambda a, b: ca.fmin(a, ca.cos(b) + 0.1234),
@@ -101,14 +99,6 @@ def test_results_may_be_arguments_constants_or_empty_and_have_zeros() -> None:
     ((_, of_whole), (_, of_number), *_) = tape.tangents((np.zeros(2),), (np.array([[1.0, 2.0], [3.0, 4.0]]),))
     assert of_whole.tolist() == [[1.0, 2.0], [3.0, 4.0]]
     assert of_number.tolist() == [[0.0, 0.0]]
-
-
-def test_arguments_lie_one_below_the_other() -> None:
-    x, y, z = ca.SX.sym("x", 2), ca.SX.sym("y", 0), ca.SX.sym("z", 3)
-    tape = Tape.of([x, y, z], [ca.sum1(x) * ca.vertcat(z)])
-    assert tape.arguments.tolist() == [0, 2, 2, 5]
-    (found,) = tape.values(np.array([1.0, 2.0]), np.zeros(0), np.array([1.0, 10.0, 100.0]))
-    assert found.tolist() == [3.0, 30.0, 300.0]
 
 
 def test_a_run_leaves_nothing_to_the_next() -> None:

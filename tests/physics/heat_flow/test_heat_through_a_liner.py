@@ -28,20 +28,6 @@ def lined(make: Make, sheet: tuple[float, float, float], **kwargs: Any) -> heat.
     return make(liner=liner, **kwargs)
 
 
-@pytest.mark.slow
-def test_steady_heat_passes_the_liner_and_its_bond_in_series(bare_stack: Make, integrate: Run) -> None:
-    stack = lined(
-        bare_stack, (1e-3, 0.29, 1.56e6), hot_contact=4000.0, plate_contact=500.0, plate_conductivity=0.8,
-        plate_thickness=3e-3, plate_cells=3, plate_surface=lumps.Surface(AREA, 40.0),
-    )  # fmt: skip
-    seen = integrate(stack, heat.initial_state(stack, 5, COLD), [9000.0], current=2.0).profiles()[-1]
-    found = [seen.hot, seen.near, seen.far, seen.liner[1], seen.plate_face, COLD]
-    flux = 2000.0  # half of I^2 R over the area
-    half = 0.5e-3 / 0.29
-    resistances = [1 / 4000, 1e-3 / 0.2, 1 / 500 + half, half + 1e-4 / 0.2, 3e-3 / 0.8 + 1 / 40]
-    assert -np.diff(found) == pytest.approx([flux * one for one in resistances], rel=1e-5)
-
-
 @pytest.mark.parametrize("thickness", [0.5e-3, 1e-3, 2e-3])
 def test_heating_through_a_liner_follows_a_wall_of_three_sheets(
     bare_stack: Make, integrate: Run, thickness: float

@@ -179,15 +179,6 @@ def test_part_frozen_polymer_mixes_paired_modes_by_their_logarithms() -> None:
     assert time == pytest.approx(1.0, rel=1e-9)  # 1e12 and 1e-4 s
 
 
-@pytest.mark.parametrize("grade", GRADES)
-def test_molten_polymer_is_the_melts_spectrum_shifted(grade: str) -> None:
-    rheology = rheology_of(grade)
-    shift = np.exp(35e3 / 8.314462618 * (1.0 / (CELSIUS + 120.0) - 1.0 / (CELSIUS + 100.0)))
-    found = polymer.spectrum(CELSIUS + 120.0, 0.0, rheology)
-    expected = [(tau * shift, g) for tau, g in modes_of(Catalog().record("polymers", grade))]
-    assert np.allclose(found, expected, rtol=1e-9, atol=0.0)
-
-
 @given(celsius=st.floats(-20.0, 70.0), fraction=st.floats(-1e-3, 1.001), frequency=st.floats(1e-3, 1e4))
 def test_every_state_is_passive_and_stiffer_the_more_is_frozen(
     celsius: float, fraction: float, frequency: float

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy import sparse
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.motions import motion
@@ -20,24 +20,6 @@ def test_the_papers_springs_ring_at_18_5_hertz_and_their_damping() -> None:
     assert motion.natural_frequency(STIFFNESS, INERTIA) == pytest.approx(18.5, rel=5e-3)
     # 2 sqrt(5.61 * 4.156e-4) = 0.0966 N*m*s/rad.
     assert motion.damping_ratio(0.0966, STIFFNESS, INERTIA) == pytest.approx(1.0, rel=5e-3)
-
-
-@pytest.mark.parametrize("ratio", [0.05, 0.2])
-def test_free_swing_rings_and_decays_as_frequency_and_damping_ratio_say(ratio: float) -> None:
-    damping = ratio * 0.0966
-    swing = solve_ivp(
-        lambda _, y: [y[1], -(damping * y[1] + STIFFNESS * y[0]) / INERTIA],
-        (0.0, 1.0), [0.1, 0.0], rtol=1e-10, atol=1e-12, events=[lambda _, y: y[1]],
-    )  # fmt: skip
-    peaks = np.array(
-        [state[0] for time, state in zip(swing.t_events[0], swing.y_events[0], strict=True) if time > 1e-9]
-    )
-    times = swing.t_events[0][swing.t_events[0] > 1e-9]
-    # Half a period apart; the logarithmic decrement of half a period is pi zeta/sqrt(1 - zeta^2).
-    zeta = motion.damping_ratio(damping, STIFFNESS, INERTIA)
-    frequency = motion.natural_frequency(STIFFNESS, INERTIA)
-    assert 0.5 / (times[1] - times[0]) == pytest.approx(frequency * np.sqrt(1.0 - zeta**2), rel=1e-6)
-    assert np.log(abs(peaks[0] / peaks[1])) == pytest.approx(np.pi * zeta / np.sqrt(1.0 - zeta**2), rel=1e-6)
 
 
 def test_shafts_have_the_handbooks_stiffness_and_strength() -> None:

@@ -10,7 +10,7 @@ from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.joint_tests import sine as sine_test
 from tvimdesign.simulation.joint_tests import step_test
-from tvimdesign.simulation.joint_tests.case import finding, with_paper_points
+from tvimdesign.simulation.joint_tests.case import with_paper_points
 from tvimdesign.simulation.joint_tests.load_through_cycle import SliceHistory
 from tvimdesign.simulation.trial import Trial
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
@@ -47,11 +47,6 @@ def step(resolved: ResolvedModule) -> Trial:
     temperatures = np.array([303.15 + 70.0 * heat, 303.15 + 65.0 * heat])
     fractions = np.array([1.0 - np.clip((heat - 0.4) / 0.3, 0.0, 1.0)] * 2)
     return step_test.step(resolved, history=SliceHistory(times, temperatures, fractions))
-
-
-def test_interval_of_a_finding_spans_all_histories() -> None:
-    found = finding("x@melting", "1", "a test", [2.0, 1.0, 5.0])
-    assert (found.value, found.low, found.high) == (2.0, 1.0, 5.0)
 
 
 def value(trial: Trial, name: str) -> float:

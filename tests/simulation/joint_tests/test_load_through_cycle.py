@@ -107,12 +107,6 @@ def test_link_creeps_as_the_layer_melts_and_stays_when_it_freezes(
     assert carried.unloaded_angle == pytest.approx(carried.angle[-1] - LOAD / frozen, rel=1e-4)
 
 
-def test_every_slice_carries_what_the_springs_leave(there_and_back: tuple[Carried, Callable[[float], Array]]) -> None:
-    carried, _ = there_and_back
-    left = LOAD - SPRINGS * carried.angle
-    assert np.sum(carried.torques, axis=0) == pytest.approx(np.tile(left, (2, 1)), abs=1e-5 * LOAD)
-
-
 @pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(st.floats(2.0, 20.0), st.floats(2.0, 20.0), st.integers(1, 4))
@@ -121,27 +115,6 @@ def test_melting_and_freezing_under_load_only_lose_energy(start: float, wait: fl
     carried = carry(Changing(logarithms, np.linspace(0.0, 50.0, 161)), SUPPORT, LOAD, np.linspace(0.0, 50.0, 161))
     potential = carried.energy - LOAD * carried.angle
     assert np.max(np.diff(potential)) <= 1e-6 * LOAD * 0.104
-
-
-def test_uniform_slices_carry_the_load_as_one_layer_does() -> None:
-    times = np.linspace(0.0, 20.0, 81)
-    share = np.clip((times - 5.0) / 5.0, 0.0, 1.0)
-    solid, melt = np.log(SOLID.T)[:, :, None, None], np.log(MELT.T)[:, :, None, None]
-    one = solid + (melt - solid) * share
-    five = np.repeat(one, 5, axis=2)
-    five[1] += np.log(5.0)
-    angles = [carry(Changing(layer, times), SUPPORT, LOAD, times).angle for layer in (one, five)]
-    assert angles[1] == pytest.approx(angles[0], rel=1e-5)
-    assert angles[0][-1] > 50.0 * angles[0][0]
-
-
-def test_freezing_under_load_leaves_a_layer_that_does_not_relax_as_it_is() -> None:
-    times = np.linspace(0.0, 10.0, 41)
-    growing = np.log(100.0) + 0.5 * times
-    layer = np.stack([np.full((1, 2, 41), np.log(1e15)), np.tile(growing, (1, 2, 1))])
-    carried = carry(Changing(layer, times), SUPPORT, LOAD, times)
-    assert carried.angle == pytest.approx(carried.angle[0], rel=1e-9)
-    assert carried.layer_torque == pytest.approx(carried.layer_torque[0], rel=1e-9)
 
 
 def test_lossy_structure_creeps_behind_a_frozen_layer_as_radau_says() -> None:

@@ -34,19 +34,6 @@ def test_a_profile_rises_from_zero_straight_between_nodes_and_lasts() -> None:
     assert profile.mean == pytest.approx((60.0 * 1.5 + 60.0 * 1.25) / 120.0)
 
 
-def test_the_corners_of_a_profile_come_in_order_and_end() -> None:
-    profile, time, corners = evenly(90.0, (1.0, 2.0, 0.5, 0.5)), 0.0, []
-    while np.isfinite(time := profile.next_corner(time)):
-        corners.append(time)
-    assert corners == pytest.approx([30.0, 60.0, 90.0])
-    assert profile.next_corner(29.9) == pytest.approx(30.0)
-    assert profile.next_corner(90.1) == np.inf
-    profile = CurrentProfile.constant(-0.7)
-    assert profile.next_corner(0.0) == profile.next_corner(1e6) == np.inf
-    assert np.all(profile.at(np.array([0.0, 3.0, 1e6])) == -0.7)
-    assert profile.mean == -0.7
-
-
 @given(duration=durations, pieces=st.integers(1, 64))
 def test_going_from_corner_to_corner_meets_each_once(duration: float, pieces: int) -> None:
     profile, time, corners = evenly(duration, (1.0,) * (pieces + 1)), 0.0, []

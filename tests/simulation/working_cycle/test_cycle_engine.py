@@ -2,19 +2,17 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from support import ROOT, STUDIES, fine
 
-from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle
-from tvimdesign.study import drawn, given, read_study, read_study_text
+from tvimdesign.study import drawn, read_study
 
 EXACT = 3e-3
 """Relative error of values that an optimum is sought with; those that are told are within 2e-4."""
@@ -170,23 +168,3 @@ def test_a_steady_state_that_changes_steeply_is_found(study: str) -> None:
         place = model.switch_names.index(name)
         assert found.values[place] == pytest.approx(judge[name], rel=1e-6)
         assert found.slopes[place, 0] < 0.0
-
-
-def test_outputs_that_are_wanted_again_are_not_built_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    built, outputs = [], DeviceFunctions.outputs
-
-    def counted(model: DeviceFunctions, wanted: Any, *more: Any) -> Any:
-        built.append(tuple(wanted))
-        return outputs(model, wanted, *more)
-
-    monkeypatch.setattr(DeviceFunctions, "outputs", counted)
-    values = given(read_study_text("mode: shear\n", "a test"))
-    model = DeviceFunctions(table_for("shear"), values, ("cold", "hot"), 6)
-    never = dict.fromkeys(model.switch_names, float("nan"))
-    first = model.some_values(["module_mass", "envelope_height"], model.start, never)
-    heavier = model.start.copy()
-    heavier[model.index["pcl_thickness"]] *= 2.0
-    second = model.some_values(["module_mass", "envelope_height"], heavier, never)
-    assert second["module_mass"] > first["module_mass"]
-    assert set(model.some_values(["envelope_height"], model.start, never)) == {"envelope_height"}
-    assert built == [("module_mass", "envelope_height"), ("envelope_height",)]

@@ -26,13 +26,6 @@ from tvimdesign.study import Study, given, read_study_text
 TABLE = table_for("shear")
 # The aluminium draws so much of the layer's heat that 9 W never soften it.
 POWERFUL = LISTED.replace("<= 9 W", "<= 30 W").replace("[0.5 A, 2 A]", "[0.5 A, 4 A]")
-WEIGHTS = "{envelope_volume: 1, module_mass: 1, response_time: 1}"
-WEIGHT_SETS = [
-    "{envelope_volume: 3, response_time: 1}",
-    "{module_mass: 3, response_time: 1}",
-    "{envelope_volume: 1, response_time: 4}",
-    "{module_mass: 1, switch_energy: 1}",
-]
 
 
 def _chosen(solution: Solution) -> Choosing:
@@ -74,13 +67,6 @@ def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(
     found: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:
     _agrees(listed(), found, alone)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("weights", WEIGHT_SETS)
-def test_it_is_as_good_whatever_is_minimised(weights: str) -> None:
-    study = listed(LISTED.replace(WEIGHTS, weights))
-    _agrees(study, optimize(study))
 
 
 def test_the_bounds_save_most_of_the_work() -> None:

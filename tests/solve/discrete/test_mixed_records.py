@@ -1,24 +1,18 @@
 """Records in one mixed problem: as each alone at its corners, as enumeration, and started at other records' optimum."""
 
-from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from choosing import listed, with_each_record
-from support import ROOT
 
-from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
+from tvimdesign.solve.discrete.discrete_choices import Sizes
 from tvimdesign.solve.discrete.record_families import families_of
-from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.discrete.trees import MAX_MIXED, Trees, refuse_too_many
+from tvimdesign.solve.discrete.trees import MAX_MIXED, refuse_too_many
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture, discrete_records, with_records
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, given, read_study
 
@@ -205,35 +199,3 @@ def test_too_many_records_in_one_problem_are_refused_with_what_to_do(study: Stud
     crowded = type(family)({}, (Mixture(records, {}, tuple({} for _ in records), ()),))
     with pytest.raises(InputError, match=f"{MAX_MIXED + 1} records to choose from; the limit is {MAX_MIXED}"):
         refuse_too_many([crowded], Sizes((), ()))
-
-
-@pytest.fixture(scope="module")
-def trees() -> list[Relaxation]:
-    study = read_study(ROOT / "studies" / "rigid_modules.yaml")
-    sizes = discrete_sizes(study, study.table)
-    return Trees(study, None, lambda _: None, (), Deadline(600.0), sizes).of(families_of(study))
-
-
-@pytest.mark.slow
-def test_records_without_an_optimum_are_begun_at_the_others_optimum(
-    trees: list[Relaxation], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    first = trees[0]
-    if not first.optima:
-        first.starts()
-    last, begun = replace(first), list[Array]()  # `last` is as `first` was before anything was solved
-    solve = last.optimizer.solve
-
-    def noted(*given: Any, begin: Array, **more: Any) -> Run:
-        begun.append(begin)
-        return solve(*given, begin=begin, **more)
-
-    monkeypatch.setattr(last.optimizer, "solve", noted)
-    (run,) = last.from_other_records([first])
-    index, best = last.optimizer.model.index, first.optima[0].start.end
-    sizes = [name for name in last.optimizer.study.vary if name in best]
-    assert sizes
-    assert [begun[0][index[name]] for name in sizes] == pytest.approx([best[name] for name in sizes])
-    assert run.start.converged
-    assert last.optima == [run]
-    assert last.from_other_records([first]) == []

@@ -145,14 +145,6 @@ def test_kept_points_are_scipys_and_scipy_is_not_loaded_for_them(
     assert bytes.fromhex(printed.strip()) == expected.tobytes()
 
 
-def test_points_of_another_seed_or_count_are_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path))
-    first = sobol_points(3, 16, 1)
-    assert not np.array_equal(first, sobol_points(3, 16, 2))
-    assert sobol_points(3, 32, 1).shape == (32, 3)
-    assert np.array_equal(first, sobol_points(3, 32, 1)[:16])
-
-
 WIRE = 2e-3  # m
 
 

@@ -34,16 +34,6 @@ def test_a_switch_that_nothing_limits_ends_within_the_horizon() -> None:
     assert holds[0].shadow_price > 0.0
 
 
-def test_the_solver_itself_goes_nowhere_beyond_the_horizon() -> None:
-    # An event that never comes has no derivatives: IPOPT halved its steps at that edge for a minute.
-    optimizer = Optimizer(read_study_text(STUDY, "test"))
-    assert optimizer.problem.unlimited == ["response_time"]
-    run = optimizer.solve()
-    assert run.start.converged
-    assert run.start.iterations < 60
-    assert run.times["response_time"] == pytest.approx(LATEST * HORIZON, rel=1e-5)
-
-
 def test_a_time_that_is_limited_already_is_left_as_it_is() -> None:
     said: list[str] = []
     study = read_study_text(STUDY + "require: {response_time: <= 300 s}\n", "test")
