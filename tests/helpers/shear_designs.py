@@ -56,7 +56,7 @@ def switch_of(build: Build) -> Callable[[str], Cycle]:
 
 @pytest.fixture(scope="session")
 def judged(build: Build) -> Callable[[str], Cycle]:
-    """The switch of one of the designs as CVODES has it."""
+    """Return the switch of one of the designs as CVODES has it."""
 
     @cache
     def run(design: str) -> Cycle:
