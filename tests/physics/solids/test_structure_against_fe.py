@@ -34,7 +34,7 @@ WITHOUT = ("foot_fillet", "adjuster_radius", "adjuster_thickness", "slip_clearan
 
 @cache
 def module(name: str) -> dict[str, Any]:
-    """A module's inputs, and in place of those quantities that FE was told: lengths, counts and moduli."""
+    """A module's inputs, and in place of those quantities that FE was given: lengths, counts and moduli."""
     case = CASES[name]
     mm = {row: size * (1.0 if row.endswith(("_count", "_span")) else 1e-3) for row, size in case["mm"].items()}
     words = {"liner_material": "peek"} if "liner_shear_modulus" in case else {}
@@ -78,7 +78,7 @@ def quantity(name: str, wanted: str) -> Any:
 
 
 def beyond(names: Iterable[str], **why: str) -> list[Any]:
-    """The modules of a test, those of which the form misses FE marked with the reason, as in README.md."""
+    """Return the modules of a test, those that the form misses marked with the reason, as in README.md."""
     missed = {name: why[study] for name in names if (study := name.removesuffix(", shipped")) in why}
     return [
         pytest.param(name, marks=pytest.mark.xfail(strict=True, reason=missed[name]))  # fails once the form is fixed
