@@ -37,8 +37,7 @@ def test_a_study_whose_name_looks_like_markup_runs_on_any_terminal(tmp_path: Pat
     )  # the child read those letters
 
 
-@pytest.mark.parametrize("unbuffered", ["", "1"])
-@pytest.mark.parametrize("words", [["rows"], ["--help"]])
+@pytest.mark.parametrize(("words", "unbuffered"), [(["rows"], ""), (["--help"], "1")])
 def test_output_that_cannot_be_written_is_one_line(words: list[str], unbuffered: str) -> None:
     around = {**environment(), "PYTHONUNBUFFERED": unbuffered}
     with Path("/dev/full").open("wb") as full:

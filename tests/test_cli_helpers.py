@@ -1,11 +1,8 @@
 """What helps on the command line: settings for once, shipped studies, completion, and the old word for paper-check."""
 
 import json
-import os
-import shutil
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import pytest
@@ -97,13 +94,10 @@ def test_settings_reach_every_study_of_a_comparison(tvimdesign: Command, tmp_pat
 # --- shipped studies ---
 
 
-def test_the_shipped_studies_are_listed_with_a_line_each(tvimdesign: Command) -> None:
+def test_shipped_studies_are_listed_and_copied_once(tvimdesign: Command, tmp_path: Path) -> None:
     lines = tvimdesign("new", "--list").stdout.splitlines()
     assert lines[::2] == [study.stem for study in STUDIES]
     assert all(line.startswith("    ") and len(line.split()) > 5 for line in lines[1::2])
-
-
-def test_a_shipped_study_is_copied_and_never_replaces_a_file(tvimdesign: Command, tmp_path: Path) -> None:
     assert tvimdesign("new", "--example", "wrist_joint", cwd=tmp_path).returncode == 0
     # But for where an editor finds the schema: beside the copy.
     shipped = (ROOT / "studies/wrist_joint.yaml").read_bytes().replace(b"=../study.schema.json", b"=study.schema.json")
@@ -114,63 +108,45 @@ def test_a_shipped_study_is_copied_and_never_replaces_a_file(tvimdesign: Command
     assert "did you mean 'wrist_joint'" in tvimdesign("new", "--example", "wrist_joit", cwd=tmp_path).stderr
 
 
-def test_the_shipped_studies_are_in_the_wheel(tmp_path: Path) -> None:
-    """As installed: the wheel is built from a copy of what it is made of, unpacked, and asked."""
-    source = tmp_path / "source"
-    for folder in ("tvimdesign", "studies"):
-        shutil.copytree(ROOT / folder, source / folder, ignore=shutil.ignore_patterns("__pycache__"))
-    for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE"):
-        shutil.copy(ROOT / name, source)
-    code = "from setuptools import build_meta; print(build_meta.build_wheel('..'))"
-    subprocess.run([sys.executable, "-c", code], cwd=source, check=True, capture_output=True)
-    (wheel,) = tmp_path.glob("*.whl")
-    zipfile.ZipFile(wheel).extractall(tmp_path / "installed")
-    asked = subprocess.run(
-        [sys.executable, "-m", "tvimdesign", "new", "--list"], cwd=tmp_path, check=True, capture_output=True, text=True,
-        env={**os.environ, "PYTHONPATH": str(tmp_path / "installed")},
-    )  # fmt: skip
-    assert asked.stdout.splitlines()[::2] == [study.stem for study in STUDIES]
-    assert (tmp_path / "installed/tvimdesign/__init__.pyi").exists()
-
-
 # --- completion ---
 
 
-def offered(words: str, shell: str = "bash") -> list[str]:
-    """What a shell offers for the last of some words."""
-    code = "import sys; sys.argv[0] = 'tvimdesign'; from tvimdesign.cli.main import main; main()"
-    shells = {
-        "bash": {"COMP_WORDS": words, "COMP_CWORD": str(len(words.split(" ")) - 1)},
-        "zsh": {"_TYPER_COMPLETE_ARGS": words},
-    }
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, check=False, capture_output=True, text=True,
-        env={**os.environ, "_TVIMDESIGN_COMPLETE": f"complete_{shell}", **shells[shell]},
-    )  # fmt: skip
-    assert "Traceback" not in done.stderr
-    return done.stdout.split("\n")
+OFFERED = {
+    "tvimdesign ru": "run",
+    "tvimdesign run studies/paper_sh": "studies/paper_shear.yaml",
+    "tvimdesign run stu": "studies/",
+    "tvimdesign compare studies/compare_shear.yaml studies/compare_c": "studies/compare_compression.yaml",
+    "tvimdesign simulate studies/paper_shear.yaml --test rela": "relaxation",
+    "tvimdesign rows wire_dia": "wire_diameter",
+    "tvimdesign run studies/paper_shear.yaml --set pcl_thick": "pcl_thickness=",
+    "tvimdesign new --example wrist_j": "wrist_joint",
+    "tvimdesign cad cad/paper_shear/des": "cad/paper_shear/design.json",
+}
+"""What a shell offers, among others, for the last of some words."""
+COMPLETES = """
+import contextlib, io, json, os, sys
+from tvimdesign.cli.main import main
+
+sys.argv[0] = "tvimdesign"
+offered = {}
+for words in json.loads(sys.stdin.read()):
+    for shell, asks in {"bash": {"COMP_WORDS": words, "COMP_CWORD": str(len(words.split(" ")) - 1)},
+                        "zsh": {"_TYPER_COMPLETE_ARGS": words}}.items():
+        os.environ.update(asks, _TVIMDESIGN_COMPLETE=f"complete_{shell}")
+        with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.suppress(SystemExit):
+            main()
+        offered.setdefault(words, []).append(out.getvalue())
+print(json.dumps(offered))
+"""
 
 
-@pytest.mark.parametrize(
-    ("words", "wanted"),
-    [
-        ("tvimdesign ru", "run"),
-        ("tvimdesign run studies/paper_sh", "studies/paper_shear.yaml"),
-        ("tvimdesign run stu", "studies/"),
-        ("tvimdesign compare studies/compare_shear.yaml studies/compare_c", "studies/compare_compression.yaml"),
-        ("tvimdesign simulate studies/paper_shear.yaml --test rela", "relaxation"),
-        ("tvimdesign rows wire_dia", "wire_diameter"),
-        ("tvimdesign run studies/paper_shear.yaml --set pcl_thick", "pcl_thickness="),
-        ("tvimdesign new --example wrist_j", "wrist_joint"),
-        ("tvimdesign cad cad/paper_shear/des", "cad/paper_shear/design.json"),
-    ],
-)
-def test_tab_completes(words: str, wanted: str) -> None:
-    assert wanted in offered(words)
-
-
-def test_other_shells_are_answered_too() -> None:
-    assert "relaxation" in "".join(offered("tvimdesign simulate studies/paper_shear.yaml --test rela", "zsh"))
+def test_tab_completes() -> None:
+    done = subprocess.run([sys.executable, "-c", COMPLETES], input=json.dumps([*OFFERED]), cwd=ROOT, check=False,
+                          capture_output=True, text=True)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    for words, (bash, zsh) in json.loads(done.stdout).items():
+        assert OFFERED[words] in bash.split("\n"), words
+        assert OFFERED[words] in zsh, words
 
 
 def test_the_shell_is_told_how(tvimdesign: Command) -> None:

@@ -65,7 +65,7 @@ def test_each_extra_that_is_told_of_is_checked_from_the_wheel() -> None:
     assert set(re.findall(r'"(\w+)":', checked[1])) == extras
 
 
-def test_the_container_takes_an_interpreter_and_extras_that_there_are() -> None:
+def test_container_and_page_name_interpreters_and_extras_that_there_are() -> None:
     text = (ROOT / "Containerfile").read_text("utf-8")
     versions = {one.rsplit(" ", 1)[1] for one in PROJECT["project"]["classifiers"] if ":: Python ::" in one}
     base = re.search(r"^FROM python:([\d.]+)-slim$", text, re.M)
@@ -74,9 +74,6 @@ def test_the_container_takes_an_interpreter_and_extras_that_there_are() -> None:
     assert base[1] in versions
     assert extras
     assert set(extras[1].split(",")) <= set(PROJECT["project"]["optional-dependencies"])
-
-
-def test_interpreters_that_are_told_of_are_those_of_the_package() -> None:
     versions = [one.rsplit(" ", 1)[1] for one in PROJECT["project"]["classifiers"] if ":: Python ::" in one]
     page = (ROOT / "docs/install.md").read_text("utf-8")
     told = re.search(r"Python (3\.\d+) to (3\.\d+) are tested", page)

@@ -23,8 +23,8 @@ FILES = {
 PLOTS = {f"{name}.png" for name in ("bounds", "impedance", "mass", "cycle", "stiffness_and_damping", "power_and_energy",
                                     "torque")}  # fmt: skip
 OPTIMISED = {"why.csv"}
-QUICK = {"paper_reconstructed", "paper_shear", "paper_compression"}
-"""Studies that take seconds; the others are slow tests."""
+MARKS = {"paper_reconstructed": (), "paper_compression": (), "paper_shear": (pytest.mark.gate,)}
+"""Studies that take seconds, and the one that the gate runs; the others are slow tests."""
 UNDRAWN = {"paper_reconstructed", "paper_compression"}
 """Run without plots, as drawing takes longer than evaluating: other evaluated modules of their modes have the same."""
 MESHED = 1e-3
@@ -32,7 +32,7 @@ MESHED = 1e-3
 every = pytest.mark.parametrize("study", [pytest.param(path, id=path.stem) for path in STUDIES])
 names = pytest.mark.parametrize(
     "study",
-    [pytest.param(path, id=path.stem, marks=[] if path.stem in QUICK else pytest.mark.slow) for path in STUDIES],
+    [pytest.param(path, id=path.stem, marks=MARKS.get(path.stem, (pytest.mark.slow,))) for path in STUDIES],
 )
 
 
@@ -87,10 +87,13 @@ def test_a_study_leaves_a_whole_folder(runs: Runs, study: Path) -> None:
 
 
 @names
-def test_a_study_s_design_keeps_every_limit(runs: Runs, study: Path) -> None:
+def test_a_study_s_results_keep_limits_ratings_and_the_schema(runs: Runs, study: Path) -> None:
     reported = _results(runs[study.stem])
     assert reported["feasible"], [check for check in reported["checks"] if not check["kept"]]
     assert reported["status"] in {"evaluated", "optimal"}
+    assert reported["above_rating"] == []
+    assert reported["accepted_in_vain"] == []
+    jsonschema.validate(_results(runs[study.stem]), results_schema())
 
 
 @names
@@ -137,18 +140,6 @@ def test_mass_inertia_and_envelope_of_a_study_are_those_of_its_solids(runs: Runs
 
 
 @names
-def test_an_optimum_is_within_its_ratings_or_its_study_accepts_that(runs: Runs, study: Path) -> None:
-    reported = _results(runs[study.stem])
-    assert reported["above_rating"] == []
-    assert reported["accepted_in_vain"] == []
-
-
-@names
-def test_the_results_of_a_study_are_of_the_schema(runs: Runs, study: Path) -> None:
-    jsonschema.validate(_results(runs[study.stem]), results_schema())
-
-
-@names
 def test_plots_are_pictures_with_something_on_them(runs: Runs, study: Path) -> None:
     import matplotlib.image as mpimg
 
@@ -168,6 +159,7 @@ def test_the_published_module_is_the_paper_s(runs: Runs) -> None:
     assert values["pcl_area"]["value"] == pytest.approx(1579.2, rel=1e-4)  # the paper's Table I
 
 
+@pytest.mark.gate
 def test_the_re_optimised_module_is_better_in_all_it_was_asked_for(runs: Runs) -> None:
     before = _results(runs["paper_reconstructed"])["values"]
     after = _results(runs["paper_shear"])["values"]
@@ -184,20 +176,17 @@ def test_every_module_but_the_paper_s_holds_its_layer_and_its_melt() -> None:
 
 
 @pytest.mark.slow
-def test_the_wrists_are_half_the_paper_s_size(runs: Runs) -> None:
+def test_the_wrists_are_small_and_standard_parts_take_wire_one_can_buy(runs: Runs) -> None:
     paper = _results(runs["paper_reconstructed"])["values"]["envelope_diameter"]["value"]
     for name in ("wrist_joint", "wrist_compression"):
         assert _results(runs[name])["values"]["envelope_diameter"]["value"] <= 0.5 * paper + 0.5
-
-
-@pytest.mark.slow
-def test_the_standard_parts_take_wire_one_can_buy(runs: Runs) -> None:
     reported = _results(runs["standard_parts"])
     gauges = [0.059, 0.063, 0.067, 0.071, 0.075, 0.08, 0.085, 0.09, 0.095, 0.1, 0.106, 0.112, 0.118, 0.125]  # inch
     wire = reported["values"]["wire_diameter"]["value"] / 25.4
     assert min(abs(wire - gauge) for gauge in gauges) < 1e-6
 
 
+@pytest.mark.gate
 def test_the_csv_holds_what_the_json_holds(runs: Runs) -> None:
     import csv
 

@@ -35,26 +35,16 @@ def _of(name: str) -> Study:
 
 
 @to_order
-def test_a_study_accepts_no_rating_and_requires_a_yield_of_95_percent(path: Path) -> None:
+def test_a_study_requires_a_yield_of_parts_one_can_buy(path: Path) -> None:
     study = read_study(path)
     assert not study.accept
     assert study.robust is not None
     assert study.robust.share == pytest.approx(0.95)
     assert set(standard_tolerances(study.table)) <= set(study.tolerances), "`standard: true`, and what differs from it"
-
-
-@to_order
-def test_the_heater_can_be_bought_and_the_structure_is_not_petg(path: Path) -> None:
-    study = read_study(path)
     free = study.vary.get("peltier_module")
     heaters = free.values if isinstance(free, Options) else [study.module.get("peltier_module", "flexible_1600")]
     assert "flexible_1600" not in heaters, "no maker's table has it"
     assert study.module.get("process", "print_petg") != "print_petg"
-
-
-@to_order
-def test_springs_are_set_one_by_one_where_the_tolerances_say_so(path: Path) -> None:
-    study = read_study(path)
     assert study.tolerances["preload_angle"].adjustable == (study.module.get("preload_adjuster") == "rotary")
 
 

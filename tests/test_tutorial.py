@@ -59,7 +59,7 @@ def test_its_cells_up_to_the_first_figure_show_a_study_and_its_optimum(tmp_path:
 
 
 @pytest.mark.slow
-def test_it_shows_a_study_results_tables_and_figures(outputs: list[Any]) -> None:
+def test_it_shows_and_saves_a_study_results_tables_and_figures(outputs: list[Any]) -> None:
     kinds = [type(output) for output in outputs]
     assert kinds.count(tvim.Study) == 1
     assert kinds.count(tvim.Result) == 1
@@ -71,20 +71,12 @@ def test_it_shows_a_study_results_tables_and_figures(outputs: list[Any]) -> None
         if isinstance(output, Figure):
             assert output._repr_png_()[:4] == b"\x89PNG"  # what a notebook asks for
             assert any(line.get_xydata().size > 6 for axes in output.axes for line in axes.lines)
-
-
-@pytest.mark.slow
-def test_its_numbers_are_those_of_an_optimum(outputs: list[Any]) -> None:
     names = outputs[-2]
     assert names["result"].status == "optimal"
     assert names["result"]["module_mass"] < names["drawn"]["module_mass"]
     swept = names["sweep"].table("response_time")
     assert list(swept.status) == ["evaluated"] * 4
     assert swept["response_time"].is_monotonic_increasing
-
-
-@pytest.mark.slow
-def test_it_saves_what_a_run_writes(outputs: list[Any]) -> None:
     folder = outputs[-1] / "tutorial_results"
     assert {"manifest.json", "results.json", "design.json", "study.yaml", "plots"} <= {p.name for p in folder.iterdir()}
 

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import pytest
 from answers import shipped_answer
-from support import ROOT, run_process
+from support import ROOT, STUDIES, run_process
 
 from tvimdesign.study.design import write_design
 
@@ -82,12 +82,14 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Installed:
     return Installed(tmp_path_factory.mktemp("wheel"))
 
 
-def test_the_package_is_that_of_the_wheel_and_has_the_solvers(installed: Installed) -> None:
+def test_the_package_is_the_wheel_s_and_has_solvers_and_studies(installed: Installed) -> None:
     where = run([installed.python, "-c", "import tvimdesign; print(tvimdesign.__file__)"], installed.folder).stdout
     assert Path(where.strip()).is_relative_to(installed.folder)
     names = zipfile.ZipFile(installed.wheel).namelist()
     solvers = {path.name for path in (ROOT / "tvimdesign/cad/fe/solvers").glob("*.py")}
     assert solvers == {Path(name).name for name in names if name.startswith("tvimdesign/cad/fe/solvers/")}
+    assert "tvimdesign/__init__.pyi" in names
+    assert installed.says("new", "--list").stdout.splitlines()[::2] == [study.stem for study in STUDIES]
 
 
 def test_a_fit_and_its_record(installed: Installed) -> None:

@@ -208,7 +208,7 @@ def _check(limit: ProcessorLimit, times: int) -> None:
         limit.check()
 
 
-def test_time_without_checks_is_no_idle_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_limits_count_work_and_start_again_with_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0.0]
     monkeypatch.setattr(processes.time, "monotonic", lambda: now[0])
     monkeypatch.setattr(processes, "processor_time", lambda _process: 1.0)
@@ -216,9 +216,6 @@ def test_time_without_checks_is_no_idle_time(monkeypatch: pytest.MonkeyPatch) ->
     for _ in range(8):  # the computer sleeps for an hour between two checks, each of which counts 0.1 s
         now[0] += 3600.0
         limit.check()
-
-
-def test_the_count_starts_again_with_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     used = [0.0]
     monkeypatch.setattr(processes, "CHECK_EVERY", 0.0)
     monkeypatch.setattr(processes, "processor_time", lambda _process: used[0])

@@ -29,7 +29,7 @@ def test_an_interrupt_that_was_swallowed_is_raised_again_until_all_is_over(numbe
     assert signal.getsignal(number) is before
 
 
-def test_a_signal_received_twice_does_not_disturb_cleanup() -> None:
+def test_signals_received_twice_or_ignored_do_not_disturb() -> None:
     cleaned = False
     with interrupt_handler():
         try:
@@ -38,9 +38,6 @@ def test_a_signal_received_twice_does_not_disturb_cleanup() -> None:
             os.kill(os.getpid(), signal.SIGTERM)
             cleaned = True
     assert cleaned
-
-
-def test_a_signal_that_is_ignored_stays_ignored() -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
         with interrupt_handler():
@@ -50,9 +47,7 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
         signal.signal(signal.SIGHUP, before)
 
 
-def test_an_interrupt_that_cannot_be_raised_stays_pending(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_an_interrupt_that_cannot_be_raised_stays_pending(capsys: pytest.CaptureFixture[str]) -> None:
     class Ends:
         def __del__(self) -> None:
             signal.raise_signal(signal.SIGTERM)  # as in a function of SciPy's that cannot hand an exception on
@@ -156,13 +151,16 @@ def clock() -> Clock:
     return Clock()
 
 
-def test_a_part_leaves_time_to_what_follows(clock: Clock) -> None:
+def test_parts_leave_time_to_what_follows(clock: Clock) -> None:
     whole = Deadline(20.0, clock)
     part = whole.leaving(4.0)
     assert (part.remaining, part.late.remaining, whole.remaining) == (16.0, 18.0, 20.0)
     clock.now = 17.0
     assert (part.passed, part.late.passed, whole.passed) == (True, False, False)
     assert part.whole is whole
+    part = NEVER.leaving(4.0)
+    assert not part.passed
+    assert not part.late.passed
 
 
 def test_a_part_leaves_half_of_the_time_at_most(clock: Clock) -> None:
@@ -173,13 +171,18 @@ def test_a_part_leaves_half_of_the_time_at_most(clock: Clock) -> None:
     assert part.remaining == 0.5  # once left, time is not taken back
 
 
-def test_a_step_without_time_is_noted_and_not_done(clock: Clock) -> None:
+def test_steps_without_time_are_noted_and_named(clock: Clock) -> None:
     whole = Deadline(5.0, clock)
     part, done = whole.leaving(1.0), list[str]()
     assert part.attempt("the first", lambda: done.append("first") or 1) == 1
     clock.now = 4.5
     assert part.attempt("the second", lambda: done.append("second") or 2) is None
     assert (done, whole.left_out, part.met, whole.met) == (["first"], ["the second"], True, False)
+    clock.now = 1.0
+    limit = Deadline(20.0, clock)
+    clock.now = 21.0
+    with pytest.raises(TimeOverError, match=r"limit of 20 s was over before all was done: raise .*--time-limit"):
+        limit.check("all was done")
 
 
 def test_a_step_that_runs_out_of_time_is_noted_once(clock: Clock) -> None:
@@ -192,17 +195,3 @@ def test_a_step_that_runs_out_of_time_is_noted_once(clock: Clock) -> None:
     whole.attempt("it", late)
     whole.attempt("it", late)
     assert whole.left_out == ["it"]
-
-
-def test_the_error_names_the_step_and_what_to_do(clock: Clock) -> None:
-    clock.now = 1.0
-    limit = Deadline(20.0, clock)
-    clock.now = 21.0
-    with pytest.raises(TimeOverError, match=r"limit of 20 s was over before all was done: raise .*--time-limit"):
-        limit.check("all was done")
-
-
-def test_without_a_limit_no_part_ends() -> None:
-    part = NEVER.leaving(4.0)
-    assert not part.passed
-    assert not part.late.passed

@@ -24,44 +24,19 @@ UNITS = NAMES.split()
 @pytest.mark.parametrize(
     ("text", "unit", "expected"),
     [
-        ("2.413 mm", "mm", 0.002413),
-        ("2.413mm", "mm", 0.002413),
-        ("0.095 in", "mm", 0.002413),
-        ("-1.5e-3 m", "mm", -0.0015),
-        ("5 N.m/rad", "N*m/rad", 5.0),
-        ("5 N*m/rad", "N*m/rad", 5.0),
-        ("5 Nm/rad", "N*m/rad", 5.0),
-        ("5 N·m/rad", "N*m/rad", 5.0),
-        ("5 N.m", "N*m/rad", 5.0),
-        ("1 N.m/deg", "N*m/rad", 180 / math.pi),
-        ("12.5 mN.m", "N*m", 0.0125),
-        ("415.6 kg.mm^2", "kg*m^2", 4.156e-4),
-        ("1579.2 mm²", "mm^2", 1.5792e-3),
-        ("0.2 W/m/K", "W/m/K", 0.2),
-        ("0.2 W/(m.K)", "W/m/K", 0.2),
-        ("100 degC", "degC", 373.15),
-        ("100 °C", "degC", 373.15),
-        ("373.15 K", "degC", 373.15),
-        ("5 K", "K", 5.0),
-        ("180 °", "deg", math.pi),
-        ("1 turn", "rad", math.tau),
-        ("0.104 rad", "deg", 0.104),
-        ("600 %", "1", 6.0),
-        ("0.78", "1", 0.78),
-        ("0.78 1", "1", 0.78),
-        ("10 Hz", "Hz", 10.0),
-        ("10 Hz", "rad/s", 10 * math.tau),
-        ("62.8 rad/s", "rad/s", 62.8),
-        ("76.7 J/g", "kJ/kg", 76700.0),
-        ("25 mV/K", "V/K", 0.025),
-        ("2 cm^3", "mm^3", 2e-6),
-        ("1 L", "m^3", 1e-3),
-        ("2 min", "s", 120.0),
-        ("530 Pa.s", "Pa*s", 530.0),
-        ("203.4 GPa", "MPa", 203.4e9),
-        ("3 Ω", "ohm", 3.0),
+        ("2.413 mm", "mm", 0.002413), ("2.413mm", "mm", 0.002413), ("0.095 in", "mm", 0.002413),
+        ("-1.5e-3 m", "mm", -0.0015), ("5 N.m/rad", "N*m/rad", 5.0), ("5 N*m/rad", "N*m/rad", 5.0),
+        ("5 Nm/rad", "N*m/rad", 5.0), ("5 N·m/rad", "N*m/rad", 5.0), ("5 N.m", "N*m/rad", 5.0),
+        ("1 N.m/deg", "N*m/rad", 180 / math.pi), ("12.5 mN.m", "N*m", 0.0125), ("415.6 kg.mm^2", "kg*m^2", 4.156e-4),
+        ("1579.2 mm²", "mm^2", 1.5792e-3), ("0.2 W/m/K", "W/m/K", 0.2), ("0.2 W/(m.K)", "W/m/K", 0.2),
+        ("100 degC", "degC", 373.15), ("100 °C", "degC", 373.15), ("373.15 K", "degC", 373.15), ("5 K", "K", 5.0),
+        ("180 °", "deg", math.pi), ("1 turn", "rad", math.tau), ("0.104 rad", "deg", 0.104), ("600 %", "1", 6.0),
+        ("0.78", "1", 0.78), ("0.78 1", "1", 0.78), ("10 Hz", "Hz", 10.0), ("10 Hz", "rad/s", 10 * math.tau),
+        ("62.8 rad/s", "rad/s", 62.8), ("76.7 J/g", "kJ/kg", 76700.0), ("25 mV/K", "V/K", 0.025),
+        ("2 cm^3", "mm^3", 2e-6), ("1 L", "m^3", 1e-3), ("2 min", "s", 120.0), ("530 Pa.s", "Pa*s", 530.0),
+        ("203.4 GPa", "MPa", 203.4e9), ("3 Ω", "ohm", 3.0),
     ],
-)
+)  # fmt: skip
 def test_what_people_write(text: str, unit: str, expected: float) -> None:
     assert parse_quantity(text, unit) == pytest.approx(expected, rel=1e-12)
 
@@ -107,20 +82,10 @@ def test_what_is_refused(text: str, unit: str, message: str) -> None:
 
 
 HOSTILE = [
-    "5 __import__('os').system('true')",
-    "5 m^9^9^9^9",
-    "5 (m^9)^9",
-    "5 " + "(" * 190 + "m",
-    "5 " + "k" * 190,
-    "5 " + "m*" * 90 + "m",
-    "5 " + "km^9*" * 35 + "km",
-    "9" * 190 + "!",
-    "5 1" * 60,
-    "5 m\x00m",
-    "5 \u202emm",
-    "1e" + "9" * 190 + " mm",
-    "5 mm\nmm",
-]
+    "5 __import__('os').system('true')", "5 m^9^9^9^9", "5 (m^9)^9", "5 " + "(" * 190 + "m", "5 " + "k" * 190,
+    "5 " + "m*" * 90 + "m", "5 " + "km^9*" * 35 + "km", "9" * 190 + "!", "5 1" * 60, "5 m\x00m", "5 \u202emm",
+    "1e" + "9" * 190 + " mm", "5 mm\nmm",
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("text", HOSTILE)
@@ -160,12 +125,9 @@ def test_what_is_written_out_reads_the_same(value: float, unit: str) -> None:
     assert parse_quantity(format_quantity(value_si, unit, digits=12), unit) == pytest.approx(value_si, rel=1e-9)
 
 
-def test_units_for_people() -> None:
+def test_numbers_and_units_for_people() -> None:
     units = ("N*m/rad", "mm^2", "degC", "1", "deg", "ohm", "W/(m*K)", "um", "%", "m^-1")
     assert [pretty(unit) for unit in units] == ["N·m/rad", "mm²", "°C", "", "°", "Ω", "W/(m·K)", "µm", "%", "m⁻¹"]
-
-
-def test_numbers_for_people() -> None:
     assert format_quantity(0.002413, "mm") == "2.413 mm"
     assert format_quantity(373.15, "degC") == "100 °C"
     assert format_quantity(math.pi, "deg") == "180°"

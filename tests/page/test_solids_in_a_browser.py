@@ -46,7 +46,7 @@ def solids(screen: Opened) -> Iterator[Solids]:
 
 
 @pytest.mark.gate
-def test_a_part_is_hidden_and_shown_by_the_tree(solids: Solids) -> None:
+def test_parts_are_hidden_taken_apart_and_turned(solids: Solids) -> None:
     before = solids.picture()
     box = solids.figure.get_by_role("checkbox", name="housing", exact=True)
     box.uncheck()
@@ -54,10 +54,6 @@ def test_a_part_is_hidden_and_shown_by_the_tree(solids: Solids) -> None:
     assert solids.picture() != before
     box.check()
     assert solids.picture() == before
-
-
-@pytest.mark.gate
-def test_the_parts_come_apart_by_their_lifts(solids: Solids) -> None:
     at = "object.matrix.elements[14]"
     before = {name: solids.part(name, at) for name in ("housing", "rotor")}
     solids.slide("Apart", 0.5)
@@ -80,16 +76,13 @@ def test_the_module_fills_its_picture_and_is_whole_in_it(solids: Solids, view: s
     assert max((right - left) / width, (bottom - top) / height) > 0.8
 
 
-def test_a_cut_shows_the_inside(solids: Solids) -> None:
+def test_parts_are_cut_picked_and_turned_by_keys(solids: Solids) -> None:
     before = solids.picture()
     solids.figure.get_by_role("combobox", name="Cut").select_option("y")
     assert solids.part("housing", "outside.clippingPlanes.length") == 1
     assert solids.picture() != before
     solids.figure.get_by_role("combobox", name="Cut").select_option("none")
     assert solids.picture() == before
-
-
-def test_a_part_is_picked_in_the_picture_or_by_keys(solids: Solids) -> None:
     solids.figure.locator("canvas").click()
     about = solids.figure.locator(".about")
     assert about.get_by_role("heading").inner_text() in {"housing", "rotor", "link"}
@@ -98,9 +91,6 @@ def test_a_part_is_picked_in_the_picture_or_by_keys(solids: Solids) -> None:
     solids.found.page.keyboard.press("Enter")
     assert "material of pcl_arc_1" in about.inner_text()
     assert about.get_by_role("link").get_attribute("href") == "cad/step/pcl_arc_1.step"
-
-
-def test_keys_turn_the_module(solids: Solids) -> None:
     before = solids.picture()
     solids.figure.locator("canvas").focus()
     solids.found.page.keyboard.press("ArrowLeft")
