@@ -130,7 +130,7 @@ def _tightened(
     for attempt in range(1 + shakes):
         unknowns = optimizer.vector.shaken(run.unknowns, within, _SHAKE, random) if attempt else run.unknowns
         optimizer.margins = margins
-        tried = optimizer.solve(within, unknowns=unknowns, objective=objective, moves=moves)
+        tried = optimizer.solve(within, unknowns=unknowns, objective=objective, moves=moves, beginning="near")
         taken = max((optimizer.margins.get(name, 0.0) - margins.get(name, 0.0)) / move for name, move in moves.items())
         if tried.start.converged and taken > (best[0] if best else _NO_ROOM):
             best = taken, tried, optimizer.margins
