@@ -9,7 +9,6 @@ from typing import Any
 
 from rich.console import Console
 from rich.padding import Padding
-from rich.table import Table as Grid
 from rich.text import Text
 
 from tvimdesign.base.errors import InputError
@@ -17,7 +16,8 @@ from tvimdesign.base.units import pretty
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.numbers import in_unit
-from tvimdesign.report.output.terminal import wide_console
+from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.terminal import print_grid, wide_console
 from tvimdesign.study.resolve import words_of
 from tvimdesign.study.text.mistakes import did_you_mean, synonyms
 
@@ -74,14 +74,9 @@ def _print_groups(rows: Sequence[Quantity], mode: str, console: Console) -> None
     """Print a line for each group: how many names it has, and those a summary shows or a search may change."""
     groups = list(dict.fromkeys(row.group for row in rows))
     console.print(f"{len(rows)} names of {mode} mode in {len(groups)} groups, with those that are asked for most:\n")
-    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
-    grid.add_column("group", no_wrap=True)
-    grid.add_column("", justify="right", no_wrap=True)
-    grid.add_column("names")
-    for group in groups:
-        own = [row for row in rows if row.group == group]
-        grid.add_row(f"[bold]{group}[/bold]", str(len(own)), ", ".join(_important(own)))
-    console.print(grid)
+    in_groups = {group: [row for row in rows if row.group == group] for group in groups}
+    cells = [(group, str(len(own)), ", ".join(_important(own))) for group, own in in_groups.items()]
+    print_grid(grid("", ("group", "", "names"), cells, right=(1,), code=()), console)
     console.print(
         '\nNext: `tvimdesign rows Springs` for a group, `tvimdesign rows weight` for a word, "power supply" for two.',
         markup=False,

@@ -99,12 +99,12 @@ class Uncertainty:
     def entry(self, uncertainty: DesignUncertainty, modules: int, draws: int) -> UncertaintyEntry:
         """Return plain data for results.json."""
         return {
-            "parts_yield": _share(uncertainty.together),
+            "parts_yield": share_entry(uncertainty.together),
             "modules": modules,
             "limits": uncertainty.limits,
             "left_out": list(uncertainty.left_out),
             "tolerances": "study" if self.own else "standard",
-            "ranges_hold": _share(uncertainty.holds),
+            "ranges_hold": share_entry(uncertainty.holds),
             "draws": draws,
             "held": uncertainty.held,
             "intervals": {
@@ -138,7 +138,8 @@ def _unmeasured(unmeasured_input: UnmeasuredInput, table: Table) -> UnmeasuredEn
     }
 
 
-def _share(share: Yield | None) -> ShareEntry | None:
+def share_entry(share: Yield | None) -> ShareEntry | None:
+    """Return a share with its confidence interval as plain data."""
     return None if share is None else {"share": share.share, "low": share.low, "high": share.high}
 
 

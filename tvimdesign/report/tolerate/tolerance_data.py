@@ -11,7 +11,7 @@ import numpy as np
 from tvimdesign.base.units import from_si, pretty, si_unit, to_si
 from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import axis_label, finite, head, name_in_words
-from tvimdesign.report.run.uncertainty_data import interval_entry
+from tvimdesign.report.run.uncertainty_data import interval_entry, share_entry
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
@@ -29,20 +29,23 @@ def spreads(spread: Spread, i: int) -> bool:
     return bool(spread.deviation[i] > _NO_SPREAD * abs(spread.nominal[i])) or bool(spread.drawn.never[i] > 0.0)
 
 
+def _columns(spread: Spread) -> dict[str, Any]:
+    """Return the numbers of the outputs (SI): as drawn, worst case, root-sum-square and Monte Carlo."""
+    drawn, worst = spread.drawn, spread.worst
+    return {
+        "as_drawn": spread.nominal, "worst_low": worst.low, "worst_high": worst.high, "mean": drawn.mean,
+        "low": drawn.low, "high": drawn.high, "deviation_rss": spread.deviation, "deviation": drawn.deviation,
+    }  # fmt: skip
+
+
 def output_rows(spread: Spread, table: Table) -> Iterator[Row]:
     """Yield one row for each output: as drawn, worst case, root-sum-square and Monte Carlo side by side."""
+    columns = _columns(spread)
     for i, name in enumerate(spread.outputs):
         unit = table.unit(name)
-        values = {
-            "as_drawn": spread.nominal[i], "worst_low": spread.worst.low[i], "worst_high": spread.worst.high[i],
-            "mean": spread.drawn.mean[i], "low": spread.drawn.low[i], "high": spread.drawn.high[i],
-        }  # fmt: skip
-        shown = {key: finite(from_si(float(value), unit)) for key, value in values.items()}
-        deviations = {
-            "deviation_rss": finite(from_si(float(spread.deviation[i]), difference_unit(unit))),
-            "deviation": finite(from_si(float(spread.drawn.deviation[i]), difference_unit(unit))),
-        }
-        yield {"output": name, "unit": pretty(unit), **shown, **deviations, "never": float(spread.drawn.never[i])}
+        units = {key: difference_unit(unit) if key.startswith("deviation") else unit for key in columns}
+        shown = {key: finite(from_si(float(column[i]), units[key])) for key, column in columns.items()}
+        yield {"output": name, "unit": pretty(unit), **shown, "never": float(spread.drawn.never[i])}
 
 
 def limit_rows(spread: Spread, table: Table) -> Iterator[Row]:
@@ -80,7 +83,7 @@ def reported(spread: Spread, preload: Preload | None, table: Table, study: Study
     return {
         **head(),
         "samples": samples,
-        "yield": {"share": spread.together.share, "low": spread.together.low, "high": spread.together.high},
+        "yield": share_entry(spread.together),
         "outputs": [
             {**row, "si": si} for row, si in zip(output_rows(spread, table), _outputs_in_si(spread, table), strict=True)
         ],
@@ -94,11 +97,7 @@ def reported(spread: Spread, preload: Preload | None, table: Table, study: Study
 
 def _outputs_in_si(spread: Spread, table: Table) -> Iterator[dict[str, str | float | None]]:
     """Yield the numbers of each output's row in SI."""
-    columns = {
-        "as_drawn": spread.nominal, "worst_low": spread.worst.low, "worst_high": spread.worst.high,
-        "mean": spread.drawn.mean, "low": spread.drawn.low, "high": spread.drawn.high,
-        "deviation_rss": spread.deviation, "deviation": spread.drawn.deviation,
-    }  # fmt: skip
+    columns = _columns(spread)
     for i, name in enumerate(spread.outputs):
         numbers = {key: finite(float(column[i])) for key, column in columns.items()}
         yield {**numbers, "unit": pretty(si_unit(table.unit(name)))}
@@ -125,9 +124,8 @@ def epistemic_uncertainty(resolved: ResolvedModule, spread: Spread, workers: int
 
 def unknown_data(unknown: DesignUncertainty, table: Table) -> dict[str, Any]:
     """Return the epistemic uncertainty as plain data."""
-    holds = unknown.holds
     return {
-        "holds": None if holds is None else {"share": holds.share, "low": holds.low, "high": holds.high},
+        "holds": share_entry(unknown.holds),
         "held": unknown.held,
         "unmeasured": [unmeasured_input.name for unmeasured_input in unknown.unmeasured],
         "intervals": {
