@@ -9,25 +9,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tvimdesign.report.figures.theme import (
-    BROKEN,
-    COLOURS,
-    FAINT,
-    HATCHES,
-    LIMIT,
-    NAME_STRIP,
-    SEQUENCE,
-    SMALL,
-    TICKS,
-    WIDTH,
-    caption,
-    heading,
-    log_ticks,
-    new_figure,
-    place,
-    row_texts,
-    style_of,
-)
+from tvimdesign.report.figures import theme
 
 _ACROSS = 3
 
@@ -38,13 +20,16 @@ def spread(data: dict[str, Any]) -> Figure:
     down = -(-len(panels) // _ACROSS)
     bars_high, row = 0.17 * len(outputs) + 0.1, 1.85
     keys = 0.14 * -(-len(data["parts"]) // 4) + 0.1
-    figure = new_figure(NAME_STRIP + keys + bars_high + 0.5 + row * down + 0.3)
-    top = figure.get_figheight() - NAME_STRIP - keys
-    _contributors(place(figure, 2.0, top - bars_high, 4.9, bars_high), data)
+    figure = theme.new_figure(theme.NAME_STRIP + keys + bars_high + 0.5 + row * down + 0.3)
+    top = figure.get_figheight() - theme.NAME_STRIP - keys
+    _contributors(theme.place(figure, 2.0, top - bars_high, 4.9, bars_high), data)
     for i, panel in enumerate(panels):
         bottom = top - bars_high - 0.5 - row * (i // _ACROSS + 1) + 0.5
-        _histogram(place(figure, 0.6 + (i % _ACROSS) * 2.28, bottom, 1.75, 1.0), panel)
-    marks = [Line2D([], [], color=BROKEN, linewidth=1.5, label="limit"), Line2D([], [], label="as drawn", **LIMIT)]
+        _histogram(theme.place(figure, 0.6 + (i % _ACROSS) * 2.28, bottom, 1.75, 1.0), panel)
+    marks = [
+        Line2D([], [], color=theme.BROKEN, linewidth=1.5, label="limit"),
+        Line2D([], [], label="as drawn", **theme.LIMIT),
+    ]
     figure.legend(handles=marks, loc="lower center", ncols=2)
     return figure
 
@@ -53,25 +38,25 @@ def _contributors(axes: Any, data: dict[str, Any]) -> None:
     rows = range(len(data["outputs"]))
     left = [0.0] * len(rows)
     for i, part in enumerate(data["parts"]):
-        colour = COLOURS[i] if i < len(COLOURS) else FAINT
-        axes.barh(rows, part["shares"], left=left, facecolor=colour, hatch=HATCHES[i % len(HATCHES)],
+        colour = theme.COLOURS[i] if i < len(theme.COLOURS) else theme.FAINT
+        axes.barh(rows, part["shares"], left=left, facecolor=colour, hatch=theme.HATCHES[i % len(theme.HATCHES)],
                   edgecolor="white", linewidth=0.3, label=part["name"])  # fmt: skip
         left = [a + b for a, b in zip(left, part["shares"], strict=True)]
     axes.set(xlabel="Share of the variance (%)", xlim=(0.0, 100.0), ylim=(len(rows) - 0.4, -0.6))
     axes.grid(visible=False)
-    row_texts(axes, data["outputs"], [])
+    theme.row_texts(axes, data["outputs"], [])
     axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
 
 def _histogram(axes: Any, panel: dict[str, Any]) -> None:
-    axes.stairs(panel["counts"], panel["edges"], fill=True, color=COLOURS[0], alpha=0.5)
+    axes.stairs(panel["counts"], panel["edges"], fill=True, color=theme.COLOURS[0], alpha=0.5)
     for limit in panel["limits"]:
-        axes.axvline(limit, color=BROKEN, linewidth=1.5)
-    axes.axvline(panel["as_drawn"], **LIMIT)
+        axes.axvline(limit, color=theme.BROKEN, linewidth=1.5)
+    axes.axvline(panel["as_drawn"], **theme.LIMIT)
     axes.set(xlabel=panel["label"], ylabel="Modules (count)")
     axes.locator_params(nbins=4)
     axes.grid(visible=False)
-    heading(axes, panel["title"])
+    theme.heading(axes, panel["title"])
 
 
 _PANELS_ACROSS = 2
@@ -84,14 +69,14 @@ def fit(data: dict[str, Any]) -> Figure:
     panels = data["panels"]
     down, across = -(-len(panels) // _PANELS_ACROSS), min(len(panels), _PANELS_ACROSS)
     row = _HIGH + _LOW + _ABOVE + _BELOW + 0.08
-    figure = new_figure(NAME_STRIP + 0.22 + row * down)
-    caption(figure, data["title"])
-    wide = (WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
+    figure = theme.new_figure(theme.NAME_STRIP + 0.22 + row * down)
+    theme.caption(figure, data["title"])
+    wide = (theme.WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
     for i, panel in enumerate(panels):
         left = _LEFT + (i % across) * (wide + _GAP)
         bottom = _BELOW + row * (down - 1 - i // across)
-        below = place(figure, left, bottom, wide, _LOW)
-        above = place(figure, left, bottom + _LOW + 0.08, wide, _HIGH)
+        below = theme.place(figure, left, bottom, wide, _LOW)
+        above = theme.place(figure, left, bottom + _LOW + 0.08, wide, _HIGH)
         _fit_panel(above, below, panel, _LONGEST // across)
     return figure
 
@@ -101,46 +86,48 @@ def bench(data: dict[str, Any]) -> Figure:
     panels = data["panels"]
     down, across = -(-len(panels) // _PANELS_ACROSS), min(len(panels), _PANELS_ACROSS)
     row = _HIGH + _ABOVE + _BELOW
-    figure = new_figure(NAME_STRIP + 0.22 + row * down)
-    caption(figure, data["title"])
-    wide = (WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
+    figure = theme.new_figure(theme.NAME_STRIP + 0.22 + row * down)
+    theme.caption(figure, data["title"])
+    wide = (theme.WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
     for i, panel in enumerate(panels):
         left, bottom = _LEFT + (i % across) * (wide + _GAP), _BELOW + row * (down - 1 - i // across)
-        axes = place(figure, left, bottom, wide, _HIGH)
-        heading(axes, panel["title"])
+        axes = theme.place(figure, left, bottom, wide, _HIGH)
+        theme.heading(axes, panel["title"])
         for k, series in enumerate(panel["series"]):
-            color, name = COLOURS[k % len(COLOURS)], series["name"]
+            color, name = theme.COLOURS[k % len(theme.COLOURS)], series["name"]
             axes.plot(panel["x"], series["value"], color=color, label=f"{name}, predicted")
             for end in (series["low"], series["high"]):
                 axes.plot(panel["x"], end, "--", color=color, linewidth=0.6)
             if series["measured"]:
                 axes.plot(series["at"], series["measured"], "o", color=color, markersize=2.5, label=f"{name}, measured")
         axes.set(xlabel=panel["x_label"], ylabel=panel["y_label"])
-        axes.locator_params(nbins=TICKS)
+        axes.locator_params(nbins=theme.TICKS)
         axes.legend(loc="best", fontsize=5)
     return figure
 
 
 def _fit_panel(above: Any, below: Any, panel: dict[str, Any], longest: int) -> None:
     title = panel["title"]
-    heading(above, title if len(title) <= longest else "… " + title[-longest:])
+    theme.heading(above, title if len(title) <= longest else "… " + title[-longest:])
     order = sorted(range(len(panel["x"])), key=panel["x"].__getitem__) if panel["log_x"] else range(len(panel["x"]))
-    above.plot(panel["x"], panel["measured"], "o", color=COLOURS[0], markersize=2.5, label="measured")
-    above.plot([panel["x"][i] for i in order], [panel["fitted"][i] for i in order], color=COLOURS[1], label="fitted")
-    below.plot(panel["x"], panel["residual"], "o", color=COLOURS[0], markersize=2.0)
+    above.plot(panel["x"], panel["measured"], "o", color=theme.COLOURS[0], markersize=2.5, label="measured")
+    above.plot(
+        [panel["x"][i] for i in order], [panel["fitted"][i] for i in order], color=theme.COLOURS[1], label="fitted"
+    )
+    below.plot(panel["x"], panel["residual"], "o", color=theme.COLOURS[0], markersize=2.0)
     below.axhline(0.0, color="0.5", linewidth=0.6)
     above.set_ylabel(panel["y_label"])
     below.set_ylabel("residual / σ")
     below.set_xlabel(panel["x_label"])
     above.set_xticklabels([])
     for axes in (above, below):
-        axes.locator_params(nbins=TICKS)
+        axes.locator_params(nbins=theme.TICKS)
         if panel["log_x"]:
             axes.set_xscale("log")
-            log_ticks(axes.xaxis)
+            theme.log_ticks(axes.xaxis)
     if panel["log_y"]:
         above.set_yscale("log")
-        log_ticks(above.yaxis)
+        theme.log_ticks(above.yaxis)
     above.set_xticklabels([])
     above.legend(loc="best", fontsize=6)
 
@@ -154,30 +141,30 @@ def sweep(data: dict[str, Any]) -> Figure:
     panels, cloud = data["panels"], bool(data["y"])
     labelled = any(series["label"] for panel in panels for series in panel["series"])
     height = 0.75 + len(panels) * (_EACH + 0.3)
-    figure = new_figure(height)
-    wide = WIDTH - (1.9 if cloud or labelled else 0.9)
+    figure = theme.new_figure(height)
+    wide = theme.WIDTH - (1.9 if cloud or labelled else 0.9)
     for number, panel in enumerate(panels):
         bottom = 0.55 + (len(panels) - 1 - number) * (_EACH + 0.3)
-        axes = place(figure, 0.75, bottom, wide, _EACH)
+        axes = theme.place(figure, 0.75, bottom, wide, _EACH)
         last = number == len(panels) - 1
         if cloud:
-            _cloud(figure, axes, panel, place(figure, 0.75 + wide + 0.12, bottom, 0.1, _EACH))
+            _cloud(figure, axes, panel, theme.place(figure, 0.75 + wide + 0.12, bottom, 0.1, _EACH))
         else:
             _lines(axes, panel, joined=data["joined"])
         axes.set(xlabel=data["x"] if last else "", ylabel=data["y"] if cloud else panel["label"])
-        axes.locator_params(nbins=TICKS)
+        axes.locator_params(nbins=theme.TICKS)
         if labelled and not cloud and number == 0:
             figure.legend(
-                *axes.get_legend_handles_labels(), loc="upper right", title=data["legend"], title_fontsize=SMALL
+                *axes.get_legend_handles_labels(), loc="upper right", title=data["legend"], title_fontsize=theme.SMALL
             )
     if any(not all(series["kept"]) for panel in panels for series in panel["series"]):
-        caption(figure, "Hollow: a limit is broken.")
+        theme.caption(figure, "Hollow: a limit is broken.")
     return figure
 
 
 def _lines(axes: Any, panel: dict[str, Any], *, joined: bool) -> None:
     for number, series in enumerate(panel["series"]):
-        style = style_of(number)
+        style = theme.style_of(number)
         if not joined:
             style = {**style, "linestyle": ""}
         axes.plot(series["x"], series["y"], marker="o", markersize=3.5, label=series["label"] or None, **style)
@@ -185,7 +172,7 @@ def _lines(axes: Any, panel: dict[str, Any], *, joined: bool) -> None:
             (x, y) for x, y, satisfied in zip(series["x"], series["y"], series["kept"], strict=True) if not satisfied
         ]
         if broken:
-            axes.plot(*zip(*broken, strict=True), linestyle="", marker="o", markersize=3.5, color=BROKEN,
+            axes.plot(*zip(*broken, strict=True), linestyle="", marker="o", markersize=3.5, color=theme.BROKEN,
                       markerfacecolor="white")  # fmt: skip
 
 
@@ -200,5 +187,5 @@ def _cloud(figure: Figure, axes: Any, panel: dict[str, Any], scale: Any) -> None
         if some:
             x, y, colour, _ = zip(*some, strict=True)
             hollow = {"marker": "o", "linewidths": 0.0} if some is satisfied else {"marker": "."}
-            axes.scatter(x, y, c=colour, cmap=SEQUENCE, s=size, **hollow, **ends)
-    figure.colorbar(ScalarMappable(Normalize(**ends), SEQUENCE), cax=scale, label=panel["label"])
+            axes.scatter(x, y, c=colour, cmap=theme.SEQUENCE, s=size, **hollow, **ends)
+    figure.colorbar(ScalarMappable(Normalize(**ends), theme.SEQUENCE), cax=scale, label=panel["label"])

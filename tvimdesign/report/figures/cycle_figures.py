@@ -8,21 +8,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.theme import (
-    BAND,
-    LIMIT,
-    SEQUENCE,
-    SMALL,
-    TICKS,
-    caption,
-    heading,
-    legend_above,
-    legend_beside,
-    log_ticks,
-    new_figure,
-    place,
-    style_of,
-)
+from tvimdesign.report.figures import theme
 
 _PHASES = (
     ("softening", "heating"),
@@ -36,13 +22,13 @@ _LEFT, _WIDE = 0.62, 3.4  # inches: where panels over time begin, and how wide t
 
 def cycle(data: dict[str, Any]) -> Figure:
     """Return the working cycle: temperatures, current and impedance over time, and temperatures through the layer."""
-    figure = new_figure(5.85)
-    over_time = place(figure, _LEFT, 3.55, _WIDE, 1.6)
-    current = place(figure, _LEFT, 2.72, _WIDE, 0.62, sharex=over_time)
-    impedance = place(figure, _LEFT, 0.9, _WIDE, 1.6, sharex=over_time)
+    figure = theme.new_figure(5.85)
+    over_time = theme.place(figure, _LEFT, 3.55, _WIDE, 1.6)
+    current = theme.place(figure, _LEFT, 2.72, _WIDE, 0.62, sharex=over_time)
+    impedance = theme.place(figure, _LEFT, 0.9, _WIDE, 1.6, sharex=over_time)
     soft, stiff = data["softening"], data.get("stiffening")
     _temperatures(over_time, soft, stiff, data)
-    current.plot(*_joined(soft, stiff, "current"), **style_of(4) | {"linestyle": "-"})
+    current.plot(*_joined(soft, stiff, "current"), **theme.style_of(4) | {"linestyle": "-"})
     current.set_ylabel(data["labels"]["current"])
     _phases(impedance, data, "joint_impedance")
     _thresholds(impedance, data)
@@ -53,45 +39,45 @@ def cycle(data: dict[str, Any]) -> Figure:
     if stiff:
         profiles.append((stiff, "Through the layer while it cools", 0.9))
     for history, title, bottom in profiles:
-        axes = place(figure, 4.8, bottom, 1.42, 1.6)
+        axes = theme.place(figure, 4.8, bottom, 1.42, 1.6)
         _through(axes, history, data, title)
-        axes.locator_params(nbins=TICKS)
+        axes.locator_params(nbins=theme.TICKS)
     for axes in (over_time, current):
-        axes.locator_params(nbins=TICKS)
+        axes.locator_params(nbins=theme.TICKS)
     return figure
 
 
 def stiffness_and_damping(data: dict[str, Any]) -> Figure:
     """Draw stiffness and damping of the joint through the cycle, at the frequency of where each phase leads."""
-    figure = new_figure(4.75)
-    caption(figure, data["title"])
-    stiffness = place(figure, _LEFT, 2.42, 6.1, 1.72)
-    damping = place(figure, _LEFT, 0.42, 6.1, 1.72, sharex=stiffness)
+    figure = theme.new_figure(4.75)
+    theme.caption(figure, data["title"])
+    stiffness = theme.place(figure, _LEFT, 2.42, 6.1, 1.72)
+    damping = theme.place(figure, _LEFT, 0.42, 6.1, 1.72, sharex=stiffness)
     _phases(stiffness, data, "joint_stiffness")
-    stiffness.axhline(data["springs"], label="springs alone", **LIMIT)
+    stiffness.axhline(data["springs"], label="springs alone", **theme.LIMIT)
     low, high = stiffness.get_ylim()
     stiffness.set_ylim(min(low, 0.8 * data["springs"]), high)
-    log_ticks(stiffness.yaxis)
+    theme.log_ticks(stiffness.yaxis)
     _phases(damping, data, "joint_damping")
     damping.set_xlabel("Time (s)")
     _share_time((stiffness, damping), data["softening"])
-    legend_above(stiffness, 4)
-    damping.locator_params(axis="x", nbins=2 * TICKS)
+    theme.legend_above(stiffness, 4)
+    damping.locator_params(axis="x", nbins=2 * theme.TICKS)
     return figure
 
 
 def power_and_energy(data: dict[str, Any]) -> Figure:
     """Return what the supply gives through the cycle, and what that adds up to."""
-    figure = new_figure(4.6)
-    power = place(figure, _LEFT, 2.42, 6.1, 1.72)
-    energy = place(figure, _LEFT, 0.42, 6.1, 1.72, sharex=power)
+    figure = theme.new_figure(4.6)
+    power = theme.place(figure, _LEFT, 2.42, 6.1, 1.72)
+    energy = theme.place(figure, _LEFT, 0.42, 6.1, 1.72, sharex=power)
     for axes, name in ((power, "electrical_power"), (energy, "electrical_energy")):
         _phases(axes, data, name, logarithmic=False)
-        axes.locator_params(nbins=TICKS)
+        axes.locator_params(nbins=theme.TICKS)
         axes.set_ylim(bottom=0.0)
     energy.set_xlabel("Time (s)")
     _share_time((power, energy), data["softening"])
-    legend_above(power, 4)
+    theme.legend_above(power, 4)
     return figure
 
 
@@ -113,11 +99,11 @@ def _joined(soft: dict[str, Any], stiff: dict[str, Any] | None, name: str) -> tu
 
 def _temperatures(axes: Any, soft: dict[str, Any], stiff: dict[str, Any] | None, data: dict[str, Any]) -> None:
     for i, (name, label) in enumerate(data["places"].items()):
-        axes.plot(*_joined(soft, stiff, name), label=label, **style_of(i))
-    axes.axhspan(*data["melting"], label="melting range", **BAND)
-    axes.axhline(data["target"], label="target", **LIMIT)
+        axes.plot(*_joined(soft, stiff, name), label=label, **theme.style_of(i))
+    axes.axhspan(*data["melting"], label="melting range", **theme.BAND)
+    axes.axhline(data["target"], label="target", **theme.LIMIT)
     axes.set_ylabel("Temperature (°C)")
-    legend_above(axes, 3)
+    theme.legend_above(axes, 3)
 
 
 def _phases(axes: Any, data: dict[str, Any], name: str, *, logarithmic: bool = True) -> None:
@@ -127,29 +113,29 @@ def _phases(axes: Any, data: dict[str, Any], name: str, *, logarithmic: bool = T
             begin = 0.0 if phase == "softening" else data["softening"]["time"][-1]
             added = data["softening"][name][-1] if phase != "softening" and name in _SUMS else 0.0
             values = [added + value for value in data[phase][name]]
-            axes.plot([begin + time for time in data[phase]["time"]], values, label=label, **style_of(i))
+            axes.plot([begin + time for time in data[phase]["time"]], values, label=label, **theme.style_of(i))
     axes.set_ylabel(data["labels"][name])
     if logarithmic:
         axes.set_yscale("log")
-        log_ticks(axes.yaxis)
+        theme.log_ticks(axes.yaxis)
 
 
 def _thresholds(axes: Any, data: dict[str, Any]) -> None:
     low, high = axes.get_ylim()
     for name in ("soft", "stiff"):
-        axes.axhline(data[name], **LIMIT)
+        axes.axhline(data[name], **theme.LIMIT)
         axes.annotate(name, (1.0, data[name]), (2.0, 0.0), xycoords=axes.get_yaxis_transform(),
-                      textcoords="offset points", va="center", fontsize=SMALL)  # fmt: skip
+                      textcoords="offset points", va="center", fontsize=theme.SMALL)  # fmt: skip
     axes.set_ylim(min(low, data["soft"] / 1.2), max(high, data["stiff"] * 1.2))
-    log_ticks(axes.yaxis)
+    theme.log_ticks(axes.yaxis)
 
 
 def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: str) -> None:
-    colours, profiles = mpl.colormaps[SEQUENCE], history["profiles"]
+    colours, profiles = mpl.colormaps[theme.SEQUENCE], history["profiles"]
     for i, (profile, shade) in enumerate(zip(profiles, np.linspace(0.0, 0.85, len(profiles)), strict=True)):
-        style = style_of(i) | {"color": colours(shade)}
+        style = theme.style_of(i) | {"color": colours(shade)}
         axes.plot(data["depths"], profile["temperatures"], label=f"{profile['time']:.0f} s", **style)
-    axes.axhspan(*data["melting"], **BAND)
+    axes.axhspan(*data["melting"], **theme.BAND)
     axes.set(xlabel="Depth from the Peltier pads (mm)", ylabel="Temperature (°C)")
-    heading(axes, title)
-    legend_beside(axes, "after")
+    theme.heading(axes, title)
+    theme.legend_beside(axes, "after")

@@ -15,26 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tvimdesign.report.figures.theme import (
-    BAND,
-    BROKEN,
-    COLOURS,
-    FAINT,
-    LIMIT,
-    NAME_STRIP,
-    SEQUENCE,
-    SMALL,
-    TICKS,
-    WIDTH,
-    caption,
-    heading,
-    legend_above,
-    log_ticks,
-    new_figure,
-    place,
-    row_texts,
-    style_of,
-)
+from tvimdesign.report.figures import theme
 
 _ROW = 0.155  # inches
 _LEFT, _WIDE = 2.75, 3.0  # inches: names stand left of the axes, numbers right of them
@@ -43,9 +24,9 @@ _KEYS = 0.3  # inches: the legend below all
 _CLIPPED = 100.0
 """Margin [%] at which a bar ends, with an arrow."""
 _KINDS: dict[str, dict[str, Any]] = {
-    "kept": {"color": COLOURS[0]},
-    "broken": {"facecolor": BROKEN, "hatch": "//////", "edgecolor": "white"},
-    "advice": {"facecolor": COLOURS[1], "hatch": "......", "edgecolor": "white"},
+    "kept": {"color": theme.COLOURS[0]},
+    "broken": {"facecolor": theme.BROKEN, "hatch": "//////", "edgecolor": "white"},
+    "advice": {"facecolor": theme.COLOURS[1], "hatch": "......", "edgecolor": "white"},
 }
 _MEANING = {"kept": "holds", "broken": "does not hold", "advice": "advice that the design does not follow"}
 
@@ -53,13 +34,13 @@ _MEANING = {"kept": "holds", "broken": "does not hold", "advice": "advice that t
 def bounds(data: dict[str, Any]) -> Figure:
     """Return a block of what varies, then one of limits for each unit their margins are read in."""
     blocks = [len(data["free"])] * bool(data["free"]) + [len(group["rows"]) for group in data["margins"]]
-    inches = NAME_STRIP + _KEYS + sum(_ROW * (rows + 1) + _ABOVE + _BELOW for rows in blocks)
-    figure = new_figure(max(inches, 1.0))
-    top = figure.get_figheight() - NAME_STRIP
+    inches = theme.NAME_STRIP + _KEYS + sum(_ROW * (rows + 1) + _ABOVE + _BELOW for rows in blocks)
+    figure = theme.new_figure(max(inches, 1.0))
+    top = figure.get_figheight() - theme.NAME_STRIP
     draw = [(_free, data["free"])] * bool(data["free"]) + [(_margins, group) for group in data["margins"]]
     for rows, (function, content) in zip(blocks, draw, strict=True):
         high = _ROW * (rows + 1)
-        axes = place(figure, _LEFT, top - _ABOVE - high, _WIDE, high)
+        axes = theme.place(figure, _LEFT, top - _ABOVE - high, _WIDE, high)
         function(axes, content)
         axes.set_ylim(-1.0, rows)
         top -= high + _ABOVE + _BELOW
@@ -70,14 +51,14 @@ def bounds(data: dict[str, Any]) -> Figure:
 def _free(axes: Any, free: list[dict[str, Any]]) -> None:
     rows = free[::-1]
     lines = range(len(rows))
-    axes.hlines(lines, 0.0, 100.0, color=FAINT, linewidth=3.0)
+    axes.hlines(lines, 0.0, 100.0, color=theme.FAINT, linewidth=3.0)
     axes.plot([100.0 * row["start"] for row in rows], lines, "o", color="white", markeredgecolor="black")
-    axes.plot([100.0 * row["share"] for row in rows], lines, "D", color=COLOURS[0])
+    axes.plot([100.0 * row["share"] for row in rows], lines, "D", color=theme.COLOURS[0])
     axes.set(xlim=(-3.0, 103.0), xticks=[0, 25, 50, 75, 100])
-    heading(axes, "What varies")
+    theme.heading(axes, "What varies")
     axes.set_xlabel("Place between the lower and the upper bound (%)")
     axes.grid(axis="y", visible=False)
-    row_texts(axes, [row["name"] for row in rows], [row["text"] for row in rows])
+    theme.row_texts(axes, [row["name"] for row in rows], [row["text"] for row in rows])
 
 
 def _margins(axes: Any, group: dict[str, Any]) -> None:
@@ -92,11 +73,11 @@ def _margins(axes: Any, group: dict[str, Any]) -> None:
         if not row["finite"] or abs(row["margin"]) > 1.000001 * reach:
             axes.plot(shown * 1.03, i, ">" if shown > 0.0 else "<", color="black", markersize=3.0, clip_on=False)
     axes.axvline(0.0, color="black", linewidth=0.8)
-    heading(axes, group["title"])
+    theme.heading(axes, group["title"])
     axes.set(xlim=(-1.08 * reach, 1.08 * reach), xlabel=group["label"])
     axes.grid(axis="y", visible=False)
-    axes.locator_params(axis="x", nbins=TICKS, symmetric=True)
-    row_texts(axes, [row["name"] for row in rows], [row["text"] for row in rows])
+    axes.locator_params(axis="x", nbins=theme.TICKS, symmetric=True)
+    theme.row_texts(axes, [row["name"] for row in rows], [row["text"] for row in rows])
 
 
 def _legend(figure: Figure, data: dict[str, Any]) -> None:
@@ -108,7 +89,7 @@ def _legend(figure: Figure, data: dict[str, Any]) -> None:
     marks: list[Any] = []
     if data["free"]:
         marks += [Line2D([], [], marker="o", color="white", markeredgecolor="black", linestyle="", label="start"),
-                  Line2D([], [], marker="D", color=COLOURS[0], linestyle="", label="design")]  # fmt: skip
+                  Line2D([], [], marker="D", color=theme.COLOURS[0], linestyle="", label="design")]  # fmt: skip
     marks += [Patch(label=text, **_KINDS[kind]) for kind, text in _MEANING.items() if kind in kinds]
     if "binds" in kinds:
         marks.append(Line2D([], [], marker="D", color="black", linestyle="", markersize=3.5, label="binds"))
@@ -129,9 +110,9 @@ def sensitivities(data: dict[str, Any]) -> Figure:
     """Draw outputs down, variables across; red rises with the variable, blue falls, and the number says which."""
     values = np.array(data["values"])
     down, across = values.shape
-    width, high = max(WIDTH, _LEFT + 0.35 * across + 0.2), 0.18 * down
-    figure = new_figure(high + _BELOW + 0.6, width)
-    axes = place(figure, _LEFT, _BELOW, width - _LEFT - 0.2, high)
+    width, high = max(theme.WIDTH, _LEFT + 0.35 * across + 0.2), 0.18 * down
+    figure = theme.new_figure(high + _BELOW + 0.6, width)
+    axes = theme.place(figure, _LEFT, _BELOW, width - _LEFT - 0.2, high)
     axes.imshow(values, aspect="auto", cmap="RdBu_r", norm=Normalize(-_STRONGEST, _STRONGEST))
     for (i, j), value in np.ndenumerate(values):
         if abs(value) >= _WRITTEN:
@@ -141,7 +122,7 @@ def sensitivities(data: dict[str, Any]) -> Figure:
     axes.set_xticklabels(data["variables"], rotation=45, ha="right", rotation_mode="anchor")
     axes.set_yticklabels(data["outputs"])
     axes.grid(visible=False)
-    caption(figure, "Change of the output (%) for 1 % more of the variable")
+    theme.caption(figure, "Change of the output (%) for 1 % more of the variable")
     return figure
 
 
@@ -150,24 +131,26 @@ def front(data: dict[str, Any]) -> Figure:
     labels, points = data["labels"], data["points"]
     pairs = list(itertools.combinations(range(len(labels)), 2))
     key = 0.62 if len(labels) > 2 else 0.0  # inches below the panels: the scale of colours
-    figure = new_figure(2.85 + key)
+    figure = theme.new_figure(2.85 + key)
     gap, left = 0.65, 0.62
-    wide = min((WIDTH - left - 0.15 - gap * (len(pairs) - 1)) / len(pairs), 4.5)
+    wide = min((theme.WIDTH - left - 0.15 - gap * (len(pairs) - 1)) / len(pairs), 4.5)
     scale = Normalize(min(point[0] for point in points), max(point[0] for point in points))
     for i, (x, y) in enumerate(pairs):
-        axes = place(figure, left + i * (wide + gap), 0.45 + key, wide, 1.85)
+        axes = theme.place(figure, left + i * (wide + gap), 0.45 + key, wide, 1.85)
         across, up = [point[x] for point in points], [point[y] for point in points]
         if len(labels) == 2:
-            axes.plot(across, up, marker="o", label="front", **style_of(0))
+            axes.plot(across, up, marker="o", label="front", **theme.style_of(0))
         else:
-            axes.scatter(across, up, c=[point[0] for point in points], cmap=SEQUENCE, norm=scale, s=16, label="front")
+            axes.scatter(
+                across, up, c=[point[0] for point in points], cmap=theme.SEQUENCE, norm=scale, s=16, label="front"
+            )
         _marks(axes, data, x, y)
         axes.set(xlabel=labels[x], ylabel=labels[y])
-        axes.locator_params(nbins=TICKS)
+        axes.locator_params(nbins=theme.TICKS)
     figure.legend(*axes.get_legend_handles_labels(), loc="upper right", ncols=3)
     if key:
-        colours = place(figure, 1.8, 0.4, 3.5, 0.1)
-        figure.colorbar(ScalarMappable(scale, SEQUENCE), cax=colours, orientation="horizontal", label=labels[0])
+        colours = theme.place(figure, 1.8, 0.4, 3.5, 0.1)
+        figure.colorbar(ScalarMappable(scale, theme.SEQUENCE), cax=colours, orientation="horizontal", label=labels[0])
     return figure
 
 
@@ -175,50 +158,50 @@ def _marks(axes: Any, data: dict[str, Any], x: int, y: int) -> None:
     if data["knee"] is not None:
         knee = data["points"][data["knee"]]
         axes.plot(
-            knee[x], knee[y], linestyle="", marker="D", color=BROKEN, markersize=8, fillstyle="none", label="knee"
+            knee[x], knee[y], linestyle="", marker="D", color=theme.BROKEN, markersize=8, fillstyle="none", label="knee"
         )
     optimum = data["optimum"]
-    axes.plot(optimum[x], optimum[y], linestyle="", marker="*", color=COLOURS[1], markeredgecolor="black",
+    axes.plot(optimum[x], optimum[y], linestyle="", marker="*", color=theme.COLOURS[1], markeredgecolor="black",
               markeredgewidth=0.5, markersize=9, label="weighted optimum")  # fmt: skip
 
 
 def impedance(data: dict[str, Any]) -> Figure:
     """Draw stiffness and damping against temperature, of layer and joint; bands: what history leaves."""
     sweep = data["sweep"]
-    figure = new_figure(3.4)
-    caption(figure, f"At {data['frequency']:g} Hz; pale areas: what the layer's history leaves open")
+    figure = theme.new_figure(3.4)
+    theme.caption(figure, f"At {data['frequency']:g} Hz; pale areas: what the layer's history leaves open")
     for kind, left in (("stiffness", 0.62), ("damping", 4.12)):
-        axes = place(figure, left, 0.42, 2.85, 2.2)
+        axes = theme.place(figure, left, 0.42, 2.85, 2.2)
         for i, (part, label) in enumerate((("pcl", "PCL layer alone"), ("joint", "joint: springs, layer, structure"))):
-            style = style_of(i)
+            style = theme.style_of(i)
             axes.plot(sweep["temperature"], sweep[f"{part}_{kind}"], label=label, **style)
             ends = (sweep[f"{part}_{kind}_{end}"] for end in ("low", "high"))
             axes.fill_between(sweep["temperature"], *ends, alpha=0.25, color=style["color"], linewidth=0.0)
         axes.set_yscale("log")
-        axes.axvspan(*data["melting"], label="melting range", **{**BAND, "color": "0.5"})
+        axes.axvspan(*data["melting"], label="melting range", **{**theme.BAND, "color": "0.5"})
         if kind == "stiffness":
-            axes.axhline(data["springs"], label="springs alone", **LIMIT)
-        log_ticks(axes.yaxis)
-        axes.locator_params(axis="x", nbins=TICKS)
+            axes.axhline(data["springs"], label="springs alone", **theme.LIMIT)
+        theme.log_ticks(axes.yaxis)
+        axes.locator_params(axis="x", nbins=theme.TICKS)
         axes.set(xlabel="Layer temperature (°C)", ylabel=data["labels"][kind])
-        legend_above(axes, 2)
+        theme.legend_above(axes, 2)
     return figure
 
 
 def torque(data: dict[str, Any]) -> Figure:
     """Draw the torque that turns the joint as a sine through its stroke, a panel for each operating point."""
     loops = data["loops"]
-    figure = new_figure(2.6)
-    caption(figure, data["title"])
+    figure = theme.new_figure(2.6)
+    theme.caption(figure, data["title"])
     gap, left = 0.62, 0.55
-    wide = (WIDTH - left - 0.15 - gap * (len(loops) - 1)) / len(loops)
+    wide = (theme.WIDTH - left - 0.15 - gap * (len(loops) - 1)) / len(loops)
     for i, loop in enumerate(loops):
-        axes = place(figure, left + i * (wide + gap), 0.42, wide, 1.55)
-        axes.plot(loop["angle"], loop["torque"], label="joint", **style_of(0))
-        axes.plot(loop["angle"], loop["springs"], label="springs alone", **style_of(1))
+        axes = theme.place(figure, left + i * (wide + gap), 0.42, wide, 1.55)
+        axes.plot(loop["angle"], loop["torque"], label="joint", **theme.style_of(0))
+        axes.plot(loop["angle"], loop["springs"], label="springs alone", **theme.style_of(1))
         axes.set(xlabel=data["labels"]["angle"], ylabel=data["labels"]["torque"])
-        heading(axes, loop["title"])
-        axes.locator_params(nbins=TICKS)
+        theme.heading(axes, loop["title"])
+        axes.locator_params(nbins=theme.TICKS)
         if i == 0:
             handles = axes.get_legend_handles_labels()
     figure.legend(*handles, loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=2)
@@ -228,12 +211,12 @@ def torque(data: dict[str, Any]) -> Figure:
 def mass(data: dict[str, Any]) -> Figure:
     """Draw the mass of each part the module has."""
     parts = sorted(((name, value) for name, value in data["parts"].items() if value > 0.0), key=lambda item: item[1])
-    figure = new_figure(1.0 + 0.2 * len(parts))
-    axes = place(figure, 1.1, 0.42, 5.6, 0.2 * len(parts))
-    bars = axes.barh([name for name, _ in parts], [value for _, value in parts], color=COLOURS[0])
-    axes.bar_label(bars, fmt="%.1f g", padding=3, fontsize=SMALL)
+    figure = theme.new_figure(1.0 + 0.2 * len(parts))
+    axes = theme.place(figure, 1.1, 0.42, 5.6, 0.2 * len(parts))
+    bars = axes.barh([name for name, _ in parts], [value for _, value in parts], color=theme.COLOURS[0])
+    axes.bar_label(bars, fmt="%.1f g", padding=3, fontsize=theme.SMALL)
     axes.margins(x=0.12, y=0.02)
     axes.set(xlabel=data["label"])
     axes.grid(axis="y", visible=False)
-    caption(figure, f"{sum(data['parts'].values()):.0f} g in all, without wires")
+    theme.caption(figure, f"{sum(data['parts'].values()):.0f} g in all, without wires")
     return figure

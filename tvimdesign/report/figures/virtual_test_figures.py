@@ -10,19 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from tvimdesign.report.figures.theme import (
-    ASIDE,
-    COLOURS,
-    LINE_STYLES,
-    NAME_STRIP,
-    TICKS,
-    WIDTH,
-    caption,
-    heading,
-    log_ticks,
-    new_figure,
-    place,
-)
+from tvimdesign.report.figures import theme
 
 Array = NDArray[np.float64]
 SWINGS_DRAWN = 6
@@ -89,12 +77,12 @@ def trial(data: dict[str, Any]) -> Figure:
     columns = max(1, min(3, _LETTERS // (max(map(len, styles)) + 8)))
     key = _KEY * -(-(len(styles) + 1) // columns) + 0.1
     row = _HIGH + _ABOVE + _BELOW
-    figure = new_figure(NAME_STRIP + 0.22 + row * down + key)
-    caption(figure, textwrap.shorten(data["title"], 100, placeholder=" …"))
-    wide = (WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
+    figure = theme.new_figure(theme.NAME_STRIP + 0.22 + row * down + key)
+    theme.caption(figure, textwrap.shorten(data["title"], 100, placeholder=" …"))
+    wide = (theme.WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
     for i, panel in enumerate(panels):
         bottom = key + _BELOW + row * (down - 1 - i // across)
-        _panel(place(figure, _LEFT + (i % across) * (wide + _GAP), bottom, wide, _HIGH), panel, styles)
+        _panel(theme.place(figure, _LEFT + (i % across) * (wide + _GAP), bottom, wide, _HIGH), panel, styles)
     handles = {
         label: handle for axes in figure.axes for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
     }
@@ -124,11 +112,11 @@ def _styles(panels: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
     for line in (line for panel in panels for line in panel["lines"]):
         label, members = line["label"], families[_family(line)]
         if line["dashed"]:
-            place_in, style = len(members), ASIDE[aside.index(label.rpartition(", ")[2]) % len(ASIDE)]
+            place_in, style = len(members), theme.ASIDE[aside.index(label.rpartition(", ")[2]) % len(theme.ASIDE)]
         else:
-            place_in, style = members.index(label), LINE_STYLES[members.index(label) % len(LINE_STYLES)]
+            place_in, style = members.index(label), theme.LINE_STYLES[members.index(label) % len(theme.LINE_STYLES)]
         colour = place_in if alone else list(families).index(_family(line))
-        styles[label] = {"color": COLOURS[colour % len(COLOURS)], "linestyle": style}
+        styles[label] = {"color": theme.COLOURS[colour % len(theme.COLOURS)], "linestyle": style}
     return styles
 
 
@@ -148,15 +136,15 @@ def _panel(axes: Any, panel: dict[str, Any], styles: dict[str, dict[str, Any]]) 
             axes.fill_between(line["x"], *line["band"], color=style["color"], alpha=0.2, linewidth=0.0)
     if panel["log_x"]:
         axes.set_xscale("log")
-        log_ticks(axes.xaxis)
+        theme.log_ticks(axes.xaxis)
     else:
-        axes.locator_params(axis="x", nbins=TICKS - 1)
+        axes.locator_params(axis="x", nbins=theme.TICKS - 1)
     if panel["log_y"]:
         _logarithmic(axes, panel["lines"])
     else:
-        axes.locator_params(axis="y", nbins=TICKS)
+        axes.locator_params(axis="y", nbins=theme.TICKS)
     axes.set(xlabel=panel["x_label"], ylabel=panel["y_label"])
-    heading(axes, panel["title"])
+    theme.heading(axes, panel["title"])
 
 
 def _swinging(axes: Any, line: dict[str, Any], style: dict[str, Any]) -> None:
@@ -175,4 +163,4 @@ def _logarithmic(axes: Any, lines: list[dict[str, Any]]) -> None:
     shown = [value for line in lines for part in (line["y"], *(line["band"] or ())) for value in part if value > 0.0]
     least, most = max(min(shown), max(shown) / _DECADES_SHOWN), max(shown)
     axes.set_ylim(least / 1.5, most * 1.5)
-    log_ticks(axes.yaxis)
+    theme.log_ticks(axes.yaxis)
