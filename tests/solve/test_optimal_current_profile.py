@@ -200,15 +200,12 @@ def test_ten_random_starts_find_one_profile() -> None:
     assert len(solution.distinct_optima()) == 1
 
 
-def test_a_profile_nothing_depends_on_is_refused() -> None:
+def test_a_profile_of_no_effect_or_beside_another_time_is_refused() -> None:
     text = CYCLE.replace("minimize: cycle_time", "minimize: response_time").replace(
         '  stiffening_peak_voltage: "<= 6 V"\n', ""
     )
     with pytest.raises(InputError, match=r"profile\.stiffening: nothing that is required or minimised depends"):
         solve(text)
-
-
-def test_another_time_of_a_stage_with_a_profile_is_refused() -> None:
     text = with_pieces(4).replace("require:", 'require:\n  near_face_time: "<= 100 s"')
     with pytest.raises(InputError, match=r"profile\.softening: .* near_face_time cannot be limited"):
         solve(text)

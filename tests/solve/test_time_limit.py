@@ -199,12 +199,9 @@ def test_alternatives_that_are_left_out_are_named() -> None:
     assert ALTERNATIVES in solution.left_out
 
 
-def test_a_search_without_time_is_not_started() -> None:
+def test_without_time_neither_search_nor_simulation_starts() -> None:
     with pytest.raises(TimeOverError, match="before the search could start"):
         optimize(read_study_text(SEARCHED), deadline=Deadline(1e-3, lambda: 0.0))
-
-
-def test_a_simulation_ends_with_the_time() -> None:
     optimizer = Optimizer(read_study_text(SEARCHED))
     over = Deadline(0.0, lambda: 0.0)
     with pytest.raises(TimeOverError, match="before the working cycle of a design was simulated"):

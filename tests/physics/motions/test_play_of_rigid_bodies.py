@@ -104,7 +104,7 @@ def test_a_leg_slides_on_its_pin_as_two_turning_bodies(ratio: float) -> None:
     assert slip == pytest.approx(from_rotor + ratio_of_leg * from_coil, rel=1e-12)
 
 
-def test_friction_under_screws_on_pins_and_in_a_ball_bearing() -> None:
+def test_friction_of_screws_rings_and_pegs_and_a_loose_shaft() -> None:
     # Four M3 on 4.9 mm: 1.5 N.m in plastic, 4 in aluminium, by a reading from outside.
     for stress, torque in ((55e6, 1.5), (150e6, 4.0)):
         assert bolted_torque(0.2, tightened_force(stress, 3e-3), 4, 4.9e-3) == pytest.approx(torque, rel=0.05)
@@ -112,16 +112,10 @@ def test_friction_under_screws_on_pins_and_in_a_ball_bearing() -> None:
     assert sliding_torque(0.25, 8.0, 4e-3) == pytest.approx(8e-3, rel=1e-12)
     # SKF: M = 0.5 mu P d. 100 N on a bore of 15 mm with 0.0015: 1.125 N*mm.
     assert journal_torque(0.0015, 100.0, 15e-3) == pytest.approx(1.125e-3, rel=1e-12)
-
-
-def test_a_loose_shaft_leans_no_further_than_it_may() -> None:
     # A line through the opposite ends of two plays of 0.1 mm, 5 mm apart, continued by 10 mm.
     line = np.polyfit([0.0, -5.0], [0.1, -0.1], 1)
     assert overhung_shift(0.1e-3, 5e-3, 10e-3, np.inf) == pytest.approx(1e-3 * np.polyval(line, 10.0), rel=1e-12)
     assert overhung_shift(0.1e-3, 5e-3, 10e-3, 0.01) == pytest.approx(0.2e-3, rel=1e-12)
-
-
-def test_rings_and_pegs_slip_at_friction_times_force_times_radius() -> None:
     friction, force, inner, outer = 0.3, 250.0, 2e-3, 9e-3
     pressure = force / (3.141592653589793 * (outer**2 - inner**2))
     thin = quad(lambda r: friction * pressure * 2.0 * 3.141592653589793 * r * r, inner, outer)[0]

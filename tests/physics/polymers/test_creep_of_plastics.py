@@ -53,14 +53,11 @@ def test_preload_that_is_left_is_that_of_volterras_equation(give: float) -> None
     assert at_once - quick == pytest.approx(at_once - left, rel=0.02)
 
 
-def test_wire_twisted_in_a_wide_body_is_rings_in_series() -> None:
+def test_holes_and_pegs_give_as_rings_and_cantilevers() -> None:
     shear, radius, length = 0.76e9, 0.8e-3, 3.5e-3
     # A ring of radius r turns against the next by M/(2 pi r^2 L G) dr/r.
     angle, _ = quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * length * shear), radius, np.inf)
     assert plastics.twisted_hole_give(shear, 2.0 * radius, length) == pytest.approx(angle, rel=1e-9)
-
-
-def test_tall_peg_is_a_cantilever_and_a_short_one_gives_at_its_foot() -> None:
     modulus, poisson, radius = 2.1e9, 0.38, 2e-3
     tall = 0.5**3 / (3.0 * modulus * 0.25 * np.pi * radius**4)
     assert plastics.peg_give(modulus, poisson, 2.0 * radius, 0.5) == pytest.approx(tall, rel=0.01)

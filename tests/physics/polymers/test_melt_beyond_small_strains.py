@@ -59,16 +59,13 @@ def test_softening_is_the_first_harmonic_of_the_strain_law(strain: float) -> Non
     assert melt.softening(strain, LIMIT) == pytest.approx(1.0 - share, rel=1e-6, abs=1e-12)
 
 
-def test_torque_of_a_ring_is_shared_as_its_radius_cubed() -> None:
+def test_a_ring_s_torque_and_an_edge_that_gives() -> None:
     inner, rim = 0.6, 4.0
     share, _ = quad(lambda r: kept(rim * r) * r**3, inner, 1.0)
     whole, _ = quad(lambda r: r**3, inner, 1.0)
     nodes = melt.ring(inner)
     assert sum(weight for _, weight in nodes) == pytest.approx(1.0, rel=1e-12)
     assert sum(w * float(kept(rim * reach)) for reach, w in nodes) == pytest.approx(share / whole, rel=1e-4)
-
-
-def test_edge_gives_where_the_second_normal_stress_passes_surface_tension() -> None:
     # 2 0.035/(3 1 mm) = 23.3 Pa; a fifth of 1 kPa times the strain squared passes it at 34 %.
     strain = melt.edge_strain(1e-3, 0.035, 0.2, 1000.0)
     assert 0.2 * 1000.0 * strain**2 == pytest.approx(23.333, rel=1e-3)

@@ -65,14 +65,11 @@ def test_arcs_are_long_enough_and_spans_limit_what_gives_way() -> None:
     assert transitions.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 1.0) < 1e-3 * 65e-6 * 1.8e11
 
 
-def test_confined_modulus_by_bulk_and_shear_modulus() -> None:
+def test_moduli_and_shares_by_handbook() -> None:
     # Steel, handbook: K 160 GPa, G 79.3 GPa, E 207 GPa, nu 0.292 (Shigley, table A-5, for E, G and nu).
     youngs, poisson = 207e9, 0.292
     bulk, shear = youngs / (3.0 * (1.0 - 2.0 * poisson)), youngs / (2.0 * (1.0 + poisson))
     assert transitions.confined_modulus(youngs, poisson) == pytest.approx(bulk + 4.0 / 3.0 * shear)
-
-
-def test_shares_of_volume_and_length() -> None:
     # Water to ice, backwards: 999.84 and 916.7 kg/m3 at 0 degC (CRC Handbook), ice is 9.07 % larger.
     assert transitions.growth(916.7, 999.84) == pytest.approx(0.0907, rel=1e-3)
     share = transitions.volume_share(1040.0, 1145.0)

@@ -123,10 +123,16 @@ def test_beyond_a_depth_fillets_take_what_is_further_from_the_radial_lines(depth
     assert shapes.corners_beyond(radius, inner, outer, offset, offset) == pytest.approx(whole, rel=1e-9)
 
 
-def test_a_slot_across_a_disc_is_its_strips() -> None:
+def test_slots_across_a_disc_small_corners_and_trapezoids() -> None:
     half, radius = 0.6e-3, 2.7e-3
     expected = integrate(lambda y: 2.0 * np.sqrt(radius**2 - y**2), -half, half)
     assert shapes.bar_across(half, radius) == pytest.approx(expected, rel=1e-9)
+    # A fillet takes (1 - pi/4) r^2 from a right angle; sides that point to the axis meet every circle at one.
+    assert shapes.corners(0.02e-3, 26e-3, 40e-3) == pytest.approx((4.0 - np.pi) * 0.02e-3**2, rel=1e-3)
+    span, inset = np.radians(40.0), 3e-3
+    singles = [shapes.wedge(span, inset, 6e-3, 26e-3 + shift) for shift in (-9e-3, 0.0, 9e-3)]
+    row = shapes.wedge(span, inset, 6e-3, 26e-3, 3, 9e-3)
+    assert row == pytest.approx(singles[0].plus(*singles[1:]), rel=1e-12)
 
 
 @pytest.mark.parametrize("radius", [2.4e-3, 20e-3])
@@ -165,11 +171,6 @@ def test_a_spoke_is_what_an_obround_adds_to_a_disc() -> None:
     assert found.polar == pytest.approx(strip.polar + end.polar - disc.polar, rel=1e-9)
 
 
-def test_small_corners_between_radial_sides_are_those_of_a_rectangle() -> None:
-    # A fillet takes (1 - pi/4) r^2 from a right angle; sides that point to the axis meet every circle at one.
-    assert shapes.corners(0.02e-3, 26e-3, 40e-3) == pytest.approx((4.0 - np.pi) * 0.02e-3**2, rel=1e-3)
-
-
 @pytest.mark.parametrize("corner", [0.0, 1.5e-3])
 def test_what_lies_between_two_planes_of_a_vane_is_its_strips(corner: float) -> None:
     # From 20 to 28 mm along the middle of a vane of 40 degrees, 3 mm within its sides, corners rounded.
@@ -193,10 +194,3 @@ def test_what_lies_between_two_planes_of_a_vane_is_its_strips(corner: float) -> 
     assert whole.area - shapes.wedge_corners(corner, span) == pytest.approx(strips.area, rel=1e-7)
     if not corner:
         assert whole.polar == pytest.approx(strips.polar, rel=1e-9)
-
-
-def test_trapezoids_in_a_row_are_one_by_one() -> None:
-    span, inset = np.radians(40.0), 3e-3
-    singles = [shapes.wedge(span, inset, 6e-3, 26e-3 + shift) for shift in (-9e-3, 0.0, 9e-3)]
-    row = shapes.wedge(span, inset, 6e-3, 26e-3, 3, 9e-3)
-    assert row == pytest.approx(singles[0].plus(*singles[1:]), rel=1e-12)

@@ -15,11 +15,26 @@ INERTIA = 4.156e-4  # kg*m^2, Exley et al., table I (there as kg/mm^2)
 STIFFNESS = 5.61  # N*m/rad, four springs of 1.4023
 
 
-def test_the_papers_springs_ring_at_18_5_hertz_and_their_damping() -> None:
+def test_springs_ring_and_rings_bearings_and_ledges_share_by_hand() -> None:
     # sqrt(5.61/4.156e-4)/(2 pi) = 116.2/6.2832.
     assert motion.natural_frequency(STIFFNESS, INERTIA) == pytest.approx(18.5, rel=5e-3)
     # 2 sqrt(5.61 * 4.156e-4) = 0.0966 N*m*s/rad.
     assert motion.damping_ratio(0.0966, STIFFNESS, INERTIA) == pytest.approx(1.0, rel=5e-3)
+    # A ring of radius r, width dr and thickness h sheared in its plane turns by T dr/(2 pi r^3 h G).
+    modulus, thickness, inner, outer = 0.76e9, 4e-3, 10e-3, 33e-3
+    compliance, _ = quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * thickness * modulus), inner, outer, epsabs=0.0)
+    found = structure.ring_stiffness(modulus, thickness, inner, outer)
+    assert found == pytest.approx(1.0 / compliance, rel=1e-9)
+    force, height, spread = 120.0, 0.05, 0.02
+    far, near = np.linalg.solve([[1.0, 1.0], [0.0, spread]], [-force, -force * (height + spread)])
+    assert structure.overhung_load(force, height, spread) == pytest.approx(-near)
+    assert far > 0.0  # the farther one pulls the other way
+    assert structure.under_ledges_compliance((1.0, 1.0), 1e9, 3.0) == pytest.approx(3.0, rel=1e-6)
+    # Compliances of 6 and 4 inside and 2 outside: the inner way bears 2/12, which costs 4 (2/12)^2.
+    assert structure.under_ledges_compliance((6.0, 2.0), 4.0, 0.0) == pytest.approx(4.0 / 36.0, rel=1e-12)
+    # A small hole of radius r at b in a shaft of radius R: its own polar moment is pi r^2 b^2 of pi R^4/2.
+    own = np.pi * 0.1**2 * 5.0**2 / (0.5 * np.pi * 10.0**4)
+    assert structure.hole_weakening(0.1, 5.0, 3, 10.0) == pytest.approx(3 * 2.0 * own, rel=1e-12)
 
 
 def test_shafts_have_the_handbooks_stiffness_and_strength() -> None:
@@ -36,30 +51,6 @@ def test_shafts_have_the_handbooks_stiffness_and_strength() -> None:
     shear = structure.shear_yield(47.5e6)
     tensor = np.array([[0.0, shear, 0.0], [shear, 0.0, 0.0], [0.0, 0.0, 0.0]])
     assert np.sqrt(1.5 * np.sum(tensor**2)) == pytest.approx(47.5e6, rel=1e-12)
-
-
-def test_ring_stiffness_is_the_series_of_its_thin_rings() -> None:
-    # A ring of radius r, width dr and thickness h sheared in its plane turns by T dr/(2 pi r^3 h G).
-    modulus, thickness, inner, outer = 0.76e9, 4e-3, 10e-3, 33e-3
-    compliance, _ = quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * thickness * modulus), inner, outer, epsabs=0.0)
-    found = structure.ring_stiffness(modulus, thickness, inner, outer)
-    assert found == pytest.approx(1.0 / compliance, rel=1e-9)
-
-
-def test_a_force_beyond_two_bearings_is_balanced_by_them() -> None:
-    force, height, spread = 120.0, 0.05, 0.02
-    far, near = np.linalg.solve([[1.0, 1.0], [0.0, spread]], [-force, -force * (height + spread)])
-    assert structure.overhung_load(force, height, spread) == pytest.approx(-near)
-    assert far > 0.0  # the farther one pulls the other way
-
-
-def test_ledges_and_holes_add_their_compliance() -> None:
-    assert structure.under_ledges_compliance((1.0, 1.0), 1e9, 3.0) == pytest.approx(3.0, rel=1e-6)
-    # Compliances of 6 and 4 inside and 2 outside: the inner way bears 2/12, which costs 4 (2/12)^2.
-    assert structure.under_ledges_compliance((6.0, 2.0), 4.0, 0.0) == pytest.approx(4.0 / 36.0, rel=1e-12)
-    # A small hole of radius r at b in a shaft of radius R: its own polar moment is pi r^2 b^2 of pi R^4/2.
-    own = np.pi * 0.1**2 * 5.0**2 / (0.5 * np.pi * 10.0**4)
-    assert structure.hole_weakening(0.1, 5.0, 3, 10.0) == pytest.approx(3 * 2.0 * own, rel=1e-12)
 
 
 def test_a_foot_moves_as_timoshenkos_beam_built_in_below_a_thick_floor() -> None:

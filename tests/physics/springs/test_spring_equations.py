@@ -182,23 +182,17 @@ SIZES = (21e-3, 25e-3, 0.2e-3, 3)
 YOUNGS = 206e9
 
 
-def test_the_stress_is_that_of_beams_clamped_at_both_ends() -> None:
+def test_a_wave_spring_is_beams_and_its_factor_is_the_makers() -> None:
     inner, outer, thickness, waves = SIZES
     wave, force, section = np.pi * 0.5 * (inner + outer) / waves, 5.0, 0.5 * (outer - inner) * thickness**2 / 6.0
     # Clamped, loaded in the middle: F L/8 (Shigley, table A-9, 14), each wave bears its share of the force.
     assert spring.wave_spring_stress(force, *SIZES) == pytest.approx(force / waves * wave / 8.0 / section)
-
-
-def test_the_rate_is_between_beams_that_are_free_to_turn_and_clamped_ones() -> None:
     inner, outer, thickness, waves = SIZES
     wave, moment = np.pi * 0.5 * (inner + outer) / waves, 0.5 * (outer - inner) * thickness**3 / 12.0
     free, clamped = (waves * factor * YOUNGS * moment / wave**3 for factor in (48.0, 192.0))
     found = spring.wave_spring_rate(YOUNGS, *SIZES)
     assert free < found < clamped
     assert found == pytest.approx(2.0 * free * outer / inner)
-
-
-def test_the_factor_is_the_one_makers_print() -> None:
     # Rotor Clip and others: K = 3.88 for 2.0 to 4.0 waves a turn.
     assert pytest.approx(3.88, abs=0.005) == spring.WAVE_FACTOR
     printed = spring.wave_spring_rate(YOUNGS, *SIZES, factor=3.88)

@@ -30,7 +30,7 @@ def test_elasticities_are_those_of_exact_derivatives(pair: Pair) -> None:
             assert difference == pytest.approx(of_one.get(name, 0.0), rel=1e-3, abs=1e-4), name
 
 
-def test_an_input_that_only_one_module_has_moves_that_one_alone(pair: Pair) -> None:
+def test_inputs_of_one_module_or_both_move_those_alone(pair: Pair) -> None:
     at_rest = pair.times(EVENT)
     influence = pair.influence(EVENT, Span("pcl_thickness", 1.2e-3, 1.6e-3))
     assert influence.at_low[1] == influence.at_high[1] == at_rest[1]
@@ -38,14 +38,8 @@ def test_an_input_that_only_one_module_has_moves_that_one_alone(pair: Pair) -> N
     low, high = influence.ratios
     assert low > ratio(at_rest) > high
     assert influence.reach == pytest.approx(low / high)
-
-
-def test_an_input_that_both_have_moves_both(pair: Pair) -> None:
     assert np.all(pair.times(EVENT, {"peltier_resistance": 4.0}) > pair.times(EVENT))
     assert np.all(pair.output_sensitivities(EVENT, "peltier_resistance") < -0.5)
-
-
-def test_an_input_in_which_the_two_differ_cannot_move(pair: Pair) -> None:
     with pytest.raises(InputError, match=r"coil_count has 3\.25 and 6\.6"):
         pair.value("coil_count")
     with pytest.raises(InputError, match="no value at all"):

@@ -179,13 +179,10 @@ def test_two_independent_limits_share_what_may_be_lost() -> None:
     assert moves[B.name] == pytest.approx(expected, rel=0.05)
 
 
-def test_a_limit_whose_spread_is_small_against_its_size_has_its_margin_too() -> None:
+def test_margins_are_of_what_each_limit_spreads_and_fall_for_none() -> None:
     # A diameter of 90 mm that spreads by 0.05 mm.
     moves = _moves(_drawn(5e-4, 0.1), 0.95, {}, {A.name, B.name})
     assert moves[A.name] == pytest.approx(moves[B.name] * 5e-3, rel=0.1)
-
-
-def test_a_limit_that_does_not_hold_the_design_gets_no_less_than_it_has() -> None:
     drawn = Drawn((A, B), _drawn(0.1, 0.1).residuals - np.array([[0.0], [1.0]]))
     assert set(_moves(drawn, 0.95, {}, {A.name})) == {A.name}
     assert _moves(drawn, 0.95, {B.name: 0.3}, {A.name})[B.name] == pytest.approx(-0.3)
