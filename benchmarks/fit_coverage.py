@@ -28,10 +28,12 @@ from made_measurements.faults import FAULTS, IN_TIME
 
 import tvimdesign
 from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.kinds import heating_log
 from tvimdesign.simulation.measurement.measure_files import kind_sheet, measure_of
 from tvimdesign.simulation.measurement.reading.data_file import Block
 from tvimdesign.simulation.measurement.record_file import as_recorded
 
+heating_log.resolve_measured = cache(heating_log.resolve_measured)  # the module is one for all seeds
 KEPT = Path("results/fit_coverage.jsonl")
 _NORMAL = 1.959964  # deviations to the end of an interval of 95 % of a normal distribution
 _PACKAGE = Path(tvimdesign.__file__).parent

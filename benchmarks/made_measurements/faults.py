@@ -25,7 +25,7 @@ _OF_KIND = {
 _TAIL, _BENT = 0.2, 0.3
 _OFFSET = 2e-3
 """Of a relaxation, over its first modulus: what a transducer's zero leaves at late times."""
-_DRIFT = 0.02
+_DRIFT = 0.05
 _FLAGGED, _WRONG = 0.2, 1e3
 _LAG = 0.03
 """Share of a record's length in which a slow start is over, by 63 %."""
@@ -63,13 +63,17 @@ def tail(kind: str, blocks: Sequence[Block], noise: np.random.Generator) -> list
 
 
 def drift(kind: str, blocks: Sequence[Block], noise: np.random.Generator) -> list[Block]:
-    """Let every sensor drift evenly by 2 % of its range, or of its value, over the test."""
+    """Let every sensor drift evenly by 5 % of its range, or of its value, over the time of the test, or its rows."""
     drifted = []
     for block in blocks:
         moved = {}
+        over = (
+            block.values("time") if "time" in block.columns else np.arange(float(block.lines[1] - block.lines[0] + 1))
+        )
+        course = (over - over[0]) / (over[-1] - over[0])
         for name in _columns(kind, block):
             values = block.values(name)
-            way = _DRIFT * float(noise.choice([-1.0, 1.0])) * np.linspace(0.0, 1.0, len(values))
+            way = _DRIFT * float(noise.choice([-1.0, 1.0])) * course
             relative = name.endswith(("modulus", "viscosity"))
             moved[name] = values * (1.0 + way) if relative else values + way * float(np.ptp(values))
         drifted.append(_changed(block, moved))

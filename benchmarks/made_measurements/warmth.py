@@ -61,7 +61,7 @@ def dsc_data(noise: np.random.Generator) -> Made:
         "nucleation_constant": 1.03e5, "avrami_exponent": 2.8,
     }  # fmt: skip
     settings = kind_sheet("dsc").values({})
-    known = {**truth, "base_0": 100.0, "slope_0": 20.0}
+    known = {**truth, "base_0": 100.0, "slope_0": 20.0, "blur_start": 1.5, "blur_end": 0.6}
     courses = [("cooled", 353.0, 263.0, rate / 60.0) for rate in (2, 5, 10, 20)]
     courses += [("heated", 283.0, 363.0, 10.0 / 60.0), ("held", 313.0, 313.0, 0.0)]
     blocks = []

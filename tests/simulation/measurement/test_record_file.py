@@ -14,14 +14,18 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, unmea
 
 
 def pad_file(place: Path) -> Path:
-    """Steady states of a pad of 21 mV/K, 3.4 ohm and 0.15 W/K, insulated on its cold side."""
+    """Steady states of a pad of 21 mV/K, 3.4 ohm and 0.15 W/K, insulated on its cold side.
+
+    The currents go up and down: a drift of the thermocouples would look like the pad otherwise.
+    """
     seebeck, resistance, conductance = 21e-3, 3.4, 0.15
     noise = np.random.default_rng(5)
     current = np.array([0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.5])
+    current = np.concatenate([current, current[::-1], current])
     hot = 299.0 + 3.0 * current
     cold = (conductance * hot + 0.5 * current**2 * resistance) / (conductance + seebeck * current)
-    voltage = seebeck * (hot - cold) + resistance * current + noise.normal(0.0, 2e-3, 7)
-    hot, cold = (face - 273.15 + noise.normal(0.0, 0.05, 7) for face in (hot, cold))
+    voltage = seebeck * (hot - cold) + resistance * current + noise.normal(0.0, 2e-3, 21)
+    hot, cold = (face - 273.15 + noise.normal(0.0, 0.05, 21) for face in (hot, cold))
     rows = "\n".join(
         "{:.2f};{:.4f};{:.2f};{:.2f}".format(*row) for row in zip(current, voltage, hot, cold, strict=True)
     )

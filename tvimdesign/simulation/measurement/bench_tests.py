@@ -13,11 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.device.table.quantity import Feature
 from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.physics.springs import spring
 from tvimdesign.simulation.measurement.kinds import frozen_torque, pad, release, torque_angle
-from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule
+from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule, heat_inputs
 from tvimdesign.simulation.measurement.kinds.joint_of_module import FROZEN, JointOfModule
 from tvimdesign.simulation.measurement.reading.data_file import Array
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -87,17 +86,6 @@ def log(module: ResolvedModule, inputs: Inputs) -> Columns:
     seen = ca.evalf(ca.horzcat(*(ca.MX(places[name]) for name in taken)))
     columns = dict(zip(taken, np.asarray(ca.DM(seen)).T, strict=True))
     return {"time": time, "current": on, **columns}
-
-
-def heat_inputs(module: ResolvedModule) -> tuple[str, ...]:
-    """Return the contacts and losses that the module has."""
-
-    def there(feature: Feature) -> bool:
-        chosen = module.values[feature.choice]
-        return bool(getattr(chosen, "name", chosen) != feature.without)
-
-    return tuple(row.name for row in module.table.inputs
-                 if row.record and row.record[0] == "heat_paths" and all(map(there, row.requires)))  # fmt: skip
 
 
 def frozen(module: ResolvedModule, inputs: Inputs) -> Columns:

@@ -147,16 +147,21 @@ def _value_lines(measured: Measured, values: Mapping[str, Estimate]) -> Iterator
 
 
 def as_recorded(estimate: Estimate) -> Estimate:
-    """Return an estimate with the interval that a record has: widened by the instrument's own error, in squares."""
+    """Return an estimate with the interval that a record has.
+
+    It is wider by the drift that may have gone unseen, and by the instrument's own error, in squares.
+    """
     if estimate.low is None or estimate.high is None:
         return estimate
+    value, drift = estimate.value, estimate.drift
     if estimate.unit != "degC" and estimate.low > 0.0:
-        below, above = (np.hypot(np.log(end / estimate.value), ACCURACY) for end in (estimate.low, estimate.high))
-        low, high = estimate.value * np.exp(-below), estimate.value * np.exp(above)
+        moved = np.log1p(drift / value)
+        below, above = (np.hypot(abs(np.log(end / value)) + moved, ACCURACY) for end in (estimate.low, estimate.high))
+        low, high = value * np.exp(-below), value * np.exp(above)
     else:
-        own = WARMER if estimate.unit == "degC" else ACCURACY * abs(estimate.value)
-        below, above = (np.hypot(end - estimate.value, own) for end in (estimate.low, estimate.high))
-        low, high = estimate.value - below, estimate.value + above
+        own = WARMER if estimate.unit == "degC" else ACCURACY * abs(value)
+        below, above = (np.hypot(abs(end - value) + drift, own) for end in (estimate.low, estimate.high))
+        low, high = value - below, value + above
         low = max(low, 0.0) if estimate.low >= 0.0 else low
     return replace(estimate, low=float(low), high=float(high))
 

@@ -8,7 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.simulation.measurement.fitting.intervals import Spread, moved_by, profile_end, spread
+from tvimdesign.simulation.measurement.fitting.intervals import (
+    LEAST_DRIFT,
+    Drifts,
+    Spread,
+    drifts,
+    moved_by,
+    profile_end,
+    spread,
+)
 from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Problem, Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import RobustFit, robust_fit
 
@@ -42,6 +50,8 @@ class Estimate:
     value: float
     low: float | None
     high: float | None
+    drift: float = 0.0
+    """By how much drifts of the sensors that the residuals do not show may move it, in SI."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +118,7 @@ def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
     """Return intervals of a best fit, and what follows from it; without `profiles` they are those of the covariance."""
     residuals, best = fit
     known = spread(residuals, best)
+    drift = drifts(residuals, best, known)
     free = {i for direction in known.free_directions for i in moved_by(direction)}
     parameters, words = [], in_words(fit.problem, known, best.inner)
     for i, parameter in enumerate(fit.problem.parameters):
@@ -115,10 +126,11 @@ def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
             continue
         ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and parameter.profiled)
         words += _unbounded(parameter, ends)
-        parameters.append(_estimate(parameter, best.inner[i], ends))
-    misfit = _misfit(residuals, best, known)
+        moved = drift.moved(known.axis(i))
+        parameters.append(_estimate(parameter, best.inner[i], ends, moved))
+    misfit = _misfit(residuals, best, known) or _drifting(fit.problem, drift)
     return Fit(
-        fit.problem, tuple(parameters), _derived(residuals, best, known), correlation(known.covariance),
+        fit.problem, tuple(parameters), _derived(residuals, best, known, drift), correlation(known.covariance),
         tuple(fit.predicted()), tuple(map(float, best.noise)),
         tuple(parameter.rho for parameter in known.follows), (*words, *([misfit] if misfit else [])), misfit,
     )  # fmt: skip
@@ -152,6 +164,20 @@ def _misfit(residuals: Residuals, best: RobustFit, known: Spread) -> str:
                 "and residuals.csv show where the data part from the equations; leave those rows out."
             )
     return ""
+
+
+def _drifting(problem: Problem, drift: Drifts) -> str:
+    """Say which channel's residuals drift over the test, if one's do."""
+    most = int(np.argmax(np.abs(drift.sizes)))
+    channel = [channel for channel in problem.channels for _ in range(channel.sensors)][most]
+    size = drift.sizes[most]
+    if drift.deviations < _RARE or abs(size) < LEAST_DRIFT:
+        return ""
+    of = "value" if channel.relative and not channel.zero_drifts else "range"
+    return (
+        f"{channel.name[0].upper()}{channel.name[1:]} drifts by {100.0 * size:.1f} % of its {of} over the test "
+        f"({drift.deviations:.1f} deviations). No record is written: let instrument and sample settle, measure again."
+    )
 
 
 def _off_at_an_end(z: Array) -> float:
@@ -190,9 +216,11 @@ def _within(parameter: Parameter, low: float, high: float) -> tuple[float, float
     return low if low > least else -np.inf, high if high < most else np.inf
 
 
-def _estimate(parameter: Parameter, inner: float, ends: tuple[float | None, float | None]) -> Estimate:
+def _estimate(parameter: Parameter, inner: float, ends: tuple[float | None, float | None], moved: float) -> Estimate:
     low, high = (None if end is None or not np.isfinite(end) else float(parameter.outer(float(end))) for end in ends)
-    return Estimate(parameter.name, parameter.unit, parameter.meaning, float(parameter.outer(inner)), low, high)
+    value = float(parameter.outer(inner))
+    drift = moved * (value if parameter.positive else parameter.scale)
+    return Estimate(parameter.name, parameter.unit, parameter.meaning, value, low, high, drift)
 
 
 def _unbounded(parameter: Parameter, ends: tuple[float | None, float | None]) -> list[str]:
@@ -200,7 +228,7 @@ def _unbounded(parameter: Parameter, ends: tuple[float | None, float | None]) ->
     return [f"The data do not bound {parameter.name} from {side}." for side in sides]
 
 
-def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Estimate, ...]:
+def _derived(residuals: Residuals, best: RobustFit, known: Spread, drift: Drifts) -> tuple[Estimate, ...]:
     """Return derived quantities with intervals by the covariance; none where a free direction moves one."""
     logarithms, slopes = residuals.derived(best.inner)
     estimates = []
@@ -208,8 +236,10 @@ def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Esti
         half = known.half(slope)
         open_ = any(abs(slope @ direction) > 1e-6 * np.max(np.abs(slope)) for direction in known.free_directions)
         open_ = open_ or half > _UNKNOWN
-        ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(middle + half)))
-        estimates.append(Estimate(quantity.name, quantity.unit, quantity.meaning, float(np.exp(middle)), *ends))
+        low, high = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(middle + half)))
+        value = float(np.exp(middle))
+        moved = value * drift.moved(slope)
+        estimates.append(Estimate(quantity.name, quantity.unit, quantity.meaning, value, low, high, moved))
     return tuple(estimates)
 
 

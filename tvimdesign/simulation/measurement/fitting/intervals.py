@@ -29,8 +29,9 @@ from math import sqrt
 from typing import Literal, NamedTuple
 
 import numpy as np
+from scipy.linalg import block_diag
 from scipy.signal import lfilter
-from scipy.special import stdtrit
+from scipy.special import fdtrc, ndtri, stdtrit
 
 from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import (
@@ -139,6 +140,10 @@ def _left_and_logarithm(squares: Sequence[Array], others: Array, rho: Array) -> 
 
 
 CONFIDENCE = 0.95
+LEAST_DRIFT, _MOST_DRIFT = 0.005, 0.05
+"""Share of its range, or of its value, by which a sensor may always drift over a test unseen; and at most."""
+_UNSEEN = 3.7
+"""Deviations of a drift that the residuals show in most tests, as from 3.1 on it counts as shown."""
 _SMALLEST = 1e-7
 """Singular value over the largest, of derivatives by numbers scaled alike, below which a direction changes nothing."""
 _PART = 0.2
@@ -217,6 +222,75 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
         for i in alike:
             follows[i] = group.follows
     return Spread(covariance, directions, tuple(parts), tuple(freedom), tuple(follows), slack)
+
+
+class Drifts(NamedTuple):
+    """Sensors that drift evenly over a test, channel after channel."""
+
+    moves: Array
+    """What a drift of one of each changes in the solver's numbers; a row for each sensor."""
+    unseen: Array
+    """Square of the drifts that may go unseen: a quadratic form, as a covariance is."""
+    sizes: Array
+    """Drifts that the residuals show, as shares of the range or of the value."""
+    deviations: float
+    """By how many deviations all of them together differ from none."""
+
+    def moved(self, slope: Array) -> float:
+        """Return how far they may move a linear combination of the solver's numbers: all at once, or two deviations."""
+        by_each = self.moves @ slope
+        at_once = float(np.abs(by_each) @ np.sqrt(np.diag(self.unseen)))
+        return min(at_once, 2.0 * sqrt(max(float(by_each @ self.unseen @ by_each), 0.0)))
+
+
+def drifts(residuals: Residuals, fit: RobustFit, known: Spread) -> Drifts:
+    """Return the drifts of all channels' sensors.
+
+    The residuals do not show a drift that some parameters follow: up to `_MOST_DRIFT` it may be there unseen.
+    """
+    weights = weights_of(residuals, fit.noise)
+    jacobian = residuals.jacobian(fit.inner) * weights[:, None]
+    pull, _ = influence(residuals.at(fit.inner) * weights)
+    within = np.diag([_box(parameter) for parameter in residuals.problem.parameters])
+    predicted = zip(residuals.problem.channels, residuals.predicted(fit.inner), strict=True)
+    courses = block_diag(*(channel.drifts(values) for channel, values in predicted)) * weights[:, None]
+    moves, seen, information = _unfolded(jacobian, courses, within)
+    least = np.eye(len(information)) / _MOST_DRIFT**2
+    left = pull - seen @ np.linalg.solve(information + least, seen.T @ pull)
+    taken = parameters_of(residuals, fit.inner, fit.noise)
+    freedom = [max(part.stop - part.start - count, 2.0) for part, count in zip(residuals.parts, taken, strict=True)]
+    own = np.ones(len(weights))
+    for part, follows, free in zip(residuals.parts, known.follows, freedom, strict=True):
+        own[part] = 1.0 / _scatter(pull[part], left[part], free, follows.rho)
+    _, seen, information = _unfolded(jacobian * own[:, None], courses * own[:, None], within)
+    shown = seen.T @ (pull * own)
+    sizes = np.linalg.solve(information + least, shown)
+    square = float(shown @ np.linalg.pinv(information, rcond=_FAINT) @ shown)
+    chance = float(fdtrc(len(shown), sum(freedom), square / len(shown)))
+    unseen = np.linalg.inv(information / _UNSEEN**2 + least) + LEAST_DRIFT**2 * np.eye(len(shown))
+    return Drifts(-moves.T, unseen, np.asarray(sizes), float(-ndtri(max(0.5 * chance, 1e-300))))
+
+
+def _unfolded(jacobian: Array, courses: Array, within: Array) -> tuple[Array, Array, Array]:
+    """Return how parameters follow courses, what residuals show of these then, and the information on each."""
+    moves = _inverse(jacobian.T @ jacobian + within)[0] @ (jacobian.T @ courses)
+    seen = courses - jacobian @ moves
+    information = courses.T @ seen
+    return moves, seen, 0.5 * (information + information.T)
+
+
+def _scatter(pull: Array, left: Array, freedom: float, rho: float) -> float:
+    """Return the deviation of slow noise over that of the whole noise; `left` is the pull without its drift.
+
+    The drift itself makes residuals scatter and follow one another: their correlation is that without it, less biased
+    by two parameters (Marriott and Pope, Biometrika 41 (1954) 390), or `rho` where that is less.
+    """
+    count, square = len(left), float(left @ left)
+    smaller = square / (float(pull @ pull) or 1.0) * freedom / (freedom - 1.0)
+    if count >= FEWEST and square > 0.0:
+        of_itself = (count * float(left[1:] @ left[:-1]) / square + 2.0) / (count - 4.0)
+        rho = min(max(of_itself, 0.0), rho)
+    return sqrt(min(smaller, 1.0) * (1.0 + rho) / (1.0 - rho)) or 1.0
 
 
 def _box(parameter: Parameter) -> float:

@@ -85,6 +85,24 @@ class Channel:
     """Step of the last digit of the values, in SI or as a share: their noise is no less than what rounding makes."""
     noise_of: str = ""
     """Channels of one word here err alike; a channel without one has a noise of its own."""
+    zero_drifts: bool = False
+    """Whether the sensor's zero drifts, though its noise is a share of the value."""
+
+    sensors: int = 1
+    """Sensors whose values stand one after the other, as many of each."""
+
+    def drifts(self, predicted: Array) -> Array:
+        """Return what a drift by the whole range, or by the value itself, adds to the values; a column a sensor."""
+        count = len(self.at) // self.sensors
+        over = self.at[:count] - self.at[0] if self.at_name == "time" else np.arange(float(count))
+        sizes = predicted.reshape(self.sensors, count)
+        if self.relative:
+            sizes = np.ptp(sizes, axis=1, keepdims=True) / sizes if self.zero_drifts else np.ones_like(sizes)
+        else:
+            sizes = np.ptp(sizes, axis=1, keepdims=True) + np.zeros_like(sizes)
+        courses = np.zeros((self.sensors, count, self.sensors))
+        courses[range(self.sensors), :, range(self.sensors)] = sizes * over / (float(over[-1]) or 1.0)
+        return courses.reshape(-1, self.sensors)
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ _NORMAL = 1.4826  # deviation over the median of the sizes, for a normal distrib
 _ROUNDS, _PASSES = 20, 8
 _EXACT, _MOST_STEPS = 1e-9, 100
 _ROUGH, _FEW_STEPS = 1e-6, 8
+_PASSING = 1e-4
+"""Tolerance of the loss while the noise is not settled."""
 _SETTLED = 1e-3
 _LEAST_NOISE = 1e-9
 _LARGEST = 1e120
@@ -82,7 +84,7 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
     noise = np.where(noise > 0.0, noise, floor)
     inner = start
     for _ in range(_PASSES):
-        inner = solved(residuals, inner, noise)
+        inner = solved(residuals, inner, noise, passing=True)
         now = _noises(residuals, inner, parameters_of(residuals, inner, noise))
         now = np.maximum(now, floor)
         settled = np.all(np.abs(now / noise - 1.0) < _SETTLED)
@@ -102,7 +104,9 @@ def _refuse_wild(residuals: Residuals, start: Array) -> None:
             raise InputError(f"a value is {farthest:.0e} away from the others; look for a wrong number")
 
 
-def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None = None) -> Array:
+def solved(
+    residuals: Residuals, start: Array, noise: Array, fixed: int | None = None, *, passing: bool = False
+) -> Array:
     """Find the numbers of least loss for a given noise; one may stay fixed, and the tolerance is then larger."""
     tolerance, steps = (_EXACT, _MOST_STEPS) if fixed is None else (_ROUGH, _FEW_STEPS)
     free = np.arange(len(start)) != fixed
@@ -123,8 +127,8 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
     solution = least_squares(
         values,
         np.clip(start[free], bounds[:, 0], bounds[:, 1]), jac=jacobian, bounds=(bounds[:, 0], bounds[:, 1]),
-        loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=tolerance, ftol=tolerance, gtol=tolerance, max_nfev=steps,
-        x_scale="jac",
+        loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=tolerance, ftol=_PASSING if passing else tolerance, gtol=tolerance,
+        max_nfev=steps, x_scale="jac",
     )  # fmt: skip
     return whole(solution.x)
 

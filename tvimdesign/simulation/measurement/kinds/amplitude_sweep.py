@@ -9,7 +9,6 @@ its plateau, and a change by a power of its own.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +16,7 @@ from scipy.ndimage import median_filter
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers.polymer import LINEAR_DROP
-from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit, fitted
+from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.kinds.melt_tests import temperature_of, title_of
 from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement, Settings, endings, rows_of
@@ -28,8 +27,6 @@ _GONE = 0.2
 """Share of the storage modulus that is gone at the last row used."""
 _SMOOTHED = 3
 """Rows of the median by which a single row does not end the linear range."""
-_DRIFT = 0.02
-"""Share by which the moduli of a sample drift over a sweep, whether they are seen to or not."""
 _POWERS = (0.3, 8.0)
 
 
@@ -108,17 +105,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
             "record's; go to larger strains."
         )
         name = ""
-    return Measurement(fit, tuple(notes), {name: _with_drift(fit)} if name else {})
-
-
-def _with_drift(fit: Fit) -> Estimate:
-    """Return the limit with what a drift of the moduli by `_DRIFT` over the sweep moves it."""
-    limit = fit["linear_strain"]
-    if limit.low is None or limit.high is None:
-        return limit
-    moved = _DRIFT / (LINEAR_DROP * (1.0 - LINEAR_DROP) * fit.value("drop_power"))
-    below, above = (np.hypot(np.log(limit.value / end), moved) for end in (limit.low, limit.high))
-    return replace(limit, low=float(limit.value * np.exp(-below)), high=float(limit.value * np.exp(above)))
+    return Measurement(fit, tuple(notes), {name: fit["linear_strain"]} if name else {})
 
 
 def _sweep(block: Block, settings: Settings, end: str) -> Sweep:

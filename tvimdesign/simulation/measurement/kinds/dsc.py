@@ -2,7 +2,8 @@
 
 Freezing is Nakamura's integral of Hoffman and Lauritzen's rate (physics/polymers/transitions.py) along each run's
 own temperatures; what is given off is (h_m - h_s) dX/dt beside the heat of the specific heats and a straight baseline.
-Melting is the equilibrium curve over its window, straight as the product has it.
+Melting is the equilibrium curve over its window, straight as the product has it, but with both flanks blurred: crystals
+of many sizes and the sample's lag make them so. A blurred flank has the heat of the sharp one.
 
 Calorimeter data as runs: cooled, held or heated, heat flow per mass, exothermic positive.
 """
@@ -34,6 +35,8 @@ _NO_MASS = (
     "The heat flow is not per mass, and no file says the sample's: the heat of melting does not follow, all else does. "
     "--set sample_mass='5.2 mg' gives it."
 )
+_SHARP, _BLURRED = 0.1, 10.0
+"""K, least and largest width of the logistic that blurs a flank."""
 _SMOOTHING = 500.0  # J/kg, of `Melting`; the equations used here do not depend on it
 
 
@@ -71,17 +74,9 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         ]  # fmt: skip
         predicted = (melted if run.way == "heated" else frozen)(run, i, settings)
         channels.append(
-            Channel(
-                f"heat of {run.name}",
-                "W/kg",
-                run.heat,
-                predicted,
-                run.temperature,
-                "temperature",
-                "degC",
-                step=run.step,
-            )
-        )
+            Channel(f"heat of {run.name}", "W/kg", run.heat, predicted, run.temperature,
+                    "temperature", "degC", step=run.step)
+        )  # fmt: skip
     end = Derived("melting_end", "degC", "Temperature at which melting ends",
                   lambda values: values["melting_start"] + values["melting_width"])  # fmt: skip
     fit = fitted(Problem(parameters, channels, [end] if melting else []), profiles=profiles)
@@ -140,18 +135,20 @@ def melted(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
     """Return the heat given off [W/kg] by a run that melts: negative."""
     time = ca.DM((run.time - run.time[0]) / (run.time[-1] - run.time[0]))
 
+    temperature = ca.DM(run.temperature)
+
     def predicted(values: Values) -> Any:
         melting = melting_of(values, settings)
-        at, ends = ca.SX.sym("T"), ca.SX.sym("ends", 2)
-        window = melting._replace(start=ends[0], end=ends[1])
-        fraction = transitions.equilibrium_fraction(at, window)
-        both = ca.Function("both", [at, ends], [fraction, ca.gradient(fraction, at)])
-        solid, slope = both.map(len(run.time))(
-            run.temperature[None, :], ca.repmat(ca.vertcat(melting.start, melting.end), 1, len(run.time))
-        )
-        melts = (1.0 - solid.T) * (melting.specific_heat_melt - melting.specific_heat_solid) * run.rate
+        molten, rises = 0.0, 0.0
+        for sign, edge, blur in ((1.0, melting.start, "blur_start"), (-1.0, melting.end, "blur_end")):
+            width = values.get(blur, _SHARP)
+            away = (temperature - edge) / width
+            molten += sign * width * (np.fmax(away, 0.0) + np.log1p(np.exp(-np.fabs(away))))
+            rises += sign * 0.5 * (1.0 + np.tanh(0.5 * away))
+        width = melting.end - melting.start
+        melts = molten / width * (melting.specific_heat_melt - melting.specific_heat_solid) * run.rate
         base = values[f"base_{which}"] + values[f"slope_{which}"] * time
-        return base - melts + melting.latent_heat * slope.T * run.rate
+        return base - melts - melting.latent_heat * rises / width * run.rate
 
     return predicted
 
@@ -167,7 +164,7 @@ def _fraction_and_slope(psi: Any, kinetics: transitions.Kinetics) -> tuple[Any, 
 
 
 def _window_start(runs: Sequence[Run]) -> list[Parameter]:
-    """Return start and width of the window, from the half-height of the melting peak."""
+    """Return start and width of the window, from the half-height of the melting peak, and the blur of its flanks."""
     run = max(runs, key=lambda candidate: float(np.ptp(candidate.heat)))
     down = np.interp(run.time, run.time[[0, -1]], run.heat[[0, -1]]) - run.heat
     inside = run.temperature[down > 0.4 * np.max(down)]
@@ -176,6 +173,8 @@ def _window_start(runs: Sequence[Run]) -> list[Parameter]:
         Parameter("melting_start", "degC", "Temperature at which melting begins", float(inside[0]), positive=False,
                   scale=width),
         Parameter("melting_width", "K", "Width of the melting window", width),
+        *(Parameter(name, "K", "Blur of a flank of the peak", 0.1 * width, least=_SHARP, most=_BLURRED, nuisance=True)
+          for name in ("blur_start", "blur_end")),
     ]  # fmt: skip
 
 
@@ -289,9 +288,9 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
         if end - begin < _LEAST_ROWS or (way != "held" and span < _LEAST_SPAN):
             continue
         every = -(-(end - begin) // _MOST_ROWS)
-        part = slice(begin, end, every)
-        name = f"{block.title or block.file}, {way}"
-        runs.append(Run(name, way, time[part] - time[begin], temperature[part], heat[part], step))
+        rows = [column[begin : end - (end - begin) % every] for column in (time - time[begin], temperature, heat)]
+        seconds, kelvins, heats = (column.reshape(-1, every).mean(axis=1) for column in rows)
+        runs.append(Run(f"{block.title or block.file}, {way}", way, seconds, kelvins, heats, step))
     return runs
 
 

@@ -14,6 +14,7 @@ SIAM J. Numer. Anal. 14 (1977) 1006.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -24,13 +25,7 @@ from tvimdesign.device import Input
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.measurement import (
-    Measurement,
-    Settings,
-    required,
-    resolve_measured,
-    series_of,
-)
+from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, resolve_measured, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
@@ -81,13 +76,18 @@ def _rows(resolved: ResolvedModule, settings: Settings) -> list[Input]:
     for name in chosen:
         if name not in there:
             raise InputError(f"--set fitted: {name[:40]} is no contact or loss of such a module; {', '.join(there)}")
-    counting = [name for name, row in there.items() if all(_has(resolved, requirement) for requirement in row.requires)]
-    return [there[name] for name in chosen or counting]
+    return [there[name] for name in chosen or heat_inputs(resolved)]
 
 
-def _has(resolved: ResolvedModule, feature: Feature) -> bool:
-    chosen = resolved.values[feature.choice]
-    return bool(getattr(chosen, "name", chosen) != feature.without)
+def heat_inputs(resolved: ResolvedModule) -> tuple[str, ...]:
+    """Return the contacts and losses that a module has."""
+
+    def has(feature: Feature) -> bool:
+        chosen = resolved.values[feature.choice]
+        return bool(getattr(chosen, "name", chosen) != feature.without)
+
+    return tuple(row.name for row in resolved.table.inputs
+                 if row.record and row.record[0] == "heat_paths" and all(map(has, row.requires)))  # fmt: skip
 
 
 def _log(block: Block) -> tuple[Array, Array, dict[str, Array]]:
@@ -161,9 +161,11 @@ def _notes(rows: Sequence[Input], channels: Sequence[Channel], source: Path) -> 
 
 
 _GAMMA = 1.0 - np.sqrt(0.5)
-_LONGEST_STEP = 12.0
+_LONGEST_STEP = 8.0
 """s; temperatures are within 0.1 K of CVODES at 1e-8 (test)."""
-_NEWTON: dict[str, Any] = {"linear_solver": "csparse", "abstol": 1e-9, "max_iter": 40, "error_on_fail": False}
+_LONGEST_SHARE = 0.15
+"""Share of the time since the current changed that a step takes at most."""
+_NEWTON: dict[str, Any] = {"linear_solver": "qr", "abstol": 1e-9, "max_iter": 40, "error_on_fail": False}
 
 
 class Course(NamedTuple):
@@ -213,10 +215,17 @@ class LoggedModule:
     def _march(self, phase: PhaseFunctions, begin: Any, time: Array, current: Array, given: Any) -> Any:
         """Return the states at the end of every interval."""
         lengths = np.diff(time)
-        steps = int(np.ceil(float(np.max(lengths)) / _LONGEST_STEP))
-        interval = self._interval(phase, steps)
-        count = len(lengths)
-        return interval.mapaccum(count)(begin, ca.DM(current).T, ca.DM(lengths).T, ca.repmat(given, 1, count))
+        longest = np.minimum(_LONGEST_STEP, _LONGEST_SHARE * (time[1:] - time[0]))
+        steps = np.ceil(lengths / longest - 1e-9).astype(int)
+        ends = [0, *(np.flatnonzero(np.diff(steps)) + 1), len(steps)]
+        parts = []
+        for first, end in pairwise(ends):  # intervals of as many steps together
+            interval, part = self._interval(phase, int(steps[first])), slice(first, end)
+            given_there = ca.repmat(given, 1, end - first)
+            marched = interval.mapaccum(end - first)(begin, ca.DM(current[part]).T, ca.DM(lengths[part]).T, given_there)
+            parts.append(marched)
+            begin = marched[:, -1]
+        return ca.horzcat(*parts)
 
     def _interval(self, phase: PhaseFunctions, steps: int) -> Any:
         size = phase.state_size

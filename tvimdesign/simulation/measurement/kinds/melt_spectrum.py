@@ -10,6 +10,7 @@ Winter, Rheol. Acta 28 (1989) 511 (free times and moduli, as few modes as the da
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -44,37 +45,22 @@ _SPLIT = 0.02
 """A mode that stands for two in a record is split this share above and below its time: no test could tell."""
 
 
-class Curve(NamedTuple):
-    """Values of a test, and what predicts them from a spectrum whose rates are shifted by factors."""
-
-    name: str
-    unit: str
-    measured: Array
-    predicted: Callable[..., Any]
-    """From modes and factors, and from the value of `own` where there is one."""
-    at: Array
-    at_name: str
-    at_unit: str
-    relative: bool = True
-    step: float = 0.0
-    """Step of the last digit of the values, as a channel has it."""
-    own: Parameter | None = None
-    """An unknown of this curve alone."""
-
-
 class MeltTest(NamedTuple):
     """One test: its temperature [K], or one for each row of a ramp, its curves, and where it sees the spectrum."""
 
     name: str
     temperature: float
     ramp: Array | None
-    curves: Sequence[Curve]
+    curves: Sequence[Channel]
+    """Values, each predicted from modes, shift factors and the parameters."""
     rates: Array
     """Angular frequencies, or one over the times [1/s]."""
     sizes: Array
     """Modulus at each of them [Pa], roughly."""
     note: str = ""
     """Parts that were left out."""
+    own: Sequence[Parameter] = ()
+    """Unknowns of this test alone."""
     blind: str = ""
     """`inertia` or `rise` where first rows were left out for it: what relaxes faster is not seen."""
 
@@ -290,7 +276,7 @@ def _misfit(fit: BestFit) -> float:
 def _problem(melt: Melt, count: int) -> Problem:
     """Return the spectrum of `count` modes and shifts."""
     parameters = _modes(melt, count)
-    parameters += [curve.own for test in melt.tests for curve in test.curves if curve.own]
+    parameters += [parameter for test in melt.tests for parameter in test.own]
     if melt.energy is None:
         parameters += [
             Parameter(shift_name(temperature), "1", "Shift of the rates to those of the reference",
@@ -305,31 +291,18 @@ def _problem(melt: Melt, count: int) -> Problem:
                                     float(min(np.min(test.sizes) for test in melt.tests))))  # fmt: skip
     if melt.fast:
         shortest = melt.window[0]
-        parameters.append(
+        largest = float(max(np.max(test.sizes) for test in melt.tests)) * shortest * _BEYOND
+        parameters += [
             Parameter("fast_time", "s", "Time of it", 0.1 * shortest, least=shortest / _SOLID, most=shortest,
-                      nuisance=True)
-        )  # fmt: skip
-        parameters.append(
-            Parameter(
-                "fast_viscosity",
-                "Pa*s",
-                "Viscosity of all that relaxes faster than is seen",
-                float(max(np.max(test.sizes) for test in melt.tests)) * melt.window[0] * _BEYOND,
-            )
-        )
+                      nuisance=True),
+            Parameter("fast_viscosity", "Pa*s", "Viscosity of all that relaxes faster than is seen", largest),
+        ]  # fmt: skip
 
-    def predicted(test: MeltTest, curve: Curve) -> Callable[[Values], Any]:
-        own = curve.own.name if curve.own else ""
-        return lambda values: curve.predicted(
-            melt.modes(values, count), melt.factor(values, test), *([values[own]] if own else [])
-        )
+    def predicted(test: MeltTest, channel: Channel) -> Callable[[Values], Any]:
+        by_spectrum: Callable[..., Any] = channel.predicted
+        return lambda values: by_spectrum(melt.modes(values, count), melt.factor(values, test), values)
 
-    channels = [
-        Channel(curve.name, curve.unit, curve.measured, predicted(test, curve), curve.at, curve.at_name, curve.at_unit,
-                relative=curve.relative, step=curve.step, noise_of=curve.name.partition(" of ")[0])
-        for test in melt.tests
-        for curve in test.curves
-    ]  # fmt: skip
+    channels = [replace(channel, predicted=predicted(test, channel)) for test in melt.tests for channel in test.curves]
     derived = [] if melt.solid else [
         Derived("zero_shear_viscosity", "Pa*s", "Viscosity of slow flow: sum of modulus times time",
                 lambda values: sum(time * modulus for time, modulus in melt.modes(values, count)))

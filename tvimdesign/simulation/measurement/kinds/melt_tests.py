@@ -13,7 +13,7 @@ Relaxation: G(t) by `viscoelasticity.relaxation_modulus`, or as `ramped_stress` 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from scipy.ndimage import median_filter
@@ -22,8 +22,8 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
-from tvimdesign.simulation.measurement.fitting.problem import Parameter
-from tvimdesign.simulation.measurement.kinds.melt_spectrum import Curve, MeltTest, fit_spectrum, guessed_shift
+from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Values
+from tvimdesign.simulation.measurement.kinds.melt_spectrum import MeltTest, fit_spectrum, guessed_shift
 from tvimdesign.simulation.measurement.measure_files import kind_sheets
 from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
@@ -137,15 +137,16 @@ def _cut_off(ratio: Array) -> Any:
 def _oscillated(
     block: Block, temperature: float, omega: Array, storage: Array, loss: Array, ramp: Array | None = None
 ) -> MeltTest:
-    def predicted(which: int) -> Callable[[Modes, Any], Any]:
-        return lambda modes, shift: polymer.maxwell_moduli(omega * shift, modes)[which]
+    def predicted(which: int) -> Callable[..., Any]:
+        return lambda modes, shift, _: polymer.maxwell_moduli(omega * shift, modes)[which]
 
     where = title_of(block, temperature)
     at = (omega, "angular frequency", "rad/s") if ramp is None else (ramp, "temperature", "degC")
     curves = [
-        Curve(f"{name} of {where}", "Pa", moduli, predicted(which), *at, step=block.share(f"{name.replace(' ', '_')}"))
+        Channel(f"{name} of {where}", "Pa", moduli, predicted(which), *at, relative=True,
+                step=block.share(name.replace(" ", "_")), noise_of=name)
         for which, (name, moduli) in enumerate((("storage modulus", storage), ("loss modulus", loss)))
-    ]
+    ]  # fmt: skip
     rates = omega if ramp is None else omega * guessed_shift(ramp, temperature)
     return MeltTest(where, temperature, ramp, curves, rates, np.hypot(storage, loss))
 
@@ -173,21 +174,12 @@ def creeps_in(block: Block, settings: Settings) -> list[MeltTest]:
         f"instrument's inertia makes it: the first {first} rows are left out."
     )
     creep = _under_load(where, time[loaded][first:], measured[loaded][first:], block.share(*_creep_columns(block)))
-    curves = [creep]
+    curves, own = [creep], []
     if np.sum(~loaded) >= LEAST_ROWS:
-        curves.append(_recovery(where, last, time[~loaded], measured[~loaded]))
-    return [
-        MeltTest(
-            where,
-            temperature,
-            None,
-            curves,
-            1.0 / creep.at,
-            1.0 / creep.measured,
-            note or "",
-            "inertia" if first else "",
-        )
-    ]
+        recovery, release = _recovery(where, last, time[~loaded], measured[~loaded])
+        curves, own = [creep, recovery], [release]
+    blind = "inertia" if first else ""
+    return [MeltTest(where, temperature, None, curves, 1.0 / creep.at, 1.0 / creep.measured, note or "", own, blind)]
 
 
 def _inert_rows(time: Array, compliance: Array) -> int:
@@ -241,16 +233,17 @@ def compliance(time: Any, modes: Modes) -> Any:
     return at_once.map(count)(ca.MX(time).T, ca.repmat(given, 1, count)).T
 
 
-def _under_load(where: str, time: Array, measured: Array, share: float) -> Curve:
+def _under_load(where: str, time: Array, measured: Array, share: float) -> Channel:
     used = _thinned(time)
 
-    def predicted(modes: Modes, shift: Any) -> Any:
+    def predicted(modes: Modes, shift: Any, _: Values) -> Any:
         return compliance(ca.DM(time[used]) / shift, modes)
 
-    return Curve(f"compliance of {where}", "1/Pa", measured[used], predicted, time[used], "time", "s", step=share)
+    return Channel(f"compliance of {where}", "1/Pa", measured[used], cast(Any, predicted), time[used], "time", "s",
+                   relative=True, step=share, noise_of="compliance", zero_drifts=True)  # fmt: skip
 
 
-def _recovery(where: str, last: float, time: Array, measured: Array) -> Curve:
+def _recovery(where: str, last: float, time: Array, measured: Array) -> tuple[Channel, Parameter]:
     """Return the rows after the last one under load; the moment of the release lies between, and is an unknown."""
     used = _thinned(time - last)
     time, measured = time[used], measured[used]
@@ -260,10 +253,11 @@ def _recovery(where: str, last: float, time: Array, measured: Array) -> Curve:
         least=last, most=last + _ALMOST * gap, nuisance=True,
     )  # fmt: skip
 
-    def predicted(modes: Modes, shift: Any, released: Any) -> Any:
-        return compliance(ca.DM(time) / shift, modes) - compliance((ca.DM(time) - released) / shift, modes)
+    def predicted(modes: Modes, shift: Any, values: Values) -> Any:
+        return compliance(ca.DM(time) / shift, modes) - compliance((ca.DM(time) - values[release.name]) / shift, modes)
 
-    return Curve(f"recovery of {where}", "1/Pa", measured, predicted, time, "time", "s", relative=False, own=release)
+    return Channel(f"recovery of {where}", "1/Pa", measured, cast(Any, predicted), time, "time", "s",
+                   noise_of="recovery"), release  # fmt: skip
 
 
 def _compliance(block: Block, settings: Settings) -> tuple[Array, Array, Any]:
@@ -303,7 +297,7 @@ def relaxations_in(block: Block, settings: Settings) -> list[MeltTest]:
     temperature = temperature_of(block, settings)
     where = title_of(block, temperature)
 
-    def predicted(modes: Modes, shift: Any) -> Any:
+    def predicted(modes: Modes, shift: Any, _: Values) -> Any:
         reduced = ca.MX(ca.DM(time)) / shift
         if rise == 0.0:
             return viscoelasticity.relaxation_modulus(reduced, modes)
@@ -315,8 +309,9 @@ def relaxations_in(block: Block, settings: Settings) -> list[MeltTest]:
         )  # fmt: skip
 
     share = block.share("relaxation_modulus" if "relaxation_modulus" in block.columns else "stress")
-    curve = Curve(f"relaxation modulus of {where}", "Pa", modulus, predicted, time, "time", "s", step=share)
-    return [MeltTest(where, temperature, None, [curve], 1.0 / time, modulus, note, "rise" if seen else "")]
+    curve = Channel(f"relaxation modulus of {where}", "Pa", modulus, cast(Any, predicted), time, "time", "s",
+                    relative=True, step=share, noise_of="relaxation modulus")  # fmt: skip
+    return [MeltTest(where, temperature, None, [curve], 1.0 / time, modulus, note, blind="rise" if seen else "")]
 
 
 def _rise_seen(time: Array, modulus: Array, strain: Array | None) -> float:

@@ -49,7 +49,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
                     step=block.step("voltage")),
             Channel(f"faces of {block.file}", "degC", np.concatenate([hot, cold]), state.faces,
                     np.concatenate([current, current]), "current", "A",
-                    step=block.step("hot_temperature", "cold_temperature")),
+                    step=block.step("hot_temperature", "cold_temperature"), sensors=2),
         ]  # fmt: skip
     seebeck, resistance, conductance = np.median(starts, axis=0)
     fit = fitted(

@@ -15,14 +15,7 @@ import numpy as np
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.measurement.fitting.fit import fitted
-from tvimdesign.simulation.measurement.fitting.problem import (
-    Channel,
-    Derived,
-    Parameter,
-    Problem,
-    Values,
-    from_zero,
-)
+from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values, from_zero
 from tvimdesign.simulation.measurement.kinds.joint_of_module import joint_of_module, with_records
 from tvimdesign.simulation.measurement.kinds.release import CORNER
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, series_of

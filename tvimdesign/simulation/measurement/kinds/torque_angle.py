@@ -14,14 +14,7 @@ import numpy as np
 
 from tvimdesign.physics.springs import spring
 from tvimdesign.simulation.measurement.fitting.fit import fitted
-from tvimdesign.simulation.measurement.fitting.problem import (
-    Channel,
-    Derived,
-    Parameter,
-    Problem,
-    Values,
-    from_zero,
-)
+from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values, from_zero
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -48,18 +41,10 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     if both_signs:
         parameters.append(from_zero("backlash", "deg", "Play between the two directions", 0.01 * turned))
     channels = [
-        Channel(
-            f"angle of {block.file}",
-            "deg",
-            angles,
-            _predicted(torques),
-            torques,
-            "torque",
-            "N*m",
-            step=block.step("angle"),
-        )
+        Channel(f"angle of {block.file}", "deg", angles, _predicted(torques), torques, "torque", "N*m",
+                step=block.step("angle"))
         for block, (torques, angles) in zip(blocks, series, strict=True)
-    ]
+    ]  # fmt: skip
     derived = [_modulus(settings)] if any(name in settings for name in _SIZES) else []
     fit = fitted(Problem(parameters, channels, derived), profiles=profiles)
     record = {"youngs_modulus": fit["youngs_modulus"]} if derived else {}
