@@ -1,6 +1,8 @@
 """Files of measured data written for a test, and what fits of them come to."""
 
+import zipfile
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -29,3 +31,39 @@ def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Meas
     sheet = kind_sheet(kind) if kind else next(one for one in kind_sheets().values() if one.fits(blocks[0]))
     result: Measurement = measure_of(sheet)(blocks, sheet.values(settings), profiles=False)
     return result
+
+
+def workbook(rows: list[list[object]]) -> bytes:
+    """The least that is a workbook (ECMA-376): one sheet with text in its cells, and numbers."""
+    lines = []
+    for i, row in enumerate(rows, start=1):
+        cells = "".join(
+            f'<c r="{chr(65 + j)}{i}"><v>{cell}</v></c>'
+            if isinstance(cell, float)
+            else f'<c r="{chr(65 + j)}{i}" t="inlineStr"><is><t>{cell}</t></is></c>'
+            for j, cell in enumerate(row)
+        )
+        lines.append(f'<row r="{i}">{cells}</row>')
+    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    package = "http://schemas.openxmlformats.org/package/2006"
+    kind = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+    files = {
+        "[Content_Types].xml": f'<Types xmlns="{package}/content-types"><Default Extension="rels" '
+        'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+        '<Override PartName="/xl/workbook.xml" '
+        f'ContentType="{kind}.sheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" '
+        f'ContentType="{kind}.worksheet+xml"/></Types>',
+        "_rels/.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
+        f'Type="{office}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
+        "xl/workbook.xml": f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets><sheet name="data" sheetId="1" '
+        'r:id="r1"/></sheets></workbook>',
+        "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
+        f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>',
+        "xl/worksheets/sheet1.xml": f'<worksheet xmlns="{main}"><sheetData>{"".join(lines)}</sheetData></worksheet>',
+    }
+    stream = BytesIO()
+    with zipfile.ZipFile(stream, "w") as book:
+        for name, text in files.items():
+            book.writestr(name, text)
+    return stream.getvalue()

@@ -1,9 +1,11 @@
 """The command `fit`: a folder, a record, kinds listed, and errors with exit code 2."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 
+import layouts
 import numpy as np
 import pytest
 from support import Command
@@ -54,6 +56,26 @@ def test_a_fit_without_a_record_keeps_its_folder_and_json_has_it(
     assert printed == json.loads((tmp_path / "results/weights-fit/fit.json").read_text())
 
 
+@pytest.mark.gate
+@pytest.mark.parametrize("made", [
+    layouts.plain_flow, layouts.haake_amplitude, layouts.ta_universal, layouts.trios_dsc, layouts.setaram,
+    layouts.mettler, layouts.netzsch, layouts.plain_dsc,
+], ids=lambda made: made.__name__)  # fmt: skip
+def test_a_file_goes_through_without_an_option(tvimdesign: Command, tmp_path: Path, made: Callable[[], bytes]) -> None:
+    (tmp_path / "data.txt").write_bytes(made())
+    done = tvimdesign("fit", "data.txt", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    data = json.loads((tmp_path / "results/data-fit/fit.json").read_text())
+    values = {entry["name"]: entry for entry in (*data["parameters"], *data["derived"])}
+    kind, name, truth = {
+        layouts.plain_flow: ("flow_curve", "zero_shear_viscosity", layouts.VISCOSITY),
+        layouts.haake_amplitude: ("amplitude_sweep", "linear_strain", 100.0 * layouts.LIMIT),
+    }.get(made, ("dsc", "melting_end", layouts.MELTS_TO))
+    assert (data["kind"], data["misfit"]) == (kind, "")
+    assert values[name]["value"] == pytest.approx(truth, rel=0.15)
+    assert (tmp_path / "results/data-fit/fit.png").exists()
+
+
 def test_kinds_are_listed(tvimdesign: Command) -> None:
     listed = tvimdesign("fit", "--kinds").stdout
     assert "columns: angle, torque or mass or force" in listed
@@ -86,6 +108,6 @@ def test_a_panel_is_titled_by_its_file_and_labelled_by_what_was_measured() -> No
         "angle of /home/me/lab of 2026/swing, cold.csv, run 2", "deg", angle, lambda _: angle, at, "time", "s"
     )
     fit = SimpleNamespace(problem=SimpleNamespace(channels=[one]), predicted=[angle], noise=[1.0], misfit="")
-    made = SimpleNamespace(kind=SimpleNamespace(name="release"), measurement=SimpleNamespace(fit=fit))
+    made = SimpleNamespace(kind=SimpleNamespace(name="release"), measurement=SimpleNamespace(fit=fit, notes=()))
     (panel,) = figure_data(made)["panels"]
     assert (panel["title"], panel["y_label"], panel["x_label"]) == ("swing, cold.csv, run 2", "angle / °", "time / s")

@@ -17,7 +17,7 @@ from rich.markup import escape
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.base.yaml_data import plain_data
-from tvimdesign.report.fit.fit_files import fit_data, from_si_array
+from tvimdesign.report.fit.fit_files import estimates, fit_data, from_si_array
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.page_sections import grid
@@ -304,11 +304,6 @@ def _print(
         print_grid(grid("Measure in this order", ("test", "", "measures"), order), console)
         return
     for name, done in measured.items():
-        rows: list[tuple[str, ...]] = []
-        for estimate in (*done.measurement.fit.parameters, *done.measurement.fit.derived):
-            ends = ["open" if x is None else number(from_si(x, estimate.unit)) for x in (estimate.low, estimate.high)]
-            rows.append((estimate.name, number(from_si(estimate.value, estimate.unit)), *ends, pretty(estimate.unit)))
-        heads = ("parameter", "value", "95 % from", "to", "unit")
-        print_grid(grid(protocols()[name]["title"], heads, rows, right=(1, 2, 3)), console)
+        print_grid(estimates(done, protocols()[name]["title"]), console)
         for path in records[name]:
             console.print(f"Record: [bold]{escape(path)}[/bold]", soft_wrap=True)

@@ -69,7 +69,8 @@ def fit(data: dict[str, Any]) -> Figure:
     panels = data["panels"]
     down, across = -(-len(panels) // _PANELS_ACROSS), min(len(panels), _PANELS_ACROSS)
     row = _HIGH + _LOW + _ABOVE + _BELOW + 0.08
-    figure = theme.new_figure(theme.NAME_STRIP + 0.22 + row * down)
+    lines = 1 + data["title"].count("\n")
+    figure = theme.new_figure(theme.NAME_STRIP + 0.08 + 0.14 * lines + row * down)
     theme.caption(figure, data["title"])
     wide = (theme.WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
     for i, panel in enumerate(panels):

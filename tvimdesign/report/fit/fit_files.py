@@ -6,6 +6,7 @@ A measurement as plain data: parameters with intervals, notes, residuals, and th
 from __future__ import annotations
 
 import json
+import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
+from tvimdesign.page.blocks import Grid
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import finite, head, number, number_entry
 from tvimdesign.report.output.page_sections import grid
@@ -88,20 +90,7 @@ def _print(measured: Measured, written: Mapping[str, Path], console: Console) ->
     measurement = measured.measurement
     for line in measured.read_for_the_fit(_MOST_TABLES):
         console.print(escape(line), style="dim", soft_wrap=True)
-    rows = []
-    for estimate in (*measurement.fit.parameters, *measurement.fit.derived):
-        ends = ["open" if end is None else number(from_si(end, estimate.unit)) for end in (estimate.low, estimate.high)]
-        rows.append(
-            (
-                estimate.name,
-                number(from_si(estimate.value, estimate.unit)),
-                *ends,
-                pretty(estimate.unit),
-                estimate.meaning,
-            )
-        )
-    heads = ("parameter", "value", "95 % from", "to", "unit", "meaning")
-    print_grid(grid("", heads, rows, right=(1, 2, 3)), console)
+    print_grid(estimates(measured, ""), console)
     for line in (*measurement.notes, *measurement.fit.words):
         console.print(escape(line), soft_wrap=True)
     for i, path in enumerate(written.values()):
@@ -110,12 +99,23 @@ def _print(measured: Measured, written: Mapping[str, Path], console: Console) ->
         console.print(escape(_use(written)), soft_wrap=True)
 
 
+def estimates(measured: Measured, title: str) -> Grid:
+    """Return a table of what was fitted, with intervals."""
+    fit, rows = measured.measurement.fit, []
+    for estimate in (*fit.parameters, *fit.derived):
+        ends = ["open" if end is None else number(from_si(end, estimate.unit)) for end in (estimate.low, estimate.high)]
+        value = number(from_si(estimate.value, estimate.unit))
+        rows.append((estimate.name, value, *ends, pretty(estimate.unit), estimate.meaning))
+    heads = ("parameter", "value", "95 % from", "to", "unit", "meaning")
+    return grid(title, heads, rows, right=(1, 2, 3))
+
+
 def _use(written: Mapping[str, Path]) -> str:
     named = ", ".join(f"{choice}: {path.stem}" for choice, path in written.items())
     return f"In a study: catalog: {next(iter(written.values())).parent.parent}, module: {{{named}}}"
 
 
-_MOST_PANELS = 6
+_MOST_PANELS, _TITLE_LETTERS = 6, 110
 _DECADES = 30.0
 """Largest over smallest value from which on an axis is logarithmic."""
 
@@ -181,10 +181,13 @@ def from_si_array(values: Any, unit: str) -> Any:
 
 
 def figure_data(measured: Measured) -> dict[str, Any]:
-    """Return the panels of the figure: values and curves, each with its residuals below."""
+    """Return the panels of the figure: values and curves, each with its residuals below, and why there is no record."""
     fit = measured.measurement.fit
-    why = "; the equations do not describe the data: no record" if fit.misfit else ""
-    return {"title": f"{measured.kind.name}: measured and fitted{why}", "panels": list(_panels(fit))}
+    why = fit.misfit or next((note for note in measured.measurement.notes if "no record" in note.lower()), "")
+    sentences = [sentence for sentence in why.split(". ") if sentence]
+    reason = textwrap.wrap(f"No record: {sentences[0]}", _TITLE_LETTERS) if sentences else []
+    title = "\n".join([f"{measured.kind.name}: measured and fitted", *reason])
+    return {"title": title, "panels": list(_panels(fit))}
 
 
 def _panels(fit: Fit) -> Iterator[dict[str, Any]]:

@@ -8,10 +8,12 @@ from pathlib import Path
 import layouts
 import pytest
 from measured_files import measured
+from melt_layouts import LAYOUTS, Layout
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.fit import Estimate
 from tvimdesign.simulation.measurement.measure_files import Measured
+from tvimdesign.simulation.measurement.record_file import as_recorded
 
 
 def through(place: Path, made: Callable[[], bytes]) -> Measured:
@@ -44,6 +46,7 @@ def test_amplitude_sweeps(tmp_path: Path, made: Callable[[], bytes]) -> None:
 def test_calorimeters(tmp_path: Path, made: Callable[[], bytes]) -> None:
     done = through(tmp_path, made)
     assert done.kind.name == "dsc"
+    assert not done.measurement.fit.misfit
     values = done.measurement.record_values
     assert values["melting_start"].value - 273.15 == pytest.approx(layouts.MELTS_FROM, abs=0.3)
     assert values["melting_end"].value - 273.15 == pytest.approx(layouts.MELTS_TO, abs=0.3)
@@ -54,6 +57,23 @@ def test_calorimeters(tmp_path: Path, made: Callable[[], bytes]) -> None:
         assert "--set sample_mass='5.2 mg' gives it" in done.measurement.notes[-1]
     if made is layouts.setaram:
         assert any("not used: Index, Furnace Temperature (°C)" in line for line in done.read())
+
+
+@pytest.mark.parametrize("layout", LAYOUTS, ids=lambda layout: layout.data.__name__)
+def test_melts(tmp_path: Path, layout: Layout) -> None:
+    path = tmp_path / f"{layout.data.__name__}{layout.ending}"
+    path.write_bytes(layout.data())
+    if layout.refusal:
+        with pytest.raises(InputError, match=layout.refusal):
+            measured(path)
+        return
+    done = measured(path)
+    assert done.kind.name == layout.kind
+    values = done.measurement.record_values
+    assert not done.measurement.fit.misfit
+    assert {name: holds(as_recorded(values[name]), truth) for name, truth in layout.truth.items()} == dict.fromkeys(
+        layout.truth, True
+    )
 
 
 @pytest.mark.parametrize(

@@ -6,12 +6,11 @@ github.com/jorge-ramirez-upm/RepTate. `benchmarks/read_public.py` reads the file
 """
 
 import json
-import zipfile
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
+from measured_files import workbook
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.reading.data_file import Block, read_data_file
@@ -173,39 +172,3 @@ def test_a_workbook(tmp_path: Path) -> None:
     (found,) = blocks(tmp_path, "sweep.xlsx", workbook(cells))
     is_the_sweep(found)
     assert found.lines == (4, 6)
-
-
-def workbook(rows: list[list[object]]) -> bytes:
-    """The least that is a workbook (ECMA-376): one sheet with text in its cells, and numbers."""
-    lines = []
-    for i, row in enumerate(rows, start=1):
-        cells = "".join(
-            f'<c r="{chr(65 + j)}{i}"><v>{cell}</v></c>'
-            if isinstance(cell, float)
-            else f'<c r="{chr(65 + j)}{i}" t="inlineStr"><is><t>{cell}</t></is></c>'
-            for j, cell in enumerate(row)
-        )
-        lines.append(f'<row r="{i}">{cells}</row>')
-    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
-    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
-    package = "http://schemas.openxmlformats.org/package/2006"
-    kind = "application/vnd.openxmlformats-officedocument.spreadsheetml"
-    files = {
-        "[Content_Types].xml": f'<Types xmlns="{package}/content-types"><Default Extension="rels" '
-        'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
-        '<Override PartName="/xl/workbook.xml" '
-        f'ContentType="{kind}.sheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" '
-        f'ContentType="{kind}.worksheet+xml"/></Types>',
-        "_rels/.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
-        f'Type="{office}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
-        "xl/workbook.xml": f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets><sheet name="data" sheetId="1" '
-        'r:id="r1"/></sheets></workbook>',
-        "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
-        f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>',
-        "xl/worksheets/sheet1.xml": f'<worksheet xmlns="{main}"><sheetData>{"".join(lines)}</sheetData></worksheet>',
-    }
-    stream = BytesIO()
-    with zipfile.ZipFile(stream, "w") as book:
-        for name, text in files.items():
-            book.writestr(name, text)
-    return stream.getvalue()

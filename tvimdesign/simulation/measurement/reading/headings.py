@@ -124,7 +124,7 @@ def read_unit(text: str) -> str:
         return "1"
     if inner.startswith("/"):  # `/ degC` under a name, as a quantity over its unit
         inner = inner[1:].strip()
-    inner = inner.replace("�", "°") if inner.endswith("C") else inner
+    inner = inner.replace("�", "°").replace("º", "°") if inner.endswith("C") else inner
     inner = inner.translate(_SUPERSCRIPTS).replace("µ", "u").replace("μ", "u")
     inner = re.sub(r"(?<=[A-Za-z])-(?=[A-Za-z])", "*", inner)
     inner = re.sub(r"^s\^?-1$", "1/s", inner)
