@@ -34,7 +34,7 @@ def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Meas
 
 
 def workbook(rows: list[list[object]]) -> bytes:
-    """The least that is a workbook (ECMA-376): one sheet with text in its cells, and numbers."""
+    """Write the least that is a workbook (ECMA-376): one sheet with text in its cells, and numbers."""
     lines = []
     for i, row in enumerate(rows, start=1):
         cells = "".join(
