@@ -126,7 +126,7 @@ def _lost_motion(value: _Values) -> list[Fact]:
             numbers = " of ".join(in_unit(amount, unit, _DIGITS) for amount in (lost, of))
             parts.append(f"{words}{numbers} {pretty(unit)} ({100.0 * lost / of:.0f} %)")
             most.append(label(max(sources, key=lambda source: value.values[source])))
-    return [Fact("Lost motion", parts, f"most by {' and '.join(most)}")] if parts else []
+    return [Fact("Lost motion", parts, f"most by {' and '.join(dict.fromkeys(most))}")] if parts else []
 
 
 def _impedance(value: _Values) -> list[Fact]:
