@@ -89,7 +89,7 @@ HOT = 'require: {joint_stiffness@hot: [">= 2 N.m/rad", "<= 3 N.m/rad"]'
 )  # fmt: skip
 def test_a_limit_at_an_unreached_hot_point_is_also_put_on_the_end(module: str, more: str, outputs: list[str]) -> None:
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n{HOT}{more}}}\n", "test")
-    limits = [limit for limit in constraints_of(study, study.table) if limit.origin == "require"]
+    limits = [limit for limit in constraints_of(study, study.table, study.module) if limit.origin == "require"]
     assert [limit.output for limit in limits] == outputs
     ends = {limit.sense: limit.limit for limit in limits if limit.output == "softened_stiffness"}
     assert ends == ({} if "softened_stiffness" not in outputs else {">=": 2.0, "<=": 4.0 if more else 3.0})

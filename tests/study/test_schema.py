@@ -163,7 +163,11 @@ def test_the_schema_has_no_output_of_a_simulated_release(goal: str) -> None:
 def test_a_study_may_exceed_an_assumed_rule() -> None:
     def limits(text: str) -> list[float]:
         study = read_study_text(f"mode: compression\n{text}")
-        return [limit.limit for limit in constraints_of(study, TABLES["compression"]) if limit.output == "block_strain"]
+        return [
+            limit.limit
+            for limit in constraints_of(study, TABLES["compression"], study.module)
+            if limit.output == "block_strain"
+        ]
 
     (rule,) = TABLES["compression"].output("block_strain").rules
     assert "assumed, 0.3 to 0.6" in rule.reason

@@ -228,7 +228,7 @@ solver: {{cells: 6, starts: 1}}
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 def test_a_torque_limit_applies_at_the_core_s_foot_and_at_all_holes(mode: str) -> None:
     study = read_study_text(STUDY.format(mode=mode), "test")
-    limited = {limit.output for limit in constraints_of(study, study.table)}
+    limited = {limit.output for limit in constraints_of(study, study.table, study.module)}
     assert set(CORE_PARTS) < limited
     assert not {"core_holding_torque", "holding_torque"} & limited
     parts = study.table.evaluate(given(study), [*CORE_PARTS, "core_holding_torque"])

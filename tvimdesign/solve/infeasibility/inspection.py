@@ -197,7 +197,11 @@ class Inspection:
         table, free = optimizer.table, [number.name for number in optimizer.free]
         used = set(np.flatnonzero(np.any(self._jacobian != 0.0, axis=0)).tolist())
         current_profiles = [current.row for current in optimizer.currents]
-        own = [limit for limit in constraints_of(optimizer.study, table) if limit.origin == "require"]
+        own = [
+            limit
+            for limit in constraints_of(optimizer.study, table, optimizer.model.words)
+            if limit.origin == "require"
+        ]
         fixed = [limit for limit in own if is_constant(limit, table, [*free, *current_profiles])]
         return Structure(
             idle=tuple(name for i, name in enumerate(free) if i not in used),

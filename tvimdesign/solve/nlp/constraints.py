@@ -53,14 +53,12 @@ class Constraint:
         return self.residual(value) <= ALGEBRAIC_TOLERANCE
 
 
-def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None = None) -> list[Constraint]:
+def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any]) -> list[Constraint]:
     """Return the study's requirements, then the table's rules the study has not replaced by its own in that sense.
 
-    `chosen` are records and options by name, so that rules of what the module lacks are left out; without them only
-    those are that the study itself says it lacks.
+    `chosen` are records and options by name, so that rules of what the module lacks are left out.
     """
-    words = study.module if chosen is None else chosen
-    options = {row.name: words.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    options = {row.name: chosen.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
     stated = {(r.output, r.sense) for r in study.require}
     required = [
         replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(study, r.output))

@@ -83,7 +83,7 @@ class Yields:
         self._moving = list(dict.fromkeys([*spreading, *(free.name for free in optimizer.free)]))
         bases = {name.partition("@")[0] for name in spreading}
         self.limits = tuple(
-            limit for limit in constraints_of(study, table)
+            limit for limit in constraints_of(study, table, optimizer.model.words)
             if bases & {limit.output.partition("@")[0], *table.ancestors(limit.output)}
             and judges_modules(limit, bases)
             and not (optimizer.currents and on_cycle(table, limit.output))

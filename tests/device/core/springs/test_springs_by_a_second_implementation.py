@@ -68,12 +68,12 @@ def test_a_limit_on_the_stiffness_is_one_at_every_angle_of_the_stroke() -> None:
     text = (
         "mode: shear\nrequire: {{spring_stiffness: ['>= 5 N.m/rad', '<= 6 N.m/rad']}}\nmodule: {{transmission: {}}}\n"
     )
-    drawn = constraints_of(read_study_text(text.format("geometry")), TABLE)
+    drawn = constraints_of((study := read_study_text(text.format("geometry"))), TABLE, study.module)
     assert [(one.output, one.sense) for one in drawn if one.origin == "require"] == [
         (name, sense) for sense in (">=", "<=") for name in AT
     ]
     # By a ratio of one it is the same at every angle, and two limits that are one have no price.
-    unity = constraints_of(read_study_text(text.format("unity")), TABLE)
+    unity = constraints_of((study := read_study_text(text.format("unity"))), TABLE, study.module)
     assert [one.output for one in unity if one.origin == "require"] == ["spring_stiffness"] * 2
 
 
