@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from tvimdesign.base.manifest import MANIFEST
-from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.base.results_folder import ResultsFolder
 
 FILES = {"results.csv": "a,b\n", "plots/heat.png": "png", "cad/step/rotor.step": "step"}
 
@@ -23,7 +23,7 @@ def killed(out: Path, *words: str) -> None:
     """Let a process write into a folder and end it by SIGKILL: half a file, one file, and a front's progress."""
     code = (
         "import os, signal, sys; from pathlib import Path\n"
-        "from tvimdesign.report.output.results_folder import ResultsFolder\n"
+        "from tvimdesign.base.results_folder import ResultsFolder\n"
         "from tvimdesign.base.atomic_files import whole_file\n"
         "folder = ResultsFolder(Path(sys.argv[1]), overwrite='overwrite' in sys.argv)\n"
         "folder.write('results.csv', 'of the killed run')\n"

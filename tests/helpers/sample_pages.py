@@ -13,8 +13,8 @@ from PIL import Image
 from support import ROOT
 
 from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.page_file import FILE
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.run_page import write_run_page
 from tvimdesign.study.tree import tree_of_file

@@ -12,8 +12,8 @@ from tvimdesign.api import notebook
 from tvimdesign.api.notebook import shown_progress
 from tvimdesign.api.tables import constraint_table, cycle_table, interval_table, quantity, value_table
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import format_quantity, parse_quantity
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import margin_text, value_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, drawings
 from tvimdesign.report.run.reasons import complaint, sentences, why_rows

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.explore.states.history import PARTS
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.parts_of_design import in_short, make_parts_of
 
 

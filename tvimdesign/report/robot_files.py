@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Block, Points, Section
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import curves_csv, head, number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.parts_of_design import refuse_failed
 from tvimdesign.robot.fmu_file import WrittenFmu, write_fmu

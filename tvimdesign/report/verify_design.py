@@ -13,13 +13,13 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.cad.fe.model_comparison import HEAT, SOLVERS, TIMES, Compared, compared
 from tvimdesign.cad.fe.run_solvers import Solved, require_fe, run_solvers
 from tvimdesign.cad.fe.warm_joint import WarmJoint, softening_time
 from tvimdesign.page.blocks import Block, Page, Points
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.command import Command, design_file
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.verification_section import FILES, far, put_on_page, table_csv, verified, verify_sections
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design

@@ -15,7 +15,7 @@ from results_written import finished, killed, texts
 from tvimdesign.base.atomic_files import RUN, UNFINISHED, atomic_write
 from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import FolderInUseError
-from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.report.sweep.sweep_study import joined
 from tvimdesign.sweep.shards import SHARDS
 
@@ -55,7 +55,7 @@ def test_without_locks_the_process_that_a_claim_names_is_looked_up(
 
 _CLAIMS = (
     "import sys, time; from pathlib import Path\n"
-    "from tvimdesign.report.output.results_folder import ResultsFolder\n"
+    "from tvimdesign.base.results_folder import ResultsFolder\n"
     "from tvimdesign.base.errors import InputError\n"
     "print('ready', flush=True); sys.stdin.readline()\n"
     "for out in sys.argv[1:]:\n"

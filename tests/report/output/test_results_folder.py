@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 from results_written import FILES, finished, killed, texts
 
+from tvimdesign.base import results_folder
 from tvimdesign.base.atomic_files import UNFINISHED, atomic_write
 from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import interrupt_handler
 from tvimdesign.base.manifest import MANIFEST, read_manifest
-from tvimdesign.report.output import results_folder
-from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.base.results_folder import ResultsFolder
 
 
 def test_a_manifest_lists_what_the_run_wrote_and_nothing_else_is_kept(tmp_path: Path) -> None:

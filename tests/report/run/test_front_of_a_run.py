@@ -13,8 +13,8 @@ import pytest
 from comparable import SHEAR, written
 from support import ROOT, Command, wait_until
 
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import table_for
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.blocks.sections import front_section
 from tvimdesign.report.run.front_report import figure_data, front_csv, in_words, plain
 from tvimdesign.solve.pareto.front import Front

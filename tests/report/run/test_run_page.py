@@ -14,8 +14,8 @@ import sample_pages
 from support import ROOT, Command
 
 from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Facts, Folded, Grid
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.sections import assumptions_section
 from tvimdesign.report.run.blocks.tables import moves

@@ -5,11 +5,11 @@ from pathlib import Path
 
 from tvimdesign.base.atomic_files import digest_of
 from tvimdesign.base.manifest import MANIFEST
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.blocks import Page, Picture, Points, Section, Words
 from tvimdesign.report.output.page_sections import write_page
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.verification_section import (
     folder_of_verification,
     put_on_page,

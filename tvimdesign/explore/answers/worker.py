@@ -18,6 +18,7 @@ from typing import Any, TextIO
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.interrupts import interrupt_came, interrupt_handler, raise_pending
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import table_for
 from tvimdesign.explore.answers.engine import Answer, Engine, refused
 from tvimdesign.explore.answers.shown import finite_data
@@ -25,7 +26,6 @@ from tvimdesign.explore.states.history import PARTS
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.explore.states.state import State
 from tvimdesign.page.page_file import page_fragment
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.run_page import run_page
 from tvimdesign.study.design import Design, design_json

@@ -7,10 +7,10 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Listing, Page, Section, Tone, Words
 from tvimdesign.page.page_file import FILE, page_html
 from tvimdesign.report.output.numbers import number
-from tvimdesign.report.output.results_folder import ResultsFolder
 
 NEVER = 1e300
 """What `never` is sorted by."""

@@ -12,12 +12,12 @@ from typing import Any, cast
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.device import Table
 from tvimdesign.report.output.command import noting
 from tvimdesign.report.output.numbers import csv_text, name_in_words
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.output.terminal import Progress, duration

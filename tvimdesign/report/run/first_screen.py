@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from rich.console import Console
 
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Facts, Warned
 from tvimdesign.page.page_file import FILE as PAGE
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import (
     DOT,
     columns,

@@ -18,11 +18,11 @@ import numpy as np
 from tvimdesign import __version__
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import AboveRatingError, InputError, TvimError
+from tvimdesign.base.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import axis_label, csv_text, finite, head
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.solve.nlp.problem_parts import Objective

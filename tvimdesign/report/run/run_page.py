@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.cad.cad_report import PREVIEW
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
@@ -20,7 +21,6 @@ from tvimdesign.report.output.command import record_files
 from tvimdesign.report.output.numbers import FORMAT, UNITS, axis_label, curves_csv
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry, RefusedRun
 from tvimdesign.report.output.tables import results_csv
 from tvimdesign.report.output.terminal import DOT, Progress

@@ -25,9 +25,9 @@ from tvimdesign.base.errors import (
     TimeOverError,
     TvimError,
 )
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Section, Words
 from tvimdesign.report.output.command import Command, done_in_part, noting
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress, print_lines, print_section, progress_output, wide_console
 from tvimdesign.report.run.parts_of_design import BackgroundPartsJob, in_short, plain_report, refuse_failed, worst_first
 from tvimdesign.report.run.parts_sections import checks_grid

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.atomic_files import digest_of
+from tvimdesign.base.results_folder import made_from, rewrite
 from tvimdesign.base.units import pretty
 from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
@@ -16,7 +17,6 @@ from tvimdesign.page.blocks import Block, Grid, Picture, Section, Words
 from tvimdesign.page.page_file import FILE, MOST, with_section
 from tvimdesign.report.output.numbers import csv_text, finite, head, number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.results_folder import made_from, rewrite
 
 NAME, DATA, DESIGN = "verification", "verify.json", "design.json"
 FAR = 0.10

@@ -22,13 +22,13 @@ from tvimdesign.base.claim import IN_PARTS, Claim
 from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import FolderInUseError, GeometryError, InputError, TvimError
 from tvimdesign.base.manifest import seed
+from tvimdesign.base.results_folder import ResultsFolder, prepare, recovered, say
 from tvimdesign.page.blocks import Facts, Grid, Section
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import csv_text, head
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_folder import ResultsFolder, prepare, recovered, say
 from tvimdesign.report.output.terminal import Progress, duration, progress_output, wide_console
 from tvimdesign.report.run.parts_of_design import make_parts_of
 from tvimdesign.report.sweep.sweep_figures import figure_data

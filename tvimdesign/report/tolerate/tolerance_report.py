@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Folded, Grid, Picture, Section
 from tvimdesign.report.output.numbers import ends_text, number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.blocks.tables import intervals_grid
 from tvimdesign.report.tolerate.tolerance_data import spreads
 from tvimdesign.solve.nlp.constraints import in_words

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Points
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import csv_text
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import soft_of_module
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.reasons import complaint

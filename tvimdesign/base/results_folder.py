@@ -303,7 +303,7 @@ def _version(name: str) -> str | None:
 
 def _commit() -> str | None:
     """Return commit of the source tree this package runs from, or None when it runs from an installed wheel."""
-    source = Path(__file__).resolve().parents[3]
+    source = Path(__file__).resolve().parents[2]
     if not (source / ".git").exists():
         return None
     try:
