@@ -29,9 +29,9 @@ from typing import Any
 from ended_commands import COMMANDS, FIRST, GOES_ON, NEEDS_FE, ROOT, SERVES
 
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.explore.states.history import FILE, open_history, write_history, written_digest
 from tvimdesign.explore.states.state import State
-from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 
 QUICK = ("fit", "simulate")
 """Commands of about a second, which run whole in the `--real` folders."""
