@@ -156,6 +156,25 @@ def test_the_record_in_the_docs_can_be_used(tmp_path: Path) -> None:
     assert answer(study).design.choices["peltier_module"] == "my_pad"
 
 
+def test_the_glossary_is_in_order_and_has_the_words_of_the_screen() -> None:
+    rows = re.findall(r"^\| ([^|]+) \|", (ROOT / "docs/glossary.md").read_text(), re.M)[1:]
+    assert rows == sorted(rows, key=lambda row: row.lower().replace(",", ""))
+    known, screen = {word for row in rows for word in row.split(", ")}, _blocks("text")[0].lower()
+    words = (
+        "active constraint",
+        "frozen",
+        "impedance",
+        "lost motion",
+        "margin",
+        "module",
+        "range",
+        "spreader",
+        "start",
+    )
+    assert [word for word in words if word not in screen or word not in known] == []
+    assert {"verdict", "yield", "nominal optimum", "assumed value"} <= known
+
+
 def test_links_lead_somewhere() -> None:
     for page in (ROOT / "README.md", ROOT / "cad/README.md", *sorted((ROOT / "docs").rglob("*.md"))):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):

@@ -171,7 +171,7 @@ SNAPSHOTS = {
     "small_table.txt": "small table and catalogue of these tests",
     "shipped_tables.txt": "shipped tables and records",
 }
-_MANY = re.compile(r"one of [^;]*, \.\.\. \(\d+ in all\)")
+_MANY = re.compile(r"one of (?:[^;]*, \.\.\. \(\d+ in all\)|\d+ names)")
 """A list of names that grows with the table."""
 
 

@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import os
 import re
 from functools import cache
 from pathlib import Path
@@ -108,6 +109,17 @@ CASES = [
 each = pytest.mark.parametrize("name", [*CASES, "choices alone", "many alone"])
 """With ranges, and two without them, which take longer than the answer."""
 widths = pytest.mark.parametrize("width", [80, 100, 140])
+
+
+@pytest.mark.parametrize("width", [100, 80])
+def test_a_screen_is_that_of_the_snapshot(width: int) -> None:
+    """Numbers follow the model and are masked; UPDATE_SCREENS=1 writes the files anew."""
+    path = Path(__file__).with_name(f"screen_{width}.txt")
+    lines = (re.sub(r"-?[0-9.]+(e-?[0-9]+)?", "#", line) for line in first_screen(case("paper_shear"), width))
+    screen = "".join(re.sub(" {3,}", "   ", f"{line}\n") for line in lines)
+    if os.environ.get("UPDATE_SCREENS"):
+        path.write_text(screen, encoding="utf-8")
+    assert screen == path.read_text(encoding="utf-8")
 
 
 @widths

@@ -15,7 +15,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity, from_si, parse_quantity, si_unit
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
-from tvimdesign.study.text.mistakes import Mistakes, Place, nearest, often_first, one_of, quoted, step, synonyms
+from tvimdesign.study.text.mistakes import Mistakes, Place, nearest, one_of, quoted, step, synonyms
 from tvimdesign.study.text.yaml_text import Broken, Mapping, Node, Sequence, Text
 
 LONGEST_VALUE = 200
@@ -77,10 +77,7 @@ class Reading:
             hint = f"limit {meant!r} under `require`"
         elif isinstance(row, Output) and row.per_point:
             hint = f"did you mean '{meant}@{point or 'hot'}'?"
-        if hint:
-            self.problems.add(place, path, f"no such {what}", one_of(often_first(names)), hint)
-        else:
-            self.problems.unknown(place, path, what, name, names)
+        self.problems.unknown(place, path, what, name, names, hint)
 
 
 def _has(mode: str, name: str) -> bool:
