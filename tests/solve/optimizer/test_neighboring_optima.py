@@ -1,5 +1,6 @@
 """Steps beside the ends of the starts, compared with searches that stay within one turn each."""
 
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,6 +10,7 @@ from support import ROOT
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.device import Input
+from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.problem_parts import Free
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Run
@@ -95,8 +97,9 @@ def _of_coils(period: float | None, tried: list[float]) -> Any:
     coils = Input(name="coil_count", unit="1", description="", group="", period=period)
     vector = SimpleNamespace(
         places_of_currents=list, inputs=lambda unknowns: 5.0 * unknowns,
-        bounds=lambda _: (np.array([0.0]), np.array([1.8])),
+        bounds=lambda _: (np.array([0.0]), np.array([1.8])), problem=SimpleNamespace(free=["coil_count"]),
     )  # fmt: skip
+    vector.shaken = partial(DecisionVector.shaken, vector)
     return SimpleNamespace(
         free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(by_name={"coil_count": coils}), solve=solve,
         model=SimpleNamespace(index={"coil_count": 0}), vector=vector, deadline=Deadline(), mixtures=(),
