@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from hand_module import HEAT, OUTPUTS, RESIDUALS, Array, measure
+from hand_strips import beside
 from hand_switch import FREE, STEP_OF, cycle
 from numba import njit
 from scipy.optimize import Bounds, minimize
@@ -21,12 +22,14 @@ def evaluate(logs: Array, rows: Array, slopes: Array, sensitive: bool) -> None:
     """Volume, mass and time, then the residuals; and their slopes by the logarithms of the variables, a column each."""
     heat, moved = np.zeros(HEAT), np.zeros((FREE, HEAT))
     measure(np.exp(logs), rows, heat)
+    beside(np.exp(logs), heat)
     if sensitive:
         up, down, aside = np.zeros(rows.size), np.zeros(rows.size), np.zeros(HEAT)
         for k in range(FREE):
             there = logs.copy()
             there[k] += STEP_OF
             measure(np.exp(there), up, moved[k])
+            beside(np.exp(there), moved[k])
             there[k] -= 2.0 * STEP_OF
             measure(np.exp(there), down, aside)
             slopes[:, k] = (up - down) / (2.0 * STEP_OF)

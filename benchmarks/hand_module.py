@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from hand_polymer import COLD_LOSS, COLD_STORAGE, HOT_LOSS, HOT_STORAGE, MOLTEN, OMEGA
+from hand_polymer import COLD_LOSS, COLD_STORAGE, HOT_LOSS, HOT_STORAGE, OMEGA
 from numba import njit
 from numpy.typing import NDArray
 
@@ -20,7 +20,7 @@ PI = math.pi
 # Springs: music wire
 E_WIRE, NU_WIRE, RHO_WIRE, STRENGTH, STRENGTH_POWER = 196.5e9, 0.292, 7850.0, 2211e6, 0.145
 YIELD_RATIO, FATIGUE_RATIO = 0.78, 0.5
-PRELOAD, STROKE, COIL_GAP, LEG_OVERHANG = 0.15, 0.104, 0.1e-3, 4e-3
+PRELOAD, STROKE, STOP, COIL_GAP, LEG_OVERHANG = 0.15, 0.104, 0.104 + 0.02, 0.1e-3, 4e-3
 TANG_CLEARANCE, TANG_END_GAP = 0.25e-3, 0.5e-3
 BEND, BEND_ACROSS, BEND_IN_PLANE = 2.0, 1.1, (4.0 * 4.0**2 - 4.0 - 1.0) / (4.0 * 4.0 * (4.0 - 1.0))  # radius in wires
 # Structure: printed PETG
@@ -30,12 +30,14 @@ LOSS = 0.03 + 0.01  # of PETG and of what is clamped
 SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, BORED_PLATE, ROCKING = 0.1, 0.15, 0.38, 0.2, 0.34
 FILLET_SHORTENS, THIN_SHORTENS, FILLET_GIVES, FILLET_BEARS = 0.495, 0.0046, 0.136, 0.023
 CORE_FOOT, BORED_FOOT, NEAR_FOOT, HOLDING_SAFETY = 0.796, 1.41, 0.25, 1.25
-FILLET, LEAST_FILLET, FELT_FILLET, SLIP = 1.5e-3, 1e-4, 1.16e-3, 0.2e-3
+FILLET, LEAST_FILLET, FELT_FILLET, EVENED, SLIP = 1.5e-3, 1e-4, 1.16e-3, 3e-4, 0.2e-3
+STOPS, STOP_DEPTH, STOP_LENGTH, TOOTH, SLIVER = 2.0, 4e-3, 12e-3, 5e-3, 1e-4
 YIELD_COLD, FOOT_CLAMP = 47.5e6, 55e6 * 25.0 / 104.0  # in a foot under its screw
 LINK_HOLDS = 12.257291898068024  # N m, friction under the screws and pins: nothing here that is free
 WALL_LEAST, FEATURE_LEAST, CORNER, POCKET_RATIO = 1.2e-3, 2e-3, 0.2e-3, 50.0
 PIN_RATIO, PIN, CORE, WALL, FLOOR, ROTOR, LINK = 0.5, 4e-3, 10e-3, 3e-3, 4e-3, 4e-3, 4e-3
-RADIAL, AXIAL, RUNNING, RIM, HUB_WALL, FOOT, NOTCH = 1e-3, 1e-3, 0.4e-3, 1.5e-3, 3e-3, 6e-3, 12e-3
+RADIAL, AXIAL, RUNNING, LEAST_GAP, RIM = 1e-3, 1e-3, 0.4e-3, 0.3e-3, 1.5e-3
+HUB_WALL, FOOT, NOTCH = 3e-3, 6e-3, 12e-3
 LINK_RIM, BOLT_CIRCLE, TOOL_HOLE, BOSS, MOUNT_HOLE = 2e-3, 6.5e-3, 4.5e-3, 3.5e-3, 3.4e-3
 RETAINER, RETAINER_RADIUS = 2.5e-3, 13e-3
 # Screws: four M3 of the link, one M4 of the retainer
@@ -43,7 +45,7 @@ LINK_PILOT, LINK_HOLE, LINK_HEAD, LINK_HEAD_HEIGHT, LINK_SCREW = 2.5e-3, 3.4e-3,
 LAST_PILOT, LAST_HOLE, LAST_HEAD, LAST_HEAD_HEIGHT, LAST_SCREW = 3.3e-3, 4.5e-3, 7.6e-3, 2.2e-3, 10e-3
 TIP_ROOM, RHO_STEEL = 0.5e-3, 7850.0
 CUTOUT_RADIUS = 2.1e-3
-CUTOUT = 3500.0 * PI * CUTOUT_RADIUS**2 * 11.2e-3  # kg
+CUTOUT = 3500.0 * PI * (CUTOUT_RADIUS**2 * 11.2e-3 + 0.5e-3**2 * 2.0 * 6e-3)  # kg, with the straight ends of its wires
 DOWELS, DOWEL, DOWEL_LONG, DOWEL_CIRCLE = 4.0, 2.5e-3, 10e-3, 7e-3
 BY_SCREWS, BY_DOWELS = 4.0 * LINK_PILOT**2 * BOLT_CIRCLE**2 / CORE**4, DOWELS * DOWEL**2 * DOWEL_CIRCLE**2 / CORE**4
 # Layer and pads
@@ -51,19 +53,14 @@ ARCS, INNER, LEDGE, RHO_PCL, K_SOLID, K_MELT = 4.0, 26e-3, 2e-3, 1145.0, 0.225, 
 G_FROZEN = 411e6 / (2.0 * (1.0 + 0.45))  # at 23 degC
 BOND, SHEAR_YIELD, MELT_STRAIN, MELT_FRACTURE = 2e6, 16e6 / math.sqrt(3.0), 6.0, 0.2e6
 PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD, BULK_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6, 1e9
-K_PAD, PAD_EDGE = 6.0, 150.0  # in their plane; into the walls of their pockets [W/m^2 K]
-K_UP = 0.12 / 1.6e-3 * PAD  # across them
-# Strips beside the arcs, in three bodies each, and the air between them
-STRIP, WAYS, BEYOND = (0.087, 0.247, 0.666), (0.029, 0.153, 0.395), 0.423
-INTO_SLOT, BEFORE_SLOT, K_AIR, EMISSIVITY = 0.2619, 0.27993, 0.028, 0.9
-HOUSING_AIR = 5.0
-BLACK, AMBIENT, ZETA_3 = 5.670374419e-8, 295.15, 1.2020569032
+PAD_SHEAR, GLUE = 2e6, 6e6 / HOLDING_SAFETY  # Pa, of the pads by their record, of what holds them on their ledges
+EMISSIVITY, BLACK, AMBIENT = 0.9, 5.670374419e-8, 295.15
 
 SPRINGS = 4.0
-OUTPUTS, RESIDUALS, HEAT = 3, 46, 68
+OUTPUTS, RESIDUALS, HEAT = 3, 52, 68
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
-and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
-switch.
+and the table, without the rules on impedance, keys and free angles that no design of this problem can break. HEAT
+numbers for the switch.
 """
 
 
@@ -73,6 +70,16 @@ def corner(r: float, circle: float, side: float) -> float:
     along = math.sqrt((circle - side * r) ** 2 - r**2)
     centre = math.asin(r / (circle - side * r))
     return side * 0.5 * (circle**2 * centre - along * r) - 0.5 * r**2 * (0.5 * PI + side * centre)
+
+
+@njit(cache=True)
+def rounded(span: float, inner: float, outer: float) -> tuple[float, float]:
+    """Area and its polar moment of annular sectors with rounded corners, one at each arc."""
+    cut, far = corner(CORNER, inner, -1.0), corner(CORNER, outer, 1.0)
+    beside = (5.0 / 6.0 - 0.25 * PI) / (1.0 - 0.25 * PI) * CORNER
+    moved = cut * ((inner + beside) ** 2 + beside**2) + far * ((outer - beside) ** 2 + beside**2)
+    area = ARCS * (0.5 * span * (outer**2 - inner**2) - 2.0 * (cut + far))
+    return area, ARCS * (0.25 * span * (outer**4 - inner**4) - 2.0 * moved)
 
 
 @njit(cache=True)
@@ -108,96 +115,38 @@ def gerber(per_angle: float, strength: float) -> float:
 
 
 @njit(cache=True)
-def along_cold_sides(share: float, width: float) -> float:
-    """What heat has to pass along the pads' cold side to a share of it, times the length of the pads' edges [m K/W]."""
-    mean = math.sqrt(K_PAD * K_UP)
-    sheet, depth = K_PAD * PAD / (12.0 * mean * width), 10.0 / 12.0 * PAD * math.sqrt(K_PAD / K_UP) / width
-    fall = 0.0
-    for i in range(1, 9):
-        wave = i * PI
-        along = math.tanh(wave * depth) + wave * sheet
-        fall += 2.0 * math.sin(wave * share) ** 2 / (wave**3 * share**2 * along)
-    return fall / mean
+def least(first: float, second: float) -> float:
+    """Less of two lengths, rounded off where they are about as long."""
+    return min(first, second) - EVENED / 6.0 * max(1.0 - abs(first - second) / EVENED, 0.0) ** 3
 
 
 @njit(cache=True)
-def beside(area: float, windows: float, rotor: float, inside: float, t: float, edge: float, heat: Array) -> None:
-    """Bodies beside the plate and around the pads, what joins them, and what pads and plate give them."""
-    rest, web, per_volume = PI * rotor**2 - area, FLOOR - PAD, RHO_PETG * C_PETG
-    way, ledge = area / edge / 3.0, area - windows
-    slim = area / edge * math.sqrt(0.5 * (K_SOLID + K_MELT) / t / (K_PETG * ROTOR))
-    over = area / edge * (1.0 / (slim * math.tanh(slim)) - slim**-2.0)
-    own = np.array([share * rest / edge for share in STRIP])
-    wide = rest / edge
-    half = WAYS[0] * wide
-    # heat capacities and surfaces, in the order of hand_chain
-    for i in range(3):
-        heat[6 + i], heat[19 + i] = own[i] * edge * ROTOR * per_volume, own[i] * edge
-        heat[10 + i], heat[23 + i] = own[i] * edge * PAD * per_volume * (1.0 if i else 0.5), 0.0
-        heat[13 + i], heat[26 + i] = own[i] * edge * web * per_volume, own[i] * edge
-    heat[16], heat[29], heat[17], heat[30] = ledge * web * per_volume, ledge, heat[10], 0.0
-    # plate to its edge, and what differs over its depth from its mean; a side of the pads, a sixth of half their height
-    sheet = K_PETG * ROTOR * edge
-    heat[32], heat[33] = sheet / (over + half), sheet / (over + ROTOR / PI)
-    side = 0.5 * PAD * edge
-    heat[35] = 1.0 / 6.0 / (way / (K_PAD * side) + 1.0 / (PAD_EDGE * side) + half / (K_PETG * side))
-    # the layer's side: through the end of the gap to the floor's corner, and to the plate
-    grey = EMISSIVITY / (2.0 - EMISSIVITY)
-    crosswise = K_AIR + t * grey * BLACK * (MOLTEN**2 + AMBIENT**2) * (MOLTEN + AMBIENT)
-    evenly = math.sqrt(K_AIR * crosswise)
-    near = math.log(1.0 + (0.5 * PAD_EDGE * t / evenly) ** 2) / PI + INTO_SLOT
-    through = edge / (1.0 / evenly + 1.0 / K_MELT)
-    heat[34] = heat[35] + 1.0 / (1.0 / (near * through) + near / (3.0 * K_PETG * edge))
-    far = 2.0 / PI * math.log(2.0)
-    heat[37] = far * through
-    whole = 3.5 * ZETA_3 / PI**3
-    heat[59] = 12.0 * whole / (1.0 + BEFORE_SLOT * evenly / (PAD_EDGE * t) / whole) / (near + far)
-    # ledges: heated over their face, and on to their root
-    slim = ledge / edge / web
-    falling = 0.0
-    for i in range(1, 4):
-        falling += math.exp(-2.0 * i * PI * slim) / i**3
-    aside = along_cold_sides(ledge / area, area / edge) / edge
-    heat[36] = 1.0 / (aside + (1.0 / (3.0 * slim) - (ZETA_3 - falling) / (PI**3 * slim**2)) / (K_PETG * edge))
-    # links: along the plate, along the floor and down into it, ledges, the gap
-    heat[38], heat[39] = sheet / (WAYS[1] * wide), sheet / (WAYS[2] * wide)
-    ring = math.log(inside / rotor) / (2.0 * PI * K_PETG)
-    upper, lower = K_PETG * PAD * edge, K_PETG * web * edge
-    heat[41] = heat[42] = 0.5 * upper / (WAYS[1] * wide)
-    heat[43], heat[44] = upper / (WAYS[2] * wide), 1.0 / (BEYOND * wide / upper + ring / PAD)
-    heat[45], heat[46] = lower / (WAYS[1] * wide), lower / (WAYS[2] * wide)
-    # the lower strip's end is colder than its last body, and loses heat there
-    along, out, share = lower / (BEYOND * wide), web / ring, 1.0 - 0.5 * STRIP[2] / BEYOND
-    open_air = HOUSING_AIR + 4.0 * EMISSIVITY * BLACK * AMBIENT**3
-    ends = share * heat[28]
-    total = along + out + ends / (1.0 / open_air + web / (3.0 * K_PETG))
-    heat[47] = along * out / total
-    heat[28] -= ends * (1.0 - along / total)
-    heat[31] = ends * out / total
-    heat[48] = K_PETG * own[0] * edge / (0.5 * PAD)
-    for i in range(3):
-        heat[49 + i] = K_PETG * own[i] * edge / ((0.5 if i else 0.25) * PAD + web / 3.0)
-    heat[52] = lower / (slim * web / 3.0 + half)
-    # what is above a slab that cools below warms its lower face less than its mean: three of the floor, and the ledges
-    air = HOUSING_AIR + 4.0 * EMISSIVITY * BLACK * AMBIENT**3
-    turned = 0.0
-    for i in range(1, 4):
-        turned += (-1.0) ** (i + 1) * math.exp(-2.0 * i * PI * slim) / i**3
-    for i in range(4):
-        if i < 3:
-            place, through, less = 49 + i, 26 + i, web / 6.0 / (K_PETG * own[i] * edge)
-        else:
-            place, through = 36, 29
-            less = (1.0 / (6.0 * slim) - (0.75 * ZETA_3 - turned) / (PI**3 * slim**2)) / (K_PETG * edge)
-        crossed = less * heat[through] * air / (1.0 + air * web / (3.0 * K_PETG))
-        whole = 1.0 / heat[place] - less * crossed
-        heat[place], heat[60 + i] = (1.0 + crossed) / whole, -crossed / whole
-        heat[64 + i] = (1.0 + crossed) * crossed / whole
-    heat[40] = 1.0 / (math.log(INNER / CORE) / (2.0 * PI * K_PETG * ROTOR) + BEYOND * wide / sheet)
-    walls = (ROTOR / 3.0 + 0.5 * PAD) / K_PETG
-    share = 1.0 / (1.0 + walls * (K_AIR / t + 4.0 * grey * BLACK * AMBIENT**3))
-    for i in range(3):
-        heat[53 + i], heat[56 + i] = share * K_AIR / t * own[i] * edge, share * grey * own[i] * edge
+def stops(r: float, rotor: float, reach: float) -> tuple[float, float, float]:
+    """Inner radius of the stops' posts, and width and length of their faces: what feet and springs leave."""
+    inner = rotor + max(RUNNING, CORNER)
+    width = max(least(STOP_DEPTH, r - BOSS - inner), SLIVER)
+    outer, middle = inner + width, inner + 0.5 * width
+    cosine = (r**2 + outer**2 - (reach + RADIAL) ** 2) / (2.0 * r * outer)
+    room = PI / SPRINGS - math.acos(min(cosine, 1.0 - 1e-6)) - STOP - 0.5 * TOOTH / middle
+    return inner, width, max(least(STOP_LENGTH, room * middle), SLIVER)
+
+
+@njit(cache=True)
+def tooth(span: float, radius: float, outer: float) -> tuple[float, float]:
+    """Area and its polar moment of a tooth outside a disc, both corners at its root rounded."""
+    beyond = radius + CORNER
+    along, at_axis = math.sqrt(beyond**2 - CORNER**2), math.asin(CORNER / beyond)
+    turn = 0.5 * PI - at_axis
+    fillets = 0.25 * (along**3 * CORNER - radius**4 * at_axis - CORNER**4 * turn) + along * CORNER**3 / 12.0
+    fillets += CORNER**2 * beyond * (2.0 / 3.0 * CORNER * math.sin(turn) - 0.5 * turn * beyond)
+    area = 0.5 * span * (outer**2 - radius**2) + 2.0 * corner(CORNER, radius, -1.0)
+    return area, 0.25 * span * (outer**4 - radius**4) + 2.0 * fillets
+
+
+@njit(cache=True)
+def stub(lever: float, width: float, depth: float) -> float:
+    """Stress at the root of a short beam for each newton: bending and mean shear."""
+    return math.sqrt((6.0 * lever / (depth * width**2)) ** 2 + 3.0 / (depth * width) ** 2)
 
 
 @njit(cache=True)
@@ -221,11 +170,13 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     pin_top = end + slope * leg + 0.5 * d + AXIAL
     link_bottom = pin_top + AXIAL
     plate_top = t + ROTOR
-    wound = coil * n / (n + (PRELOAD + STROKE) / (2.0 * PI))
+    wound = coil * n / (n + (PRELOAD + STOP) / (2.0 * PI))
     post = 0.45 * (wound - d)
     bore = CORE + RUNNING
     hub = bore + HUB_WALL
     web = FLOOR - PAD
+    stop_inner, stop_width, stop_long = stops(r, rotor, reach)
+    stop_outer, stop_middle = stop_inner + stop_width, stop_inner + 0.5 * stop_width
     volume = PI * outside**2 * (FOOT + FLOOR + link_bottom + LINK + LINK_HEAD_HEIGHT)
     # springs: coil, leg and bend under the pin's force, wound up by the preload
     turned = 2.0 * PI * n + PRELOAD
@@ -262,7 +213,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     at_floor += BEND_ACROSS**2 * ((low_end * cosine) ** 2 + 0.75 * (lever + aside) ** 2)
     in_bend = straight * (at_coil**6 + at_floor**6) ** (1.0 / 12.0) / arm
     strength = STRENGTH * (1e3 * d) ** -STRENGTH_POWER
-    most = PRELOAD + STROKE
+    most = PRELOAD + STOP
     pin_stress = 32.0 * rate * most / arm * height / (PI * PIN**3)
     # layer and what carries it
     area = 0.5 * ARCS * span * (outer**2 - INNER**2)
@@ -276,8 +227,8 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     beside_holes = max(2.0 * BOLT_CIRCLE / (1.0 - BY_SCREWS), 2.0 * DOWEL_CIRCLE / (1.0 - BY_DOWELS)) / CORE
     sharp = CORE_FOOT * (CORE / 1e-3) ** 0.26 * (CORE / ROTOR) ** 0.137
     # fillets at the feet of core and pins: below the legs, short of the rim and of one another
-    gap = min(rotor - pin_at - 0.5 * PIN, 0.5 * (pin_at - 0.5 * PIN - CORE)) - LEAST_FILLET
-    fillet = max(min(FILLET, end - 0.5 * d - plate_top - RUNNING, gap), LEAST_FILLET)
+    gap = least(rotor - pin_at - 0.5 * PIN, 0.5 * (pin_at - 0.5 * PIN - CORE)) - LEAST_FILLET
+    fillet = max(least(FILLET, least(end - 0.5 * d - plate_top - RUNNING, gap)), LEAST_FILLET)
     sharp *= (1.0 + (fillet / FELT_FILLET) ** 6) ** (-0.26 / 6.0)
     core_foot = sharp * (1.0 + BORED_FOOT * felt)
     worst = max(core_foot, beside_holes)
@@ -288,15 +239,13 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     free -= (FILLET_SHORTENS + THIN_SHORTENS * (CORE / ROTOR) ** 2) * fillet
     free += (to_screws - both) * BY_SCREWS / (1.0 - BY_SCREWS) + (to_dowels - both) * BY_DOWELS / (1.0 - BY_DOWELS)
     inner, far = INNER + LEDGE, outer - LEDGE
-    opened, cut = span - 2.0 * LEDGE / INNER, 2.0 * (corner(CORNER, far, 1.0) + corner(CORNER, inner, -1.0))
-    beside_corner = (5.0 / 6.0 - 0.25 * PI) / (1.0 - 0.25 * PI) * CORNER
-    cut_polar = 2.0 * corner(CORNER, far, 1.0) * ((far - beside_corner) ** 2 + beside_corner**2)
-    cut_polar += 2.0 * corner(CORNER, inner, -1.0) * ((inner + beside_corner) ** 2 + beside_corner**2)
-    windows = ARCS * (0.5 * opened * (far**2 - inner**2) - cut)
+    opened = span - 2.0 * LEDGE / INNER
+    (windows, open_polar), (_, pads_polar) = rounded(opened, inner, far), rounded(span, INNER, outer)
+    glued = GLUE * (pads_polar - open_polar) / outer
     fringe = 1.0 - 1.9 * G_PAD / (BULK_PAD + 7.0 / 3.0 * G_PAD)
     across, along = 0.25 * PI * (far - inner) / PAD, 0.5 * math.log(2.0) * opened * middle / PAD / fringe
     slack = math.log(math.cosh(across)) / across * math.log(math.cosh(along)) / along
-    held = polar - slack * ARCS * (0.25 * opened * (far**4 - inner**4) - cut_polar)
+    held = polar - slack * open_polar
     left = 0.5 * outer**8 * (INNER**-2 - outer**-2) - outer**4 * (outer**2 - INNER**2) + (outer**6 - INNER**6) / 6.0
     left *= 2.0 / (outer**4 - INNER**4) ** 2
     driven = math.sqrt(ARCS * span / (2.0 * PI))
@@ -329,17 +278,16 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     hot, damped = joint(HOT_STORAGE, HOT_LOSS, polar / t, support)
     stiffness = SPRINGS * rate
     # masses
-    rounded = ARCS * 2.0 * (corner(CORNER, outer, 1.0) + corner(CORNER, INNER, -1.0))
-    pads = (area - rounded) * PAD
+    pads = PAD_MASS / PAD_AREA * area
     into, onto, wider = INNER - SLIP, outer + SLIP, span + 2.0 * SLIP / INNER
-    pockets = 0.5 * ARCS * wider * (onto**2 - into**2)
-    pockets = (pockets - ARCS * 2.0 * (corner(CORNER, onto, 1.0) + corner(CORNER, into, -1.0))) * PAD
+    pockets = rounded(wider, into, onto)[0] * PAD
     ring = PI * (outside**2 - inside**2)
     notches = SPRINGS * (segment(0.5 * NOTCH, outside) - segment(0.5 * NOTCH, inside))
     feet = SPRINGS * PI * (BOSS**2 - 0.25 * MOUNT_HOLE**2)
     holes = SPRINGS * PI * ((0.5 * d + TANG_CLEARANCE) ** 2 + 0.25 * MOUNT_HOLE**2)
     housing = (ring - notches + feet) * FOOT + (PI * (outside**2 - hub**2) - holes) * FLOOR - pockets - windows * web
     housing += ring * pin_top + PI * (hub**2 - bore**2) * (t + FLOOR) + SPRINGS * PI * post**2 * (end + 0.5 * d)
+    housing += 2.0 * STOPS * stop_long * stop_width * plate_top
     core_long = link_bottom + FLOOR + RUNNING - ROTOR
     dowel = DOWELS * 0.25 * PI * DOWEL**2
     dowel_polar = dowel * (0.125 * DOWEL**2 + DOWEL_CIRCLE**2)
@@ -353,8 +301,9 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     inertia += pins * (0.125 * PIN**2 + pin_at**2) - drilled * (0.125 * LINK_PILOT**2 + BOLT_CIRCLE**2)
     inertia -= dowel_polar * dowel_deep
     at_core, at_pin = around_foot(CORE, fillet), around_foot(0.5 * PIN, fillet)
-    turning += at_core[0] + SPRINGS * at_pin[0]
-    inertia += at_core[1] + SPRINGS * (at_pin[1] + at_pin[0] * pin_at**2)
+    teeth = tooth(TOOTH / stop_middle, rotor, stop_outer)
+    turning += at_core[0] + SPRINGS * at_pin[0] + STOPS * ROTOR * teeth[0]
+    inertia += at_core[1] + SPRINGS * (at_pin[1] + at_pin[0] * pin_at**2) + STOPS * ROTOR * teeth[1]
     b, long = CORE + LINK_RIM, outside - CORE - LINK_RIM
     bolts, tool = PI * LINK_HOLE**2, 0.25 * PI * TOOL_HOLE**2
     link = (2.0 * b * long + PI * b**2 - bolts - tool - dowel) * LINK
@@ -373,15 +322,15 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     inertia += RHO_STEEL * (screws + dowel_polar * DOWEL_LONG)
     wire = leg * rise + n * math.sqrt((PI * coil) ** 2 + pitch**2) + curve * (0.5 * PI - math.atan(slope))
     wire += FLOOR - TANG_END_GAP
-    mass = RHO_PETG * (housing + turning + link + retainer) + RHO_PCL * area * t + PAD_MASS / (PAD_AREA * PAD) * pads
+    mass = RHO_PETG * (housing + turning + link + retainer) + RHO_PCL * area * t + pads
     mass += (
         CUTOUT
         + RHO_WIRE * SPRINGS * 0.25 * PI * d**2 * wire
         + RHO_STEEL * (shanks + heads + shank + head + dowel * DOWEL_LONG)
     )
     # gaps
-    far_pin = math.sqrt(pin_at**2 + r**2 - 2.0 * pin_at * r * math.cos(STROKE))
-    along = PI - math.atan2(pin_at * math.sin(STROKE), r - pin_at * math.cos(STROKE)) + math.asin(offset / far_pin)
+    far_pin = math.sqrt(pin_at**2 + r**2 - 2.0 * pin_at * r * math.cos(STOP))
+    along = PI - math.atan2(pin_at * math.sin(STOP), r - pin_at * math.cos(STOP)) + math.asin(offset / far_pin)
     off_axis, ahead = r * math.sin(along) + 0.5 * coil, max(-r * math.cos(along) - leg, 0.0)
     rows[0], rows[1], rows[2] = volume, mass, 0.0
     g = rows[OUTPUTS:]
@@ -389,54 +338,59 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[2] = 1.0 - (stiffness + cold) / (stiffness + hot) / 50.0
     g[3] = 1.0 - damped / OMEGA
     g[4] = 1.0 - min(BOND, SHEAR_YIELD) * polar / outer / 8.0
-    g[5] = 1.0 - 0.5 * PI * ACROSS_LAYERS / math.sqrt(3.0) * CORE**3 / core_foot / HOLDING_SAFETY / 8.0
-    g[6] = 1.0 - gerber(in_coil, strength) / 1.2
-    g[7] = 1.0 - gerber(in_bend, strength) / 1.2
-    g[8], g[9] = 1.0 - index / 5.0, index / 16.0 - 1.0
-    g[10], g[11], g[12] = inertia / 300e-6 - 1.0, 2.0 * outside / 0.16 - 1.0, mass / 0.6 - 1.0
-    g[13] = 1.0 - ACROSS_LAYERS / pin_stress
-    g[14] = 1.0 - YIELD_RATIO * strength / (in_coil * most)
-    g[15] = 1.0 - YIELD_RATIO * strength / (in_coil * 2.0 * PRELOAD)
-    g[16] = 1.0 - YIELD_RATIO * strength / (in_bend * most)
-    g[17] = 1.0 - YIELD_RATIO * strength / (in_bend * 2.0 * PRELOAD)
+    g[5] = 1.0 - PAD_SHEAR * polar / outer / 8.0
+    g[6] = 1.0 - glued / 8.0
+    g[7] = 1.0 - 0.5 * PI * ACROSS_LAYERS / math.sqrt(3.0) * CORE**3 / core_foot / HOLDING_SAFETY / 8.0
+    g[8] = 1.0 - gerber(in_coil, strength) / 1.2
+    g[9] = 1.0 - gerber(in_bend, strength) / 1.2
+    g[10], g[11] = 1.0 - index / 5.0, index / 16.0 - 1.0
+    g[12], g[13], g[14] = inertia / 300e-6 - 1.0, 2.0 * outside / 0.16 - 1.0, mass / 0.6 - 1.0
+    g[15] = 1.0 - ACROSS_LAYERS / pin_stress
+    g[16] = 1.0 - YIELD_RATIO * strength / (in_coil * most)
+    g[17] = 1.0 - YIELD_RATIO * strength / (in_bend * most)
     g[18] = 1.0 - MELT_FRACTURE * t / (outer * STROKE * math.sqrt(HOT_STORAGE**2 + HOT_LOSS**2))
     bears = 0.5 * PI * ACROSS_LAYERS / math.sqrt(3.0) * CORE**3 / worst / HOLDING_SAFETY
-    bears = min(min(BOND, SHEAR_YIELD) * polar / outer, bears, LINK_HOLDS) / (SPRINGS * r)
+    bears = min(min(BOND, SHEAR_YIELD, PAD_SHEAR) * polar / outer, glued, bears, LINK_HOLDS)
+    push, bears = bears / (STOPS * stop_middle) * HOLDING_SAFETY, bears / (SPRINGS * r)
     bent, sheared = bears * FOOT * (tilt + 2.0) / 6.0 * BOSS / section, bears / (PI * (BOSS**2 - hole**2))
     pulled = ACROSS_LAYERS / math.sqrt(bent**2 + 3.0 * sheared**2 + 1e6)
     pressed = YIELD_COLD / math.sqrt((bent + FOOT_CLAMP) ** 2 + 3.0 * sheared**2 + 1e6)
     g[19] = 1.0 - min(pulled, pressed) / HOLDING_SAFETY
-    g[20] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
-    g[21] = -(r - reach - rotor - RADIAL) / 0.01
-    g[22] = -(end - 0.5 * d - plate_top - AXIAL) / 0.01
-    g[23] = -(rotor - pin_at - 0.5 * PIN - RADIAL) / 0.01
-    g[24] = -(math.sqrt(off_axis**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
-    g[25] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
-    g[26] = 1.0 - (r - pin_at - offset) / 1e-3
-    g[27] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
-    g[28] = 1.0 - (outer - INNER) / 5e-3
-    g[29] = -(outer - INNER - 2.0 * LEDGE) / 0.01
-    g[30] = -post / 0.01
-    g[31] = -(2.0 * r * math.sin(PI / SPRINGS) - 2.0 * reach - RADIAL) / 0.01
-    g[32] = 1.0 - (span * INNER - 2.0 * LEDGE) / 2e-3
-    g[33] = 1.0 - (link_bottom + FLOOR + RUNNING - link_deep - last_deep) / 1e-3
-    g[34] = -(inside - r - BOSS) / 0.01
-    g[35] = -(r - BOSS - outer - RADIAL) / 0.01
-    g[36] = -(span * INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
-    g[37] = -(outer - INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
-    g[38] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
-    g[39] = -(POCKET_RATIO * (pin_at - 0.5 * PIN - CORE) - pin_top + plate_top) / 0.01
-    g[40] = -(2.0 * post - FEATURE_LEAST) / 0.01
-    g[41] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
-    g[42] = -(middle - CUTOUT_RADIUS - RETAINER_RADIUS) / 0.01
-    g[43] = -(t + FLOOR - WALL_LEAST) / 0.01
-    g[44] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
-    g[45] = -((2.0 * PI / ARCS - wider) * into - WALL_LEAST) / 0.01
-    # what the switch needs: current, area, layer, pads, windows; thirteen bodies, edges, links
+    g[20] = 1.0 - YIELD_COLD * stop_width * ROTOR / push
+    g[21] = 1.0 - ACROSS_LAYERS / (push * stub(plate_top - 0.5 * ROTOR, stop_long, stop_width))
+    g[22] = 1.0 - YIELD_COLD / (push * stub(stop_middle - rotor, TOOTH, ROTOR))
+    g[23] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
+    g[24] = -(r - reach - rotor - RADIAL) / 0.01
+    g[25] = -(end - 0.5 * d - plate_top - AXIAL) / 0.01
+    g[26] = -(rotor - pin_at - 0.5 * PIN - RADIAL) / 0.01
+    g[27] = -(math.sqrt(off_axis**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
+    g[28] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
+    g[29] = 1.0 - (r - pin_at - offset) / 1e-3
+    g[30] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
+    g[31] = 1.0 - (outer - INNER) / 5e-3
+    g[32] = -(outer - INNER - 2.0 * LEDGE) / 0.01
+    g[33] = -post / 0.01
+    g[34] = -(2.0 * r * math.sin(PI / SPRINGS) - 2.0 * reach - RADIAL) / 0.01
+    g[35] = 1.0 - (span * INNER - 2.0 * LEDGE) / 2e-3
+    g[36] = 1.0 - (link_bottom + FLOOR + RUNNING - link_deep - last_deep) / 1e-3
+    g[37] = -(inside - r - BOSS - LEAST_GAP) / 0.01
+    g[38] = -(r - BOSS - outer - RADIAL) / 0.01
+    g[39] = -(span * INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
+    g[40] = -(outer - INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
+    g[41] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
+    g[42] = -(POCKET_RATIO * (pin_at - 0.5 * PIN - CORE) - pin_top + plate_top) / 0.01
+    g[43] = -(2.0 * post - FEATURE_LEAST) / 0.01
+    g[44] = -(middle - CUTOUT_RADIUS - RETAINER_RADIUS) / 0.01
+    g[45] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
+    g[46] = -((STOP - STROKE) * stop_middle - SLIP) / 0.01
+    g[47] = -(stop_width - WALL_LEAST) / 0.01
+    g[48] = -(min(stop_long, TOOTH) - WALL_LEAST) / 0.01
+    g[49] = -(t + FLOOR - WALL_LEAST) / 0.01
+    g[50] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
+    g[51] = -((2.0 * PI / ARCS - wider) * into - WALL_LEAST) / 0.01
+    # what the switch needs: current, area, layer, pads, windows; what the strips are taken from, sides in the air
     heat[0], heat[1], heat[2], heat[3] = x[7], area, t, area / PAD_AREA
-    heat[4], heat[5] = PAD_MASS / (PAD_AREA * PAD) * pads * C_PAD, windows
-    tall = 2.0 * PI * outside * (pin_top + FLOOR + FOOT)
-    beside(area, windows, rotor, inside, t, ARCS * (2.0 * (outer - INNER) + span * (INNER + outer)), heat)
+    heat[4], heat[5] = pads * C_PAD, windows
     heat[9], heat[22] = RHO_PETG * (turning - plate + link + retainer) * C_PETG, 0.0
-    heat[18] = RHO_PETG * housing * C_PETG - np.sum(heat[10:18])
-    heat[31] += tall + PI * (outside**2 - rotor**2)
+    heat[18] = RHO_PETG * housing * C_PETG
+    heat[31] = 2.0 * PI * outside * (pin_top + FLOOR + FOOT) + PI * (outside**2 - rotor**2)
