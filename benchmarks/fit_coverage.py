@@ -155,12 +155,25 @@ def table(found: Fits) -> Iterator[str]:
             every = [fit[name] for fit in fits if name in fit]
             open_ = sum(one.low is None or one.high is None for one in every)
             ratio = f"{width_over_scatter(every):.2f}" + (f", {open_} open" if open_ else "")
-            right = sum(one.held for one in every) + (len(fits) - len(every) if "+" in kind else 0)
-            told.append(f"{name} {100.0 * right / len(fits):.1f} ({ratio})")
-        if "+" in kind:
-            told.append(f"{sum(map(bool, fits))} records")
+            told.append(f"{name} {100.0 * sum(each.held for each in every) / len(fits):.1f} ({ratio})")
         if fits:
             yield f"| `{kind}` | {len(fits)} | {', '.join(told)} |"
+
+
+def table_of_faults(found: Fits) -> Iterator[str]:
+    """Rows in Markdown: kind, seeds, and for each fault the share that is right, of the worst value, and of records."""
+    yield f"|kind|seeds|{'|'.join(FAULTS)}|"
+    yield "|---" * (2 + len(FAULTS)) + "|"
+    for kind in dict.fromkeys(name.partition("+")[0] for name, _ in found):
+        cells, seeds = [], 0
+        for fault in FAULTS:
+            fits = [fit for (name, _), fit in found.items() if name == f"{kind}+{fault}"]
+            names = {name for fit in fits for name in fit}
+            right = min((sum(name not in fit or fit[name].held for fit in fits) for name in names), default=len(fits))
+            seeds = max(seeds, len(fits))
+            records = sum(map(bool, fits))
+            cells.append(f"{100 * right // len(fits)}/{100 * records // len(fits)}" if fits else "")
+        yield f"|`{kind}`|{seeds}|{'|'.join(cells)}|"
 
 
 def main() -> None:
@@ -175,7 +188,8 @@ def main() -> None:
     kinds = asked.kinds or list(MADE)
     if asked.faults:
         kinds = [f"{kind}+{fault}" for fault in FAULTS for kind in kinds if fault != "slow" or kind in IN_TIME]
-    print("\n".join(table(counted(kinds, asked.seeds, asked.workers, asked.kept))))
+    show = table_of_faults if asked.faults else table
+    print("\n".join(show(counted(kinds, asked.seeds, asked.workers, asked.kept))))
 
 
 if __name__ == "__main__":

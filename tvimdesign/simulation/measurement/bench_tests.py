@@ -167,21 +167,11 @@ def _numbers(expression: Any) -> Array:
     return np.asarray(ca.DM(ca.evalf(ca.MX(expression)))).ravel()
 
 
-def _log_settings(module: ResolvedModule, source: Path) -> dict[str, str]:
-    del module
-    return {"study": str(source)}
-
-
-def _none(module: ResolvedModule, source: Path) -> dict[str, str]:
-    del module, source
-    return {}
-
-
 TESTS: dict[str, tuple[Callable[[ResolvedModule, Inputs], Columns], Callable[[ResolvedModule, Path], dict[str, str]]]]
 TESTS = {
     "weights": (weights, weights_settings),
-    "pads": (pads, _none),
-    "log": (log, _log_settings),
+    "pads": (pads, lambda _module, _source: {}),
+    "log": (log, lambda _module, source: {"study": str(source)}),
     "frozen": (frozen, bond_settings),
     "ringing": (ringing, ringing_settings),
     "thawed": (thawed, bond_settings),

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
@@ -85,8 +87,6 @@ def rows_of(block: Block, quantities: Sequence[str]) -> list[Array]:
         raise InputError(
             f"{block.place}: {count} rows have {', '.join(quantities)} all at once; at least {LEAST_ROWS} are needed"
         )
-    import numpy as np
-
     values = [block.values(quantity) for quantity in quantities]
     whole = np.all([np.isfinite(column) for column in values], axis=0)
     return [value[whole] for value in values]
@@ -97,8 +97,6 @@ def series_of(block: Block, quantities: Sequence[str], most: int = 0) -> list[Ar
 
     Raises InputError where time does not rise.
     """
-    import numpy as np
-
     every = rows_of(block, quantities)
     step = -(-len(every[0]) // most) if most else 1
     taken = [column[::step] for column in every]

@@ -153,16 +153,15 @@ def as_recorded(estimate: Estimate) -> Estimate:
     """
     if estimate.low is None or estimate.high is None:
         return estimate
-    value, drift = estimate.value, estimate.drift
+    value, ends = estimate.value, (estimate.low, estimate.high)
     if estimate.unit != "degC" and estimate.low > 0.0:
-        moved = np.log1p(drift / value)
-        below, above = (np.hypot(abs(np.log(end / value)) + moved, ACCURACY) for end in (estimate.low, estimate.high))
+        moved = np.log1p(estimate.drift / value)
+        below, above = (np.hypot(abs(np.log(end / value)) + moved, ACCURACY) for end in ends)
         low, high = value * np.exp(-below), value * np.exp(above)
     else:
         own = WARMER if estimate.unit == "degC" else ACCURACY * abs(value)
-        below, above = (np.hypot(abs(end - value) + drift, own) for end in (estimate.low, estimate.high))
-        low, high = value - below, value + above
-        low = max(low, 0.0) if estimate.low >= 0.0 else low
+        below, above = (np.hypot(abs(end - value) + estimate.drift, own) for end in ends)
+        low, high = max(value - below, 0.0) if estimate.low >= 0.0 else value - below, value + above
     return replace(estimate, low=float(low), high=float(high))
 
 

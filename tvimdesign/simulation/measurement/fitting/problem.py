@@ -96,10 +96,9 @@ class Channel:
         count = len(self.at) // self.sensors
         over = self.at[:count] - self.at[0] if self.at_name == "time" else np.arange(float(count))
         sizes = predicted.reshape(self.sensors, count)
-        if self.relative:
-            sizes = np.ptp(sizes, axis=1, keepdims=True) / sizes if self.zero_drifts else np.ones_like(sizes)
-        else:
-            sizes = np.ptp(sizes, axis=1, keepdims=True) + np.zeros_like(sizes)
+        whole = np.ptp(sizes, axis=1, keepdims=True)
+        by_share = whole / sizes if self.zero_drifts else np.ones_like(sizes)
+        sizes = by_share if self.relative else np.broadcast_to(whole, sizes.shape)
         courses = np.zeros((self.sensors, count, self.sensors))
         courses[range(self.sensors), :, range(self.sensors)] = sizes * over / (float(over[-1]) or 1.0)
         return courses.reshape(-1, self.sensors)

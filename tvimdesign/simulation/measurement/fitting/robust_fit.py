@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
+from scipy.special import erfcx
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Residuals
@@ -51,14 +52,8 @@ def influence(z: Array) -> tuple[Array, Array]:
     return z / slant, slant**-3.0
 
 
-def _mean_square() -> float:
-    """Return the mean square of the influence of an error of normal distribution."""
-    z = np.linspace(-8.0, 8.0, 4001)
-    density = np.exp(-0.5 * z**2)
-    return float(np.sum(influence(z)[0] ** 2 * density) / np.sum(density))
-
-
-MEAN_SQUARE = _mean_square()
+MEAN_SQUARE = LINEAR_UP_TO**2 * float(1.0 - LINEAR_UP_TO * np.sqrt(0.5 * np.pi) * erfcx(LINEAR_UP_TO / np.sqrt(2.0)))
+"""Mean square of the influence of an error of normal distribution."""
 
 
 def robust_fit(residuals: Residuals, start: Array) -> RobustFit:

@@ -8,7 +8,7 @@ its plateau, and a change by a power of its own.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,12 +77,12 @@ class Sweep(NamedTuple):
             risen = (ca.DM(linear) / linear[-1]) ** values[f"loss_power{self.end}"]
             return values[f"loss_modulus{self.end}"] * np.exp(values[f"loss_change{self.end}"] * risen)
 
-        def channel(name: str, moduli: Array, predicted: Callable[[Values], Any], at: Array) -> Channel:
-            return Channel(f"{name} modulus of {self.where}", "Pa", moduli, predicted, at, "strain", "%", relative=True,
-                           step=self.share, noise_of=f"{name}_modulus")  # fmt: skip
-
-        return [channel("storage", self.storage, storage, strain),
-                channel("loss", self.loss[: self.linear], loss, linear)]  # fmt: skip
+        return [
+            Channel(f"{name} modulus of {self.where}", "Pa", moduli, predicted, at, "strain", "%", relative=True,
+                    step=self.share, noise_of=f"{name}_modulus")
+            for name, moduli, predicted, at in (
+                ("storage", self.storage, storage, strain), ("loss", self.loss[: self.linear], loss, linear))
+        ]  # fmt: skip
 
 
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:

@@ -325,9 +325,6 @@ def _bent(run: Run) -> Array:
 
 def _exothermic(runs: Sequence[Run]) -> float:
     """Return +1 where the files count heat given off as positive: freezing gives it off, melting takes it up."""
-    votes = 0.0
-    for run in runs:
-        bent = _bent(run)
-        peak = float(bent[np.argmax(np.abs(bent))])
-        votes += peak if run.way != "heated" else -peak
+    peaks = [float(bent[np.argmax(np.abs(bent))]) for bent in map(_bent, runs)]
+    votes = sum(-peak if run.way == "heated" else peak for run, peak in zip(runs, peaks, strict=True))
     return 1.0 if votes >= 0.0 else -1.0

@@ -18,7 +18,7 @@ from tvimdesign.physics.polymers import polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.measurement.fitting.fit import BestFit, best_fit, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.melt_spectrum import BETTER, USUAL_ENERGY, criterion
+from tvimdesign.simulation.measurement.kinds.melt_spectrum import BETTER, USUAL_ENERGY, criterion, temperature_known
 from tvimdesign.simulation.measurement.kinds.melt_tests import temperature_of, title_of
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
@@ -36,21 +36,10 @@ class _Curves:
     """Flow curves of one melt, each at a temperature of its own."""
 
     def __init__(self, blocks: Sequence[Block], settings: Settings) -> None:
-        self.where, self.temperatures, self.rates, self.viscosities, self.shares = [], [], [], [], []
-        for block in blocks:
-            temperature = temperature_of(block, settings)
-            self.where.append(title_of(block, temperature))
-            self.temperatures.append(temperature)
-            rate, viscosity, share = _curve(block)
-            self.shares.append(share)
-            self.rates.append(rate)
-            self.viscosities.append(viscosity)
-        untold = np.isnan(self.temperatures)
-        if np.any(untold) and not np.all(untold):
-            raise InputError(
-                f"{self.where[int(np.argmax(untold))]}: the file does not say its temperature, as others do; "
-                "--set temperature=..."
-            )
+        self.temperatures = [temperature_of(block, settings) for block in blocks]
+        self.where = [title_of(block, at) for block, at in zip(blocks, self.temperatures, strict=True)]
+        self.rates, self.viscosities, self.shares = zip(*map(_curve, blocks), strict=True)
+        temperature_known(self.where, self.temperatures)
         middle = sorted(self.temperatures)[len(self.temperatures) // 2]
         self.reference = settings.get("reference_temperature", middle)
         self.energy = settings.get("flow_activation_energy")
@@ -133,7 +122,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     if np.isnan(curves.temperatures).any():
         notes.append("The file does not say its temperature: no record is written; --set temperature=... says it.")
         return Measurement(fit, tuple(notes))
-    notes.append("The record has the viscosity; its plateau modulus stays that of the record it is based on.")
+    if not fit.misfit:
+        notes.append("The record has the viscosity; its plateau modulus stays that of the record it is based on.")
     values = {"zero_shear_viscosity": zero}
     values |= {e.name: e for e in fit.parameters if e.name == "flow_activation_energy"}
     return Measurement(fit, tuple(notes), values, {}, {"melt_reference_temperature": (curves.reference, "degC")})

@@ -82,11 +82,14 @@ class Melt(NamedTuple):
     """True where what relaxes slower than the tests see is the modulus of a solid."""
 
     @property
+    def rates(self) -> Array:
+        """Rates that the tests see, at the reference temperature, roughly [1/s]."""
+        return np.concatenate([test.rates * guessed_shift(test.temperature, self.reference) for test in self.tests])
+
+    @property
     def window(self) -> tuple[float, float]:
         """Shortest and longest relaxation time [s] that is looked for: `_BEYOND` outside what the tests see."""
-        shifts = [guessed_shift(test.temperature, self.reference) for test in self.tests]
-        rates = np.concatenate([test.rates * shift for test, shift in zip(self.tests, shifts, strict=True)])
-        return float(1.0 / (_BEYOND * rates.max())), float(_BEYOND / rates.min())
+        return float(1.0 / (_BEYOND * self.rates.max())), float(_BEYOND / self.rates.min())
 
     def modes(self, values: Values, count: int) -> list[tuple[Any, Any]]:
         """Return the spectrum (time [s], modulus [Pa]), slowest first, with the modes of a solid and of a viscosity."""
@@ -114,22 +117,14 @@ class Melt(NamedTuple):
     @property
     def shifted(self) -> list[float]:
         """The temperatures whose tests are shifted."""
-        return [
-            temperature
-            for temperature in self.temperatures
-            if temperature != self.reference and not np.isnan(temperature)
-        ]
+        return [at for at in self.temperatures if at != self.reference and not np.isnan(at)]
 
 
 def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
     """Return the spectrum of tests, all together. Raises InputError for what lacks."""
     least = settings.get("least_temperature", 0.0)
-    untold = [test for test in tests if np.isnan(test.temperature)]
-    if untold and len(untold) < len(tests):
-        raise InputError(
-            f"{untold[0].name}: the file does not say its temperature, as others do; --set temperature=..."
-        )
-    molten = list(tests) if untold else [test for test in tests if test.temperature >= least]
+    known = temperature_known([test.name for test in tests], [test.temperature for test in tests])
+    molten = [test for test in tests if test.temperature >= least] if known else list(tests)
     if not molten:
         raise InputError("--set least_temperature leaves no test")
     most = round(settings["largest_modes"])
@@ -138,12 +133,21 @@ def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: boo
     melt, count, first = _without_ends(melt, count, first)
     best, notes = _best(melt, count, first, profiles=profiles)
     notes = [*_notes(tests, melt, count, most), *notes]
-    if untold:
+    if not known:
         notes.append(_UNTOLD)
         return Measurement(best, tuple(notes))
     if melt.fast or melt.solid or _blind(melt):
         return _viscosity_record(best, melt, count, notes)
     return spectrum_record(best, count, most, melt.reference, notes)
+
+
+def temperature_known(names: Sequence[str], temperatures: Sequence[float]) -> bool:
+    """Return whether the temperatures of tests are known. Raises InputError where those of some are."""
+    unknown = np.isnan(temperatures)
+    if np.any(unknown) and not np.all(unknown):
+        name = names[int(np.argmax(unknown))]
+        raise InputError(f"{name}: the file does not say its temperature, as others do; --set temperature=...")
+    return not np.any(unknown)
 
 
 def _without_ends(melt: Melt, count: int, first: BestFit) -> tuple[Melt, int, BestFit]:
@@ -322,20 +326,18 @@ def modes_of(values: Values, count: int) -> list[tuple[Any, Any]]:
 
 def _modes(melt: Melt, count: int) -> list[Parameter]:
     """Return starts: times evenly over the range of the rates, moduli from those nearest to one over each."""
-    shifts = [guessed_shift(test.temperature, melt.reference) for test in melt.tests]
-    rates = np.concatenate([test.rates * shift for test, shift in zip(melt.tests, shifts, strict=True)])
-    size = np.concatenate([test.sizes for test in melt.tests])
+    rates, size = melt.rates, np.concatenate([test.sizes for test in melt.tests])
     order = np.argsort(rates)
     logs = np.linspace(np.log(rates.min()), np.log(rates.max()), 2 * count + 1)[1::2]
     shortest, longest = melt.window
     parameters = []
     for i, log in enumerate(logs, start=1):
         modulus = float(np.exp(np.interp(log, np.log(rates[order]), np.log(size[order]))))
-        parameters.append(
+        parameters += [
             Parameter(f"time_{i}", "s", "Relaxation time of a mode", float(np.exp(-log)), profiled=False,
-                      least=shortest, most=longest)
-        )  # fmt: skip
-        parameters.append(Parameter(f"modulus_{i}", "Pa", "Modulus of that mode", modulus, profiled=False))
+                      least=shortest, most=longest),
+            Parameter(f"modulus_{i}", "Pa", "Modulus of that mode", modulus, profiled=False),
+        ]  # fmt: skip
     return parameters
 
 

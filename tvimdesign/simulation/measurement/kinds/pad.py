@@ -63,15 +63,10 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     )  # fmt: skip
     values = {name: fit[name] for name in ("seebeck", "resistance", "conductance")}
     notes = _notes(settings, max(differences))
-    if not _two_currents([rows_of(block, ["current"])[0] for block in blocks]):
+    currents = np.concatenate([rows_of(block, ["current"])[0] for block in blocks])
+    if np.ptp(currents) <= _SPREAD * np.max(np.abs(currents)):
         return Measurement(fit, (_ONE_CURRENT, *notes))
     return Measurement(fit, tuple(notes), values)
-
-
-def _two_currents(every: Sequence[Array]) -> bool:
-    """Return whether the currents differ enough for three values to follow."""
-    current = np.concatenate(every)
-    return bool(np.ptp(current) > _SPREAD * np.max(np.abs(current)))
 
 
 def cold_temperature(module: peltier.PeltierModule, current: Any, hot: Any, heat: Any, leak: float, air: float) -> Any:

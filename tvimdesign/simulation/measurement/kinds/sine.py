@@ -94,7 +94,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     """Fit records of time, angle and torque, together. Raises InputError for what lacks."""
     records = [_record(block, f"_{i}") for i, block in enumerate(blocks, start=1)]
     known = {"inertia": settings["inertia"]} if "inertia" in settings else {}
-    together = not known and _at_one_frequency(records)
+    omegas = [record.omega for record in records]
+    together = not known and max(omegas) < _ALIKE * min(omegas)
     with_inertia = not known and not together
     known = {"inertia": 0.0} if together else known
     module = joint_of_module(settings, records[0].omega, records[0].size)
@@ -110,11 +111,6 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     return with_records(
         fitted(problem, profiles=profiles), _notes(records, together=together), module, inertia=with_inertia
     )
-
-
-def _at_one_frequency(records: Sequence[Sine]) -> bool:
-    omegas = [record.omega for record in records]
-    return max(omegas) < _ALIKE * min(omegas)
 
 
 def _quadrature(record: Sine, values: Values) -> Any:

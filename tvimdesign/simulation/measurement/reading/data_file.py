@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import re
-import unicodedata
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -175,7 +174,10 @@ def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
     raw = replace(raw, rows=good or raw.rows)
     unused = []
     headings = columns.applied(raw.headings)
-    first = {heading.quantity: rank(heading) for heading in sorted(headings, key=_last_first) if heading.quantity}
+    first = {
+        heading.quantity: rank(heading)
+        for heading in sorted((each for each in headings if each.quantity), key=rank, reverse=True)
+    }
     for i, heading in enumerate(headings):
         if (
             not heading.quantity
@@ -198,16 +200,6 @@ def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
     )
 
 
-def _last_first(heading: Heading) -> int:
-    return -rank(heading) if heading.quantity else 0
-
-
-def _folded(text: str) -> str:
-    """Return a word in small letters without accents; signs stay."""
-    letters = unicodedata.normalize("NFKD", text)
-    return "".join(sign for sign in letters if not unicodedata.combining(sign)).lower().strip()
-
-
 def _is_flag(cell: str) -> bool:
     """Return whether a verdict, in small letters, says that its row does not count."""
     verdicts, words = known()["verdicts"], re.split(r"[\s,;/|]+", cell.replace("no error", ""))
@@ -219,7 +211,7 @@ def _not_flagged(raw: RawBlock) -> tuple[list[Row], str]:
     columns = [i for i, heading in enumerate(raw.headings) if plain(heading.text) in known()["verdicts"]["names"]]
     good, counts = [], Counter[str]()
     for row in raw.rows:
-        cells = [_folded(row.cells[i]) for i in columns if i < len(row.cells)]
+        cells = [plain(row.cells[i]) for i in columns if i < len(row.cells)]
         bad = [cell for cell in cells if _is_flag(cell)]
         if bad:
             counts[row.cells[columns[cells.index(bad[0])]].strip()] += 1

@@ -86,11 +86,6 @@ def _begins(sheet: Sheet, at: int) -> bool:
     return at + 1 < len(rows) and sheet.numbers(rows[at + 1]) >= 1
 
 
-def _may_head(row: Row, sheet: Sheet) -> bool:
-    """Return whether headings may stand in a row or above it: a line of separators alone does not end them."""
-    return _heads(row, sheet) or (row.empty and len(row.cells) > 1)
-
-
 def _heads(row: Row, sheet: Sheet) -> bool:
     return not row.empty and sheet.numbers(row) == 0
 
@@ -159,8 +154,11 @@ def _rows_above(sheet: Sheet, begin: int) -> list[Row]:
     blank = at > 0 and sheet.rows[at].empty
     if blank and sum(bool(heading(cell).quantity) for cell in sheet.rows[at - 1].cells) >= _LEAST_NUMBERS:
         at -= 1
-    while at >= 0 and len(above) < _HEADING_ROWS and _may_head(sheet.rows[at], sheet):
-        above += [sheet.rows[at]] if sheet.rows[at].filled > 1 else []
+    while at >= 0 and len(above) < _HEADING_ROWS:
+        row = sheet.rows[at]
+        if not (_heads(row, sheet) or (row.empty and len(row.cells) > 1)):  # a line of separators does not end them
+            break
+        above += [row] if row.filled > 1 else []
         at -= 1
     return above
 
