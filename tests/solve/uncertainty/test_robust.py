@@ -154,6 +154,19 @@ def _inputs(optimizer: Optimizer, front: Front) -> list[NDArray[np.float64]]:
 
 
 @pytest.mark.gate
+def test_the_yield_is_of_limits_that_the_module_has() -> None:
+    study = read_study_text(
+        "mode: compression\nmodule: {peltier_module: silicone_9ar_08_12v}\nvary: {core_radius: [9 mm, 12 mm]}\n"
+        "require: {holding_torque: '>= 4 N.m'}\nminimize: module_mass\n"
+        "tolerances: {standard: true}\nrobust: {yield: 95 %}\n"
+    )
+    optimizer = Optimizer(study)
+    limited = [study.table.output(limit.output) for limit in yields_of(optimizer).limits]
+    assert "core_foot_holding_torque" in {row.name for row in limited}
+    assert all(row.exists(optimizer.model.words) for row in limited)
+
+
+@pytest.mark.gate
 def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
