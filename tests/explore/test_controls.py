@@ -1,9 +1,14 @@
 """Controls of the explorer: each value in its quantity's own unit, with a label and a group."""
 
-import pytest
+from pathlib import Path
 
-from tvimdesign.explore.states.state import State, controls_shown
-from tvimdesign.study import read_study_text
+import pytest
+from explored import SMALL
+
+from tvimdesign.explore.states.state import State, controls_shown, sized_state, tree_of
+from tvimdesign.study import read_study_text, read_tree
+from tvimdesign.study.sizing import JointTask, study_text
+from tvimdesign.study.tree import tree_of_text
 
 STUDY = """
 mode: shear
@@ -29,3 +34,11 @@ def test_controls_have_units_labels_and_groups() -> None:
     assert shown["requirements"][0]["label"] == "diameter"
     assert all(control["label"] and control["group"] for control in [*shown["inputs"], *shown["choices"]])
     assert all(isinstance(control["value"], float) for control in shown["inputs"])
+
+
+@pytest.mark.parametrize("hardware", ["small", "heavy"])
+def test_a_sized_study_takes_the_place_of_the_one_that_is_open(hardware: str) -> None:
+    text = study_text(JointTask.read("8 N.m", "1 to 2 N.m/rad", "90 mm", "60 s", "24 V, 3 A"), hardware)
+    base = tree_of_text(SMALL, "small.yaml", "small", Path())
+    sized, alone = read_tree(tree_of(base, sized_state(base, text))), read_study_text(text)
+    assert sized.model_dump() == {**alone.model_dump(), "name": sized.name}

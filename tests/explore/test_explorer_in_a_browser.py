@@ -54,6 +54,25 @@ def test_an_input_is_found_by_a_word_and_its_group_opens(explorer: Explorer) -> 
 
 
 @pytest.mark.slow
+def test_a_joint_is_sized_by_the_form_and_undo_goes_back(explorer: Explorer) -> None:
+    page = explorer.page
+    page.get_by_text("Size a joint from five numbers").click()
+    page.get_by_label("Largest diameter").fill("70")
+    page.get_by_role("button", name="Size it").click()
+    page.locator("#told").filter(has_text="diameter").wait_for()  # no unit
+    page.get_by_label("Largest diameter").fill("76 mm")
+    before = explorer.number
+    page.get_by_role("button", name="Size it").click()
+    explorer.knob("envelope_diameter <=").wait_for()
+    explorer.answered(before, "exact")
+    assert page.locator("#status").inner_text() == "Build it"
+    assert explorer.knob("envelope_diameter <=").get_by_role("textbox").input_value() == "76 mm"
+    page.get_by_role("button", name="Undo").click()
+    explorer.knob("envelope_diameter <=").wait_for(state="detached")
+    assert explorer.complaints == []
+
+
+@pytest.mark.slow
 def test_a_dragged_slider_is_answered_quickly_then_exactly(explorer: Explorer) -> None:
     page, power = explorer.page, explorer.knob("peak_power <=")
     slider, field = power.get_by_role("slider"), power.get_by_role("textbox")

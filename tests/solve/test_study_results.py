@@ -1,5 +1,6 @@
 """Results of studies: a feasible design without optimality, its account, walls that a process can make, a yardstick."""
 
+import random
 import re
 from dataclasses import replace
 from typing import Any
@@ -9,14 +10,16 @@ from answers import shipped_answer
 from comparable import COMPRESSION, SHEAR
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.units import parse_quantity
+from tvimdesign.base.units import from_si, parse_quantity
+from tvimdesign.device import MODES, table_for
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve import anchored_search, result, search
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, Array, Run
 from tvimdesign.solve.result import answer
-from tvimdesign.study import Study, read_study_text
+from tvimdesign.study import Study, given, read_study_text
+from tvimdesign.study.resolve import missing_geometry
 
 STUDY = """
 mode: shear
@@ -131,7 +134,7 @@ def test_only_what_is_minimised_is_measured(text: str) -> None:
     assert all(value > 0.0 for value in found.values())
 
 
-NARROW = "vary: {pcl_outer_radius: [12 mm, 20 mm]}\nminimize: module_mass\n"
+CROSSED = "vary: {pcl_outer_radius: [20 mm, 25 mm], pcl_inner_radius: [41 mm, 56 mm]}\nminimize: module_mass\n"
 
 
 def study_of(text: str) -> Study:
@@ -146,15 +149,60 @@ def refusal(study: Study) -> str:
     return str(caught.value)
 
 
+def partial_study(mode: str, seed: int) -> str:
+    """Return a study with random ranges, 0.3 to 3 times the default, of some variables."""
+    drawn = random.Random(seed)
+    rows = [
+        row for row in table_for(mode).inputs
+        if row.variable and row.default and not row.integer and row.record is None and not row.requires
+    ]  # fmt: skip
+    lines = []
+    for row in drawn.sample(rows, drawn.randint(1, 5)):
+        low, high = sorted(row.default * 0.3 * 10.0 ** drawn.random() for _ in range(2))
+        ends = [
+            f"{from_si(min(max(end, row.lower), row.upper), row.unit):.4g} {row.unit}" for end in (low, 1.01 * high)
+        ]
+        lines += [f"  {row.name}: [{', '.join(end.removesuffix(' 1') for end in ends)}]"] * (ends[0] != ends[1])
+    return f"mode: {mode}\nminimize: module_mass\nvary:\n" + "\n".join(lines)
+
+
+def test_open_lengths_follow_those_that_are_given() -> None:
+    study = study_of("vary: {pcl_outer_radius: [12 mm, 30 mm]}\nminimize: module_mass\n")
+    refuse_impossible(study)
+    start = given(study)
+    assert start["pcl_inner_radius"] / start["pcl_outer_radius"] == pytest.approx(26 / 40)
+
+
+def test_defaults_that_give_a_module_stay() -> None:
+    assert given(study_of("module: {pcl_outer_radius: 41 mm}"))["pcl_inner_radius"] == pytest.approx(0.026)
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_a_partial_study_has_a_module_or_says_what_clashes(mode: str) -> None:
+    studies = {seed: read_study_text(partial_study(mode, seed), "test") for seed in range(60)}
+    refused = {seed: refusal(study) for seed, study in studies.items() if missing_geometry(given(study), study.table)}
+    for seed, study in studies.items():
+        if seed not in refused:
+            refuse_impossible(study)
+    for seed, message in refused.items():
+        assert not re.search(r"\de-\d", message), f"seed {seed}: {message}"
+        assert re.search(r"It follows from \w+ .*\.\nOne of these is enough: \w+ ", message), f"seed {seed}: {message}"
+    assert len(refused) <= 6
+
+
 def test_the_values_that_clash_are_named_with_the_defaults() -> None:
-    assert "It follows from pcl_outer_radius 20 mm, pcl_inner_radius 26 mm (default)." in refusal(study_of(NARROW))
+    message = refusal(study_of(CROSSED))
+    assert "It follows from pcl_inner_radius 41 mm, pcl_outer_radius 25 mm." in message
+    assert "pcl_outer_radius 50 mm (beyond its range)" in message
+    wide = refusal(study_of("module: {arc_span: 130 deg}"))
+    assert "It follows from arc_span 130°, pcl_inner_radius 26 mm (default), arc_count 4 (default)." in wide
 
 
-@pytest.mark.parametrize("text", [NARROW, "module: {placement_radius: 20 mm}\n"])
+@pytest.mark.parametrize("text", [CROSSED, "module: {pcl_inner_radius: 45 mm, pcl_outer_radius: 40 mm}\n"])
 def test_each_cure_that_is_advised_cures(text: str) -> None:
     study = study_of(text)
-    cures = re.findall(r"(\w+) (\S+ mm)[,.]", refusal(study).partition("One of these is enough: ")[2])
-    assert cures
+    cures = re.findall(r"(\w+) (\S+ mm)(?: \(beyond its range\))?[,.]", refusal(study).partition("is enough: ")[2])
+    assert len(cures) == 2
     for name, value in cures:
         module = {**study.module, name: parse_quantity(value, "mm")}
-        refuse_impossible(study.model_copy(update={"module": module}))
+        refuse_impossible(study.model_copy(update={"module": module, "vary": {}, "minimize": {}}))

@@ -19,10 +19,11 @@ from tvimdesign.explore.states import messages
 from tvimdesign.explore.states.history import History, open_history, write_history, written_digest
 from tvimdesign.explore.states.messages import Change, Message
 from tvimdesign.explore.states.source import Source, open_source
-from tvimdesign.explore.states.state import Pinned, State, changed, controls_shown, saved_text, tree_of
+from tvimdesign.explore.states.state import Pinned, State, changed, controls_shown, saved_text, sized_state, tree_of
 from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
 from tvimdesign.report.output.numbers import label
 from tvimdesign.study import Study, read_tree
+from tvimdesign.study.sizing import SIZED_MODE, JointTask
 
 QUIET = 0.35
 """Seconds without a message after which the exact answer is sought."""
@@ -81,24 +82,27 @@ class Session:
             return [{"kind": "refused", "name": name, "words": str(error)}]
 
     def _do(self, message: Message) -> list[Reply]:
-        if isinstance(message, Change):
-            self._change(message)
-        elif isinstance(message, messages.SetWay):
-            self._become(self.history.state.model_copy(update={"way": message.way}))
-        elif isinstance(message, messages.Step):
-            self._step(message)
-        elif isinstance(message, messages.Pin):
-            self._pin(message.name)
-        elif isinstance(message, messages.OfPin):
-            self._of_pin(message)
-        elif isinstance(message, messages.Point):
-            self._become(self.source.at_point(message.number, self.history.state))
-        elif isinstance(message, messages.Save):
-            return [self._save(message.file)]
-        elif isinstance(message, messages.Confirm):
-            self._ask("confirmed")
-        else:
-            self.parts.make(self._design if self._is_exact else None)
+        match message:
+            case messages.SetWay():
+                self._become(self.history.state.model_copy(update={"way": message.way}))
+            case messages.Step():
+                self._step(message)
+            case messages.Pin():
+                self._pin(message.name)
+            case messages.OfPin():
+                self._of_pin(message)
+            case messages.Point():
+                self._become(self.source.at_point(message.number, self.history.state))
+            case messages.Save():
+                return [self._save(message.file)]
+            case messages.Confirm():
+                self._ask("confirmed")
+            case messages.Size():
+                self._size(message)
+            case messages.MakeParts():
+                self.parts.make(self._design if self._is_exact else None)
+            case _:
+                self._change(message)
         return []
 
     def _change(self, change: Change) -> None:
@@ -159,6 +163,24 @@ class Session:
         self.history.saved[file] = digest_of(path)
         self._written = write_history(self.folder, self.history, self._written)
         return {"kind": "saved", "file": file, "path": str(path)}
+
+    def _size(self, message: messages.Size) -> None:
+        """Let the worker choose the hardware of a joint; its study becomes the state."""
+        numbers = message.model_dump(exclude={"kind"})
+        JointTask.read(**numbers)
+        if self.source.study.mode != SIZED_MODE:
+            raise InputError(f"size: it draws modules of {SIZED_MODE} mode; explore a study of that mode")
+        self._number += 1
+        fallback = {"refused": "size: the hardware could not be chosen; ask again"}
+        self.solver.ask(Job(self._number, {"stage": "size", "numbers": numbers}, fallback, interruptible=True))
+
+    def _sized(self, reply: Reply) -> None:
+        """Go to the study of a joint, or say why there is none."""
+        if "refused" in reply:
+            self._send({"kind": "refused", "name": "", "words": reply["refused"]})
+            self._ask("quick")
+        else:
+            self._become(sized_state(self.source.tree, reply["study"]))
 
     # --- what becomes of it ---
 
@@ -230,6 +252,9 @@ class Session:
             return
         if job.number < self._number and job.stage != "quick":
             return
+        if job.stage == "size":
+            self._sized(reply)
+            return
         shown = reply["shown"]
         answer = {"kind": "answer", "number": job.number, "shown": shown}
         self.answers["quick" if "values" in shown else "refused"] = answer
@@ -263,11 +288,5 @@ class Session:
 
 def _quantity(study: Study, name: str) -> dict[str, Any]:
     row = study.table.output(name.partition("@")[0])
-    return {
-        "name": name,
-        "label": label(name),
-        "unit": pretty(study.table.unit(name)),
-        "means": row.description,
-        "group": row.group,
-        "headline": row.headline,
-    }
+    return {"name": name, "label": label(name), "unit": pretty(study.table.unit(name)), "means": row.description,
+            "group": row.group, "headline": row.headline}  # fmt: skip

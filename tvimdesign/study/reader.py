@@ -10,6 +10,7 @@ from pathlib import Path
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Table, table_for
+from tvimdesign.study.resolve import with_fitting_defaults
 from tvimdesign.study.sections.all_sections import NAMES, SECTIONS
 from tvimdesign.study.sections.sweep_block import SweepBlock
 from tvimdesign.study.study import Study
@@ -62,7 +63,8 @@ def _read(tree: StudyTree, table: TableOf, catalog: CatalogOf) -> tuple[Study, S
     problems.stop()
     fields = {name: read[name] for name in Study.model_fields if name in read}
     named = {"name": read["name"] or tree.name, "mode": mode, "catalog_folder": folder.as_posix() if folder else None}
-    return Study(**{**fields, **named}).based_on(reading.catalog, reading.table), read["sweep"]
+    study = Study(**{**fields, **named}).based_on(reading.catalog, reading.table)
+    return with_fitting_defaults(study), read["sweep"]
 
 
 def _mode(problems: Mistakes, node: Node | None, tree: StudyTree, table: TableOf) -> str:

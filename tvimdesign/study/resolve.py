@@ -5,17 +5,23 @@ Warnings about the chosen records: contradictions, missing limits, and tasks the
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.catalog.category import inherited_law_warnings
-from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.core.heat.heater_form import CUT, contradiction
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
+
+_NONE = 1e-12
+"""Length [m] that is rounding."""
 
 
 def given(study: Study) -> dict[str, Any]:
@@ -37,6 +43,63 @@ def given(study: Study) -> dict[str, Any]:
             known[row.name] = _started(row, study, known)
     _refuse_incompatible(study, known)
     return known
+
+
+def missing_geometry(values: Mapping[str, Any], table: Table) -> list[Output]:
+    """Return the outputs that say that no module has these inputs: a gap or a width below the least there can be."""
+    rows = _geometry_rows(table)
+    least = [(row, rule.exists_above) for row in rows for rule in row.rules if rule.exists_above is not None]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        outputs = table.evaluate(values, [row.name for row in rows])
+    return [row for row, value in least if not outputs[row.name] > value + _NONE]
+
+
+def _geometry_rows(table: Table) -> list[Output]:
+    return [row for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]
+
+
+def with_fitting_defaults(study: Study) -> Study:
+    """Return the study with lengths that it leaves open in proportion to those it gives, if no module has the defaults.
+
+    Such lengths are defaults, and starts of ranges. The proportion nearest to one that gives a module is taken; if none
+    does, the study stays as it is.
+    """
+    try:
+        start = given(study)
+    except InputError:  # whoever needs the value says so
+        return study
+    if not missing_geometry(start, study.table):
+        return study
+    behind = set().union(*(study.table.ancestors(row.name) for row in _geometry_rows(study.table)))
+    rows = {
+        row.name: row for row in study.table.inputs
+        if row.name in behind and row.unit == "mm" and row.default and row.record is None and not row.requires
+    }  # fmt: skip
+    ends = {name: _ends(row, study) for name, row in rows.items()}
+    shares = {end / (rows[name].default or 1.0) for name, span in ends.items() if span for end in span}
+    for share in sorted(shares, key=lambda share: abs(math.log(share))):
+        module, vary = dict(study.module), dict(study.vary)
+        for name, row in rows.items():
+            allowed, length = study.vary.get(name), share * (row.default or 0.0)
+            if isinstance(allowed, Range) and allowed.start is None:
+                vary[name] = allowed.model_copy(update={"start": float(_nearest(allowed, length))})
+            elif not ends[name] and name in start and start[name] == row.default:
+                module[name] = min(max(length, row.lower), row.upper)
+        fitting = study.model_copy(update={"module": module, "vary": vary})
+        if not missing_geometry(given(fitting), study.table):
+            return fitting
+    return study
+
+
+def _ends(row: Input, study: Study) -> tuple[float, ...]:
+    """Return the values that a study gives a length: its own, or the ends and the middle of its range; none if open."""
+    allowed = study.vary.get(row.name)
+    if isinstance(allowed, Range) and allowed.start is None:
+        return allowed.lower, math.sqrt(allowed.lower * allowed.upper), allowed.upper
+    if allowed is not None:
+        return (_started(row, study, {}),)
+    value = study.module.get(row.name)
+    return (float(value),) if isinstance(value, int | float) and value > 0.0 else ()
 
 
 def drawn(study: Study) -> Study:

@@ -15,6 +15,7 @@ from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import table_for
 from tvimdesign.study.written_studies import SCHEMA_FILE
 
+SIZED_MODE = "shear"
 SMALLEST, LARGEST = 0.02, 0.2
 """Diameters [m] that a study is made for."""
 _BAND = 0.2
@@ -22,7 +23,8 @@ _BAND = 0.2
 _SCALED = {
     "coil_diameter": (0.04, 0.09, 0.25), "placement_radius": (0.25, 0.39, 0.48), "core_radius": (0.07, 0.11, 0.2),
     "link_thickness": (0.03, 0.045, 0.09), "pcl_inner_radius": (0.1, 0.16, 0.35),
-    "pcl_outer_radius": (0.18, 0.29, 0.44),
+    "pcl_outer_radius": (0.18, 0.29, 0.44), "wall_thickness": (0.017, 0.035, 0.06),
+    "floor_thickness": (0.025, 0.055, 0.09), "rotor_rim": (0.013, 0.02, 0.04), "rotor_thickness": (0.02, 0.04, 0.07),
 }  # fmt: skip
 """Least value, start and largest value of what scales with a module, over its diameter."""
 _WIRE = 0.0011 / (2.28 * 0.0894) ** 0.25
@@ -48,25 +50,9 @@ class JointTask:
 
     @classmethod
     def read(cls, torque: str, stiffness: str, diameter: str, time: str, supply: str) -> JointTask:
-        """Read quantities with their units.
+        """Read quantities with their units, as `tvim.size` takes them.
 
-        Parameters
-        ----------
-        torque : str
-            Torque that the frozen joint holds, such as ``8 N.m``.
-        stiffness : str
-            Stiffness of the soft joint: ``1.5 N.m/rad`` means 20 % to either side, ``1 to 1.5 N.m/rad`` a range.
-        diameter : str
-            Largest outer diameter, 20 to 200 mm.
-        time : str
-            Time within which the joint gets soft.
-        supply : str
-            Voltage and current, such as ``24 V, 3 A``.
-
-        Raises
-        ------
-        InputError
-            If one of them is no such quantity, or out of range.
+        Raises InputError if one of them is no such quantity, or out of range.
         """
         voltage, _, current = supply.partition(",")
         task = cls(
@@ -107,18 +93,23 @@ def _sizes() -> dict[str, Any]:
     return dict(plain_data(files("tvimdesign.study").joinpath("sizes.yaml").read_text(encoding="utf-8")))
 
 
+def diameters() -> dict[str, float]:
+    """Return the diameter [m] that each set of hardware suits."""
+    return {name: parse_quantity(entry["diameter"], "mm") for name, entry in _sizes()["sets"].items()}
+
+
 def hardware_by_fit(task: JointTask) -> list[str]:
     """Return the names of the sets of hardware, the one for the nearest diameter first."""
-    sizes = {name: parse_quantity(entry["diameter"], "mm") for name, entry in _sizes().items() if name != "common"}
+    sizes = diameters()
     return sorted(sizes, key=lambda name: abs(math.log(task.diameter / sizes[name])))
 
 
 def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
     """Return a commented study of a joint with one set of hardware."""
-    entry = _sizes()[hardware]
+    entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
     low, high = task.stiffness
     heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
-    module = _indented(f"{_sizes()['common']}{heater}")
+    module = _indented(f"{shared['common']}{heater}{shared[entry['springs']]}{entry['module']}")
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft after {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
 #   tvimdesign run FILE        optimises it again after a change
@@ -126,10 +117,10 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
 # yaml-language-server: $schema={SCHEMA_FILE}
 tvimdesign: 1
 name: {name}
-mode: shear
+mode: {SIZED_MODE}
 
 module:
-{module}{_indented(entry["module"])}
+{module}
 vary:                                  # ranges that follow the diameter
 {_vary(task)}
 require:
@@ -154,7 +145,7 @@ operating_points:
 
 tolerances:
   standard: true
-  preload_angle: {entry["preload"]}
+  preload_angle: {_sizes()["preload"][entry["springs"]]}
 
 robust: {{yield: 95 %}}
 
@@ -169,12 +160,15 @@ def _indented(lines: str) -> str:
 def _vary(task: JointTask) -> str:
     """Return the variables with ranges for a diameter and a stiffness."""
     wire = _WIRE * (math.sqrt(task.stiffness[0] * task.stiffness[1]) * task.diameter) ** 0.25
-    rows = {row.name: row for row in table_for("shear").inputs}
+    rows = {row.name: row for row in table_for(SIZED_MODE).inputs}
     thinnest = rows["wire_diameter"].lower
     thin, thick = (_mm(max(factor * wire, thinnest)) for factor in _WIRE_RANGE)
     lines = [f"wire_diameter: {{catalog: metric, from: {thin}, to: {thick}}}"]
     for name, factors in _SCALED.items():
-        least, start, most = (_mm(max(factor * task.diameter, rows[name].lower)) for factor in factors)
+        least, start, most = (
+            _mm(max(factor * task.diameter, beyond * rows[name].lower))
+            for factor, beyond in zip(factors, (1.0, 1.1, 1.2), strict=True)
+        )
         lines.append(f"{name}: {{from: {least}, to: {most}, start: {start}}}")
     weakest = max(0.02 * task.current, rows["current"].lower)
     lines += [
@@ -182,6 +176,7 @@ def _vary(task: JointTask) -> str:
         f"current: {{from: {weakest:.3g} A, to: {task.current:.4g} A, start: {0.4 * task.current:.3g} A}}",
         "preload_angle: {from: 0.12 rad, to: 0.6 rad, start: 0.32 rad}",
         "pin_radius_ratio: {from: 0.3, to: 0.8, start: 0.65}",
+        "link_dowel_ratio: {from: 0.5, to: 0.85, start: 0.7}",
     ]  # fmt: skip
     return _indented("\n".join(lines))
 

@@ -199,3 +199,10 @@ def test_margins_are_of_what_each_limit_spreads_and_fall_for_none() -> None:
     drawn = Drawn((A, B), _drawn(0.1, 0.1).residuals - np.array([[0.0], [1.0]]))
     assert set(_moves(drawn, 0.95, {}, {A.name})) == {A.name}
     assert _moves(drawn, 0.95, {B.name: 0.3}, {A.name})[B.name] == pytest.approx(-0.3)
+
+
+def test_an_active_limit_that_nothing_spreads_is_kept_and_needs_no_margin() -> None:
+    drawn = Drawn((A, B), _drawn(0.1, 0.0).residuals + np.array([[-0.3], [2e-8]]))  # what a solver leaves
+    assert drawn.shares[B.name] == 1.0
+    assert drawn.together.share == pytest.approx(NormalDist().cdf(3.0), abs=2e-3)
+    assert _moves(drawn, 0.95, {}, {B.name}) == {}

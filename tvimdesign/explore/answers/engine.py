@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from time import perf_counter
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -15,8 +14,10 @@ from tvimdesign.base.units import from_si
 from tvimdesign.explore.answers.quick_model import Evaluated, QuickModel
 from tvimdesign.explore.answers.shown import Shown, finite_data, shown_design
 from tvimdesign.explore.states.state import State, set_values, text_of, tree_of
-from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
+from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study, note_uncertainty
+from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.reasons import complaint
+from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.solve.nlp.constraints import impossible, refuse_contradictory, refuse_impossible
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
@@ -65,11 +66,10 @@ class Engine:
         """Answer a state. Raises InputError and InfeasibleError in the study's own words."""
         if stage == "report" and self._last_answer is not None:
             return self._last_answer
-        began = perf_counter()
         reply = self._quick(state) if stage == "quick" else self._exact(state, stage, progress)
         if reply.answered is not None:
             self._last_answer = reply
-        reply.shown.update(stage=stage, way=state.way, milliseconds=round(1e3 * (perf_counter() - began), 1))
+        reply.shown.update(stage=stage, way=state.way)
         return reply
 
     # --- while something is dragged ---
@@ -98,7 +98,7 @@ class Engine:
         evaluated = self._evaluated(study, known, optimum)
         shown = shown_design(study, free, known, evaluated.values, moved.binding, moved.ends)
         shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in optimum.items()}}
-        shown["curves"], shown["iterations"] = finite_data(evaluated.curves), moved.run.start.iterations
+        shown["curves"] = finite_data(evaluated.curves)
         return Answer({"status": "", **shown}, None, _module(study, evaluated.values, evaluated.words))
 
     def _problem_index(self, name: str) -> int:
@@ -169,6 +169,12 @@ class Engine:
         known = given(answered.study)
         shown = shown_design(answered.study, free, known, design.values)
         shown["status"] = "" if result.found else complaint(result, table)
+        if result.found and state.way == "optimize" and answered.study.robust:
+            progress("computing yield and intervals over the assumed values")
+            with suppress(TvimError):
+                note_uncertainty(answered, Uncertainty(answered.study).data(design))
+        says = verdict_of(answered)
+        shown["verdict"], shown["tone"] = says.text, says.tone
         shown["found"] = result.found
         with suppress(TvimError):
             at = {name: design.values[name] for name in free.vary if name in design.values}

@@ -77,29 +77,16 @@ def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
     )  # fmt: skip
     unit = table.unit(limit.output)
     got = value if abs(margin) > _ROUNDING else limit.limit
-    return {
-        "name": limit.name,
-        "label": label(limit.part_of or limit.output),
-        "of": limit.part_of or limit.output,
-        "sense": limit.sense,
-        "text": in_labels(check.text),
-        "got": f"{number(from_si(got, unit))} {pretty(unit)}".rstrip(),
-        "margin": margin_text(check, table),
-        "stands": stands,
-        "origin": limit.origin,
-    }
+    return {"name": limit.name, "label": label(limit.part_of or limit.output), "of": limit.part_of or limit.output,
+            "sense": limit.sense, "text": in_labels(check.text),
+            "got": f"{number(from_si(got, unit))} {pretty(unit)}".rstrip(),
+            "margin": margin_text(check, table), "stands": stands, "origin": limit.origin}  # fmt: skip
 
 
 def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
     """Ratings that the module is beyond."""
-    return [
-        {
-            "text": in_labels(in_words(limit, study.table)),
-            "label": label(limit.output),
-            "accepted": limit.output in study.accept,
-        }
-        for limit in exceeded(values, study.table)
-    ]
+    texts = [(in_labels(in_words(limit, study.table)), limit.output) for limit in exceeded(values, study.table)]
+    return [{"text": text, "label": label(name), "accepted": name in study.accept} for text, name in texts]
 
 
 def finite_data(data: Any) -> Any:

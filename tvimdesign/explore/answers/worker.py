@@ -28,7 +28,9 @@ from tvimdesign.explore.states.state import State
 from tvimdesign.page.page_file import page_fragment
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.run_page import run_page
+from tvimdesign.report.run.study_files import sized_text
 from tvimdesign.study.design import Design, design_json
+from tvimdesign.study.sizing import JointTask
 
 
 class _Quiet(io.TextIOBase):
@@ -67,9 +69,13 @@ def _done(engine: Engine, job: dict[str, Any], folder: Path, answers: TextIO) ->
     try:
         with interrupt_handler((signal.SIGINT,)):
             try:
+                if job["stage"] == "size":
+                    return {"study": sized_text(JointTask.read(**job["numbers"]), "Joint", progress)}
                 reply = engine.answer(State.model_validate(job["state"]), job["stage"], progress)
                 data = _reply_data(reply, folder)
             except TvimError as error:
+                if job["stage"] == "size":
+                    return {"refused": str(error)}
                 data = {"shown": {**refused(error), "stage": job["stage"], "way": job["state"]["way"]}}
             raise_pending()
     except KeyboardInterrupt:

@@ -104,6 +104,17 @@ class Confirm(_Message):
     kind: Literal["confirm"]
 
 
+class Size(_Message):
+    """Size a joint from five numbers, as `tvimdesign size` does."""
+
+    kind: Literal["size"]
+    torque: _Text
+    stiffness: _Text
+    diameter: _Text
+    time: _Text
+    supply: _Text
+
+
 class MakeParts(_Message):
     """Make the exact CAD of the design that is shown."""
 
@@ -112,7 +123,19 @@ class MakeParts(_Message):
 
 Change = SetValue | SetLimits | SetRange | SetWeight
 Message = Annotated[
-    SetValue | SetLimits | SetRange | SetWeight | SetWay | Step | Pin | OfPin | Point | Save | Confirm | MakeParts,
+    SetValue
+    | SetLimits
+    | SetRange
+    | SetWeight
+    | SetWay
+    | Step
+    | Pin
+    | OfPin
+    | Point
+    | Save
+    | Confirm
+    | Size
+    | MakeParts,
     Field(discriminator="kind"),
 ]
 _MESSAGES: TypeAdapter[Message] = TypeAdapter(Message)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -16,6 +17,7 @@ from pydantic import BaseModel, ConfigDict
 
 from tvimdesign.base.errors import InputError, UnitError
 from tvimdesign.base.units import from_si, parse_quantity, pretty
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Input
 from tvimdesign.explore.states.messages import Change, SetLimits, SetRange, SetValue, Way
 from tvimdesign.report.output.numbers import label
@@ -24,13 +26,14 @@ from tvimdesign.study.resolve import words_of
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.text.values import exactly
 from tvimdesign.study.text.yaml_text import Text
-from tvimdesign.study.tree import StudyTree, node_of, tree_yaml, with_value
+from tvimdesign.study.tree import StudyTree, node_of, tree_of_text, tree_yaml, with_value
 
 SOURCE = "explore"
 """What messages call the place a change was made in."""
 DIGITS = 12
 """Digits of a text to edit, in which an angle in degrees is the same angle again."""
 _OF_SEARCHES = ("robust", "profile")
+_OF_FILES = ("tvimdesign", "mode", "catalog")  # left as they are by a sized study
 
 
 class _Part(BaseModel):
@@ -136,6 +139,14 @@ def beginning(study: Study, chosen: Mapping[str, Any] | None = None) -> dict[str
     return {name: text_of(study, name, values[name]) for name in study.vary}
 
 
+def sized_state(base: StudyTree, text: str) -> State:
+    """Return the state that has the sections of a sized study in place of the base's own."""
+    written = tree_of_text(text, SOURCE, SOURCE, base.folder)
+    sections = {name: value for name, value in plain_data(text).items() if name not in _OF_FILES}
+    gone = {name: None for name in base.root.entries if name not in {*_OF_FILES, *sections}}
+    return State(way="optimize", changes={**gone, **sections}, at=beginning(read_tree(written)))
+
+
 def text_of(study: Study, name: str, value: Any) -> str:
     """Write a value for a study, with all its digits."""
     if isinstance(value, int | float):
@@ -202,37 +213,21 @@ def _number(value: float, unit: str) -> Shown:
 
 def _requirements(free: Study) -> list[Shown]:
     """Return a control for each limit; those of one output know their place in its list."""
-    seen: dict[str, int] = {}
+    places: Counter[str] = Counter()
     controls = []
     for limit in free.require:
-        unit = free.table.unit(limit.output)
-        place = seen[limit.output] = seen.get(limit.output, -1) + 1
-        controls.append(
-            {
-                "name": limit.output,
-                "label": label(limit.output),
-                "place": place,
-                "sense": limit.sense,
-                "value": from_si(limit.limit, unit),
-                "unit": pretty(unit),
-                "text": exactly(limit.limit, unit),
-                "means": _means(free, limit.output),
-            }
-        )
+        name, unit = limit.output, free.table.unit(limit.output)
+        controls.append({"name": name, "label": label(name), "place": places[name], "sense": limit.sense,
+                         "value": from_si(limit.limit, unit), "unit": pretty(unit), "text": exactly(limit.limit, unit),
+                         "means": _means(free, name)})  # fmt: skip
+        places[name] += 1
     return controls
 
 
 def _choice(row: Choice, fixed: Study, value: Any) -> Shown:
     options = list(dict.fromkeys([*words_of(row), *(fixed.catalog.names(row.category) if row.category else [])]))
-    return {
-        "name": row.name,
-        "label": label(row.name),
-        "means": row.description,
-        "group": row.group,
-        "text": str(getattr(value, "name", value)),
-        "options": options,
-        "said": row.name in fixed.module,
-    }
+    return {"name": row.name, "label": label(row.name), "means": row.description, "group": row.group,
+            "text": str(getattr(value, "name", value)), "options": options}  # fmt: skip
 
 
 def _inputs(free: Study, fixed: Study, values: Mapping[str, Any]) -> list[Shown]:

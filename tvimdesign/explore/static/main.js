@@ -39,6 +39,16 @@ const file = make("input", { type: "text", value: "study.yaml", "aria-label": "F
 const save = button("Save as study", () => send({ kind: "save", file: file.value }));
 const told = make("span", { role: "status", "aria-live": "polite", id: "told" });
 at("toolbar").append(...Object.values(ways), undo, redo, button("Start again", () => send({ kind: "reset" })), pin, confirm, parts, file, save, told);
+/** The options of `tvimdesign size`, each with a label and an example. */
+const SIZED = { torque: ["Torque held when frozen", "8 N.m"], stiffness: ["Stiffness when soft", "1.5 N.m/rad"],
+  diameter: ["Largest diameter", "70 mm"], time: ["Soft within", "60 s"], supply: ["Supply", "24 V, 3 A"] };
+const sized = make("form", {}, ...Object.entries(SIZED).map(([name, [label, value]]) =>
+  make("label", {}, label, make("input", { type: "text", name, value, size: 12, required: true }))), make("button", {}, "Size it"));
+sized.addEventListener("submit", (event) => {
+  event.preventDefault();
+  send({ kind: "size", ...Object.fromEntries(new FormData(sized)) });
+});
+at("size").append(sized);
 addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || /** @type {Element} */ (event.target).matches("input[type=text], input[type=search]")) return;
   if (event.key === "z") { event.preventDefault(); send({ kind: event.shiftKey ? "redo" : "undo" }); }
@@ -94,12 +104,12 @@ function listed(names) {
 
 function show(shown) {
   const broken = [...new Set((shown.limits ?? []).filter(({ stands }) => stands === "broken").map(({ label }) => label))];
-  const words = shown.status || (broken.length ? `Violated: ${listed(broken)}` : "All limits are met");
+  const words = shown.status || (broken.length ? `Violated: ${listed(broken)}` : shown.verdict || "All limits are met");
   const [first, ...reasons] = words.split("\n");
   if (status.textContent !== first) status.textContent = first;
   at("reasons").hidden = !reasons.length;
   at("reasons-text").textContent = reasons.join("\n");
-  status.className = `status ${shown.found === false || broken.length ? "bad" : shown.status ? "warn" : "good"}`;
+  status.className = `status ${shown.found === false || broken.length ? "bad" : shown.status ? "warn" : shown.tone || "good"}`;
   if (!shown.values) return;
   controls.answer(shown);
   limits(shown);

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.study import read_study_text
 from tvimdesign.study.design import read_design
-from tvimdesign.study.sizing import LARGEST, JointTask, hardware_by_fit, study_text
+from tvimdesign.study.sizing import LARGEST, JointTask, diameters, hardware_by_fit, study_text
 from tvimdesign.study.text.source import printable
 from tvimdesign.study.written_studies import (
     SCHEMA_FILE,
@@ -60,54 +61,89 @@ def print_schema() -> None:
 
 _CANDIDATES = 3
 """Sets of hardware that are tried, the best fit first."""
-_WIDER = (1.1, 1.25, 1.5, 2.0)
-"""Factors on the diameter that are tried if none fits."""
+_WIDER = 1.12
+"""Step between diameters that are tried if no hardware fits."""
 
 
 def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: bool, **run: Any) -> None:
     """Write the study of a joint and run it into a folder; `run` are options of `run_study`.
 
-    Raises InputError for a quantity that is none and a file that is there, InfeasibleError for a joint that no hardware
-    fits, and what `run_study` raises.
+    The study is written for editing, too, if no hardware fits. Raises InputError for a quantity that is none and a file
+    that is there, InfeasibleError for a joint that no hardware fits, and what `run_study` raises.
     """
+    from tvimdesign.report.output.terminal import progress_output
     from tvimdesign.report.run.run_study import run_study
 
     task = JointTask.read(**numbers)
     if file.exists() and not overwrite:
         raise InputError(f"{file}: exists already; name another file, or say --overwrite")
-    atomic_write(file, sized_text(task, file.stem).encode())
+    atomic_write(file, study_text(task, hardware_by_fit(task)[0], file.stem).encode())
+    with progress_output() as progress:
+        text = sized_text(task, file.stem, progress)
+    atomic_write(file, text.encode())
     run_study(file, out, overwrite=overwrite, **run)
 
 
-def sized_text(task: JointTask, name: str) -> str:
-    """Return the study of a joint, with the first hardware whose limits can hold together.
+def sized_text(task: JointTask, name: str, progress: Callable[[str], None] = lambda _: None) -> str:
+    """Return the study of a joint, with the first hardware whose limits can hold with margins for its tolerances.
 
-    Raises InfeasibleError, naming the limits that conflict and the next diameter without a conflict, if there is none.
+    Raises InfeasibleError, with the conflict and the nearest numbers that were tried and have none.
     """
-    refusals = []
+    progress("choosing the hardware")
     for hardware in hardware_by_fit(task)[:_CANDIDATES]:
-        text = study_text(task, hardware, name)
-        refusal = _refusal(text, name)
-        if not refusal:
-            return text
-        refusals.append(refusal)
-    diameters = [factor * task.diameter for factor in _WIDER if factor * task.diameter <= LARGEST]
-    wider = (diameter for diameter in diameters if _fits(replace(task, diameter=diameter)))
-    enough = next(wider, None)
-    ways = f"\nThe limits can hold at a diameter of {format_quantity(enough, 'mm', 3)}." if enough else ""
-    raise InfeasibleError(f"{refusals[0]}{ways}")
+        if _least_diameter(task, hardware) <= task.diameter:
+            return study_text(task, hardware, name)
+    progress("looking for the nearest numbers that fit")
+    raise InfeasibleError(_refusal(task, name))
 
 
-def _fits(task: JointTask) -> bool:
-    return not _refusal(study_text(task, hardware_by_fit(task)[0]), "joint")
+def _least_diameter(task: JointTask, hardware: str) -> float:
+    """Return the least diameter with margins, for ranges that suit the one asked for; infinite if there is none."""
+    from tvimdesign.solve.uncertainty.robust import least_with_margins  # it loads the compiler
+
+    least = least_with_margins(read_study_text(study_text(task, hardware)), "envelope_diameter")
+    return math.inf if least is None else least
 
 
-def _refusal(text: str, name: str) -> str:
-    """Return why a study cannot be answered; empty if no conflict is seen before the search."""
+def _refusal(task: JointTask, name: str) -> str:
+    """Return the conflict, and the smallest diameter and the largest torque that the limits allow with margins."""
     from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 
+    size, hold = format_quantity(task.diameter, "mm", 3), format_quantity(task.torque, "N*m", 3)
     try:
-        refuse_what_cannot_be(read_study_text(text, name))
+        refuse_what_cannot_be(read_study_text(study_text(task, hardware_by_fit(task)[0]), name))
+        lines = [f"{name}: a joint of {size} cannot hold {hold} with margins for the tolerances."]
     except (InputError, InfeasibleError) as error:
-        return str(error)
-    return ""
+        lines = [str(error)]
+    enough, most = _smallest(task), _most_torque(task)
+    ways = [f"a diameter of {format_quantity(enough, 'mm', 4)}"] if enough else []
+    ways += [f"{size} and {format_quantity(most, 'N*m', 3)}"] if most else []
+    lines += [f"With margins the limits can hold for {', or for '.join(ways)}: size it with these numbers."] * bool(
+        ways
+    )
+    return "\n".join(lines)
+
+
+def _smallest(task: JointTask) -> float | None:
+    """Return the smallest diameter [m], in whole millimetres, that some hardware bears; None if none is known to."""
+    diameter = max(task.diameter, min(diameters().values()))
+    while diameter <= LARGEST:
+        wider = replace(task, diameter=diameter)
+        for hardware in hardware_by_fit(wider)[:2]:
+            least = max(_least_diameter(wider, hardware), task.diameter)
+            if least <= diameter:
+                smaller = replace(task, diameter=1e-3 * math.ceil(least / 1e-3 + 0.2))
+                fits = smaller.diameter < diameter and _least_diameter(smaller, hardware) <= smaller.diameter
+                return smaller.diameter if fits else 1e-3 * math.ceil(diameter / 1e-3)
+        diameter *= _WIDER
+    return None
+
+
+def _most_torque(task: JointTask) -> float | None:
+    """Return the largest torque [N m], rounded down, that some hardware of this diameter holds; None if none does."""
+    from tvimdesign.solve.uncertainty.robust import least_with_margins
+
+    studies = (read_study_text(study_text(task, hardware)) for hardware in hardware_by_fit(task)[:2])
+    most = max(least_with_margins(study, "holding_torque", -1.0) or 0.0 for study in studies)
+    digits = 10.0 ** (math.floor(math.log10(most)) - 1) if most > 0.0 else 1.0
+    return math.floor(most / digits) * digits if 0.0 < most < task.torque else None

@@ -14,6 +14,7 @@ from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
 from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.table.quantity import Feature, Rule
 from tvimdesign.study import Range, Study, brought_along_by, given
+from tvimdesign.study.resolve import missing_geometry
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on what needs no simulation may be broken: IPOPT's tolerance with a margin."""
@@ -63,7 +64,7 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any]) -> lis
     required = [
         replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(study, r.output))
         for r in study.require
-        for output in _behind(study, r.output, r.sense, options)
+        for output in _rows_of(study, r.output, r.sense, options)
         if output != table.output(r.output).at_end or (output, r.sense) not in stated
     ]
     own = list(dict.fromkeys(required))
@@ -75,7 +76,7 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any]) -> lis
     return own
 
 
-def _behind(study: Study, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
+def _rows_of(study: Study, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the rows of a limit: the named one, those limited with it, or those whose least it is."""
     table, row = study.table, study.table.output(name)
     parts = tuple(part for part in row.least_of if table.output(part).exists(options))
@@ -116,55 +117,48 @@ def unchangeable(limit: Constraint, table: Table, value: float, study: Study) ->
 
 def refuse_impossible(study: Study) -> None:
     """Raise InputError, naming what is wrong, where a study's start is no geometry and nothing can be said of it."""
-    table = study.table
-    rows = [row.name for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]
-    start = given(study)
-    reasons = impossible(_geometry(start, rows, table), table)
-    if reasons:
-        cures = _cures(study, start, rows)
+    table, start = study.table, given(study)
+    bad = [row.name for row in missing_geometry(start, table)]
+    if bad:
+        with np.errstate(invalid="ignore", divide="ignore"):
+            reasons = impossible({**dict.fromkeys(table.by_name, math.inf), **table.evaluate(start, bad)}, table)
+        behind = _behind(study, bad)
+        cures = _cures(study, start, behind)
         ways = f"One of these is enough: {', '.join(cures)}." if cures else "No single input cures it: change several."
         listed = "".join(f"\n  {reason}" for reason in reasons)
-        raise InputError(f"there is no such module:{listed}\n{_clashing(study, start, rows)}{ways}")
+        raise InputError(f"there is no such module:{listed}\n{_clashing(study, start, behind)}{ways}")
     refuse_contradictory(study, start)
 
 
-def _geometry(start: Mapping[str, Any], rows: Sequence[str], table: Table) -> dict[str, Any]:
-    """Return the outputs that say whether a module exists; not a number for what follows from no geometry."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return table.evaluate(start, rows)
-
-
-def _behind_geometry(study: Study, start: Mapping[str, Any], rows: Sequence[str]) -> list[Input]:
-    """Return the lengths, angles and counts behind violated geometry, those that the study sets first."""
-    table = study.table
-    values = _geometry(start, rows, table)
-    bad = [name for name in rows if impossible({**dict.fromkeys(rows, math.inf), name: values[name]}, table)]
-    names = set().union(*(table.ancestors(name) for name in bad))
-    inputs = [row for row in table.inputs if row.name in names and row.variable and not row.per_point]
+def _behind(study: Study, outputs: Sequence[str]) -> list[Input]:
+    """Return the lengths, angles and counts behind some outputs, those that the study sets first."""
+    names = set().union(*(study.table.ancestors(name) for name in outputs))
+    inputs = [row for row in study.table.inputs if row.name in names and row.variable and not row.per_point]
     return sorted(inputs, key=lambda row: not (row.name in study.module or row.name in study.vary))
 
 
-def _clashing(study: Study, start: Mapping[str, Any], rows: Sequence[str]) -> str:
+def _clashing(study: Study, start: Mapping[str, Any], behind: Sequence[Input]) -> str:
     """Return the values that clash, defaults included."""
     shown = [
         f"{row.name} {format_quantity(start[row.name], row.unit)}"
         + ("" if row.name in study.module or row.name in study.vary else " (default)")
-        for row in _behind_geometry(study, start, rows)[:_CLASHING]
+        for row in behind[:_CLASHING]
     ]
     return f"It follows from {', '.join(shown)}.\n" if shown else ""
 
 
-def _cures(study: Study, start: Mapping[str, Any], rows: Sequence[str]) -> list[str]:
+def _cures(study: Study, start: Mapping[str, Any], behind: Sequence[Input]) -> list[str]:
     """Return changes of one input each after which the module exists; each was tried."""
     cures = []
-    for row in _behind_geometry(study, start, rows):
+    for row in behind:
         value = float(start[row.name])
         allowed = study.vary.get(row.name)
         low, high = (allowed.lower, allowed.upper) if isinstance(allowed, Range) else (row.lower, row.upper)
-        tries = [factor * value for factor in _FACTORS if low <= factor * value <= high]
-        for tried in sorted(tries, key=lambda number: abs(number - value)):
-            if not impossible(_geometry({**start, row.name: tried}, rows, study.table), study.table):
-                cures.append(f"{row.name} {format_quantity(tried, row.unit, 3)}")
+        tries = [factor * value for factor in _FACTORS if row.lower <= factor * value <= row.upper]
+        for tried in sorted(tries, key=lambda number: (not low <= number <= high, abs(number - value))):
+            if not missing_geometry({**start, row.name: tried}, study.table):
+                beyond = "" if low <= tried <= high else " (beyond its range)"
+                cures.append(f"{row.name} {format_quantity(tried, row.unit, 3)}{beyond}")
                 break
     return cures[:_CLASHING]
 
@@ -231,7 +225,8 @@ def impossible(values: Mapping[str, float], table: Table) -> list[str]:
     for row in table.outputs:
         for rule in row.rules:
             if rule.exists_above is not None and not values[row.name] > rule.exists_above:
-                value, least = (format_quantity(number, row.unit) for number in (values[row.name], rule.exists_above))
+                shown = (round(float(values[row.name]), 12) + 0.0, rule.exists_above)  # without what is rounding
+                value, least = (format_quantity(number, row.unit) for number in shown)
                 above = sorted(table.ancestors(row.name))
                 inputs = [name for name in above if isinstance(table.quantity(name), Input)][:_INPUTS_NAMED]
                 reasons.append(

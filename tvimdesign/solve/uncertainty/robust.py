@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from tvimdesign.base.errors import TimeOverError
+from tvimdesign.base.errors import InfeasibleError, TimeOverError
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, on_cycle
@@ -18,12 +18,16 @@ from tvimdesign.solve.nlp.solver_run import MARGINS, Ends, Run
 from tvimdesign.solve.nlp.spread import moments_at
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
-from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of
+from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
 from tvimdesign.solve.uncertainty.yield_search import Robust, reach_yield
+from tvimdesign.study import ProfileOptions, Study
+from tvimdesign.study.study import Robust as RobustOptions
 
 ROUNDS = 6
 _SETTLED = 1e-3
 """Change of a margin, as a share of its limit's scale, below which it is settled."""
+_STARTS, _SIGMA = 3, 2.5
+"""Of a search for a least value, and the standard deviations that a dozen active limits need for a yield of 95 %."""
 MOST_TRIED = 3
 """Designs that are tried, the best first, until one of them comes to the yield that is asked for."""
 
@@ -131,7 +135,7 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
     assert sigma is not None
     timed: list[Constraint] = []
     algebraic: list[Constraint] = []
-    for limit in optimizer.problem.limits:
+    for limit in (each for each in optimizer.problem.limits if judges_modules(each, optimizer.study.tolerances)):
         (timed if on_cycle(optimizer.table, limit.output) else algebraic).append(limit)
     margins = {}
     if algebraic:
@@ -158,3 +162,30 @@ def _deviations(optimizer: Optimizer, run: Run, wanted: list[str]) -> dict[str, 
     exact = output_sensitivities(resolved, wanted, names)
     known = [contributors[names.index(name)] for name in exact.variables]
     return dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0].tolist(), strict=True))
+
+
+def least_with_margins(study: Study, output: str, weight: float = 1.0) -> float | None:
+    """Return the least value of an output that the arithmetic limits allow with margins for the study's tolerances.
+
+    With a negative weight it is the largest. Limits on the output itself are left out; None if no start gets there.
+    """
+    normal = {"distribution": "normal", "sigma": _SIGMA}  # a uniform one ends at its plus-minus value
+    tolerances = {
+        name: tolerance if tolerance.distribution == "normal" else tolerance.model_copy(update=normal)
+        for name, tolerance in study.tolerances.items()
+    }
+    update = {
+        "tolerances": tolerances, "minimize": {output: weight}, "robust": RobustOptions(sigma=_SIGMA),
+        "require": tuple(limit for limit in study.require if limit.output != output),
+        "profile": ProfileOptions(), "solver": study.solver.model_copy(update={"starts": _STARTS}),
+    }  # fmt: skip
+    try:
+        optimizer = Optimizer(study.model_copy(update=update), without_cycle=True)
+    except InfeasibleError:
+        return None
+    for begin in optimizer.multistart.points():
+        run = optimizer.solve(begin=begin)
+        run = settle(optimizer, run, {}) if run.start.converged else run
+        if run.start.converged:
+            return run.start.objective * optimizer.reference[output] / weight
+    return None

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError, TimeOverError
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import MARGINS, Array, Ends, Run
@@ -175,7 +176,8 @@ def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: C
     moved = np.maximum(before + shifts, 0.0) - before
     middle, beyond = (ordered[:, int(share_of * (ordered.shape[1] - 1))] for share_of in (_MEDIAN, _DEVIATION))
     settled = _SETTLED if drawn.together.low >= share else _SHORT
-    unsettled = np.abs(moved) > settled * np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
+    deviations = np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
+    unsettled = np.abs(moved) > settled * deviations + ALGEBRAIC_TOLERANCE
     holding = np.array([limit.name in pressing for limit in drawn.limits], dtype=bool)
     if not np.any(unsettled & (holding | (moved > 0.0))):
         return {}

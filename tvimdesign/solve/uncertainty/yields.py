@@ -19,7 +19,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words, on_cycle
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, in_words, on_cycle
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -34,7 +34,10 @@ MODULES = 1 << 12
 
 @dataclass(frozen=True)
 class Drawn:
-    """The limits of one design in many modules: residuals, a row a limit, a column a module; kept where <= 0."""
+    """The limits of one design in many modules: residuals, a row a limit, a column a module.
+
+    A limit is kept where its residual is at most the solver's tolerance: an active one that nothing spreads has that.
+    """
 
     limits: tuple[Constraint, ...]
     residuals: Array
@@ -46,7 +49,8 @@ class Drawn:
     @property
     def shares(self) -> dict[str, float]:
         """Share of the modules that satisfies each limit, by its name."""
-        return {limit.name: float(np.mean(row <= 0.0)) for limit, row in zip(self.limits, self.residuals, strict=True)}
+        satisfied = self.residuals <= ALGEBRAIC_TOLERANCE
+        return {limit.name: float(np.mean(row)) for limit, row in zip(self.limits, satisfied, strict=True)}
 
     @property
     def together(self) -> spread.Yield:
@@ -55,7 +59,7 @@ class Drawn:
 
     def within(self, shifts: Array) -> spread.Yield:
         """Return the yield if each limit's residuals fell by a shift."""
-        return spread.share_kept(np.all(self.residuals <= shifts[:, None], axis=0))
+        return spread.share_kept(np.all(self.residuals <= shifts[:, None] + ALGEBRAIC_TOLERANCE, axis=0))
 
     def carriers(self, limit: str) -> dict[str, float]:
         """Inputs by their share of the variance of a limit's residual (squared rank correlation), the largest first."""
