@@ -137,12 +137,11 @@ def _tightened(
             best = taken, tried, optimizer.margins
         if taken > 1.0 - _NO_ROOM or optimizer.deadline.passed:
             break
-        if not attempt:  # the share may stop at a kink near none, where the whole step has an optimum of its own
+    else:
+        if shakes:  # the share may stop at a kink near none, where the whole step has an optimum of its own
             optimizer.margins = {name: margins.get(name, 0.0) + moves.get(name, 0.0) for name in {**margins, **moves}}
             tried = optimizer.solve(within, begin=run.inputs, objective=objective, beginning="near")
-            if tried.start.converged:
-                best = 1.0, tried, optimizer.margins
-                break
+            best = (1.0, tried, optimizer.margins) if tried.start.converged else best
     optimizer.margins = best[2] if best else margins
     return best and best[1]
 
