@@ -121,14 +121,15 @@ def least(first: float, second: float) -> float:
 
 
 @njit(cache=True)
-def stops(r: float, rotor: float, reach: float) -> tuple[float, float, float]:
-    """Inner radius of the stops' posts, and width and length of their faces: what feet and springs leave."""
+def stops(r: float, rotor: float, reach: float) -> tuple[float, float, float, float]:
+    """Inner radius of the stops' posts, width and length of their faces, and what feet leave of the width, or lack."""
     inner = rotor + max(RUNNING, CORNER)
-    width = max(least(STOP_DEPTH, r - BOSS - inner), SLIVER)
+    left = least(STOP_DEPTH, r - BOSS - inner)
+    width = max(left, SLIVER)
     outer, middle = inner + width, inner + 0.5 * width
     cosine = (r**2 + outer**2 - (reach + RADIAL) ** 2) / (2.0 * r * outer)
     room = PI / SPRINGS - math.acos(min(cosine, 1.0 - 1e-6)) - STOP - 0.5 * TOOTH / middle
-    return inner, width, max(least(STOP_LENGTH, room * middle), SLIVER)
+    return inner, width, max(least(STOP_LENGTH, room * middle), SLIVER), left
 
 
 @njit(cache=True)
@@ -175,7 +176,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     bore = CORE + RUNNING
     hub = bore + HUB_WALL
     web = FLOOR - PAD
-    stop_inner, stop_width, stop_long = stops(r, rotor, reach)
+    stop_inner, stop_width, stop_long, stop_left = stops(r, rotor, reach)
     stop_outer, stop_middle = stop_inner + stop_width, stop_inner + 0.5 * stop_width
     volume = PI * outside**2 * (FOOT + FLOOR + link_bottom + LINK + LINK_HEAD_HEIGHT)
     # springs: coil, leg and bend under the pin's force, wound up by the preload
@@ -356,8 +357,9 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     pulled = ACROSS_LAYERS / math.sqrt(bent**2 + 3.0 * sheared**2 + 1e6)
     pressed = YIELD_COLD / math.sqrt((bent + FOOT_CLAMP) ** 2 + 3.0 * sheared**2 + 1e6)
     g[19] = 1.0 - min(pulled, pressed) / HOLDING_SAFETY
-    g[20] = 1.0 - YIELD_COLD * stop_width * ROTOR / push
-    g[21] = 1.0 - ACROSS_LAYERS / (push * stub(plate_top - 0.5 * ROTOR, stop_long, stop_width))
+    # where stops have no room, limits on their width go on with it as straight lines: SLSQP is lost without a slope
+    g[20] = 1.0 - YIELD_COLD * stop_left * ROTOR / push
+    g[21] = 1.0 - ACROSS_LAYERS / (push * stub(plate_top - 0.5 * ROTOR, stop_long, stop_width)) * stop_left / stop_width
     g[22] = 1.0 - YIELD_COLD / (push * stub(stop_middle - rotor, TOOTH, ROTOR))
     g[23] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
     g[24] = -(r - reach - rotor - RADIAL) / 0.01
@@ -383,7 +385,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[44] = -(middle - CUTOUT_RADIUS - RETAINER_RADIUS) / 0.01
     g[45] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
     g[46] = -((STOP - STROKE) * stop_middle - SLIP) / 0.01
-    g[47] = -(stop_width - WALL_LEAST) / 0.01
+    g[47] = -(stop_left - WALL_LEAST) / 0.01
     g[48] = -(min(stop_long, TOOTH) - WALL_LEAST) / 0.01
     g[49] = -(t + FLOOR - WALL_LEAST) / 0.01
     g[50] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01

@@ -9,6 +9,7 @@ from front import ManyDesigns
 from optimum import exact
 from reference_problem import Reference, study
 
+from tvimdesign.device.components.hard_stops import SLIVER
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
@@ -19,6 +20,8 @@ CONSTANT = (
 )  # fmt: skip
 """Limits that are one for all designs of this problem, or that none can break: on impedance, keys that it has none of,
 the hub's recess, and the free angle of springs, which are all sorted to 1 degree."""
+BY_STOP_WIDTH = ("stop_face_safety", "stop_post_safety", "stop_width_margin")
+"""Limits that by hand go on where stops have no room: the table keeps them at a sliver, where SLSQP is lost."""
 
 
 @pytest.fixture(scope="module")
@@ -63,14 +66,18 @@ def others(reference: Reference) -> list[np.ndarray]:
 @pytest.mark.gate
 def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> None:
     kept = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in (*CONSTANT, *SEAT)]
-    sizes = reference.model.outputs(["envelope_volume", "module_mass"])
-    for design in others(reference):
+    by_width = np.array([reference.limits[i - 1].output in BY_STOP_WIDTH for i in kept])
+    sizes = reference.model.outputs(["envelope_volume", "module_mass", "stop_width"])
+    for design in [reference.begin, *reference.random_starts(3)]:
         rows = np.zeros(hand_module.OUTPUTS + hand_module.RESIDUALS)
         hand_module.measure(design, rows, np.zeros(hand_module.HEAT))
         expected = np.asarray(sizes(reference.inputs(design), np.ones(len(reference.model.switch_names)))).ravel()
-        assert rows[:2] == pytest.approx(expected, rel=1e-12)
-        residuals = reference.rows(design, 100.0)[kept]
-        assert rows[hand_module.OUTPUTS :] == pytest.approx(residuals, rel=1e-9, abs=1e-12)
+        assert rows[:2] == pytest.approx(expected[:2], rel=1e-12)
+        residuals, found = reference.rows(design, 100.0)[kept], rows[hand_module.OUTPUTS :]
+        no_room = by_width & (expected[2] <= SLIVER)
+        assert found[~no_room] == pytest.approx(residuals[~no_room], rel=1e-9, abs=1e-12)
+        assert np.all(residuals[no_room] > 0.0)
+        assert np.all(found[no_room] > residuals[no_room])
     assert pytest.approx(reference.begin, rel=1e-12) == by_hand.PUBLISHED
     assert by_hand.ByHand().objective(np.log(reference.begin)) == pytest.approx(3.0)
 
