@@ -73,7 +73,9 @@ def test_every_chosen_value_lies_in_its_plausible_range() -> None:
 @pytest.mark.parametrize("mode", MODES)
 def test_the_machine_s_rules_hold_at_both_ends_of_every_dimension(mode: str) -> None:
     model = paper_case._model(mode)
-    limits = [limit for limit in constraints_of(shipped(mode), model.table) if limit.origin != "require"]
+    limits = [
+        limit for limit in constraints_of(shipped(mode), model.table, shipped(mode).module) if limit.origin != "require"
+    ]
     lengths = [
         name for name, said in paper_case.case()["ranges"].items() if said["unit"] == "mm" and name in model.index
     ]
