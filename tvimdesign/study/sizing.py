@@ -110,7 +110,7 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
     low, high = task.stiffness
     heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
     module = _indented(f"{shared['common']}{heater}{shared[entry['springs']]}{entry['module']}")
-    title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft after {task.time:.4g} s"
+    title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
 #   tvimdesign run FILE        optimises it again after a change
 #   tvimdesign explore FILE    shows it in a browser, with sliders

@@ -35,6 +35,11 @@ def test_lost_motion_is_what_its_sources_come_to(mode: str) -> None:
     assert loose["lost_motion"] - fitted["lost_motion"] == pytest.approx(
         loose["link_play"] - fitted["link_play"], rel=1e-9
     )
+    rows = (
+        "friction_share pin_friction_torque bearing_friction_torque preload_friction_torque spring_torque_full_stroke"
+    )
+    share, *friction, springs = values_of(rows, mode).values()
+    assert share == pytest.approx(sum(friction) / springs, rel=1e-12)
 
 
 def test_cores_lean_in_bores_until_they_are_stopped() -> None:
