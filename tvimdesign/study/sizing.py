@@ -54,7 +54,9 @@ class JointTask:
 
         Raises InputError if one of them is no such quantity, or out of range.
         """
-        voltage, _, current = supply.partition(",")
+        voltage, comma, current = supply.partition(",")
+        if not comma:
+            raise InputError(f"supply: '{supply}' has no current; write for instance '{_EXAMPLES['supply']}'")
         task = cls(
             _positive("torque", torque, "N*m"), _stiffness(stiffness), _positive("diameter", diameter, "mm"),
             _positive("time", time, "s"), _positive("supply", voltage.strip(), "V"),
@@ -109,7 +111,8 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
     entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
     low, high = task.stiffness
     heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
-    module = _indented(f"{shared['common']}{heater}{shared[entry['springs']]}{entry['module']}")
+    stroke = "stroke: 0.104 rad                  # to either side of rest\n"
+    module = _indented(f"{stroke}{shared['common']}{heater}{shared[entry['springs']]}{entry['module']}")
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
 #   tvimdesign run FILE        optimises it again after a change
