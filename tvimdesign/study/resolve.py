@@ -61,9 +61,12 @@ def _geometry_rows(table: Table) -> list[Output]:
 def with_fitting_defaults(study: Study) -> Study:
     """Return the study with lengths that it leaves open in proportion to those it gives, if no module has the defaults.
 
-    Such lengths are defaults, and starts of ranges. The proportion nearest to one that gives a module is taken; if none
-    does, the study stays as it is.
+    Such lengths are starts of ranges, and defaults if moving the starts is not enough. The proportion nearest to one
+    that gives a module is taken; if none does, the study stays as it is. So does one that varies nothing: it asks for
+    the module with the defaults.
     """
+    if not study.vary:
+        return study
     try:
         start = given(study)
     except InputError:  # whoever needs the value says so
@@ -77,13 +80,14 @@ def with_fitting_defaults(study: Study) -> Study:
     }  # fmt: skip
     ends = {name: _ends(row, study) for name, row in rows.items()}
     shares = {end / (rows[name].default or 1.0) for name, span in ends.items() if span for end in span}
-    for share in sorted(shares, key=lambda share: abs(math.log(share))):
+    nearest = sorted(shares, key=lambda share: abs(math.log(share)))
+    for share, with_defaults in [(share, both) for both in (False, True) for share in nearest]:
         module, vary = dict(study.module), dict(study.vary)
         for name, row in rows.items():
             allowed, length = study.vary.get(name), share * (row.default or 0.0)
             if isinstance(allowed, Range) and allowed.start is None:
                 vary[name] = allowed.model_copy(update={"start": float(_nearest(allowed, length))})
-            elif not ends[name] and name in start and start[name] == row.default:
+            elif with_defaults and not ends[name] and name in start and start[name] == row.default:
                 module[name] = min(max(length, row.lower), row.upper)
         fitting = study.model_copy(update={"module": module, "vary": vary})
         if not missing_geometry(given(fitting), study.table):
