@@ -29,7 +29,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 STEP_SHARE = 0.02
 """The time step times the joint's quickest angular frequency: first-order steps keep a release within 0.6 % then."""
 ONE_SIDED_SHARE = 0.005
-"""The same of blocks that only push, whose frozen releases swing on for long: within 0.5 %."""
+"""Error of blocks that only push, whose frozen releases swing on for long: within 0.5 %."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class JointState:
     inertia: float
     """Of all that moves, the load on the bench counted [kg*m^2]."""
     one_sided: bool
-    """Whether the PCL only pushes: blocks against either sense, with `modes` each."""
+    """True if the PCL only pushes: blocks against either sense, with `modes` each."""
     hold: float
     """How long the link is held before a release [s]."""
     modes: Modes

@@ -13,7 +13,7 @@ from tvimdesign.page.page_file import FILE, page_html
 from tvimdesign.report.output.numbers import number
 
 NEVER = 1e300
-"""What `never` is sorted by."""
+"""Number that `never` is sorted by."""
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
 _TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
     ("bad", re.compile(r"\bviolated\b|\bbroken\b|\bfailure\b|\bworse\b")),

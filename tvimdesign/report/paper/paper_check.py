@@ -146,7 +146,7 @@ COMPUTED: dict[str, Callable[[], str]] = {
     "release": _release,
     "housing": _housing,
 }
-"""What each row of the paper check says, by the row's name."""
+"""Sentence for each row of the paper check, by the row's name."""
 
 
 @dataclass(frozen=True)

@@ -174,4 +174,4 @@ COMPUTED: dict[str, Callable[[], str]] = {
     "adapted_moduli": _adapted_moduli,
     "sweep_time": _sweep_time,
 }
-"""What each row of the paper check says, by the row's name."""
+"""Sentence for each row of the paper check, by the row's name."""

@@ -182,4 +182,4 @@ COMPUTED: dict[str, Callable[[], str]] = {
     "inertia": _inertia,
     "motion": _motion,
 }
-"""What each row of the paper check says, by the row's name."""
+"""Sentence for each row of the paper check, by the row's name."""

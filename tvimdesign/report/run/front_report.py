@@ -1,4 +1,4 @@
-"""A study's front: sought point by point, kept as it goes, and told as tables, words, a figure and a design a point.
+"""A study's front: sought and saved point by point, and reported as tables, words, a figure and a design a point.
 
 Keeps the points of a front in the results folder while it is sought, so that a run that was killed goes on there.
 """

@@ -228,7 +228,7 @@ class Drifts(NamedTuple):
     """Sensors that drift evenly over a test, channel after channel."""
 
     moves: Array
-    """What a drift of one of each changes in the solver's numbers; a row for each sensor."""
+    """Changes of the solver's numbers by a drift of one of each; a row for each sensor."""
     unseen: Array
     """Square of the drifts that may go unseen: a quadratic form, as a covariance is."""
     sizes: Array

@@ -86,7 +86,7 @@ class Channel:
     noise_of: str = ""
     """Channels of one word here err alike; a channel without one has a noise of its own."""
     zero_drifts: bool = False
-    """Whether the sensor's zero drifts, though its noise is a share of the value."""
+    """True if the sensor's zero drifts, though its noise is a share of the value."""
 
     sensors: int = 1
     """Sensors whose values stand one after the other, as many of each."""
