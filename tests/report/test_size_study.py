@@ -12,7 +12,7 @@ from support import Command
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.report.run.study_files import sized_text
 from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
-from tvimdesign.study import Study, read_study_text
+from tvimdesign.study import Range, Study, read_study_text
 from tvimdesign.study.sizing import JointTask
 
 WRIST = {"torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A"}
@@ -35,7 +35,9 @@ def test_a_joint_of_each_size_has_hardware_that_fits(diameter: float, torque: fl
     study = sized(diameter=f"{diameter} mm", torque=f"{torque} N.m", stiffness=f"{stiffness} N.m/rad")
     refuse_what_cannot_be(study)
     vary = study.vary["placement_radius"]
-    assert vary.lower < vary.start < 0.5 * diameter / 1000.0  # type: ignore[operator, union-attr]
+    assert isinstance(vary, Range)
+    assert vary.start is not None
+    assert vary.lower < vary.start < 0.5 * diameter / 1000.0
     limits = {(limit.output, limit.sense): limit.limit for limit in study.require}
     assert limits["holding_torque", ">="] == torque
     assert limits["joint_stiffness@hot", "<="] == pytest.approx(1.2 * stiffness)
