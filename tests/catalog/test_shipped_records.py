@@ -247,6 +247,15 @@ def test_what_is_assumed_is_reported_with_its_range() -> None:
     of_every(EVERY_RECORD, check)
 
 
+@pytest.mark.parametrize(
+    ("category", "name"),
+    [("polymers", "pcl_80k"), ("adhesives", "scotch_weld_dp760"), ("heat_paths", "handbook")],
+)
+def test_each_assumed_value_names_its_least_test(category: str, name: str) -> None:
+    ranges = {key: entry for key, entry in CATALOG.record(category, name).entries.items() if entry.status == "assumed"}
+    assert {key for key, entry in ranges.items() if "; test: " not in entry.source} == set()
+
+
 def test_a_data_sheet_is_that_of_the_type() -> None:
     """A sheet's source names the type or grade that the record's title names: a figure printed for another is none."""
     in_doubt = {"flexural_modulus", "reference_temperature"}  # of the polymers: one figure for two grades
