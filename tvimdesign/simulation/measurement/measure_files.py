@@ -128,19 +128,19 @@ def _refuse_beyond(name: str, value: float, setting: Mapping[str, Any]) -> None:
 def _changes(block: Block, name: str, *, settled: bool = False) -> bool:
     """Return whether a column changes: a temperature by some kelvin, all else by more than a third from its middle.
 
-    With `settled` the second half of the rows counts, for at first it may rise. Values near zero are none of its own:
-    what is taken off, as the stress of a recovery. A tenth of the rows may stray, and what is on in fewer than three is
-    not constant.
+    Values near zero are none of its own: what is taken off, as the stress of a recovery. With `settled` the second half
+    of the others counts, for at first it may rise. A tenth of them may stray, and what is on in fewer than three rows
+    is not constant.
     """
     import numpy as np
 
     values = np.abs(block.values(name)[np.isfinite(block.values(name))])
     if name == "temperature":
         return bool(np.quantile(values, 0.95) - np.quantile(values, 0.05) > _KELVIN)
-    counted = values[len(values) // 2 :] if settled else values
-    on = counted[counted > _TAKEN_OFF * np.max(values)] if len(values) else values
+    on = values[values > _TAKEN_OFF * np.max(values)] if len(values) else values
     if len(on) < _ON:
         return len(on) > 0
+    on = on[len(on) // 2 :] if settled else on
     middle = float(np.median(on))
     return bool(np.mean(np.abs(on / middle - 1.0) > _THIRD) > _STRAY)
 

@@ -56,6 +56,16 @@ def test_creep_and_recovery_of_another_integrator(tmp_path: Path) -> None:
     assert result.measurement.record_conditions["melt_reference_temperature"][0] == pytest.approx(90.0 + CELSIUS)
 
 
+def test_a_creep_with_hardly_more_rows_than_its_recovery_is_a_creep(tmp_path: Path) -> None:
+    time = np.concatenate([np.geomspace(1e-3, 7.9, 32), 8.0 + np.geomspace(1e-3, 8.0, 30)])
+    noise = np.random.default_rng(1).normal(0.0, 3e-3, 62)
+    path = csv(tmp_path / "c.csv", time__s=time, strain__1=crept(time, 40.0, 8.0) * np.exp(noise),
+               stress__Pa=np.where(time < 8.0, 40.0, 0.0), temperature__degC=np.full(62, 90.0))  # fmt: skip
+    done = found(path, "melt")
+    assert done.notes[0].endswith(" as creep.")
+    assert done.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)
+
+
 @pytest.mark.parametrize("rise", [0.0, 0.02])
 def test_relaxation_after_a_step_and_after_a_ramp(tmp_path: Path, rise: float) -> None:
     # After a ramp of length r each mode has had (1 - exp(-r/tau)) tau/r of its strain.

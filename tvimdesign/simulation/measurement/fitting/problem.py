@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -17,6 +18,8 @@ Values = Mapping[str, Any]
 """Parameters by name, in SI: numbers or CasADi symbols."""
 _LARGEST = 700.0  # the exponential of more is no number
 _FARTHEST, _STEEPEST = 1e6, 1e30  # beyond these a trial of the solver is merely bad
+_REMEMBERED = 8
+"""Last points at which the equations' numbers are stored: a fit asks for its best ones again and again."""
 FAR = 1e6
 """A positive parameter is looked for between its start over this and its start times this."""
 
@@ -140,8 +143,9 @@ class Residuals:
         compared = [
             ca.log(value) if c.relative else value for value, c in zip(predicted, problem.channels, strict=True)
         ]
-        self._values = ca.Function("values", [inner], [ca.vertcat(*compared)])
-        self._jacobian = ca.Function("jacobian", [inner], [ca.jacobian(ca.vertcat(*compared), inner)])
+        self._values = _remembering(ca.Function("values", [inner], [ca.vertcat(*compared)]))
+        slopes = ca.jacobian(ca.vertcat(*compared), inner)
+        self._jacobian = _remembering(ca.Function("jacobian", [inner], [slopes]))
         following = [ca.log(ca.MX(quantity.formula(values))) for quantity in problem.derived]
         out = ca.vertcat(*following) if following else ca.MX(0, 1)
         self._derived = ca.Function("derived", [inner], [out, ca.jacobian(out, inner)])
@@ -162,14 +166,14 @@ class Residuals:
 
         No larger than `_FARTHEST` times the largest value measured, where the equations give less or no number.
         """
-        differences: Array = self._measured - np.asarray(self._values(inner)).ravel()
+        differences: Array = self._measured - self._values(inner).ravel()
         numbers = np.nan_to_num(differences, nan=self._most, posinf=self._most, neginf=-self._most)
         clipped: Array = np.clip(numbers, -self._most, self._most)
         return clipped
 
     def jacobian(self, inner: Array) -> Array:
         """Return the residuals' derivatives by the solver's numbers."""
-        slopes = np.nan_to_num(np.asarray(self._jacobian(inner).full()), posinf=0.0, neginf=0.0)
+        slopes = np.nan_to_num(self._jacobian(inner), posinf=0.0, neginf=0.0)
         clipped: Array = np.clip(-slopes, -_STEEPEST, _STEEPEST)
         return clipped
 
@@ -180,8 +184,18 @@ class Residuals:
 
     def predicted(self, inner: Array) -> list[Array]:
         """Return the fitted values of each channel [SI]."""
-        values = np.asarray(self._values(inner)).ravel()
+        values = self._values(inner).ravel()
         return [
             np.exp(values[part]) if channel.relative else values[part]
             for part, channel in zip(self.parts, self.problem.channels, strict=True)
         ]
+
+
+def _remembering(function: Any) -> Callable[[Array], Array]:
+    """Return a CasADi function of a column as one of an array that computes nothing twice at its last points."""
+
+    @lru_cache(maxsize=_REMEMBERED)
+    def dense(numbers: bytes) -> Array:
+        return np.asarray(function(np.frombuffer(numbers)).full())
+
+    return lambda inner: dense(inner.tobytes())

@@ -217,24 +217,28 @@ class LoggedModule:
         lengths = np.diff(time)
         longest = np.minimum(_LONGEST_STEP, _LONGEST_SHARE * (time[1:] - time[0]))
         steps = np.ceil(lengths / longest - 1e-9).astype(int)
+        solve = self._stage(phase)
         ends = [0, *(np.flatnonzero(np.diff(steps)) + 1), len(steps)]
         parts = []
         for first, end in pairwise(ends):  # intervals of as many steps together
-            interval, part = self._interval(phase, int(steps[first])), slice(first, end)
+            interval, part = self._interval(solve, phase.state_size, int(steps[first])), slice(first, end)
             given_there = ca.repmat(given, 1, end - first)
             marched = interval.mapaccum(end - first)(begin, ca.DM(current[part]).T, ca.DM(lengths[part]).T, given_there)
             parts.append(marched)
             begin = marched[:, -1]
         return ca.horzcat(*parts)
 
-    def _interval(self, phase: PhaseFunctions, steps: int) -> Any:
+    def _stage(self, phase: PhaseFunctions) -> Any:
+        """Return the function that solves an implicit stage."""
         size = phase.state_size
         unknown, base = ca.SX.sym("unknown", size), ca.SX.sym("base", size)
         current, step = ca.SX.sym("current"), ca.SX.sym("step")
         rates = phase.rates(unknown, current, self._inputs(self._fitted))
         given = ca.vertcat(base, current, step, self._fitted)
         left = ca.Function("left", [unknown, given], [unknown - base - _GAMMA * step * rates])
-        solve = ca.rootfinder("solve", "fast_newton", left, _NEWTON)
+        return ca.rootfinder("solve", "fast_newton", left, _NEWTON)
+
+    def _interval(self, solve: Any, size: int, steps: int) -> Any:
         state, now, length = ca.MX.sym("state", size), ca.MX.sym("now"), ca.MX.sym("length")
         fitted = ca.MX.sym("fitted", len(self._names))
         after, part = state, length / steps

@@ -28,7 +28,6 @@ from tvimdesign.simulation.measurement.measure_files import kind_sheets
 from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.symbols import symbols
 
 MOST_ROWS = 150
 """Rows of a test in time that are used: an instrument writes thousands, which say no more."""
@@ -215,22 +214,15 @@ def _time_of(block: Block) -> str:
 
 def compliance(time: Any, modes: Modes) -> Any:
     """Return strain over stress [1/Pa], a column of expressions, at times [s] after the stress came on."""
-    count = time.shape[0]
-    moment, constants = symbols(ca.SX.sym("t"))[0], ca.SX.sym("modes", 2 * len(modes))
-    entries = symbols(constants)
-    spectrum = [(entries[2 * i], entries[2 * i + 1]) for i in range(len(modes))]
-    viscosity = viscoelasticity.zero_shear_viscosity(spectrum)
-
-    def transform(s: Any) -> tuple[Any]:
-        # 1/(s Q) - 1/(s^2 eta) as one fraction, for the difference cancels at small s
-        flow = sum(modulus * tau / (1.0 + s * tau) for tau, modulus in spectrum)
-        elastic = sum(modulus * tau**2 / (1.0 + s * tau) for tau, modulus in spectrum)
-        return (elastic / (s * flow * viscosity),)
-
-    (recoverable,) = motion.inverse(transform, moment)
-    at_once = ca.Function("compliance", [ca.SX(moment), constants], [ca.SX(recoverable + moment / viscosity)])
-    given = ca.vertcat(*(ca.vertcat(tau, modulus) for tau, modulus in modes))
-    return at_once.map(count)(ca.MX(time).T, ca.repmat(given, 1, count)).T
+    rate = np.log(2.0) / ca.MX(time)
+    s = ca.mtimes(rate, ca.DM(np.arange(1.0, motion.TERMS + 1.0)).T)
+    viscosity = viscoelasticity.zero_shear_viscosity(modes)
+    # 1/(s Q) - 1/(s^2 eta) as one fraction, for the difference cancels at small s
+    flow, elastic = 0.0, 0.0
+    for tau, modulus in modes:
+        part = modulus * tau / (1.0 + s * tau)
+        flow, elastic = flow + part, elastic + tau * part
+    return rate * ca.mtimes(elastic / (s * flow * viscosity), ca.DM(motion.weights())) + time / viscosity
 
 
 def _under_load(where: str, time: Array, measured: Array, share: float) -> Channel:
