@@ -79,6 +79,9 @@ def test_the_unit_decides_what_a_short_name_stands_for(tmp_path: Path, heading: 
         ("HeatFlow(mW)", "heat_flow", 1e-3), ("Q [mW]", "heat_flow", 1e-3), ("voltage_mv", "voltage", 1e-3),
         ("storage_modulus_pa", "storage_modulus", 1.0), ("Heatflow [W/g]", "specific_heat_flow", 1e3),
         ("T_sample [K]", "temperature", 1.0), ("temperature_k", "temperature", 1.0),
+        ("viscosity_pa_s", "viscosity", 1.0), ("shear_rate_1_s", "shear_rate", 1.0), ("timeMin", "time", 60.0),
+        ("ang. freq. [rad/s]", "angular_frequency", 1.0), ("omega_rad_per_s", "angular_frequency", 1.0),
+        ("Storage Modulus, kPa", "storage_modulus", 1e3), ("ω [1/s]", "angular_frequency", 1.0),
     ],
 )  # fmt: skip
 def test_headings_of_programs_are_read(tmp_path: Path, heading: str, quantity: str, factor: float) -> None:

@@ -9,40 +9,29 @@ Winter, Rheol. Acta 28 (1989) 511 (free times and moduli, as few modes as the da
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer
-from tvimdesign.physics.polymers.polymer import GAS_CONSTANT, ZERO_CELSIUS
-from tvimdesign.simulation.measurement.fitting.fit import BestFit, Estimate, Fit, best_fit, fitted, with_intervals
+from tvimdesign.simulation.measurement.fitting.fit import BestFit, best_fit
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.measurement import Measurement, RecordTable, Settings
+from tvimdesign.simulation.measurement.kinds.temperature_shift import USUAL_ENERGY, guessed_shift, shift_name
+from tvimdesign.simulation.measurement.measurement import Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array
 
 _TOGETHER = 1.0
 """Tests within so many kelvin are of one temperature."""
 BETTER = 6.0
 """By how much Schwarz's criterion has to fall for one mode more: strong evidence (Kass and Raftery, 1995)."""
-_UNTOLD = (
-    "The files do not say their temperature: the spectrum is that of their temperature, whichever it was. No record "
-    "is written; --set temperature=... says it."
-)
-USUAL_ENERGY = 40e3
-"""J/mol, to start from: in the middle of what polymers' melts have."""
-_FAR = 0.15
-"""Shift factors may miss Arrhenius' law by this share of themselves and it is still of use; more, and it is not."""
-_BEYOND = 10.0
+_A_PARAMETER = 2
+"""Values for each parameter, at least, of a spectrum of several modes: with fewer it follows the noise."""
+BEYOND = 10.0
 """Factor by which a relaxation time may lie outside the times that a test sees."""
 _SOLID = 1e3
 """Factor beyond that by which the time of a mode lies that stands for a solid."""
-_AT_END = 0.01
-"""Share of a time up to which a mode lies at the end of what is looked for."""
-_SPLIT = 0.02
-"""A mode that stands for two in a record is split this share above and below its time: no test could tell."""
 
 
 class MeltTest(NamedTuple):
@@ -88,8 +77,8 @@ class Melt(NamedTuple):
 
     @property
     def window(self) -> tuple[float, float]:
-        """Shortest and longest relaxation time [s] that is looked for: `_BEYOND` outside what the tests see."""
-        return float(1.0 / (_BEYOND * self.rates.max())), float(_BEYOND / self.rates.min())
+        """Shortest and longest relaxation time [s] that is looked for: `BEYOND` outside what the tests see."""
+        return float(1.0 / (BEYOND * self.rates.max())), float(BEYOND / self.rates.min())
 
     def modes(self, values: Values, count: int) -> list[tuple[Any, Any]]:
         """Return the spectrum (time [s], modulus [Pa]), slowest first, with the modes of a solid and of a viscosity."""
@@ -120,89 +109,8 @@ class Melt(NamedTuple):
         return [at for at in self.temperatures if at != self.reference and not np.isnan(at)]
 
 
-def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
-    """Return the spectrum of tests, all together. Raises InputError for what lacks."""
-    least = settings.get("least_temperature", 0.0)
-    known = temperature_known([test.name for test in tests], [test.temperature for test in tests])
-    molten = [test for test in tests if test.temperature >= least] if known else list(tests)
-    if not molten:
-        raise InputError("--set least_temperature leaves no test")
-    most = round(settings["largest_modes"])
-    melt = _melt(molten, settings)
-    count, first = _fewest_modes(melt, most)
-    melt, count, first = _without_ends(melt, count, first)
-    best, notes = _best(melt, count, first, profiles=profiles)
-    notes = [*_notes(tests, melt, count, most), *notes]
-    if not known:
-        notes.append(_UNTOLD)
-        return Measurement(best, tuple(notes))
-    if melt.fast or melt.solid or _blind(melt):
-        return _viscosity_record(best, melt, count, notes)
-    return spectrum_record(best, count, most, melt.reference, notes)
-
-
-def temperature_known(names: Sequence[str], temperatures: Sequence[float]) -> bool:
-    """Return whether the temperatures of tests are known. Raises InputError where those of some are."""
-    unknown = np.isnan(temperatures)
-    if np.any(unknown) and not np.all(unknown):
-        name = names[int(np.argmax(unknown))]
-        raise InputError(f"{name}: the file does not say its temperature, as others do; --set temperature=...")
-    return not np.any(unknown)
-
-
-def _without_ends(melt: Melt, count: int, first: BestFit) -> tuple[Melt, int, BestFit]:
-    """Return the fit in which modes at the ends of what is looked for are a viscosity and the modulus of a solid."""
-    shortest, longest = melt.window
-    times = {parameter.name: parameter.outer(float(inner))
-             for parameter, inner in zip(first.problem.parameters, first.found.inner, strict=True)}  # fmt: skip
-    modes = [times[f"time_{i}"] for i in range(1, count + 1)]
-    fast = sum(time < shortest * (1.0 + _AT_END) for time in modes)
-    slow = sum(time > longest / (1.0 + _AT_END) for time in modes)
-    if not fast + slow:
-        return melt, count, first
-    melt = melt._replace(fast=melt.fast or fast > 0, solid=melt.solid or slow > 0)
-    count -= fast + slow
-    return _without_ends(melt, count, best_fit(_problem(melt, count)))
-
-
-def _blind(melt: Melt) -> str:
-    """Return `rise` or `inertia` where that hides the fast modes from all tests, those by the rise first."""
-    fastest = max((float(test.rates.max()) for test in melt.tests if not test.blind), default=0.0)
-    hidden = [test.blind for test in melt.tests if test.blind and test.rates.max() > fastest]
-    return max(hidden, default="")
-
-
-def _viscosity_record(best: Fit, melt: Melt, count: int, notes: Sequence[str]) -> Measurement:
-    """Return the measurement of a melt whose spectrum goes on outside the tests: its viscosity, if it flows."""
-    conditions = {"melt_reference_temperature": (melt.reference, "degC")}
-    if melt.solid:
-        solid = best["solid_modulus"]
-        why = (
-            f"The data do not flow: {solid.value:.3g} Pa are left at the longest times, as of a solid. No viscosity "
-            "follows, and no record is written. Measure at lower frequencies or for longer, or hotter."
-        )
-        return Measurement(best, (*notes, why))
-    if _blind(melt) == "rise":
-        why = (
-            "What relaxes while the strain rises is not seen, and the viscosity is its sum with the rest: no record is "
-            "written. Set rise_time, or fit a frequency sweep together with it (--as melt)."
-        )
-        return Measurement(best, (*notes, why))
-    slowest = max((best.value(f"time_{i}") for i in range(1, count + 1)), default=0.0)
-    if slowest > melt.window[1] / _BEYOND:
-        return Measurement(best, (*notes, _extrapolated(slowest, melt.window[1] / _BEYOND)))
-    viscosity = best["zero_shear_viscosity"]
-    there = f", {best['fast_viscosity'].value:.3g} Pa.s" if melt.fast else " or what the inertia hides"
-    why = f"Faster than the tests see there is only a viscosity{there}: the plateau modulus does not follow. "
-    if viscosity.low is None or viscosity.high is None:
-        return Measurement(best, (*notes, why + "The data leave the viscosity open: no record is written."))
-    values = {each.name: each for each in (*best.parameters, *best.derived)
-              if each.name in {"zero_shear_viscosity", "flow_activation_energy"}}  # fmt: skip
-    why += "The record has the viscosity alone, with the plateau modulus of the record it is based on."
-    return Measurement(best, (*notes, why), values, {}, conditions)
-
-
-def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
+def melt_of(tests: Sequence[MeltTest], settings: Settings) -> Melt:
+    """Return tests as one melt, by the reference temperature and the energy that are set."""
     if np.isnan(tests[0].temperature):
         return Melt(tests, [np.nan], np.nan)
     temperatures: list[float] = []
@@ -217,42 +125,16 @@ def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
     return Melt(tests, temperatures, wanted, USUAL_ENERGY if known is None else known, known)
 
 
-def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fit, list[str]]:
-    """Return the fit with so many modes, by Arrhenius' law where that describes the shifts, and notes on them.
-
-    `first` is the fit with so many modes and free shifts, or with the melt's own energy.
-    """
-    if melt.energy is not None or len(melt.temperatures) == 1:
-        return with_intervals(first, profiles=profiles), []
-    free = with_intervals(first, profiles=False)
-    shifts = {temperature: free[shift_name(temperature)] for temperature in melt.shifted}
-    activation = arrhenius(shifts, melt.reference)
-    note = shift_note(activation, shifts, melt.reference)
-    if activation.describes:
-        return fitted(_problem(melt._replace(energy=activation.energy), count), profiles=profiles), note
-    return (with_intervals(first) if profiles else free), note
-
-
-def shift_name(temperature: float) -> str:
-    """Return the name of a temperature's factor."""
-    return f"shift_{temperature - ZERO_CELSIUS:.0f}".replace("-", "minus_")
-
-
-def guessed_shift(temperature: Any, reference: float) -> Any:
-    """Return the shift factor to start from."""
-    return 1.0 if np.isnan(reference) else polymer.arrhenius_shift(temperature, reference, USUAL_ENERGY)
-
-
-def _fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
+def fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
     """Return modes up to which one more betters Schwarz's criterion, from one to `most`, and the fit with them.
 
     Raises InputError where there are fewer values than one mode has parameters.
     """
-    chosen, best = 1, best_fit(_problem(melt, 1))
+    chosen, best = 1, best_fit(spectrum_problem(melt, 1))
     least = criterion(best, melt.values)
     for count in range(2, most + 1):
-        problem = _problem(melt, count)
-        if len(problem.parameters) >= melt.values:
+        problem = spectrum_problem(melt, count)
+        if len(problem.parameters) > melt.values / _A_PARAMETER:
             break
         candidate = best_fit(problem)
         candidate_criterion = criterion(candidate, melt.values)
@@ -277,7 +159,7 @@ def _misfit(fit: BestFit) -> float:
     return sum(len(group) * float(np.log(max(np.mean(group**2), 1e-14))) for group in groups)
 
 
-def _problem(melt: Melt, count: int) -> Problem:
+def spectrum_problem(melt: Melt, count: int) -> Problem:
     """Return the spectrum of `count` modes and shifts."""
     parameters = _modes(melt, count)
     parameters += [parameter for test in melt.tests for parameter in test.own]
@@ -295,7 +177,7 @@ def _problem(melt: Melt, count: int) -> Problem:
                                     float(min(np.min(test.sizes) for test in melt.tests))))  # fmt: skip
     if melt.fast:
         shortest = melt.window[0]
-        largest = float(max(np.max(test.sizes) for test in melt.tests)) * shortest * _BEYOND
+        largest = float(max(np.max(test.sizes) for test in melt.tests)) * shortest * BEYOND
         parameters += [
             Parameter("fast_time", "s", "Time of it", 0.1 * shortest, least=shortest / _SOLID, most=shortest,
                       nuisance=True),
@@ -339,109 +221,3 @@ def _modes(melt: Melt, count: int) -> list[Parameter]:
             Parameter(f"modulus_{i}", "Pa", "Modulus of that mode", modulus, profiled=False),
         ]  # fmt: skip
     return parameters
-
-
-def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list[str]:
-    at = "" if np.isnan(melt.reference) else f" at {melt.reference - ZERO_CELSIUS:.1f} degC"
-    notes = [
-        f"{count} {'mode' if count == 1 else 'modes'}{at}: one more would not better the fit by what it costs."
-        if count < most
-        else f"{count} modes, the most that were allowed; the data may bear more (--set largest_modes=...)."
-    ]
-    if len(melt.tests) < len(tests):
-        notes.append(f"{len(tests) - len(melt.tests)} of {len(tests)} tests lie below the least temperature: left out.")
-    notes += [test.note for test in melt.tests if test.note]
-    rows = sum(len(test.rates) for test in melt.tests)
-    low = min(float(test.rates.min()) for test in melt.tests)
-    notes.append(f"{rows} rows from {low:.3g} rad/s on (one over the time, of tests in time); slower is not seen.")
-    return notes
-
-
-class Activation(NamedTuple):
-    """Arrhenius' law through shift factors."""
-
-    energy: float
-    """[J/mol]"""
-    farthest: float
-    """Largest share by which a factor misses the law, where that is more than its own interval."""
-
-    @property
-    def describes(self) -> bool:
-        """True where the law describes the factors."""
-        return self.energy > 0.0 and self.farthest < _FAR
-
-
-def arrhenius(shifts: Mapping[float, Estimate], reference: float) -> Activation:
-    """Return the energy by least squares of ln a_T over 1/T - 1/T_ref, through zero, weighted by the intervals."""
-    inverse = np.array([1.0 / shift - 1.0 / reference for shift in shifts])
-    logs = np.array([np.log(shift.value) for shift in shifts.values()])
-    halves = np.array([_half(shift) for shift in shifts.values()])
-    weights = 1.0 / np.maximum(halves, 1e-6) ** 2
-    energy = GAS_CONSTANT * float(np.sum(weights * inverse * logs) / np.sum(weights * inverse**2))
-    missed = np.maximum(np.abs(logs - energy / GAS_CONSTANT * inverse) - halves, 0.0)
-    return Activation(energy, float(np.expm1(np.max(missed))))
-
-
-def _half(estimate: Estimate) -> float:
-    """Return half the interval of a factor's logarithm."""
-    return 1.0 if estimate.low is None or estimate.high is None else 0.5 * float(np.log(estimate.high / estimate.low))
-
-
-def shift_note(activation: Activation, shifts: Mapping[float, Estimate], reference: float) -> list[str]:
-    """Return the factors in a line, and whether the law describes them."""
-    table = ", ".join(
-        f"{temperature - ZERO_CELSIUS:.0f} degC: {shift.value:.3g}" for temperature, shift in shifts.items()
-    )
-    law = (
-        f"Arrhenius' law with {activation.energy / 1e3:.1f} kJ/mol describes them."
-        if activation.describes
-        else f"Arrhenius' law misses one by {100.0 * activation.farthest:.0f} %: no activation energy is given, and "
-        "the shift of the record this is based on is not that of these data."
-    )
-    return [f"Shift factors to {reference - ZERO_CELSIUS:.0f} degC: {table}. {law}"]
-
-
-def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: Sequence[str]) -> Measurement:
-    """Return the measurement of a spectrum of `count` modes, in a record of `most`.
-
-    No record follows of modes that the data leave open, or of a viscosity beyond the times that they see.
-    """
-    modes = sorted(((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True)
-    own = [best[f"{name}_{i}"] for i in range(1, count + 1) for name in ("time", "modulus")]
-    own += [best["zero_shear_viscosity"], best["plateau_modulus"]]
-    left_open = [parameter.name for parameter in own if parameter.low is None or parameter.high is None]
-    if left_open:
-        viscosity = best["zero_shear_viscosity"]
-        known = "" if viscosity.low is None else (
-            f" The viscosity is known: give {viscosity.value:.3g} Pa.s as pcl_zero_shear_viscosity in a study's module."
-        )  # fmt: skip
-        return Measurement(best, (*notes, f"The data leave {', '.join(left_open)} open: no record is written.{known}"))
-    seen = next(parameter.most for parameter in best.problem.parameters if parameter.name == "time_1") / _BEYOND
-    if modes[0][0] > seen:
-        return Measurement(best, (*notes, _extrapolated(modes[0][0], seen)))
-    values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
-    if any(parameter.name == "flow_activation_energy" for parameter in best.parameters):
-        values["flow_activation_energy"] = best["flow_activation_energy"]
-    table = RecordTable({"relaxation_time": "s", "modulus": "Pa"}, split_to(modes, most))
-    return Measurement(
-        best, tuple(notes), values, {"melt_spectrum": table}, {"melt_reference_temperature": (reference, "degC")}
-    )
-
-
-def _extrapolated(slowest: float, seen: float) -> str:
-    return (
-        f"The slowest mode takes {slowest:.3g} s, and the tests see {seen:.3g} s: the viscosity is extrapolated, and "
-        "no record is written. Measure at lower frequencies, or for longer."
-    )
-
-
-def split_to(modes: Sequence[tuple[float, float]], count: int) -> list[tuple[float, float]]:
-    """Return the same spectrum in `count` rows: the strongest modes split in two of half the modulus, times falling."""
-    rows = list(modes)
-    while len(rows) < count:
-        at = max(range(len(rows)), key=lambda i: rows[i][0] * rows[i][1])
-        time, modulus = rows[at]
-        near = min([abs(np.log(time / other)) for i, (other, _) in enumerate(rows) if i != at], default=1.0)
-        step = 1.0 + min(_SPLIT, 0.3 * float(near))
-        rows[at : at + 1] = [(time * step, 0.5 * modulus), (time / step, 0.5 * modulus)]
-    return sorted(rows, reverse=True)

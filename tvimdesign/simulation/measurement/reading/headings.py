@@ -23,13 +23,15 @@ from tvimdesign.simulation.measurement.reading.sheets import DECIMALS, SEPARATOR
 _FILE = Path(__file__).with_name("headings.yaml")
 _IN_BRACKETS = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])]")
 _AFTER_SLASH = re.compile(r"([^/]*[^/\s.])\.?\s*/\s*(\S.*)")
-_IN_WORDS = re.compile(r"(.*\S)\s+in\s+(\S+)")
-_SUFFIX = re.compile(r"(.*[^\s_])[\s_]+([A-Za-z%°µ][^\s_]*|1/s)")
+_IN_WORDS = re.compile(r"(.*\S)(?:\s+in|\s*,)\s+(\S+)")
+_WORD_ENDS = re.compile(r"[\s_]+")
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z][a-z])")
 _WRITTEN_SMALL = {
     "nm": "N*m", "mnm": "mN*m", "degc": "degC", "c": "degC", "k": "K", "ma": "mA", "a": "A", "mv": "mV", "v": "V",
     "w": "W", "mw": "mW", "pa": "Pa", "kpa": "kPa", "hz": "Hz", "n": "N", "pas": "Pa*s", "mpas": "mPa*s",
-    "rads": "rad/s", "pct": "%", "percent": "%",
+    "rads": "rad/s", "pct": "%", "percent": "%", "1s": "1/s", "s1": "1/s", "wg": "W/g", "mwmg": "mW/mg", "wkg": "W/kg",
+    "1pa": "1/Pa", "deg": "deg", "rad": "rad", "sec": "s", "secs": "s", "seconds": "s", "min": "min", "hours": "h",
+    "celsius": "degC", "kelvin": "K", "amps": "A", "volts": "V", "ohm": "ohm", "um": "um", "unm": "uN*m",
 }  # fmt: skip
 """Units as column names in programs have them."""
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
@@ -66,24 +68,30 @@ def plain(name: str) -> str:
     folded = unicodedata.normalize("NFKD", name.replace("″", '"').replace("′", "'").replace("''", '"'))
     letters = (
         _CAMEL.sub(" ", "".join(sign for sign in folded if not unicodedata.combining(sign))).lower().replace("_", " ")
-    )
+    ).replace(". ", " ")
     return " ".join(letters.strip(" #:.*/").split())
 
 
 def heading(text: str, unit: str = "") -> Heading:
     """Read a heading such as `Storage Modulus`, `Time (s)`, `Temp./°C` or `G'`; `unit` is from a row of its own."""
     if unit or plain(text) in _by_name():
-        return Heading(text, _quantity(text, read_unit(unit)), read_unit(unit))
+        return _named(text, text, read_unit(unit))
     fallback = Heading(text, "", "")
     for pattern in (_IN_BRACKETS, _IN_WORDS, _AFTER_SLASH):
         match = pattern.fullmatch(text.strip().lstrip("#"))
         if match and is_unit(match[2]):
-            candidate = Heading(text, _quantity(match[1], read_unit(match[2])), read_unit(match[2]))
+            candidate = _named(text, match[1], read_unit(match[2]))
             if candidate.quantity:
                 return candidate
             fallback = fallback if fallback.unit else candidate
-    match = _SUFFIX.fullmatch(text.strip())
-    return (_with_suffix(text, match[1], match[2]) if match else None) or fallback
+    return _with_suffix(text) or fallback
+
+
+def _named(text: str, name: str, unit: str) -> Heading:
+    """Return a heading whose quantity follows from its name; of an angular frequency 1/s are radians a second."""
+    quantity = _quantity(name, unit)
+    radians = (quantity, unit) == ("angular_frequency", "1/s") and len(set(_by_name()[plain(name)])) == 1
+    return Heading(text, quantity, "rad/s" if radians else unit)
 
 
 def rank(heading: Heading) -> int:
@@ -96,12 +104,15 @@ def rank(heading: Heading) -> int:
     )
 
 
-def _with_suffix(text: str, name: str, suffix: str) -> Heading | None:
-    """Read a heading such as `torque_nm`, where the name is known and the suffix is a unit of its quantity."""
-    for unit in (read_unit(suffix), _WRITTEN_SMALL.get(suffix.lower(), "")):
-        for quantity in _by_name().get(plain(name), []) if unit else []:
-            if conversion(unit, unit_of(quantity)) is not None:
-                return Heading(text, quantity, unit)
+def _with_suffix(text: str) -> Heading | None:
+    """Read a heading such as `torque_nm` or `viscosity_pa_s`: a known name, then a unit of its quantity."""
+    words = _WORD_ENDS.split(_CAMEL.sub(" ", text.strip()))
+    for first in range(len(words) - 1, 0, -1):
+        suffix = "".join(word for word in words[first:] if word.lower() != "per")
+        for unit in (read_unit(suffix), _WRITTEN_SMALL.get(suffix.lower(), "")) if not suffix.isdigit() else ():
+            for quantity in _by_name().get(plain(" ".join(words[:first])), []) if unit else []:
+                if conversion(unit, unit_of(quantity)) is not None:
+                    return Heading(text, quantity, unit)
     return None
 
 

@@ -1,0 +1,186 @@
+"""The fit of a melt's spectrum and its shift, and the record that follows: modes, its viscosity alone, or none."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.measurement.fitting.fit import BestFit, Fit, best_fit, fitted, with_intervals
+from tvimdesign.simulation.measurement.kinds.melt_spectrum import (
+    BEYOND,
+    Melt,
+    MeltTest,
+    fewest_modes,
+    melt_of,
+    spectrum_problem,
+)
+from tvimdesign.simulation.measurement.kinds.temperature_shift import (
+    arrhenius,
+    shift_name,
+    shift_note,
+    temperature_known,
+)
+from tvimdesign.simulation.measurement.measurement import Measurement, RecordTable, Settings
+
+_UNTOLD = (
+    "The files do not say their temperature: the spectrum is that of their temperature, whichever it was. No record "
+    "is written; --set temperature=... says it."
+)
+_AT_END = 0.01
+"""Share of a time up to which a mode lies at the end of what is looked for."""
+_SPLIT = 0.02
+"""A mode that stands for two in a record is split this share above and below its time: no test could tell."""
+
+
+def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
+    """Return the spectrum of tests, all together. Raises InputError for what lacks."""
+    least = settings.get("least_temperature", 0.0)
+    known = temperature_known([test.name for test in tests], [test.temperature for test in tests])
+    molten = [test for test in tests if test.temperature >= least] if known else list(tests)
+    if not molten:
+        raise InputError("--set least_temperature leaves no test")
+    most = round(settings["largest_modes"])
+    melt = melt_of(molten, settings)
+    count, first = fewest_modes(melt, most)
+    melt, count, first = _without_ends(melt, count, first)
+    best, notes = _best(melt, count, first, profiles=profiles)
+    notes = [*_notes(tests, melt, count, most), *notes]
+    if not known:
+        notes.append(_UNTOLD)
+        return Measurement(best, tuple(notes))
+    if melt.fast or melt.solid or _blind(melt):
+        return _viscosity_record(best, melt, count, notes)
+    return spectrum_record(best, count, most, melt.reference, notes)
+
+
+def _without_ends(melt: Melt, count: int, first: BestFit) -> tuple[Melt, int, BestFit]:
+    """Return the fit in which modes at the ends of what is looked for are a viscosity and the modulus of a solid."""
+    shortest, longest = melt.window
+    times = {parameter.name: parameter.outer(float(inner))
+             for parameter, inner in zip(first.problem.parameters, first.found.inner, strict=True)}  # fmt: skip
+    modes = [times[f"time_{i}"] for i in range(1, count + 1)]
+    fast = sum(time < shortest * (1.0 + _AT_END) for time in modes)
+    slow = sum(time > longest / (1.0 + _AT_END) for time in modes)
+    if not fast + slow:
+        return melt, count, first
+    melt = melt._replace(fast=melt.fast or fast > 0, solid=melt.solid or slow > 0)
+    count -= fast + slow
+    return _without_ends(melt, count, best_fit(spectrum_problem(melt, count)))
+
+
+def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fit, list[str]]:
+    """Return the fit with so many modes, by Arrhenius' law where that describes the shifts, and notes on them.
+
+    `first` is the fit with so many modes and free shifts, or with the melt's own energy.
+    """
+    if melt.energy is not None or len(melt.temperatures) == 1:
+        return with_intervals(first, profiles=profiles), []
+    free = with_intervals(first, profiles=False)
+    shifts = {temperature: free[shift_name(temperature)] for temperature in melt.shifted}
+    activation = arrhenius(shifts, melt.reference)
+    note = shift_note(activation, shifts, melt.reference)
+    if activation.describes:
+        return fitted(spectrum_problem(melt._replace(energy=activation.energy), count), profiles=profiles), note
+    return (with_intervals(first) if profiles else free), note
+
+
+def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list[str]:
+    at = "" if np.isnan(melt.reference) else f" at {melt.reference - ZERO_CELSIUS:.1f} degC"
+    notes = [
+        f"{count} {'mode' if count == 1 else 'modes'}{at}: one more would follow the noise."
+        if count < most
+        else f"{count} modes, the most that were allowed; the data may bear more (--set largest_modes=...)."
+    ]
+    if len(melt.tests) < len(tests):
+        notes.append(f"{len(tests) - len(melt.tests)} of {len(tests)} tests lie below the least temperature: left out.")
+    notes += [test.note for test in melt.tests if test.note]
+    rows = sum(len(test.rates) for test in melt.tests)
+    low = min(float(test.rates.min()) for test in melt.tests)
+    notes.append(f"{rows} rows from {low:.3g} rad/s on (one over the time, of tests in time); slower is not seen.")
+    return notes
+
+
+def _blind(melt: Melt) -> str:
+    """Return `rise` or `inertia` where that hides the fast modes from all tests, those by the rise first."""
+    fastest = max((float(test.rates.max()) for test in melt.tests if not test.blind), default=0.0)
+    hidden = [test.blind for test in melt.tests if test.blind and test.rates.max() > fastest]
+    return max(hidden, default="")
+
+
+def _viscosity_record(best: Fit, melt: Melt, count: int, notes: Sequence[str]) -> Measurement:
+    """Return the measurement of a melt whose spectrum goes on outside the tests: its viscosity, if it flows."""
+    conditions = {"melt_reference_temperature": (melt.reference, "degC")}
+    if melt.solid:
+        solid = best["solid_modulus"]
+        why = (
+            f"The data do not flow: {solid.value:.3g} Pa are left at the longest times, as of a solid. No viscosity "
+            "follows, and no record is written. Measure at lower frequencies or for longer, or hotter."
+        )
+        return Measurement(best, (*notes, why))
+    if _blind(melt) == "rise":
+        why = (
+            "What relaxes while the strain rises is not seen, and the viscosity is its sum with the rest: no record is "
+            "written. Set rise_time, or fit a frequency sweep together with it (--as melt)."
+        )
+        return Measurement(best, (*notes, why))
+    slowest = max((best.value(f"time_{i}") for i in range(1, count + 1)), default=0.0)
+    if slowest > melt.window[1] / BEYOND:
+        return Measurement(best, (*notes, _extrapolated(slowest, melt.window[1] / BEYOND)))
+    viscosity = best["zero_shear_viscosity"]
+    there = f", {best['fast_viscosity'].value:.3g} Pa.s" if melt.fast else " or what the inertia hides"
+    why = f"Faster than the tests see there is only a viscosity{there}: the plateau modulus does not follow. "
+    if viscosity.low is None or viscosity.high is None:
+        return Measurement(best, (*notes, why + "The data leave the viscosity open: no record is written."))
+    values = {each.name: each for each in (*best.parameters, *best.derived)
+              if each.name in {"zero_shear_viscosity", "flow_activation_energy"}}  # fmt: skip
+    why += "The record has the viscosity alone, with the plateau modulus of the record it is based on."
+    return Measurement(best, (*notes, why), values, {}, conditions)
+
+
+def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: Sequence[str]) -> Measurement:
+    """Return the measurement of a spectrum of `count` modes, in a record of `most`.
+
+    No record follows of modes that the data leave open, or of a viscosity beyond the times that they see.
+    """
+    modes = sorted(((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True)
+    own = [best[f"{name}_{i}"] for i in range(1, count + 1) for name in ("time", "modulus")]
+    own += [best["zero_shear_viscosity"], best["plateau_modulus"]]
+    left_open = [parameter.name for parameter in own if parameter.low is None or parameter.high is None]
+    if left_open:
+        viscosity = best["zero_shear_viscosity"]
+        known = "" if viscosity.low is None else (
+            f" The viscosity is known: give {viscosity.value:.3g} Pa.s as pcl_zero_shear_viscosity in a study's module."
+        )  # fmt: skip
+        return Measurement(best, (*notes, f"The data leave {', '.join(left_open)} open: no record is written.{known}"))
+    seen = next(parameter.most for parameter in best.problem.parameters if parameter.name == "time_1") / BEYOND
+    if modes[0][0] > seen:
+        return Measurement(best, (*notes, _extrapolated(modes[0][0], seen)))
+    values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
+    if any(parameter.name == "flow_activation_energy" for parameter in best.parameters):
+        values["flow_activation_energy"] = best["flow_activation_energy"]
+    table = RecordTable({"relaxation_time": "s", "modulus": "Pa"}, split_to(modes, most))
+    return Measurement(
+        best, tuple(notes), values, {"melt_spectrum": table}, {"melt_reference_temperature": (reference, "degC")}
+    )
+
+
+def _extrapolated(slowest: float, seen: float) -> str:
+    return (
+        f"The slowest mode takes {slowest:.3g} s, and the tests see {seen:.3g} s: the viscosity is extrapolated, and "
+        "no record is written. Measure at lower frequencies, or for longer."
+    )
+
+
+def split_to(modes: Sequence[tuple[float, float]], count: int) -> list[tuple[float, float]]:
+    """Return the same spectrum in `count` rows: the strongest modes split in two of half the modulus, times falling."""
+    rows = list(modes)
+    while len(rows) < count:
+        at = max(range(len(rows)), key=lambda i: rows[i][0] * rows[i][1])
+        time, modulus = rows[at]
+        near = min([abs(np.log(time / other)) for i, (other, _) in enumerate(rows) if i != at], default=1.0)
+        step = 1.0 + min(_SPLIT, 0.3 * float(near))
+        rows[at : at + 1] = [(time * step, 0.5 * modulus), (time / step, 0.5 * modulus)]
+    return sorted(rows, reverse=True)
