@@ -18,7 +18,7 @@ from tvimdesign.study.conditions import Case, refuse_unequal
 from tvimdesign.study.sections.tolerances import standard_tolerances
 from tvimdesign.study.study import Options
 
-PAPER = ("paper_", "calibrated_")
+PAPER = "paper_"
 """How the names of the paper's own modules begin: they stay as it has them, advice and all."""
 ORDERED = [path for path in STUDIES if not path.stem.startswith(PAPER)]
 PAIRS = [

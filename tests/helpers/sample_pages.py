@@ -19,7 +19,7 @@ from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.run_page import write_run_page
 from tvimdesign.study.tree import tree_of_file
 
-STUDY = ROOT / "studies/calibrated_shear.yaml"
+STUDY = ROOT / "studies/paper_reconstructed.yaml"
 REQUIREMENTS = (
     "joint_stiffness@hot=<= 20 N.m/rad", "holding_torque=>= 1 N.m", "envelope_diameter=<= 160 mm",
     "envelope_height=<= 40 mm", "response_time=<= 100 s", "peak_voltage=<= 24 V", "peak_current=<= 3 A",

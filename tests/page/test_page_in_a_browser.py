@@ -95,7 +95,7 @@ def test_a_page_fits_a_phone_and_is_read_without_its_code(opened: Open, report: 
         found.figure(name)
     assert found.page.evaluate("document.documentElement.scrollWidth") <= 360
     page = opened(report, java_script_enabled=False).page
-    page.get_by_role("heading", name="Module").click()
+    page.get_by_role("heading", name="Module", exact=True).click()
     assert page.get_by_role("table", name="At the operating points").is_visible()
     assert "Needs a browser that runs the page's code" in page.locator("#figure-cycle").inner_text()
 
@@ -172,7 +172,7 @@ def test_tables_are_sorted_and_filtered(screen: Opened) -> None:
     button.click()
     assert head.get_attribute("aria-sort") is None
     assert table.evaluate(column) == [100.0, 80.0, 60.0, 50.0, 45.0]
-    page.get_by_role("heading", name="Module").click()
+    page.get_by_role("heading", name="Module", exact=True).click()
     page.get_by_text("inputs and outputs, with their sources").click()
     block = page.locator("details details", has_text="inputs and outputs, with their sources")
     block.get_by_role("searchbox").fill("module_mass")

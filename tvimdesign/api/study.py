@@ -207,7 +207,7 @@ class Study:
         study = refuse_what_cannot_be(self.resolved)
         return [*record_checks(study), *foreseen_ratings(study)]
 
-    def run(self, *, sensitivities: bool = False, prove: bool = False, progress: bool = True) -> Result[Study]:
+    def run(self, *, prove: bool = False, progress: bool = True) -> Result[Study]:
         """Evaluate or optimise the study, as `tvimdesign run` does, without writing a file.
 
         Raises NoDesignError, which has the closest design, where no design is feasible.
@@ -216,7 +216,7 @@ class Study:
         from tvimdesign.report.run.answered_study import answer_study
 
         with shown_progress(progress) as say:
-            return Result.of(answer_study(self._tree, say, sensitivities=sensitivities, prove=prove), self)
+            return Result.of(answer_study(self._tree, say, prove=prove), self)
 
     def evaluate(self, *, progress: bool = True) -> Result[Study]:
         """Evaluate the module as it is drawn: what may change stands at its start, and nothing is optimised."""

@@ -47,9 +47,6 @@ def run(
     overwrite: options.Overwrite = False,
     cad: options.Cad = True,
     plots: options.Plots = True,
-    sensitivities: Annotated[
-        bool, typer.Option("--sensitivities", help="Write what every variable does to every output at the design.")
-    ] = False,
     resume: Annotated[
         bool,
         typer.Option("--resume", help="Continue the front of an earlier run in that folder that was stopped."),
@@ -70,7 +67,7 @@ def run(
     folder = out or options.default_folder(study)
     after = _verification(folder, fe_python, overwrite=overwrite, told=not json) if verified else None
     run_study(
-        study, folder, overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
+        study, folder, overwrite=overwrite, cad=cad, plots=plots,
         prove=prove, resume=resume, full=full, as_json=json,
         settings=options.changes(settings, time_limit),
     )  # fmt: skip
@@ -267,24 +264,12 @@ app.command()(sweep)
 app.command()(explore)
 
 
-PaperOut = Annotated[
-    Path | None,
-    typer.Option(
-        "--out", help="Folder for tables and figures: what takes the paper's 70 s, and what its 2 : 1 hangs on."
-    ),
-]
-
-
 @app.command()
-def paper_check(out: PaperOut = None, overwrite: options.Overwrite = False, json: options.AsJson = False) -> None:
+def paper_check(json: options.AsJson = False) -> None:
     """Recompute the numbers of the paper."""
     from tvimdesign.report.paper.paper_check import print_paper_check
 
     print_paper_check(as_json=json)
-    if out:
-        from tvimdesign.report.paper.level_sets import write_level_sets
-
-        write_level_sets(out, overwrite=overwrite, as_json=json)
 
 
 @app.command()

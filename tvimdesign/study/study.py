@@ -143,7 +143,6 @@ class WriteOptions(_Part):
     plots: bool = Field(True, description="plots of the result")
     vector: bool = Field(False, description="plots as PDF and SVG too, as a run that makes parts always writes")
     cad: bool = Field(True, description="STEP, STL and GLB of the parts")
-    sensitivities: bool = Field(False, description="sensitivity of every output to every variable at the design")
 
 
 class Study(_Part):

@@ -29,7 +29,7 @@ def rows(name: str = "results") -> list[dict[str, str]]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["paper_shear", "calibrated_shear", "calibrated_compression", "wrist_compression"])
+@pytest.mark.parametrize("name", ["paper_shear", "paper_compression", "wrist_compression"])
 def test_times_of_the_paper_s_sizes_are_those_of_the_plane(name: str) -> None:
     for time, one in compared(model_of(STUDIES / f"{name}.yaml")).items():
         assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time
@@ -41,7 +41,7 @@ def test_times_of_a_plastic_module_with_lips_are_those_of_the_plane() -> None:
         assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time
 
 
-@pytest.mark.parametrize("name", ["calibrated_shear", "calibrated_compression", "machined_shear"])
+@pytest.mark.parametrize("name", ["paper_reconstructed", "paper_compression", "machined_shear"])
 def test_the_table_has_the_times_of_today_s_product(name: str) -> None:
     ours = product_times(model_of(STUDIES / f"{name}.yaml"))
     kept = {

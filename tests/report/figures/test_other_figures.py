@@ -1,4 +1,4 @@
-"""The figures of virtual tests, fronts, comparisons, spreads and the paper's case, held to what an editor asks."""
+"""The figures of virtual tests, fronts, comparisons and spreads, held to what an editor asks."""
 
 from collections.abc import Callable
 from functools import cache
@@ -20,7 +20,7 @@ STUDIES = Path(__file__).parents[3] / "studies"
 
 
 @pytest.fixture(
-    scope="module", params=["paper_reconstructed", pytest.param("calibrated_compression", marks=pytest.mark.slow)]
+    scope="module", params=["paper_reconstructed", pytest.param("paper_compression", marks=pytest.mark.slow)]
 )
 def resolved(request: pytest.FixtureRequest) -> ResolvedModule:
     study = read_study(STUDIES / f"{request.param}.yaml")
@@ -87,12 +87,3 @@ def test_an_editor_finds_no_fault_with_other_figures() -> None:
     for count in (1, 3, 4, 6):
         data = {"outputs": names, "parts": parts, "panels": [panel] * count}
         assert faults(signed(analysis_figures.spread(data))) == []
-    places = ("near_face_time", "mean_time", "far_face_time", "softening_time")
-    panel = {"label": "Contact conductance of layer and rotor plate (W/m²/K)", "logarithmic": True,
-             "x": [100.0, 1e3, 1e4], "lines": {place: [0.5, None, 1.0] for place in places},
-             "published": [1e4, 1.0]}  # fmt: skip
-    data = {"wanted": 70.0, "range": [0.2, 2.0], "panels": [panel] * 3}
-    assert faults(signed(comparison_figures.level_sets(data))) == []
-    bars = [{"label": "Thickness of the PCL layer (mm)", "ends": [0.7, 2], "ratios": [2.4, 1.5]}] * 5
-    choices = [{"label": "a thermometer at the near face", "ratio": 1.04}]
-    assert faults(signed(comparison_figures.tornado({"bars": bars, "choices": choices, "ratio": 2.0}))) == []

@@ -55,7 +55,7 @@ operating_points: {hot: {temperature: 75 degC}}
 
 
 class WholeRun(NamedTuple):
-    """A run with its plots and yield, in a process of its own; of the slow ones with sensitivities as well."""
+    """A run with its plots and yield, in a process of its own."""
 
     done: CompletedProcess[str]
     folder: Path
@@ -65,8 +65,8 @@ class WholeRun(NamedTuple):
     scope="module",
     params=[
         (COARSE, []),
-        pytest.param((SHEAR, ["--sensitivities"]), marks=pytest.mark.slow),
-        pytest.param((COMPRESSION, ["--sensitivities"]), marks=pytest.mark.slow),
+        pytest.param((SHEAR, []), marks=pytest.mark.slow),
+        pytest.param((COMPRESSION, []), marks=pytest.mark.slow),
     ],
     ids=["quick", "shear", "compression"],
 )

@@ -73,7 +73,7 @@ def test_a_page_costs_a_run_less_than_a_second(answered: AnsweredStudy, tmp_path
 def test_a_run_without_parts_says_how_to_make_them(tmp_path: Path) -> None:
     page = tree(sample_pages.run_page(tmp_path / "run", parts=False))
     assert "`" not in words(section(page, "assembly"))
-    assert "tvimdesign run calibrated_shear.yaml --overwrite makes them" in words(section(page, "assembly"))
+    assert "tvimdesign run paper_reconstructed.yaml --overwrite makes them" in words(section(page, "assembly"))
     assert page.find(".//section[@id='checks']") is None
 
 

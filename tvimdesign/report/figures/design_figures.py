@@ -1,4 +1,4 @@
-"""Figures of an optimum: ends of ranges and limits, sensitivities, and the front.
+"""Figures of an optimum: ends of ranges and limits, and the front.
 
 The figures of a module itself: stiffness and damping over temperature, torque over angle, mass of its parts.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 import itertools
 from typing import Any
 
-import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -97,33 +96,6 @@ def _legend(figure: Figure, data: dict[str, Any]) -> None:
         marks.append(Line2D([], [], marker=">", color="black", linestyle="", markersize=3.0, label="beyond the scale"))
     if marks:
         figure.legend(handles=marks, loc="lower center", ncols=len(marks))
-
-
-_STRONGEST = 3.0
-"""Elasticity from which on colours are the same: a few fourth powers would leave all else pale."""
-_DARK = 0.6
-_WRITTEN = 0.05
-_LEFT, _BELOW = 2.3, 1.4  # inches
-
-
-def sensitivities(data: dict[str, Any]) -> Figure:
-    """Draw outputs down, variables across; red rises with the variable, blue falls, and the number says which."""
-    values = np.array(data["values"])
-    down, across = values.shape
-    width, high = max(theme.WIDTH, _LEFT + 0.35 * across + 0.2), 0.18 * down
-    figure = theme.new_figure(high + _BELOW + 0.6, width)
-    axes = theme.place(figure, _LEFT, _BELOW, width - _LEFT - 0.2, high)
-    axes.imshow(values, aspect="auto", cmap="RdBu_r", norm=Normalize(-_STRONGEST, _STRONGEST))
-    for (i, j), value in np.ndenumerate(values):
-        if abs(value) >= _WRITTEN:
-            colour = "white" if abs(value) > _DARK * _STRONGEST else "black"
-            axes.text(j, i, f"{value:+.2g}", ha="center", va="center", fontsize=5.5, color=colour)
-    axes.set(xticks=range(across), yticks=range(down))
-    axes.set_xticklabels(data["variables"], rotation=45, ha="right", rotation_mode="anchor")
-    axes.set_yticklabels(data["outputs"])
-    axes.grid(visible=False)
-    theme.caption(figure, "Change of the output (%) for 1 % more of the variable")
-    return figure
 
 
 def front(data: dict[str, Any]) -> Figure:

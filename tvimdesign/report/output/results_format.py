@@ -369,7 +369,6 @@ class RunResults(Answered):
     doubts: NotRequired[list[str]]
     front: NotRequired[FrontEntry]
     uncertainty: NotRequired[UncertaintyEntry]
-    sensitivities_left_out: NotRequired[list[str]]
     left_out: NotRequired[list[str]]
     cad: NotRequired[Parts]
     folder: NotRequired[str]

@@ -1,7 +1,4 @@
-"""A study answered: every way to show, write or print an answer starts from it.
-
-Sensitivities of headline outputs to variables at the design, as a table on file and the data of a heat map.
-"""
+"""A study answered: every way to show, write or print an answer starts from it."""
 
 from __future__ import annotations
 
@@ -13,10 +10,7 @@ from typing import Any, cast
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.command import noting
-from tvimdesign.report.output.numbers import csv_text, name_in_words
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
 from tvimdesign.report.output.tables import results
@@ -24,63 +18,11 @@ from tvimdesign.report.output.terminal import Progress, duration
 from tvimdesign.report.run.blocks.warnings import RunWarning, warnings_of
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.reasons import conflicts_reported, starts_reported, why
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import Designed, StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
-from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities, entries, output_sensitivities
 from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.resolve import record_checks
-from tvimdesign.study.text.values import difference_unit
 from tvimdesign.study.tree import StudyTree
-
-_SHOWN = 5e-3
-"""Elasticity below which a row or a column of the heat map has nothing to say."""
-
-
-def sensitivities(answer: StudyResult, deadline: Deadline) -> tuple[OutputSensitivities, ResolvedModule]:
-    """Differentiate what a summary shows and what the study limits or minimises.
-
-    Raises SimulationError, TimeOverError.
-    """
-    resolved = resolve_design(answer.design)
-    outputs = {*answer.design.study["minimize"], *(limit["output"] for limit in answer.design.study["require"])}
-    wanted = [
-        name
-        for name in resolved.table.names(resolved.points)
-        if resolved.table.output(name).headline or name in outputs
-    ]
-    deadline.check("the outputs were differentiated")
-    return output_sensitivities(resolved, wanted), resolved
-
-
-def sensitivities_csv(sensitivities_of_outputs: OutputSensitivities, resolved: ResolvedModule) -> str:
-    """Return a line for each output and variable: logarithmic and plain derivative, and what 1 % more adds."""
-    table, rows = resolved.table, []
-    for entry in entries(sensitivities_of_outputs, resolved):
-        of, by = (difference_unit(table.unit(name)) for name in (entry.output, entry.variable))
-        rows.append({
-            "output": entry.output, "variable": entry.variable, "log_derivative": entry.logarithmic,
-            "derivative": from_si(entry.derivative, of) * to_si(1.0, by),
-            "derivative_unit": f"{pretty(of) or 1} / {pretty(by) or 1}",
-            "per_percent": from_si(entry.per_hundredth, of), "unit": pretty(of),
-        })  # fmt: skip
-    return csv_text(rows, digits=6)
-
-
-def heat_map(sensitivities_of_outputs: OutputSensitivities, resolved: ResolvedModule) -> dict[str, Any]:
-    """Return elasticities, one row an output, without the rows and columns in which nothing stands."""
-    cells = {(entry.output, entry.variable): entry.logarithmic for entry in entries(sensitivities_of_outputs, resolved)}
-    reported = {place for place, value in cells.items() if value is not None and abs(value) >= _SHOWN}
-    outputs = [name for name in sensitivities_of_outputs.outputs if any(name == output for output, _ in reported)]
-    variables = [
-        name for name in sensitivities_of_outputs.variables if any(name == variable for _, variable in reported)
-    ]
-    values = [[cells[output, variable] or 0.0 for variable in variables] for output in outputs]
-    return {
-        "outputs": [name_in_words(name) for name in outputs],
-        "variables": [name_in_words(name) for name in variables],
-        "values": values,
-    }
 
 
 @dataclass
@@ -94,10 +36,6 @@ class AnsweredStudy:
     reported: RunResults
     """Everything a script wants to know: the content of results.json."""
     failures: list[TvimError] = field(default_factory=list)
-    sensitivities: str = ""
-    """The table of sensitivities as CSV, where it was asked for."""
-    heat_map: dict[str, Any] = field(default_factory=dict)
-    """What its figure is drawn from."""
     uncertainty: Mapping[str, Any] = field(default_factory=dict)
     """What `Uncertainty.data` returns; empty if it was not computed."""
     no_uncertainty: str = ""
@@ -130,7 +68,6 @@ def answer_study(
     *,
     prove: bool = False,
     drawn_only: bool = False,
-    sensitivities: bool = False,
     folder: ResultsFolder | None = None,
     search: Search | None = None,
     early: Callable[[StudyResult], None] = lambda _: None,
@@ -157,10 +94,6 @@ def answer_study(
     early(result)
     answered = AnsweredStudy(tree, study, result, front, _reported(result, table), deadline=deadline)
     answered.reported["doubts"] = record_checks(study)
-    if result.found and (sensitivities or study.write.sensitivities):
-        progress("computing sensitivities")
-        with noting(answered.failures):
-            deadline.attempt("the sensitivities", partial(_differentiate, answered))
     front.seek(result, progress, answered.reported, answered.failures)
     note_left_out(answered)
     progress("")
@@ -179,15 +112,6 @@ def _reported(result: StudyResult, table: Table) -> RunResults:
         reported["starts"] = starts_reported(result)
         reported["conflict_set"] = conflicts_reported(result.solution.conflict_set)
     return reported
-
-
-def _differentiate(answered: AnsweredStudy) -> None:
-    """Add what every variable does to every output. Raises SimulationError."""
-
-    derivatives, resolved = sensitivities(answered.result, answered.deadline)
-    answered.sensitivities = sensitivities_csv(derivatives, resolved)
-    answered.reported["sensitivities_left_out"] = list(derivatives.left_out)
-    answered.heat_map = heat_map(derivatives, resolved)
 
 
 def note_uncertainty(answered: AnsweredStudy, data: Mapping[str, Any]) -> None:
@@ -218,7 +142,4 @@ def drawings(answered: AnsweredStudy) -> list[Drawing]:
 
     if not answered.result.found:
         return []
-    figures = run_plot_data.drawings(answered.result, answered.study.table)
-    if answered.heat_map.get("values"):
-        figures.append(Drawing("sensitivities", "design_figures.sensitivities", answered.heat_map))
-    return figures + answered.front.drawings()
+    return run_plot_data.drawings(answered.result, answered.study.table) + answered.front.drawings()

@@ -234,8 +234,6 @@ def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     write_results(folder, answered)
     if result.solution and result.found:
         folder.write("why.csv", why_csv(result, table))
-    if answered.sensitivities:
-        folder.write("sensitivities.csv", answered.sensitivities)
     for phase, history in result.histories.items():
         folder.write(f"{phase}.csv", curves_csv(history, PHASE_UNITS, "degC"))
     units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in result.sweep}

@@ -53,7 +53,7 @@ _CHECKS = 15
 
 
 def run_study(
-    path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
+    path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool,
     resume: bool = False, prove: bool = False, full: bool = False, settings: Sequence[str] = (),
 ) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done.
@@ -93,7 +93,6 @@ def run_study(
                 tree,
                 progress,
                 prove=prove,
-                sensitivities=sensitivities,
                 folder=folder,
                 search=partial(optimize, deadline=deadline, checked=True),
                 early=best.note,

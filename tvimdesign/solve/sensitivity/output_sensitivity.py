@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.units import from_si
 from tvimdesign.device import FirstOscillation, Table
 from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -24,23 +23,6 @@ Array = NDArray[np.float64]
 FINER, REPORTED = 2.0, 4.0
 """Fineness of the steps in time where derivatives predict, and where they are reported: a compression module's by the
 depth of its blocks is 0.3 % off with the one, 0.02 % with the other, as cells melt one after the other."""
-_NOTHING = 1e-4
-"""Value, in the unit people read it in, below which a share of it means nothing: a gap that is closed."""
-
-
-@dataclass(frozen=True)
-class OutputSensitivity:
-    """Effect of one variable on one output, all else the same."""
-
-    output: str
-    variable: str
-    derivative: float
-    """SI over SI."""
-    logarithmic: float | None
-    """d ln output / d ln variable; None where one is nothing, or a temperature or what is left to one: their zero is
-    a convention."""
-    per_hundredth: float
-    """What a hundredth more of the variable adds to the output, SI."""
 
 
 @dataclass(frozen=True)
@@ -107,29 +89,6 @@ class OutputDerivatives:
         numbers = np.where(np.isfinite(cycle), cycle, 1.0)
         ((values, slopes),) = self._tape.tangents([inputs, numbers], [along, of_cycle])
         return values, slopes, never
-
-
-def entries(sensitivities: OutputSensitivities, resolved: ResolvedModule) -> list[OutputSensitivity]:
-    """Return one record for each output and variable, in the order of the table."""
-    records = []
-    table = resolved.table
-    sizes = [
-        _has_size(table.unit(name), value)
-        for name, value in zip(sensitivities.variables, sensitivities.at, strict=True)
-    ]
-    for i, output in enumerate(sensitivities.outputs):
-        has_size = _has_size(table.unit(output), sensitivities.values[i])
-        for j, variable in enumerate(sensitivities.variables):
-            derivative = float(sensitivities.derivatives[i, j])
-            share = derivative * float(sensitivities.at[j] / sensitivities.values[i]) if has_size and sizes[j] else None
-            records.append(
-                OutputSensitivity(output, variable, derivative, share, 0.01 * float(sensitivities.at[j]) * derivative)
-            )
-    return records
-
-
-def _has_size(unit: str, value: float) -> bool:
-    return unit not in ("degC", "K") and abs(from_si(value, unit)) > _NOTHING
 
 
 def _is_variable(resolved: ResolvedModule, model: DeviceFunctions, name: str) -> bool:

@@ -61,7 +61,7 @@ def search_section(answered: AnsweredStudy) -> list[Section]:
     """Return how the design was found: optima, margins, listed choices and currents; none of an evaluation."""
     answer = answered.result
     blocks: list[Block] = []
-    if lines := [*objective_in_words(answer), *_robustness(answer), *_not_differentiated(answered)]:
+    if lines := [*objective_in_words(answer), *_robustness(answer)]:
         blocks.append(Points(lines))
     choosing, table = answer.solution.choosing if answer.solution else None, table_for(answer.design.mode)
     if choosing is not None and choosing.best:
@@ -82,11 +82,6 @@ def _robustness(answer: StudyResult) -> list[str]:
         ]
     worst = "; ".join(lost_in_words(lost) for lost in reached.lost_to) if reached else ""
     return [f"Most is lost to {worst}."] if worst else []
-
-
-def _not_differentiated(answered: AnsweredStudy) -> list[str]:
-    names = answered.reported.get("sensitivities_left_out")
-    return [f"Not in sensitivities.csv, as they never happen or follow a profile: {', '.join(names)}."] if names else []
 
 
 def _constant_currents(answer: StudyResult) -> list[str]:
