@@ -166,7 +166,8 @@ class PhaseFunctions:
 
     def _parted(self, expression: Any) -> tuple[Any, Any, Any]:
         """Replace subexpressions of the inputs alone by symbols; return the expression and these symbols."""
-        value, symbols, constants = ca.extract_parametric(expression, self._inputs)
+        # What is written twice must be one constant, or what follows from it is computed twice as well.
+        value, symbols, constants = ca.extract_parametric(ca.cse(expression), self._inputs)
         # Inputs that meet the state as they are stay in the expression; they are constants too.
         left = ca.symvar(value)
         moved = ca.which_depends(ca.vertcat(*left), self._inputs, 1, True) if left else []
