@@ -32,8 +32,9 @@ MOST_STEPS, EXTRA, GROWTH = 5000, 40, 1.3
 """Steps of a phase at most; beyond those of the first run, and by how much each of these grows."""
 STALLED = 1e-7
 """Change of the scaled state over the rest of the horizon below which nothing will happen any more."""
-NEAR, MOST_TRIALS = 1e-4, 12
-"""Part of a step by which the last one may miss an event: what is left, its square, is made up by slopes."""
+NEAR, MOST_TRIALS, ROUGH = 1e-5, 12, 1e-3
+"""Part of a step by which the last one may miss an event: what is left, its square, is made up by slopes. Part of the
+step's change to which an event is looked for between its ends."""
 
 
 class PhaseRun:
@@ -178,7 +179,7 @@ class PhaseRun:
     def _crossing(self, name: str, one: Instant, other: Instant, slope: float = 0.0) -> Instant:
         """Find the instant of an event between the ends of two steps, in which the current has a `slope`.
 
-        The last step ends there: its length is sought by Newton's method, whose slope is one more direction.
+        The last step ends there: its length is sought by the secant method, and is one more direction.
         """
         whole = other.time - one.time
         here, there = self.rates(one) * whole, self.rates(other) * whole
@@ -186,24 +187,27 @@ class PhaseRun:
         def between(share: float) -> Array:
             return hermite(share, one.state, other.state, here, there)
 
-        length = whole * _root(lambda share: self.gap(name, between(share), one.current + slope * share * whole))
-        least, most = 0.0, 1.05 * whole
-        nowhere = np.zeros((len(self.inputs), 1))
-        last = other
+        def due(share: float) -> float:
+            return self.gap(name, between(share), one.current + slope * share * whole)
+
+        share, steep = _root(due)
+        length, steep = whole * share, steep / whole
+        least, most, before, last = 0.0, 1.05 * whole, None, other
         for _ in range(MOST_TRIALS):
-            guess = 0.4 * (between(length / whole) - one.state)
-            last = self._last_step(one, length, slope, guess, self._of_length, 1)
-            gap, slopes = self.of.slopes(name, last, self.inputs, nowhere)
+            last = self._last_step(one, length, slope, 0.4 * (between(length / whole) - one.state), 0)
+            gap = self.gap(name, last.state, last.current)
+            if before is not None and length != before[0] and gap != before[1]:
+                steep = (gap - before[1]) / (length - before[0])
             least, most = (length, most) if gap < 0.0 else (least, length)
-            short = -gap / slopes[0]
-            if abs(short) <= NEAR * whole:
-                if self.lanes > 1 and length + short > 0.0:  # values miss the square of what is left, slopes all of it
-                    length += short
+            before, short = (length, gap), -gap / steep
+            near = abs(short) <= NEAR * whole
+            if least < length + short < most:
+                length += short
+            elif not near:
+                length = 0.5 * (least + most)
+            if near:
                 break
-            length = length + short if least < length + short < most else 0.5 * (least + most)
-        if self.lanes > 1:
-            guess = 0.4 * (last.state - one.state)
-            last = self._last_step(one, length, slope, guess, self.registers, self.lanes)
+        last = self._last_step(one, length, slope, 0.4 * (last.state - one.state), self.lanes)
         gap, slopes = self.of.slopes(name, last, self.inputs, self.along)
         short, longer = -gap / slopes[-1], -slopes / slopes[-1]
         longer[-1] = 0.0
@@ -217,22 +221,13 @@ class PhaseRun:
             current=last.current + slope * short, of_current=of_current,
         )  # fmt: skip
 
-    @cached_property
-    def _of_length(self) -> tuple[Array, Array, Array]:
-        """Registers for the length of the last step as the one direction."""
-        return self.motion.registers(self.constants, np.zeros((len(self.constants), 1)))
-
-    def _last_step(
-        self, one: Instant, length: float, slope: float, guess: Array, registers: tuple[Array, Array, Array],
-        lanes: int,
-    ) -> Instant:  # fmt: skip
-        """Return the instant after a last step; the last of its `lanes` directions is its length."""
-        y, s = one.state.copy(), one.of_state[:, -lanes:].copy()
-        longer = np.zeros(lanes)
-        longer[-1] = 1.0
+    def _last_step(self, one: Instant, length: float, slope: float, guess: Array, lanes: int) -> Instant:
+        """Return the instant after a last step; the last of its `lanes` directions, if any, is its length."""
+        y, s, longer = one.state.copy(), one.of_state[:, :lanes].copy(), np.zeros(lanes)
+        longer[-1:] = 1.0
         u = one.current + slope * TIMES * length
-        du = one.of_current[-lanes:] + slope * TIMES[:, None] * longer
-        step(self.motion.system, *registers, y, s, u, du, length, longer, guess)
+        du = one.of_current[:lanes] + slope * TIMES[:, None] * longer
+        step(self.motion.system, *self.registers, y, s, u, du, length, longer, guess)
         return Instant(one.time + length, longer, y, s, float(u[-1]), du[-1], one.step + 1)
 
 
@@ -251,21 +246,21 @@ class _Steps:
         self.ahead = np.zeros(size)
 
 
-def _root(function: Callable[[float], float]) -> float:
-    """Find where a function of a share of a step passes zero, about: by regula falsi (Illinois)."""
+def _root(function: Callable[[float], float]) -> tuple[float, float]:
+    """Find where a function of a share of a step passes zero, about, and its slope: by regula falsi (Illinois)."""
     low, high, below, above = 0.0, 1.0, function(0.0), function(1.0)
-    if above <= 0.0:
-        return 1.0
-    share, side = 1.0, 0
-    for _ in range(12):
+    slope, share, side = above - below, 1.0, 0
+    scale = ROUGH * slope
+    for _ in range(12 if above > 0.0 else 0):
         share = (low * above - high * below) / (above - below)
         value = function(share)
-        if abs(value) < 1e-6 * (above - below) or high - low < 1e-6:
-            return share
+        if abs(value) < scale or high - low < ROUGH:
+            break
         if value < 0.0:
             low, below, above = share, value, above * (0.5 if side == -1 else 1.0)
             side = -1
         else:
             high, above, below = share, value, below * (0.5 if side == 1 else 1.0)
             side = 1
-    return share
+        slope = (above - below) / (high - low)
+    return share, slope

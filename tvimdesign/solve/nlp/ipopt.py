@@ -71,8 +71,8 @@ _MOST_ITERATIONS = {"cold": 120, "near": 60, "warm": 25, "sharp": 60}
 takes 13 to 45, measured on six studies, or seldom comes to anything new."""
 
 
-_MOST_POINTS = {"warm": 60, "near": 100}
-"""A start that leads somewhere evaluates up to 30 points warm and 70 near; any other searches along steps in vain."""
+_MOST_POINTS = {"warm": 50, "near": 70}
+"""A start that leads somewhere evaluates up to 49 points warm and 63 near; any other searches along steps in vain."""
 
 TIME_OVER = "Maximum_WallTime_Exceeded"
 """Status of a run that a deadline ended, whatever its clock."""
