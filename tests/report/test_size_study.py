@@ -13,7 +13,7 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.report.run.study_files import sized_text
 from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 from tvimdesign.study import Range, Study, read_study_text
-from tvimdesign.study.sizing import JointTask
+from tvimdesign.study.sizing import JointTask, study_text
 
 WRIST = {"torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A"}
 
@@ -43,6 +43,18 @@ def test_a_joint_of_each_size_has_hardware_that_fits(diameter: float, torque: fl
     assert limits["joint_stiffness@hot", "<="] == pytest.approx(1.2 * stiffness)
 
 
+def test_a_stroke_moves_the_preload_and_is_named_as_assumed_if_not_given() -> None:
+    task = JointTask.read(**WRIST, stroke="9 deg")
+    wide = study_text(task, "middle")
+    assert "stroke: 0.1571 rad  # to either side of rest\n" in wide
+    preload = read_study_text(wide, "joint.yaml").vary["preload_angle"]
+    assert isinstance(preload, Range)
+    assert preload.lower == pytest.approx(1.15 * task.stroke, rel=5e-3)
+    assert preload.start is not None
+    assert task.stroke < preload.start < preload.upper
+    assert "assumed, as --stroke was not given" in study_text(JointTask.read(**WRIST), "middle")
+
+
 def test_a_range_of_stiffness_and_the_supply_are_taken_as_written() -> None:
     study = sized(stiffness="1 to 1.5 N.m/rad", supply="12 V, 2 A", diameter="76 mm")
     limits = {(limit.output, limit.sense): limit.limit for limit in study.require}
@@ -66,6 +78,7 @@ def test_a_joint_that_is_too_small_names_a_diameter_that_is_not() -> None:
         ({"torque": "8"}, "torque: .* write for instance '8 N.m'"),
         ({"torque": "-8 N.m"}, "torque: -8 N.m is not above zero"),
         ({"diameter": "300 mm"}, "diameter: 300 mm is not from 20 mm to 200 mm"),
+        ({"stroke": "50 deg"}, "stroke: 50 deg to either side of rest is beyond 28.6"),
         ({"supply": "24 V"}, "supply: .* write for instance '24 V, 3 A'"),
         ({"stiffness": "2 to 1 N.m/rad"}, "stiffness: .* is upside down"),
     ],

@@ -151,6 +151,9 @@ def size(
     diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")],
     time: Annotated[str, typer.Option("--time", help="Time within which it gets soft, such as '60 s'.")],
     supply: Annotated[str, typer.Option("--supply", help="Voltage and current, such as '24 V, 3 A'.")],
+    stroke: Annotated[
+        str, typer.Option("--stroke", help="Angle that the soft joint turns to either side; 0.104 rad unless given.")
+    ] = "",
     file: Annotated[Path, typer.Option("--study", help="Study file to write, and to edit afterwards.")] = Path(
         "joint.yaml"
     ),
@@ -163,9 +166,17 @@ def size(
     """Size a joint from five numbers; give a verdict. Writes a study with its hardware and ranges, and runs it."""
     from tvimdesign.report.run.study_files import size_study
 
-    numbers = {"torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply}
+    numbers = {
+        "torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply, "stroke": stroke
+    }  # fmt: skip
     size_study(
-        file, numbers, out or options.default_folder(file), overwrite=overwrite, cad=cad, plots=plots, as_json=json
+        file,
+        numbers,
+        out or options.default_folder(file),
+        overwrite=overwrite,
+        cad=cad,
+        plots=plots,
+        as_json=json,
     )
 
 

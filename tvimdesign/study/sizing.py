@@ -1,4 +1,4 @@
-"""A study from five numbers of a joint: its ranges follow the diameter, its hardware and heater are chosen."""
+"""A study from a few numbers of a joint: its ranges follow the diameter, its hardware and heater are chosen."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from importlib.resources import files
 from typing import Any
 
 from tvimdesign.base.errors import InputError, UnitError
-from tvimdesign.base.units import from_si, parse_quantity
+from tvimdesign.base.units import format_quantity, from_si, parse_quantity
 from tvimdesign.base.yaml_data import plain_data
-from tvimdesign.device import table_for
+from tvimdesign.device import Input, table_for
 from tvimdesign.study.written_studies import SCHEMA_FILE
 
 SIZED_MODE = "shear"
@@ -33,7 +33,12 @@ rate of a spring is E d^4 / (64 D n)."""
 _WIRE_RANGE = (0.72, 1.4)
 _EXAMPLES = {
     "torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
+    "stroke": "6 deg",
 }  # fmt: skip
+STROKE = "0.104 rad"
+"""Stroke to either side of rest, unless given."""
+_PRELOAD = (1.15, 0.216, 0.5)
+"""Least preload angle over the stroke; its start and its largest value beyond the stroke [rad]."""
 _RANGE = re.compile(r"(?P<low>\S+)(?: (?P<unit>\S+))? (?:to|-) (?P<high>.+)")
 
 
@@ -47,10 +52,12 @@ class JointTask:
     time: float
     voltage: float
     current: float
+    stroke: float
+    assumes_stroke: bool
 
     @classmethod
-    def read(cls, torque: str, stiffness: str, diameter: str, time: str, supply: str) -> JointTask:
-        """Read quantities with their units, as `tvim.size` takes them.
+    def read(cls, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "") -> JointTask:
+        """Read quantities with their units, as `tvim.size` takes them; an empty stroke is `STROKE`.
 
         Raises InputError if one of them is no such quantity, or out of range.
         """
@@ -60,8 +67,12 @@ class JointTask:
         task = cls(
             _positive("torque", torque, "N*m"), _stiffness(stiffness), _positive("diameter", diameter, "mm"),
             _positive("time", time, "s"), _positive("supply", voltage.strip(), "V"),
-            _positive("supply", current.strip(), "A"),
+            _positive("supply", current.strip(), "A"), _positive("stroke", stroke or STROKE, "rad"), not stroke,
         )  # fmt: skip
+        row = _inputs()["stroke"]
+        if not row.lower <= task.stroke <= row.upper:
+            most = format_quantity(row.upper, "deg", 3)
+            raise InputError(f"stroke: {stroke} to either side of rest is beyond {most}, the most that a module turns")
         if not SMALLEST <= task.diameter <= LARGEST:
             raise InputError(f"diameter: {diameter} is not from 20 mm to 200 mm, which `size` is made for")
         return task
@@ -111,7 +122,8 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
     entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
     low, high = task.stiffness
     heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
-    stroke = "stroke: 0.104 rad                  # to either side of rest\n"
+    about = "to either side of rest" + ("; assumed, as --stroke was not given" if task.assumes_stroke else "")
+    stroke = f"stroke: {task.stroke:.4g} rad  # {about}\n"
     module = _indented(f"{stroke}{shared['common']}{heater}{shared[entry['springs']]}{entry['module']}")
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
@@ -156,6 +168,10 @@ solver: {{starts: 1, seed: 1}}
 """
 
 
+def _inputs() -> dict[str, Input]:
+    return {row.name: row for row in table_for(SIZED_MODE).inputs}
+
+
 def _indented(lines: str) -> str:
     return "".join(f"  {line}\n" for line in lines.splitlines())
 
@@ -163,7 +179,7 @@ def _indented(lines: str) -> str:
 def _vary(task: JointTask) -> str:
     """Return the variables with ranges for a diameter and a stiffness."""
     wire = _WIRE * (math.sqrt(task.stiffness[0] * task.stiffness[1]) * task.diameter) ** 0.25
-    rows = {row.name: row for row in table_for(SIZED_MODE).inputs}
+    rows = _inputs()
     thinnest = rows["wire_diameter"].lower
     thin, thick = (_mm(max(factor * wire, thinnest)) for factor in _WIRE_RANGE)
     lines = [f"wire_diameter: {{catalog: metric, from: {thin}, to: {thick}}}"]
@@ -173,11 +189,13 @@ def _vary(task: JointTask) -> str:
             for factor, beyond in zip(factors, (1.0, 1.1, 1.2), strict=True)
         )
         lines.append(f"{name}: {{from: {least}, to: {most}, start: {start}}}")
+    share, start_beyond, most_beyond = _PRELOAD
     weakest = max(0.02 * task.current, rows["current"].lower)
     lines += [
         "coil_count: [3, 10]", "arc_span: {from: 20 deg, to: 75 deg, start: 65 deg}", "pcl_thickness: [0.5 mm, 2 mm]",
         f"current: {{from: {weakest:.3g} A, to: {task.current:.4g} A, start: {0.4 * task.current:.3g} A}}",
-        "preload_angle: {from: 0.12 rad, to: 0.6 rad, start: 0.32 rad}",
+        f"preload_angle: {{from: {share * task.stroke:.3g} rad, to: {task.stroke + most_beyond:.3g} rad, "
+        f"start: {task.stroke + start_beyond:.3g} rad}}",
         "pin_radius_ratio: {from: 0.3, to: 0.8, start: 0.65}",
         "link_dowel_ratio: {from: 0.5, to: 0.85, start: 0.7}",
     ]  # fmt: skip

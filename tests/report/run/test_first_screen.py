@@ -220,7 +220,7 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     text = first_screen(one, 100)
     name, share = next(iter(one.uncertainty["held"].items()))
     assert "Manufacturing: 0 of 100 modules meet every limit · by the usual tolerances" in text
-    begin = f"Model: the limit most in doubt is {label(name.split()[0])} (met in {100.0 * share:.0f} %)"
+    begin = f"Model: most in doubt is {label(name.split()[0])}, met in {100.0 * share:.0f} % of assumed ranges"
     assert any(line.startswith(begin) for line in text)
     # The range of the limit most in doubt is there, so that the screen can name what to measure first.
     assert one.uncertainty["intervals"][name.split()[0]]["shares"]

@@ -1,11 +1,14 @@
 """The verdict: each rule on a result that it decides, and the first of several."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
 
+from tvimdesign.device import table_for
+from tvimdesign.report.output.tables import margin_text
 from tvimdesign.report.run.blocks.verdict import TARGET, verdict
 from tvimdesign.report.run.blocks.warnings import RunWarning
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
@@ -57,11 +60,12 @@ def sides(*texts: str) -> ConflictSet:
          "Do not build it: 1 of 2 limits are violated, most peak power <= 15 W, by 3.1 %"),
         (answer(above=("structure_temperature_margin",)), SURE, [], "Above a rating: structure heat margin below 0"),
         (answer(status="below_yield"), SURE, [], "Margins not reached: the time limit ended the search"),
-        (answer(COOL, (HOT,)), SURE, [], "Not at the temperature you asked for: 67 of 100 °C"),
+        (answer(COOL, (HOT,)), SURE, [],
+         "Not at the temperature you asked for: 67 of 100 °C, for joint stiffness"),
         (answer(COOL, ({"output": "impedance_range", "sense": ">=", "limit": 60.0},)), SURE, [],
-         "Not at the temperature you asked for: 67 of 100 °C"),
+         "Not at the temperature you asked for: 67 of 100 °C, for stiffness cold over hot"),
         (answer(COOL | {"temperature@warm": 350.15}, (HOT | {"output": "pcl_stiffness@warm"},)), SURE, [],
-         "Not at the temperature you asked for: 67 of 77 °C"),
+         "Not at the temperature you asked for: 67 of 77 °C, for PCL stiffness"),
         (answer(), SURE | {"parts_yield": {"share": 0.005}}, [GRAVE], "Nominal optimum: add margins (yield 0.5 %)"),
         (answer(), SURE, [GRAVE], "Not yet: pin fillet safety is 0.93"),
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.2}}, [],
@@ -94,3 +98,14 @@ def test_a_study_with_margins_is_no_nominal_optimum() -> None:
     low = SURE | {"parts_yield": {"share": TARGET - 0.05}}
     assert verdict(answer(robust={"share": 0.9}), low, []).kind == "build"
     assert verdict(answer(), low, []).kind == "add_margins"
+
+
+def test_a_violation_below_rounding_is_not_shown_as_none() -> None:
+    table, gap = (
+        table_for("shear"),
+        ConstraintCheck("core_web >= 1 mm", "core_web", 0.0, -4e-5, 1e-2, True, False, -4e-5, "rule"),
+    )
+    assert margin_text(gap, table) == "-0.0004 mm"
+    assert margin_text(replace(gap, absolute=False), table) == "-0.004 %"
+    assert margin_text(replace(gap, kept=True), table) == "0 mm"  # within the solver's tolerance
+    assert verdict(answer(checks=(gap,)), SURE, []).text.endswith("by 0.0004 mm")

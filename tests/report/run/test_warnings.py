@@ -1,27 +1,33 @@
 """Every warning has a line that a study can hold, and one that a run proposes does mend what it warns of."""
 
 import re
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 import yaml
-from comparable import COMPRESSION, SHEAR
+from comparable import COARSE, COMPRESSION, SHEAR
 from stiff_when_warm import LOSSLESS
 from support import ROOT
 
+from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
 from tvimdesign.report.compare.comparison_page import _from_where_it_moves
-from tvimdesign.report.run.blocks.warnings import RunWarning, filled, hints, mending, warnings_of
+from tvimdesign.report.run.blocks.remedies import Remedies
+from tvimdesign.report.run.blocks.warnings import RunWarning, filled, hints, lines_of, warnings_of
 from tvimdesign.report.run.first_screen import warning_lines
+from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import drawn, read_study, read_study_text
 
 ROWS = {row.name: (mode, row) for mode in ("compression", "shear") for row in table_for(mode).outputs}
 ADVICE = {name: mode for name, (mode, row) in ROWS.items() if row.advice}
 RATINGS = {name: mode for name, (mode, row) in ROWS.items() if row.ratings}
-PLACES = {"point": "hot"}
+PLACES = {"point": "hot", "hot": "80 degC"}
 OTHERS = {kind: entry["mend"] for kind, entry in hints()["others"].items()}
 
 
@@ -29,7 +35,7 @@ def test_every_advice_has_a_cure_and_what_has_no_place_is_counted() -> None:
     assert hints()["advice"].keys() == ADVICE.keys()
     assert hints()["ratings"].keys() == RATINGS.keys()
     assert all(entry["mend"] for kind in ("advice", "ratings") for entry in hints()[kind].values())
-    warnings = [RunWarning(f"warning {i} of something", "module: {cover: plate}") for i in range(5)]
+    warnings = [RunWarning(f"warning {i} of something", "write module: {cover: plate}") for i in range(5)]
     lines = warning_lines(warnings, 80, 2)
     assert lines[0] == "Warning: warning 0 of something; write module: {cover: plate}"
     assert lines[1].endswith("write module: {cover: plate} · 3 more: --full")
@@ -69,7 +75,8 @@ def _published(extra: str = "") -> StudyResult:
 def _proposed() -> dict[str, str]:
     """The line for each warning of the published module."""
     found = _published()
-    return {check.output: mending(check, found, table_for("shear")) for check in found.warnings}
+    remedies = Remedies(found, NEVER)
+    return {check.output: remedies.of(check, lines_of(check.output, found)).line for check in found.warnings}
 
 
 @pytest.mark.gate
@@ -95,9 +102,9 @@ def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask() -> Non
     # Of all wave springs the one that goes around the core of 10 mm and lies on the hub of 13.4.
     assert proposed["layer_play"] == "module: {axial_preload: wave_21x25}"
     # No material of the list bears the pads' 127 degC, and a study that varies nothing cannot be asked to.
-    assert proposed["structure_temperature_margin"] == (
-        'vary the current or a size, and write require: {structure_temperature_margin: ">= 0 K"}'
-    )
+    assert proposed["structure_temperature_margin"] == 'require: {structure_temperature_margin: ">= 0 K"}'
+    warned = [warning.cure for warning in warnings_of(_published(), [])]
+    assert any(cure.startswith("vary the current or a size, and try require: {structure") for cure in warned)
 
 
 def test_the_gravest_warning_comes_first() -> None:
@@ -107,8 +114,8 @@ def test_the_gravest_warning_comes_first() -> None:
     found = _published("  cooling_current: 1 A\n")
     said = warnings_of(found, ["a sheet contradicts itself."])
     assert "never gets stiff again" in said[0][0]
-    assert said[0][1] == "module: {cooling_current: 0.2 A, cold_side: sink}"
-    assert said[-1][:2] == ("a sheet contradicts itself", "catalog: my_records")
+    assert said[0][1] == "try module: {cooling_current: 0.2 A, cold_side: sink}"
+    assert said[-1][:2] == ("a sheet contradicts itself", "try catalog: my_records")
 
 
 def _said(text: str, **module: float) -> str:
@@ -137,3 +144,26 @@ def test_a_release_is_drawn_from_where_a_link_begins_to_move() -> None:
     assert one["x"][0] == other["x"][0] == pytest.approx(np.sqrt(0.002) / 100.0, rel=0.05)
     assert one["x"][-1] == 1.0
     assert len(one["x"]) == len(one["y"]) < 400
+
+
+def test_a_requirement_is_tried_beside_the_remedies_before_it() -> None:
+    """Strain of the molten layer is stroke times radius over thickness: least 0.104 * 32 / 2, and 5.9 takes 34 mm."""
+    study = read_study_text(COARSE, "a test")
+    nominal = answer(drawn(study))
+    design = nominal.design.model_copy(update={"study": study.model_dump(mode="json")})
+    optimised = replace(nominal, design=design, solution=cast(Solution, SimpleNamespace()))
+    check = nominal.warnings[0]
+
+    def tried(*lines: str) -> list[tuple[bool, str]]:
+        remedies = Remedies(optimised, NEVER)
+        each = [remedies.of(replace(check, output=line.partition(":")[0]), [f"require: {{{line}}}"]) for line in lines]
+        return [(remedy.tried, remedy.words) for remedy in each]
+
+    refused = "1.66 is the least that the study's limits allow: relax one of them first"
+    assert tried('layer_strain: "<= 1.6"') == [(False, refused)]
+    assert tried('pcl_area: "<= 700 mm^2"') == [(True, "")]
+    thin, (possible, words) = tried('layer_strain: ">= 5.9"', 'pcl_area: "<= 700 mm^2"')
+    assert thin == (True, "")
+    assert not possible
+    assert 700.0 < float(words.partition(" ")[0]) < 900.0
+    assert tried('peak_power: "<= 9 W"') == [(False, "")]  # it depends on the switch

@@ -113,6 +113,7 @@ class Size(_Message):
     diameter: _Text
     time: _Text
     supply: _Text
+    stroke: _Text = ""
 
 
 class MakeParts(_Message):

@@ -72,7 +72,7 @@ def summary(data: dict[str, Any]) -> Figure:
         sheet.lines(text, 1.3)
     for text, cure in data["warnings"]:
         sheet.text("Warning", color=_TONES["warn"], weight="bold")
-        sheet.lines(text + (f"; write {cure}" if cure else ""), 1.3)
+        sheet.lines(text + (f"; {cure}" if cure else ""), 1.3)
     if data["picture"]:
         _picture(sheet, Path(data["picture"]))
     sheet.left = _BOTTOM

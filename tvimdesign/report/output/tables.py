@@ -118,12 +118,12 @@ def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[
 def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
     """Return the margin for people: `19 %`, `-0.016 rad`, `ample`; never for what never happens.
 
-    What is less than rounding is 0.
+    What is less than rounding is 0, unless the limit is violated by it.
     """
     if not math.isfinite(check.margin):
         return "never"
     margin, unit = margin_of(check, table)
-    margin = margin if abs(check.margin) > NOTHING else 0.0
+    margin = margin if abs(check.margin) > NOTHING or not getattr(check, "kept", True) else 0.0
     if check.absolute:
         return f"{number(margin, 3)} {pretty(unit)}".rstrip()
     if abs(margin) >= 10.0:

@@ -105,7 +105,7 @@ def print_block(item: Block, console: Console) -> None:
             console.print(escape(line))
     elif isinstance(item, Warned):
         for text, cure in item.rows:
-            console.print(f"[yellow]Warning[/yellow] {escape(text)}" + (f"; write {escape(cure)}" if cure else ""))
+            console.print(f"[yellow]Warning[/yellow] {escape(text)}" + (f"; {escape(cure)}" if cure else ""))
     elif isinstance(item, Folded):
         for within in item.blocks:
             print_block(within, console)

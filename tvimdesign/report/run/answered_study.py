@@ -50,7 +50,7 @@ class AnsweredStudy:
 
     @cached_property
     def _of_design(self) -> list[RunWarning]:
-        return warnings_of(self.result, self.reported["doubts"])
+        return warnings_of(self.result, self.reported["doubts"], self.deadline)
 
     def _not_done(self) -> Iterator[RunWarning]:
         """Report a missing uncertainty, and the steps that the time limit left out."""

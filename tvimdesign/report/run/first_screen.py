@@ -30,14 +30,15 @@ from tvimdesign.report.run.blocks.facts import (
 from tvimdesign.report.run.blocks.requirements import HEADS, Requirement, requirements
 from tvimdesign.report.run.blocks.sections import text_sections
 from tvimdesign.report.run.blocks.verdict import Verdict, starts_in_words, verdict
-from tvimdesign.report.run.blocks.warnings import VARY, RunWarning
+from tvimdesign.report.run.blocks.warnings import SHOWN, RunWarning
 
 FILE = "summary.txt"
 LINES, NARROW_LINES = 16, 24
 """Lines of the screen from 100 columns on, and below."""
 _WIDE = 100
+_LEAST = 3
+"""Lines of the requirements, with their heads, for which the last facts make room."""
 _FILE_WIDTH = 120
-_WARNINGS = 3
 _COLOURS = {"red": r"\bviolated by\b.*", "yellow": r"at the limit|^Warning:", "bold": r"^[A-Z][a-z ]+:"}
 _OF_TONE = {"good": "bold green", "warn": "bold yellow", "bad": "bold red", "": "bold"}
 
@@ -64,17 +65,20 @@ def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = No
     answer = answered.result
     parts = [verdict_of(answered).text, f"{answer.design.name} ({answer.design.mode})"]
     more = [*starts_in_words(answer), *([] if seconds is None else [f"{seconds:.{1 if seconds < 10.0 else 0}f} s"])]
-    head, facts = _as_fit(joined(parts, width), more, width), []
+    head, first = _as_fit(joined(parts, width), more, width), warning_lines(answered.warnings, width, 1)
+    facts: list[list[str]] = []
+    room = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - after
     if answer.found:
-        shown = [*main_facts(answer, answered.uncertainty), *chosen_fact(answer)]
-        shown += front_fact(answered.front.front, answered.study.table)
-        facts = [line for fact in shown for line in _fact_lines(fact, width)]
-    left = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - len(facts) - after
-    first = warning_lines(answered.warnings, width, 1)
+        extra = [*front_fact(answered.front.front, answered.study.table), *chosen_fact(answer)]
+        facts = [_fact_lines(fact, width) for fact in (*main_facts(answer, answered.uncertainty), *extra)]
+        while extra and sum(map(len, facts)) > room - len(first) - _LEAST:
+            extra, facts = extra[:-1], facts[:-1]
+    left = room - sum(map(len, facts))
     requirement_lines = _requirement_lines(requirements(answer, answered.uncertainty), width, left - len(first))
-    counts = [count for count in range(_WARNINGS, 0, -1)
+    counts = [count for count in range(SHOWN, 0, -1)
               if len(requirement_lines) + len(warning_lines(answered.warnings, width, count)) <= left]  # fmt: skip
-    return [*head, *requirement_lines, *facts, *warning_lines(answered.warnings, width, counts[0] if counts else 1)]
+    lines = [line for fact in facts for line in fact]
+    return [*head, *requirement_lines, *lines, *warning_lines(answered.warnings, width, counts[0] if counts else 1)]
 
 
 def _as_fit(lines: Sequence[str], more: Sequence[str], width: int) -> list[str]:
@@ -135,11 +139,10 @@ def warning_lines(warnings: Sequence[RunWarning], width: int, count: int) -> lis
 
 def _warning(warning: RunWarning, width: int) -> list[str]:
     """Return what is wrong, and on the same line what cures it if it fits: what is to be copied stays in one piece."""
-    indent = " " * 9
-    lines = wrapped(f"Warning: {warning.text}{';' if warning.cure else ''}", width, indent=indent)
-    if not warning.cure:
-        return lines
-    cure = warning.cure if warning.cure.startswith(VARY) else f"write {warning.cure}"
+    indent, cure = " " * 9, warning.cure
+    if not cure.startswith(("write ", "try ")):
+        return wrapped(f"Warning: {'; '.join(filter(None, (warning.text, cure)))}", width, indent=indent)
+    lines = wrapped(f"Warning: {warning.text};", width, indent=indent)
     if len(lines[-1]) + len(cure) + 1 <= width:
         return [*lines[:-1], f"{lines[-1]} {cure}"]
     return [

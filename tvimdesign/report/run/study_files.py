@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +14,7 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.study import read_study_text
 from tvimdesign.study.design import read_design
-from tvimdesign.study.sizing import LARGEST, JointTask, diameters, hardware_by_fit, study_text
+from tvimdesign.study.sizing import LARGEST, STROKE, JointTask, diameters, hardware_by_fit, study_text
 from tvimdesign.study.text.source import printable
 from tvimdesign.study.written_studies import (
     SCHEMA_FILE,
@@ -81,6 +82,8 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
     with progress_output() as progress:
         text = sized_text(task, file.stem, progress)
     atomic_write(file, text.encode())
+    if task.assumes_stroke:
+        print(f"stroke of {STROKE} to either side of rest assumed; --stroke changes it", file=sys.stderr)
     run_study(file, out, overwrite=overwrite, **run)
 
 

@@ -164,8 +164,8 @@ def _deviations(optimizer: Optimizer, run: Run, wanted: list[str]) -> dict[str, 
     return dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0].tolist(), strict=True))
 
 
-def least_with_margins(study: Study, output: str, weight: float = 1.0) -> float | None:
-    """Return the least value of an output that the arithmetic limits allow with margins for the study's tolerances.
+def least_with_margins(study: Study, output: str, weight: float = 1.0, *, margins: bool = True) -> float | None:
+    """Return the least value of an output that the arithmetic limits allow, with margins for the study's tolerances.
 
     With a negative weight it is the largest. Limits on the output itself are left out; None if no start gets there.
     """
@@ -175,7 +175,8 @@ def least_with_margins(study: Study, output: str, weight: float = 1.0) -> float 
         for name, tolerance in study.tolerances.items()
     }
     update = {
-        "tolerances": tolerances, "minimize": {output: weight}, "robust": RobustOptions(sigma=_SIGMA),
+        "tolerances": tolerances, "minimize": {output: weight},
+        "robust": RobustOptions(sigma=_SIGMA) if margins else None,
         "require": tuple(limit for limit in study.require if limit.output != output),
         "profile": ProfileOptions(), "solver": study.solver.model_copy(update={"starts": _STARTS}),
     }  # fmt: skip
@@ -185,7 +186,7 @@ def least_with_margins(study: Study, output: str, weight: float = 1.0) -> float 
         return None
     for begin in optimizer.multistart.points():
         run = optimizer.solve(begin=begin)
-        run = settle(optimizer, run, {}) if run.start.converged else run
+        run = settle(optimizer, run, {}) if margins and run.start.converged else run
         if run.start.converged:
             return run.start.objective * optimizer.reference[output] / weight
     return None

@@ -92,10 +92,19 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
         *_impedance(value),
-        Fact("Energy", [f"{value('switch_energy')} to soften", peaks]),
+        Fact("Energy", [f"{value('switch_energy')} to soften", peaks, *driver_in_words(answer)]),
     ]
     doubts = (*_manufacturing(uncertainty), *_model(uncertainty))
     return [*facts, *_lost_motion(value), *_active_constraints(answer), *doubts]
+
+
+def driver_in_words(answer: StudyResult) -> list[str]:
+    """Return how a supply drives a heater that needs far less than the voltage that the study allows."""
+    limits = [limit["limit"] for limit in answer.design.study["require"] if limit["output"] == "peak_voltage"]
+    values = answer.design.values
+    if not limits or values["peak_voltage"] > _NEAR * min(limits):
+        return []
+    return [f"step-down driver from {number(min(limits), 3)} V"]
 
 
 def _times(value: _Values) -> Iterator[str]:
@@ -107,6 +116,8 @@ def _times(value: _Values) -> Iterator[str]:
         yield "never stiff again"
 
 
+_NEAR = 0.9
+"""Share of the supply's voltage from which a heater needs no other voltage."""
 _LARGE = 0.1
 """Share of stroke or spring torque from which lost motion or friction stands on the first screen."""
 _LOST = (
@@ -170,8 +181,8 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     first = measure_first(name, uncertainty)
-    text = f"the limit most in doubt is {label(name)} (met in {100.0 * share:.0f} %)"
-    return [Fact("Model", [text], f"measure {label(first)} first" if first else "")]
+    text = f"most in doubt is {label(name)}, met in {100.0 * share:.0f} % of assumed ranges"
+    return [Fact("Model", [text, *([f"measure {label(first)}"] if first else [])])]
 
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:

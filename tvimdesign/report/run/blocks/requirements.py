@@ -127,7 +127,7 @@ def _got(answer: StudyResult, names: Sequence[str], unit: str, check: Constraint
     name, table = names[0], table_for(answer.design.mode)
     if name in answer.intervals:
         text = value_text(answer, name, table, rounded=True)
-    elif check.absolute and abs(check.margin) <= NOTHING and check.output == name:
+    elif check.absolute and check.kept and abs(check.margin) <= NOTHING and check.output == name:
         text = number(on_limit(check, unit))
     elif len(names) > 1:
         values = [from_si(answer.design.value(output), unit) for output in names]

@@ -13,7 +13,7 @@ from tvimdesign.report.output.choices_tables import best_rows
 from tvimdesign.report.output.numbers import ends_text, in_unit, number, range_text
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
-from tvimdesign.report.run.blocks.verdict import unreached_points
+from tvimdesign.report.run.blocks.warnings import unreached_points
 from tvimdesign.report.run.reasons import binding
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import ConstraintCheck, StudyResult

@@ -25,15 +25,13 @@ from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Tone
 from tvimdesign.report.output.numbers import in_labels, label, number, percent
 from tvimdesign.report.output.tables import margin_text
-from tvimdesign.report.run.blocks.warnings import RunWarning
+from tvimdesign.report.run.blocks.warnings import RunWarning, missed_points
 from tvimdesign.report.run.uncertainty_data import yield_of
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 TARGET = 0.95
 """Yield below which a design without margins is only a nominal one."""
-TEMPERATURE = 0.5
-"""Kelvin by which heating may stop below the hot point."""
 DOUBT = 0.25
 """Share of the plausible cases in which the limit most in doubt must be met."""
 
@@ -149,32 +147,15 @@ def _margins_missed(answer: StudyResult) -> Verdict | None:
 
 def _temperature(answer: StudyResult) -> Verdict | None:
     """Compare each operating point with where heating stops, if a requirement there is not met then."""
-    values, table = answer.design.values, table_for(answer.design.mode)
-    points = unreached_points(values)
-    limits = answer.design.study["require"]
-    missed = [point for point in points if any(_misses(limit, point, values, table) for limit in limits)]
+    values, missed = answer.design.values, missed_points(answer)
     if not missed:
         return None
-    ends = (values["softened_temperature"], max(values[f"temperature@{point}"] for point in missed))
+    point = max(missed, key=lambda point: values[f"temperature@{point}"])
+    ends = (values["softened_temperature"], values[f"temperature@{point}"])
     reached, wanted = (f"{from_si(end, 'degC'):.0f}" for end in ends)
-    return Verdict("temperature", f"Not at the temperature you asked for: {reached} of {wanted} {pretty('degC')}")
-
-
-def unreached_points(values: Mapping[str, float]) -> list[str]:
-    """Return the operating points that are warmer than the layer's coldest face ever is."""
-    reached = values.get("softened_temperature", math.inf)
-    temperatures = {name.partition("@")[2]: value for name, value in values.items() if name.startswith("temperature@")}
-    return [point for point, temperature in temperatures.items() if temperature > reached + TEMPERATURE]
-
-
-def _misses(limit: Mapping[str, Any], point: str, values: Mapping[str, float], table: Table) -> bool:
-    """Return whether a requirement at a point is not met when heating stops; True if that is not known."""
-    name, at_end = limit["output"], table.output(limit["output"]).at_end
-    if (name.partition("@")[2] or (at_end and "hot")) != point:
-        return False
-    if not at_end or point != "hot":
-        return True
-    return not (values[at_end] >= limit["limit"] if limit["sense"] == ">=" else values[at_end] <= limit["limit"])
+    what = label(missed[point].partition("@")[0])
+    text = f"Not at the temperature you asked for: {reached} of {wanted} {pretty('degC')}, for {what}"
+    return Verdict("temperature", text)
 
 
 def _add_margins(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict | None:

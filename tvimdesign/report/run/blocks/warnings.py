@@ -1,4 +1,4 @@
-"""Warnings of a run, the gravest first, each with the line of the study that cures it."""
+"""Warnings of a run, the gravest first, each with a line of the study that may cure it."""
 
 from __future__ import annotations
 
@@ -9,33 +9,34 @@ from functools import cache
 from importlib import resources
 from typing import Any, NamedTuple
 
-from tvimdesign.base.errors import TvimError
-from tvimdesign.base.units import format_quantity
+from tvimdesign.base.deadline import NEVER, Deadline
+from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.base.yaml_data import plain_data
-from tvimdesign.device import Choice, Table, table_for
+from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.output.terminal import duration
+from tvimdesign.report.run.blocks.remedies import Remedies
 from tvimdesign.report.run.reasons import endings
-from tvimdesign.solve.nlp.constraints import advice_of, ratings_of
-from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
-from tvimdesign.solve.result import ConstraintCheck, StudyResult
-from tvimdesign.study import Study, given
+from tvimdesign.solve.result import StudyResult
 
 LOOSE = 0.05
 """Share of the first swing without contact from which on small motions say little of the joint."""
 _PLACE = re.compile(r"<(\w+)>")
-RULE_TOLERANCE = 1e-9
-"""By how much, in SI, a rule may seem violated by rounding."""
+TEMPERATURE = 0.5
+"""Kelvin by which heating may stop below the hot point."""
+SHOWN = 3
+"""Warnings of the first screen; their remedies are tried."""
 _LEVELS = ("grave", "serious", "")
-VARY = "vary the current or a size, and write "
-"""What a study that varies nothing is advised first, if a requirement is the cure."""
+_VARY = "vary the current or a size, and try"
+"""What a study that varies nothing is advised, if a requirement is the cure."""
 
 
 class RunWarning(NamedTuple):
-    """A warning: its text, the line to write in the study, and its level, `grave`, `serious` or none."""
+    """A warning: its text, what cures it, and its level, `grave`, `serious` or none."""
 
     text: str
     cure: str = ""
+    """A line of the study behind *write* if it was tried, behind *try* if it was not."""
     level: str = ""
 
     @property
@@ -44,12 +45,15 @@ class RunWarning(NamedTuple):
         return self.level == "grave"
 
 
-def warnings_of(answer: StudyResult, doubts: Sequence[str]) -> list[RunWarning]:
-    """Return the warnings of a result, the gravest first; `doubts` are contradictions within chosen records."""
+def warnings_of(answer: StudyResult, doubts: Sequence[str], deadline: Deadline = NEVER) -> list[RunWarning]:
+    """Return the warnings of a result, the gravest first; `doubts` are contradictions within chosen records.
+
+    Remedies of those that the first screen shows are tried until the deadline.
+    """
     from_records = [_other("doubt", line=doubt) for doubt in doubts]
     if not answer.found:
         return from_records
-    warnings = [*_of_the_switch(answer), *_of_advice(answer), *_of_points(answer), *_of_the_search(answer)]
+    warnings = [*_of_the_switch(answer), *_of_advice(answer, deadline), *_of_points(answer), *_of_the_search(answer)]
     return sorted([*warnings, *from_records], key=lambda warning: _LEVELS.index(warning.level))
 
 
@@ -72,7 +76,8 @@ def filled(text: str, places: Mapping[str, str]) -> str:
 
 def _other(kind: str, **places: str) -> RunWarning:
     entry = hints()["others"][kind]
-    return RunWarning(filled(entry["say"], places).rstrip("."), filled(entry["mend"], places), entry.get("level", ""))
+    text, cure = filled(entry["say"], places).rstrip("."), f"try {filled(entry['mend'], places)}"
+    return RunWarning(text, cure, entry.get("level", ""))
 
 
 def _of_the_switch(answer: StudyResult) -> Iterator[RunWarning]:
@@ -82,19 +87,39 @@ def _of_the_switch(answer: StudyResult) -> Iterator[RunWarning]:
         yield _other("never_stiff")
 
 
-def _of_advice(answer: StudyResult) -> Iterator[RunWarning]:
-    table = table_for(answer.design.mode)
-    for check in answer.warnings:
-        hint = _hint(check.output)
-        value = format_quantity(check.value, table.unit(check.output), 3)
-        cure, above_rating = mending(check, answer, table), check.output in answer.design.above_rating
-        if above_rating:
-            accept = f"accept: [{check.output}]"
-            cure = f"{cure} or {accept}" if cure else accept
+def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
+    """Yield ratings and advice that the design does not follow, the gravest first."""
+    table, above, remedies = table_for(answer.design.mode), answer.design.above_rating, Remedies(answer, deadline)
+    levels = {check.output: "grave" if check.output in above else _hint(check.output).get("level", "")
+              for check in answer.warnings}  # fmt: skip
+    checks = [check for check in answer.warnings if not _answered(check.output, answer)]
+    for place, check in enumerate(sorted(checks, key=lambda check: _LEVELS.index(levels[check.output]))):
+        hint, value = _hint(check.output), format_quantity(check.value, table.unit(check.output), 3)
         text = f"{label(check.output)} is {value}: {hint.get('say', check.origin)}"
         if "text" in hint:
             text = filled(hint["text"], {"size": value.lstrip("-")})
-        yield RunWarning(text, cure, "grave" if above_rating else hint.get("level", ""))
+        remedy = remedies.of(check, lines_of(check.output, answer), cheap=place >= SHOWN)
+        cure = f"{'write' if remedy.tried else 'try'} {remedy.line}" if remedy.line else remedy.words
+        if answer.solution is None and remedy.line.startswith("require:"):
+            cure = f"{_VARY} {remedy.line}"
+        if check.output in above:
+            cure = f"{cure} or accept: [{check.output}]".removeprefix(" or ")
+        yield RunWarning(text, cure, levels[check.output])
+
+
+def _answered(output: str, answer: StudyResult) -> bool:
+    """Return whether the study has all that an advice proposes, or needs nothing of it."""
+    if output == "hot_point_margin":
+        return not missed_points(answer)
+    return not lines_of(output, answer)
+
+
+def lines_of(output: str, answer: StudyResult) -> list[str]:
+    """Return the lines that may cure an advice or a rating, but for choices that the design has already."""
+    hot = f"{from_si(answer.design.values.get('temperature@hot', 0.0), 'degC'):.4g} degC"
+    lines = [filled(line, {"hot": hot}) for line in _hint(output).get("mend", ())]
+    choices = answer.design.choices.items()
+    return [line for line in lines if not set(plain_data(line).get("module", {"": ""}).items()) <= set(choices)]
 
 
 def _of_points(answer: StudyResult) -> Iterator[RunWarning]:
@@ -128,48 +153,32 @@ def _of_the_search(answer: StudyResult) -> Iterator[RunWarning]:
         yield _other("not_converged", line=line)
 
 
-def mending(check: ConstraintCheck, answer: StudyResult, table: Table) -> str:
-    """Return the line that cures a neglected advice; empty if the file knows none.
+def missed_points(answer: StudyResult) -> dict[str, str]:
+    """Return operating points that heating does not reach, each with an output that misses its limit where it stops.
 
-    A study that varies nothing is advised to vary something if the line is a requirement.
+    An output that is not known there counts as missed.
     """
-    lines: Sequence[str] = _hint(check.output).get("mend", ())
-    for line in lines:
-        words = plain_data(line).get("module", {})
-        only_words = bool(words) and all(isinstance(table.by_name.get(name), Choice) for name in words)
-        if only_words and _cures(check, words, answer, table):
-            return line
-    last = lines[-1] if lines else ""
-    return f"{VARY}{last}" if last.startswith("require:") and answer.solution is None else last
+    values, table = answer.design.values, table_for(answer.design.mode)
+    return {
+        point: limit["output"]
+        for point in unreached_points(values)
+        for limit in answer.design.study["require"]
+        if _misses(limit, point, values, table)
+    }
 
 
-def _cures(check: ConstraintCheck, words: Mapping[str, str], answer: StudyResult, table: Table) -> bool:
-    """Return whether the advice is followed with other words chosen, numbers and working cycle being the same."""
-    design = answer.design
-    study = Study.model_validate(design.study)
-    chosen = {name: design.choices[name] for name in study.vary if name in design.choices}
-    changed = study.model_copy(update={"vary": {}, "profile": {}, "module": {**study.module, **chosen, **words}})
-    try:
-        values = given(changed)
-        values |= {name: design.values[name] for name in study.vary if name in design.values}
-        values |= {row.name: design.values[row.name] for row in table.supplied}
-        value = table.evaluate(values, [check.output])[check.output]
-        if not _fits(words, values, table):
-            return False
-    except TvimError:
+def unreached_points(values: Mapping[str, float]) -> list[str]:
+    """Return the operating points that are warmer than the layer's coldest face ever is."""
+    reached = values.get("softened_temperature", math.inf)
+    temperatures = {name.partition("@")[2]: value for name, value in values.items() if name.startswith("temperature@")}
+    return [point for point, temperature in temperatures.items() if temperature > reached + TEMPERATURE]
+
+
+def _misses(limit: Mapping[str, Any], point: str, values: Mapping[str, float], table: Table) -> bool:
+    """Return whether a requirement at a point is not met when heating stops; True if that is not known."""
+    name, at_end = limit["output"], table.output(limit["output"]).at_end
+    if (name.partition("@")[2] or (at_end and "hot")) != point:
         return False
-    limits = [limit for limit in (*ratings_of(table), *advice_of(table)) if limit.output == check.output]
-    return all(limit.residual(value) <= CYCLE_TOLERANCE for limit in limits)
-
-
-def _fits(words: Mapping[str, str], values: Mapping[str, Any], table: Table) -> bool:
-    """Return whether what the words bring into the module meets its own rules: a spring must fit its hub."""
-    brought = [
-        (row.name, rule)
-        for row in table.outputs
-        if any(feature.choice in words for feature in row.requires)
-        for rule in row.rules
-    ]
-    fit_values = table.evaluate(values, list(dict.fromkeys(name for name, _ in brought)))
-    return all((fit_values[name] - rule.value) * (1.0 if rule.sense == ">=" else -1.0) >= -RULE_TOLERANCE
-               for name, rule in brought)  # fmt: skip
+    if not at_end or point != "hot":
+        return True
+    return not (values[at_end] >= limit["limit"] if limit["sense"] == ">=" else values[at_end] <= limit["limit"])
