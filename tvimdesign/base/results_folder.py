@@ -275,25 +275,6 @@ def say(text: str) -> None:
     sys.stderr.write(f"{text}\n")
 
 
-def rewrite(folder: Path, name: str, data: bytes) -> bool:
-    """Write a file of finished results anew, and its digest; False, and nothing, where it was changed by hand."""
-    manifest = read_manifest(folder)
-    if not is_as_written(folder, name, {manifest.files.get(name, "-")}):
-        return False
-    atomic_write(folder / name, data)
-    files = {**manifest.files, name: digest_of(folder / name)}
-    atomic_write(folder / MANIFEST, manifest_text({**manifest.content, "files": files}).encode())
-    return True
-
-
-def made_from(folder: Path, name: str) -> str:
-    """Return the digest of what went into finished results under a name; empty where there are none."""
-    try:
-        return str(read_manifest(folder).content.get("inputs", {}).get(name, ""))
-    except InputError:
-        return ""
-
-
 def _version(name: str) -> str | None:
     try:
         return metadata.version(name)

@@ -80,11 +80,10 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
     import sys
 
     from tvimdesign.cad.fe.run_solvers import require_fe
-    from tvimdesign.report.run.verification_section import folder_of_verification
     from tvimdesign.report.verify_design import verify_design
 
     require_fe(fe_python or sys.executable)
-    out = folder_of_verification(run)
+    out = run.with_name(f"{run.resolve().name}-verified")
     return lambda: verify_design(run, out, fe_python, overwrite=overwrite, as_json=False, told=told)
 
 

@@ -1,11 +1,10 @@
-"""A page as one HTML file that opens offline: templates, styles, code, data; its blocks alone; a later section."""
+"""A page as one HTML file that opens offline: templates, styles, code, data; its blocks alone."""
 
 from __future__ import annotations
 
 import base64
 import gzip
 import json
-import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
@@ -14,7 +13,7 @@ from importlib import resources
 from pathlib import PurePosixPath
 from typing import Any
 
-from tvimdesign.page.blocks import Block, Drawn, Folded, Page, Section
+from tvimdesign.page.blocks import Block, Drawn, Folded, Page
 
 FILE = "report.html"
 MOST = 4_000_000
@@ -139,23 +138,3 @@ def page_fragment(page: Page, left_out: Collection[str] = ()) -> dict[str, Any]:
         "data": {one.name: dict(one.data) for one in drawn},
         "binaries": {one.name: packed(one.binary) for one in drawn if one.binary},
     }
-
-
-def with_section(text: str, section: Section, before: str) -> str | None:
-    """Return a page's text with one more section, before the one named `before`; it replaces one of its name.
-
-    The section draws no figure of its own. None where the text is no page that has `before`.
-    """
-    text = _without(text, section.name)
-    link, place = f'<li><a href="#{before}">', f'<section id="{before}"'
-    if text.count(link) != 1 or text.count(place) != 1:
-        return None
-    made = template("section.html.jinja").module
-    entry, body = str(made.entry(section)).strip(), str(made.body(section)).strip()
-    return text.replace(link, f"{entry}\n    {link}").replace(place, f"{body}\n{place}")
-
-
-def _without(text: str, name: str) -> str:
-    """Return the text without a section and its entry in the contents."""
-    text = re.sub(rf'<li><a href="#{name}">[^\n]*</li>\n\s*', "", text, count=1)
-    return re.sub(rf'<section id="{name}".*?</section>\n', "", text, count=1, flags=re.DOTALL)

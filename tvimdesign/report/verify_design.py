@@ -9,7 +9,6 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
-from rich.markup import escape
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
@@ -18,10 +17,9 @@ from tvimdesign.cad.fe.model_comparison import HEAT, SOLVERS, TIMES, Compared, c
 from tvimdesign.cad.fe.run_solvers import Solved, require_fe, run_solvers
 from tvimdesign.cad.fe.warm_joint import WarmJoint, softening_time
 from tvimdesign.page.blocks import Block, Page, Points
-from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.terminal import Progress
-from tvimdesign.report.run.verification_section import FILES, far, put_on_page, table_csv, verified, verify_sections
+from tvimdesign.report.verification_tables import FILES, far, table_csv, verified, verify_sections
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design
 
@@ -34,7 +32,7 @@ TITLES = {
 
 
 def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_json: bool, told: bool = True) -> None:
-    """Solve the parts of a design and write the folder, and the section of its run's page where it has one.
+    """Solve the parts of a design and write the folder.
 
     Nothing is printed unless `told`. Raises InputError, SimulationError, OutputError.
     """
@@ -51,11 +49,8 @@ def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_
             _write(command, data, rows, solved, Path(work))
         page = verify_page(command, design.name, data, rows)
         command.finish("verified", {"design": source}, design.study, page=page)
-    on_page = put_on_page(out, source.parent)
     if told:
-        also = f"{escape(str(source.parent))}/{FILE} shows table and pictures, too; they are" if on_page else ""
-        where = also or "report.html with table and pictures is"
-        command.report({**data, "on_page_of_run": on_page}, where)
+        command.report(data, "report.html with table and pictures is")
 
 
 def verify_page(command: Command, name: str, data: dict[str, Any], rows: list[Compared]) -> Page:

@@ -12,7 +12,7 @@ from support import ROOT, Command
 
 from tvimdesign.report.compare.compare_studies import Asked, answers
 
-PICTURES = {f"{name}.{ending}" for name in ("fronts", "release", "heat") for ending in ("png", "pdf", "svg")}
+PICTURES = {f"fronts.{ending}" for ending in ("png", "pdf", "svg")}
 
 
 def _report(folder: Path) -> dict[str, Any]:
@@ -56,8 +56,6 @@ def test_folder_and_ratios_are_those_of_the_written_designs(pair: Path) -> None:
         assert rows["module_mass"]["verdict"]["compression"] == ("better" if less else "worse")
         assert "joint_stiffness@hot" in rows
         assert "layer_strain" not in rows
-    alone = {(row["study"], row["name"]) for row in reported["alone"]["optimised"]}
-    assert {("shear", "layer_strain"), ("compression", "block_strain")} <= alone
 
 
 @pytest.mark.slow
@@ -76,7 +74,7 @@ def test_studies_minimise_over_the_mean_of_the_drawn_modules(pair: Path) -> None
 
 
 @pytest.mark.slow
-def test_contact_warnings_and_active_constraints_are_reported(pair: Path) -> None:
+def test_contact_and_warnings_are_reported(pair: Path) -> None:
     reported = _report(pair)
     rows = {row["name"]: row for row in reported["comparisons"]["optimised"]}
     lost = rows["contact_lost@hot"]
@@ -93,16 +91,6 @@ def test_contact_warnings_and_active_constraints_are_reported(pair: Path) -> Non
         for warning in warnings:
             assert f"Warning {mode}: {warning['output']} is" in summary
             assert warning["because"] in summary
-    for mode in ("shear", "compression"):
-        held = reported["studies"][mode]["optimised"]["active_constraints"]
-        prices = [limit["shadow_price"] for limit in held]
-        assert 1 <= len(held) <= 3
-        assert prices == sorted(prices, reverse=True)
-        (sentence,) = (text for text in reported["conclusions"] if f"{mode} is held back most by" in text)
-        for limit in held:
-            assert limit["limit"] in sentence
-            assert limit["because"] in sentence or limit["because"] in {"require", "vary", "module"}
-        assert reported["studies"][mode]["drawn"]["active_constraints"] == []
 
 
 @pytest.mark.slow

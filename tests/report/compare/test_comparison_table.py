@@ -67,7 +67,7 @@ def test_sentence_and_csv_of_a_comparison() -> None:
         "b is 2 times slower (response_time 140 s against 70 s) and 8 % lighter (module_mass 92 g against 100 g) than a"
     )
     assert against("b", "a", [row(1.0, 1.0)], ["response_time"]) == "b and a do not differ"
-    reported = list(csv.DictReader(io.StringIO(compare_csv({"drawn": [row(70.0, math.inf)]}, {}))))
+    reported = list(csv.DictReader(io.StringIO(compare_csv({"drawn": [row(70.0, math.inf)]}))))
     assert [(line["a"], line["b"], line["ratio b"], line["verdict b"]) for line in reported] == [
         ("70.0", "never", "", "worse")
     ]

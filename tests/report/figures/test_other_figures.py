@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.figures import faults, signed
-from tvimdesign.report.figures import analysis_figures, comparison_figures, design_figures
+from tvimdesign.report.figures import analysis_figures, design_figures
 from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
 from tvimdesign.report.simulate_study import figure_data
 from tvimdesign.simulation.virtual_tests import TESTS, find_test
@@ -75,11 +75,7 @@ def test_an_editor_finds_no_fault_with_other_figures() -> None:
         return {"label": label, "x": [60.0 * by, 70.0 * by], "y": [80.0, 60.0], "optimum": [[65.0 * by], [65.0]]}
 
     panel = {"lines": [line("shear", 1.0), line("compression", 1.1)], "x_label": LABELS[1], "y_label": LABELS[0]}
-    assert faults(signed(comparison_figures.fronts({"title": "Fronts", "panels": [panel, panel]}))) == []
-    heat = {"label": "shear", "time": [0.0, 30.0, 60.0], "depth": [0.0, 0.5, 1.0],
-            "temperature": [[20.0, 60.0, 90.0], [20.0, 50.0, 80.0], [20.0, 40.0, 70.0]]}  # fmt: skip
-    data = {"title": "Heat", "studies": [heat, heat], "coldest": 20.0, "hottest": 90.0, "melting": [50.0, 65.0]}
-    assert faults(signed(comparison_figures.heat(data))) == []
+    assert faults(signed(design_figures.fronts({"title": "Fronts", "panels": [panel, panel]}))) == []
     names = ["envelope volume", "spring stiffness", "joint damping, hot"]
     parts = [{"name": f"a contributor {i}", "shares": [14.0] * 3} for i in range(7)]
     panel = {"title": "50 % of modules within limits", "label": "Spring stiffness (N·m/rad)", "counts": [1, 5, 20, 5],

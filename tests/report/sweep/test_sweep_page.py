@@ -1,9 +1,7 @@
-"""The page of a sweep: what it shows, the commands of its cells and what it leaves out."""
+"""The page of a sweep: what it shows and what it leaves out."""
 
-import html
 import json
 import re
-import shlex
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -13,9 +11,8 @@ import pytest
 
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.command import Command
-from tvimdesign.report.sweep.sweep_page import CellCommands, sweep_page
-from tvimdesign.study import given, read_tree
-from tvimdesign.study.tree import tree_of_file, tree_of_text, tree_of_values
+from tvimdesign.report.sweep.sweep_page import sweep_page
+from tvimdesign.study.tree import tree_of_values
 from tvimdesign.sweep import swept_cells as cell_table
 from tvimdesign.sweep.gather import columns
 from tvimdesign.sweep.plan import SweepPlan, plan_of
@@ -26,13 +23,6 @@ GRID: dict[str, Any] = {"over": {"pcl_thickness": {**THICKNESS, "count": 3}, "ra
 CLOUD: dict[str, Any] = {
     "method": "sobol", "count": 8, "over": {"pcl_thickness": THICKNESS, "current": {"from": "1 A", "to": "2 A"}}
 }  # fmt: skip
-OPTIMISED = """
-mode: shear
-vary: {pcl_thickness: [0.6 mm, 2 mm], coil_count: [3, 6]}
-minimize: module_mass
-front: {of: [module_mass, response_time], points: 3}
-sweep: {task: evaluate, over: {require.holding_torque: [">= 9 N.m", ">= 10 N.m"]}}
-"""
 
 
 def plan(section: dict[str, Any]) -> SweepPlan:
@@ -105,36 +95,3 @@ def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path: Path, monke
     assert "3 of 8 cells are in this table, one in 3. cells.csv and cells.sqlite have all." in text
     assert "The first 1 of 2; `reason` in cells.csv has all." in text
     assert [point["number"] for point in drawn(text)["brushed"]["points"]] == [1, 4, 7]
-
-
-def settings(command: str) -> list[str]:
-    words = shlex.split(command)
-    return [words[i + 1] for i, word in enumerate(words) if word == "--set"]
-
-
-def test_the_command_of_a_cell_is_its_study_and_stands_on_the_page(tmp_path: Path) -> None:
-    path = tmp_path / "my study.yaml"
-    path.write_text(OPTIMISED)
-    asked = plan_of(tree_of_file(path))
-    run = CellCommands(asked, tmp_path / "out").run(2)
-    assert shlex.split(run)[:3] == ["tvimdesign", "run", str(path)]
-    assert shlex.split(run)[-2:] == ["--out", str(tmp_path / "out-cell-2")]
-    study = read_tree(tree_of_file(path, settings(run)))
-    assert study.task == "evaluate"  # as its sweep has it, though the study varies
-    assert study.front is None
-    assert [limit.limit for limit in study.require if limit.output == "holding_torque"] == [10.0]
-    begun, run_alone = given(asked.first), given(study)
-    assert [run_alone[name] for name in asked.first.vary] == pytest.approx([begun[name] for name in asked.first.vary])
-    assert settings(CellCommands(asked, tmp_path / "out").explore(2)) == settings(run)
-    path = tmp_path / "study.yaml"
-    path.write_text(OPTIMISED)
-    changed = plan_of(tree_of_file(path, ["current=1 A"]))
-    assert shlex.split(CellCommands(changed, tmp_path / "out").run(1))[2] == str(tmp_path / "out/study.yaml")
-    told = plan_of(tree_of_text(OPTIMISED, "python", "small", tmp_path))
-    assert shlex.split(CellCommands(told, tmp_path / "out").run(1))[2] == str(tmp_path / "out/study.yaml")
-    asked = plan(GRID)
-    text = html.unescape(page(asked, seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
-    commands = CellCommands(asked, tmp_path / "out")
-    assert f"{commands.run(5)}\n{commands.explore(5)}" in text
-    assert commands.run(2) in text
-    assert commands.run(4) not in text  # it has no answer

@@ -13,8 +13,8 @@ from support import ROOT
 from tvimdesign.base.errors import InputError
 from tvimdesign.cad.fe import model_comparison as comparison
 from tvimdesign.cad.fe.run_solvers import Solved
+from tvimdesign.report import verification_tables as verify_report
 from tvimdesign.report import verify_design
-from tvimdesign.report.run import verification_section as verify_report
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 

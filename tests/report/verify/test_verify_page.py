@@ -12,7 +12,7 @@ from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.cli import commands
 from tvimdesign.page.page_file import page_html
 from tvimdesign.report.output.command import Command as OutputCommand
-from tvimdesign.report.run.verification_section import far, verified
+from tvimdesign.report.verification_tables import far, verified
 from tvimdesign.report.verify_design import verify_page
 
 PIXEL = bytes.fromhex(

@@ -157,7 +157,7 @@ def _write(folder: ResultsFolder, outcome: Outcome, texts: dict[str, str]) -> No
             if which in answer:
                 folder.write(f"{name}/{which}.json", design_json(Design.model_validate(answer[which]["design"])))
         folder.write(f"{name}/study.yaml", texts[label])
-    folder.write("compare.csv", compare_csv(outcome.rows, outcome.alone))
+    folder.write("compare.csv", compare_csv(outcome.rows))
     folder.write("summary.txt", summary_text(outcome))
     folder.write_json("compare.json", outcome.plain())
     if outcome.fronts:

@@ -12,11 +12,8 @@ from tvimdesign.report.compare.comparison_table import (
     ParetoComparison,
     Row,
     against,
-    ahead,
     common_rows,
     conditions,
-    held_back,
-    lone_values,
     plain,
     standing,
     wins,
@@ -70,11 +67,6 @@ class Outcome:
     def rows(self) -> dict[str, list[Row]]:
         """Return the rows that all designs have, by comparison; none where fewer than two studies have an answer."""
         return {which: common_rows(designs, self.tables) for which, designs in self.designs.items() if len(designs) > 1}
-
-    @cached_property
-    def alone(self) -> dict[str, list[tuple[str, Row]]]:
-        """Outputs that some study has and not all of them, by comparison."""
-        return {which: lone_values(self.designs[which], self.tables) for which in self.rows}
 
     # --- fronts ---
 
@@ -156,18 +148,13 @@ class Outcome:
     def conclusions(self) -> list[str]:
         """The sentences that follow, the conditions first."""
         sentences = [self.sentence]
-        for which, rows in self.rows.items():
-            labels = list(self.designs[which])
+        for which in self.rows:
             texts = self._against(which) if which != self.which else []
             broken = [
                 f"{label} as drawn does not keep {', '.join(self.found[label][which]['broken'])}"
-                for label in labels if self.found[label][which]["broken"]
+                for label in self.designs[which] if self.found[label][which]["broken"]
             ]  # fmt: skip
-            texts += [*broken, *(text for label in labels[1:] if (text := ahead(label, labels[0], rows)))]
-            texts += [
-                text for label in labels if (text := held_back(label, self.found[label][which]["active_constraints"]))
-            ]
-            sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in texts]
+            sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in (*texts, *broken)]
         return [*sentences, *(standing(contest) for contest in self.contests)]
 
     @property
@@ -203,18 +190,8 @@ class Outcome:
             "conclusions": self.conclusions,
             "studies": {label: self._study(label) for label in self.entrants},
             "comparisons": {which: [plain(row) for row in rows] for which, rows in self.rows.items()},
-            "alone": {
-                which: [{"study": label, **plain(row)} for label, row in rows] for which, rows in self.alone.items()
-            },
             "leads": [contest.plain() for contest in self.contests],
             "fronts": self.fronts_plain() if self.fronts else {},
-            "release": {
-                which: {
-                    label: {key: answer["release"][which][key] for key in ("findings", "notes")}
-                    for label, answer in self.found.items() if which in answer["release"]
-                }
-                for which in COMPARISONS
-            },
             "seconds": self.seconds,
         }  # fmt: skip
 

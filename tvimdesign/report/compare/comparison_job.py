@@ -23,13 +23,8 @@ from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
 from tvimdesign.device import Table
 from tvimdesign.report.output.tables import results, soft_in_words
-from tvimdesign.report.run.reasons import PRICE_SHOWN, above_rating, complaint, starts_reported
-from tvimdesign.report.run.run_plot_data import depths, through_the_layer
+from tvimdesign.report.run.reasons import above_rating, complaint, starts_reported
 from tvimdesign.report.run.uncertainty_data import below_yield
-from tvimdesign.report.simulate_study import figure_data, findings
-from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
-from tvimdesign.simulation.virtual_tests import find_test
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve import anchored_search
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -40,15 +35,10 @@ from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.design import Design, read_design
 from tvimdesign.study.tree import StudyTree, tree_of_file
 
-MOST_ACTIVE = 3
-"""Active constraints of a design that a comparison reports, the costliest."""
-
 
 def compared_design(design: Design, results: Mapping[str, Any], table: Table) -> dict[str, Any]:
-    """Return a design with its violated limits, warnings, active constraints and search; `results` as results.json."""
+    """Return a design with its violated limits, warnings and search; `results` as results.json."""
     search = results.get("starts") or {"count": 0, "converged": 0, "optima": []}
-    solution = results.get("solution") or {"active_constraints": []}
-    active = [entry for entry in solution["active_constraints"] if (entry["shadow_price"] or 0.0) > PRICE_SHOWN]
     return {
         "design": design.model_dump(mode="json"),
         "broken": [check["limit"] for check in results.get("checks", ()) if not check["kept"]],
@@ -59,10 +49,6 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
         "above_rating": list(design.above_rating),
         "accepting": list(design.accepting),
         "soft": soft_in_words(design, table),
-        "active_constraints": [
-            {"limit": entry["text"], "because": entry["origin"], "shadow_price": entry["shadow_price"]}
-            for entry in sorted(active, key=lambda entry: -entry["shadow_price"])[:MOST_ACTIVE]
-        ],
         "starts": search["count"],
         "converged": search["converged"],
         "optima": [{"objective": entry["objective"], "variables": entry["at"]} for entry in search["optima"]],
@@ -80,12 +66,12 @@ def finished_run(source: Path, table: Table) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from error
     which = "optimised" if design.study["vary"] else "drawn"
-    return {**nothing_found(), which: compared_design(design, results or {"solution": design.solution}, table)}
+    return {**nothing_found(), which: compared_design(design, results, table)}
 
 
 def nothing_found() -> dict[str, Any]:
     """Return what a comparison has of a study before anything is computed."""
-    return {"fronts": [], "seconds": {}, "release": {}, "heat": {}, "troubles": []}
+    return {"fronts": [], "seconds": {}, "troubles": []}
 
 
 Say = Callable[[str], None]
@@ -120,23 +106,16 @@ class ComparisonJob:
 
     def run(self) -> dict[str, Any]:
         """Do every step that can be done."""
-        designs: dict[str, StudyResult] = {}
+        optimised: StudyResult | None = None
         if self.study.vary:
             with self._step("optimised"):
-                designs["optimised"] = self._optimised()
+                optimised = self._optimised()
         with self._step("as drawn"):
             self.say("as drawn")
-            designs["drawn"] = answer(drawn(self.study))
-            self.found["drawn"] = self._compared(designs["drawn"])
-        # Of both designs: another study may have no optimum, and is then compared with what is drawn here.
-        for which, design in designs.items():
-            with self._step("release"):
-                self.say("release")
-                self.found["release"][which] = self._release(design)
-                self.found["heat"][which] = self._heat(design)
-        if "optimised" in designs and self.points:
+            self.found["drawn"] = self._compared(answer(drawn(self.study)))
+        if optimised and self.points:
             with self._step("fronts"):
-                self._trade(designs["optimised"])
+                self._trade(optimised)
         return self.found
 
     @contextmanager
@@ -199,18 +178,6 @@ class ComparisonJob:
         }
         plain: dict[str, Any] = json.loads(json.dumps(reported), parse_constant=lambda _: None)
         return plain
-
-    def _release(self, of: StudyResult) -> dict[str, Any]:
-        trial = find_test("release")(resolve_design(of.design))
-        panels = [panel for panel in figure_data(trial)["panels"] if panel["title"].startswith(ANGLE_PANEL)]
-        lines = [line for panel in panels for line in panel["lines"] if not line["dashed"]]
-        return {**findings(trial), "x_label": panels[0]["x_label"], "y_label": panels[0]["y_label"], "lines": lines}
-
-    def _heat(self, of: StudyResult) -> dict[str, Any]:
-        """Return temperatures [degC] through the polymer while it heats: a row for each depth [mm]."""
-        history = of.histories["softening"]
-        rows = [history[name] for name in through_the_layer(history)]
-        return {"time": history["time"], "depth": depths(of, self.table), "temperature": rows}
 
 
 def main(arguments: list[str]) -> int:

@@ -18,24 +18,10 @@ from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import WIDTH, plain_text, print_section
 
-_STILL = 1e-3
-"""Share of its angle by which a released link has moved where its curve begins: the axis of time is logarithmic."""
-
 
 def drawings(outcome: Outcome) -> list[Drawing]:
     """Return every picture there is something for."""
-    figures = []
-    if outcome.fronts:
-        figures.append(Drawing("fronts", "comparison_figures.fronts", _fronts(outcome)))
-    if any(outcome.which in answer["release"] for answer in outcome.found.values()):
-        figures.append(Drawing("release", "virtual_test_figures.trial", _release(outcome)))
-    if any(outcome.which in answer["heat"] for answer in outcome.found.values()):
-        figures.append(Drawing("heat", "comparison_figures.heat", _heat(outcome)))
-    return figures
-
-
-def _title(outcome: Outcome, of: str) -> str:
-    return f"{of}, {COMPARISONS[outcome.which]}"
+    return [Drawing("fronts", "design_figures.fronts", _fronts(outcome))] if outcome.fronts else []
 
 
 def _fronts(outcome: Outcome) -> dict[str, Any]:
@@ -52,64 +38,14 @@ def _fronts(outcome: Outcome) -> dict[str, Any]:
             optimum = outcome.designs["optimised"][label].values
             lines.append({
                 "label": label, "x": [x for x, _ in points], "y": [y for _, y in points],
-                "optimum": [[shown(second, optimum)], [shown(first, optimum)]],
+                "points": True, "optimum": [[shown(second, optimum)], [shown(first, optimum)]],
             })  # fmt: skip
         axes = {f"{axis}_label": axis_label(name, units[name]) for axis, name in (("x", second), ("y", first))}
         panels.append({"lines": lines, **axes})
     return {"title": "Fronts; filled: each study's optimum", "panels": panels}
 
 
-def _release(outcome: Outcome) -> dict[str, Any]:
-    """Return a panel for each operating point, a colour for each study."""
-    panels: dict[str, dict[str, Any]] = {}
-    for label, answer in outcome.found.items():
-        release = answer["release"].get(outcome.which, {})
-        for line in release.get("lines", ()):
-            point, _, remainder = line["label"].partition(", ")
-            temperature, _, history = remainder.partition(", ")
-            panel = panels.setdefault(point, {
-                "title": f"{point}, {temperature}", "x_label": release["x_label"],
-                "y_label": release["y_label"], "log_x": True, "log_y": False, "lines": [],
-            })  # fmt: skip
-            panel["lines"].append({**line, "label": f"{label}, {history}" if history else label})
-    for panel in panels.values():
-        panel["lines"] = _from_where_it_moves(panel["lines"])
-    return {"title": _title(outcome, "Released from the same angle"), "panels": list(panels.values())}
-
-
-def _from_where_it_moves(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Cut lines of a panel to the time from which the first of them has left where it began by a thousandth."""
-    start = min(_begins_to_move(line["x"], line["y"]) for line in lines)
-    moved = []
-    for line in lines:
-        later = [pair for pair in zip(line["x"], line["y"], strict=True) if pair[0] >= start]
-        moved.append({**line, "x": [x for x, _ in later], "y": [y for _, y in later]})
-    return moved
-
-
-def _begins_to_move(times: list[float], angles: list[float]) -> float:
-    still = _STILL * abs(angles[0])
-    return next((x for x, y in zip(times, angles, strict=True) if abs(y - angles[0]) > still), times[-1])
-
-
-def _heat(outcome: Outcome) -> dict[str, Any]:
-    which = outcome.which
-    studies = [
-        {"label": label, **answer["heat"][which]} for label, answer in outcome.found.items() if which in answer["heat"]
-    ]
-    every = [value for study_data in studies for row in study_data["temperature"] for value in row]
-    design = outcome.designs[which][studies[0]["label"]]
-    melting = [from_si(design.value(name), "degC") for name in ("pcl_melting_start", "pcl_melting_end")]
-    title = _title(outcome, "Heat through the PCL until the switch ends (lines: melting range)")
-    return {"title": title, "studies": studies, "coldest": min(every), "hottest": max(every), "melting": melting}
-
-
 FILES = {"summary.txt": "all of this as text", "compare.csv": "every output", "fronts.csv": "the fronts"}
-_LINES = {
-    "fronts": "The fronts: each point is a whole design.",
-    "release": "The link of each module released from the same angle.",
-}
-"""Figures of lines, with what they show."""
 
 
 def comparison_sections(outcome: Outcome, texts: Mapping[str, str]) -> list[Section]:
@@ -156,23 +92,12 @@ def _side_by_side(outcome: Outcome) -> Section:
 
 
 def _figures(outcome: Outcome) -> list[Section]:
-    """Return fronts and curves, where there are any."""
+    """Return the fronts, where there are any, their points marked."""
     drawn: list[Block] = [
-        Drawn(drawing.file, "lines.js", _LINES[drawing.file], _panels(drawing.data), libraries=["echarts"])
+        Drawn("fronts", "lines.js", "The fronts: each point is a whole design.", drawing.data, libraries=["echarts"])
         for drawing in drawings(outcome)
-        if drawing.file in _LINES
     ]
-    return [Section("curves", "Fronts and curves", drawn)] if drawn else []
-
-
-def _panels(data: dict[str, Any]) -> dict[str, Any]:
-    """Return panels as the page draws them: a front's points are marked."""
-    return {
-        "panels": [
-            {**panel, "lines": [{**line, "points": "optimum" in line} for line in panel["lines"]]}
-            for panel in data["panels"]
-        ]
-    }
+    return [Section("curves", "Fronts", drawn)] if drawn else []
 
 
 def _studies(texts: Mapping[str, str]) -> Section:
@@ -206,23 +131,17 @@ def side_by_side(title: str, rows: Sequence[Row]) -> Grid:
     return grid(title, heads, cells, right=right, toned=toned)
 
 
-def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
+def _value(row: Row, label: str) -> str:
     """Return a value for people; low to high where history leaves it open."""
     if label in row.ends:
         return " to ".join(in_unit(end, row.unit, 2) for end in row.ends[label])
     value = row.values[label]
-    if with_unit and math.isfinite(value):
-        return format_quantity(value, row.unit)
     return "-" if math.isnan(value) else in_unit(value, row.unit)
 
 
 def _searches(outcome: Outcome) -> Iterator[str]:
-    """Yield what is not in every study, what soft means, how optima and fronts were found, and what is accepted."""
+    """Yield what soft means, how optima and fronts were found, and what is accepted."""
     which = outcome.which
-    for comparison, alone in outcome.alone.items():
-        shown = [f"{label}: {row.name} {_value(row, label, with_unit=True)}" for label, row in alone if row.headline]
-        if shown:
-            yield f"{COMPARISONS[comparison].capitalize()}, not in every study: {'; '.join(shown)}."
     texts = [f"{label}: {answer[which]['soft']}" for label, answer in outcome.found.items() if which in answer]
     if texts:
         yield f"Soft is, {COMPARISONS[which]}, {'; '.join(texts)}."

@@ -75,17 +75,6 @@ def common_rows(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> l
     return [_row(name, designs, tables[first]) for name in names]
 
 
-def lone_values(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> list[tuple[str, Row]]:
-    """Return (study, output) of what some study has and not all of them have."""
-    shared = {row.name for row in common_rows(designs, tables)}
-    return [
-        (label, _row(name, {label: design}, tables[label]))
-        for label, design in designs.items()
-        for name in _outputs(design, tables[label])
-        if name not in shared
-    ]
-
-
 def _outputs(design: Design, table: Table) -> list[str]:
     points = design.study["operating_points"]
     swings = [f"{row.name}@{point}" for row in table.first_oscillations for point in points]
@@ -122,14 +111,14 @@ def _shown(value: float, unit: str) -> float | None:
     return from_si(value, unit) if math.isfinite(value) else None
 
 
-def compare_csv(rows: Mapping[str, Sequence[Row]], alone: Mapping[str, Sequence[tuple[str, Row]]]) -> str:
-    """Return all rows of both comparisons, `as drawn` and `optimised`, as CSV; outputs of one mode have no ratio."""
+def compare_csv(rows: Mapping[str, Sequence[Row]]) -> str:
+    """Return all rows of both comparisons, `as drawn` and `optimised`, as CSV."""
     labels = list(dict.fromkeys(label for each in rows.values() for row in each for label in row.values))
     heads = ["comparison", "output", "unit", *labels]
     heads += [f"{what} {label}" for label in labels[1:] for what in ("ratio", "verdict")]
     lines = []
     for comparison, each in rows.items():
-        for row in (*each, *(row for _, row in alone.get(comparison, ()))):
+        for row in each:
             reported = plain(row)
             entry = {"comparison": comparison, "output": row.name, "unit": reported["unit"], "meaning": row.description}
             entry |= {label: "never" if value is None else value for label, value in reported["values"].items()}
@@ -258,27 +247,3 @@ def wins(label: str, contests: Sequence[ParetoComparison]) -> str:
         for contest, lead in mine
     ]
     return f"{label} wins where it {', '.join(dict.fromkeys(won))}"
-
-
-def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
-    """Say in which outputs of a summary either does better, with the ratio."""
-    clauses = []
-    for verdict, who in (("better", label), ("worse", first)):
-        leads = [
-            f"{row.name} ({number(ratio, 3)})" if (ratio := row.ratio(label)) is not None else row.name
-            for row in rows if row.headline and row.verdict(label) == verdict
-        ]  # fmt: skip
-        if leads:
-            clauses.append(f"{who} does better in {', '.join(leads)}")
-    return f"{'; '.join(clauses)}; in brackets {label} over {first}" if clauses else ""
-
-
-def held_back(label: str, held: Sequence[Mapping[str, Any]]) -> str:
-    """Return a design's main active constraints, the machine's own with their reasons; nothing where there are none."""
-    reported = [
-        limit["limit"]
-        if limit["because"] in {"require", "vary", "module"}
-        else f"{limit['limit']} ({limit['because']})"
-        for limit in held
-    ]
-    return f"{label} is held back most by {'; '.join(reported)}" if reported else ""

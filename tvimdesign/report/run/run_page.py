@@ -51,7 +51,6 @@ from tvimdesign.report.run.parts_sections import (
 )
 from tvimdesign.report.run.reasons import why_csv
 from tvimdesign.report.run.run_plot_data import PLACES, plot_data, through_the_layer
-from tvimdesign.report.run.verification_section import verification_sections
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
@@ -156,7 +155,6 @@ def _of_a_design(cad: Path, answered: AnsweredStudy, of_the_module: Sequence[Sec
                 *materials_section(cad),
                 *steps_section(cad),
                 *spring_section(cad),
-                *verification_sections(cad.parent),
             ],
         ),
     ]

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_left
 from collections.abc import Callable
 from typing import Any
 
-from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Output, Table
+from tvimdesign.base.units import from_si
+from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import axis_label, name_in_words
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.tables import NOTHING, margin_of
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves, torque_loop
-from tvimdesign.solve.result import ConstraintCheck, StudyResult
+from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.design import Design
 
 PLACES = {
@@ -29,7 +27,7 @@ def drawings(answer: StudyResult, table: Table) -> list[Drawing]:
     data = plot_data(answer, table)
     rooms = {
         "cycle": "cycle_figures", "stiffness_and_damping": "cycle_figures", "power_and_energy": "cycle_figures",
-        "impedance": "design_figures", "torque": "design_figures", "mass": "design_figures", "bounds": "design_figures",
+        "impedance": "design_figures", "torque": "design_figures",
     }  # fmt: skip
     return [Drawing(name, f"{room}.{name}", data[name]) for name, room in rooms.items()]
 
@@ -70,8 +68,6 @@ def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
             "springs": shown("spring_stiffness"),
         },
         "torque": _torque(design, shown),
-        "mass": {"parts": _parts(design, table), "label": axis_label("mass", "g")},
-        "bounds": {"free": free_rows(answer, table), "margins": margin_groups(answer, table)},
     }
 
 
@@ -111,79 +107,3 @@ def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
         "labels": {"angle": axis_label("angle", "rad"), "torque": axis_label("torque", "N*m")},
         "loops": loops,
     }
-
-
-def _parts(design: Design, table: Table) -> dict[str, float]:
-    """Return mass [g] of each part: the rows the module's mass is the sum of."""
-    total = table.quantity("module_mass")
-    assert isinstance(total, Output)
-    return {name_in_words(name.removesuffix("_mass")): from_si(design.value(name), "g") for name in total.needs}
-
-
-_NEAR = 0.25
-"""Margin below which a rule of the machine is worth a bar."""
-_SHARE = "%"
-_ENDLESS = 1e9
-"""Stand-in for an infinite margin: a bar ends long before."""
-
-
-def free_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
-    """Return every free variable: where it began and where it is, as shares of its range; none where nothing varies."""
-    if answer.solution is None:
-        return []
-    rows = []
-    for name, begin in answer.solution.starts[0].begin.items():
-        vary, value = answer.design.study["vary"][name], answer.design.value(name)
-        lower, upper = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
-        width = (upper - lower) or 1.0
-        unit = table.unit(name)
-        low, high = (f"{from_si(end, unit):.4g}" for end in (lower, upper))
-        text = f"{from_si(value, unit):.4g} {pretty(unit)}".rstrip() + f"  ({low} to {high})"
-        share, start = (value - lower) / width, (begin - lower) / width
-        rows.append({"name": name_in_words(name), "share": share, "start": start, "text": text})
-    return rows
-
-
-def margin_groups(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
-    """Return the study's limits, the machine's where they are near, and the advice the design does not follow.
-
-    A limit that has a size of its own is drawn in percent of it, one that has none in its quantity's unit.
-    """
-    near = [check for check in answer.checks if check.origin == "require" or check.margin < _NEAR]
-    groups: dict[str, list[dict[str, Any]]] = {}
-    for check in (*near, *answer.warnings):
-        unit = _unit(check, table)
-        groups.setdefault(unit, []).append(_row(check, unit, table, advice=check not in answer.checks))
-    return [
-        {
-            "unit": unit,
-            "title": "What must hold" if unit == _SHARE else f"What must hold, where the limit is 0 {unit}".rstrip(),
-            "label": "Margin, of the limit (%)" if unit == _SHARE else f"Margin ({unit or '–'})",
-            "rows": rows,
-        }
-        for unit, rows in sorted(groups.items(), key=lambda item: item[0] != _SHARE)
-    ]
-
-
-def _unit(check: ConstraintCheck, table: Table) -> str:
-    return pretty(margin_of(check, table)[1]) if check.absolute else _SHARE
-
-
-def _row(check: ConstraintCheck, unit: str, table: Table, *, advice: bool) -> dict[str, Any]:
-    margin = check.margin if abs(check.margin) > NOTHING else 0.0
-    own = table.unit(check.output)
-    own = "K" if own == "degC" else own
-    kind = "advice" if advice else "broken" if not check.kept else "kept" if margin else "binds"
-    finite = math.isfinite(margin)
-    size = (100.0 if unit == _SHARE else from_si(check.scale, own)) if finite else 0.0
-    text = (
-        f"{from_si(margin * check.scale, own):+.3g} {pretty(own)}".rstrip()
-        if finite
-        else "never"
-        if margin < 0.0
-        else "ample"
-    )
-    words = check.text.replace(check.output, name_in_words(check.output), 1).replace(">=", "≥").replace("<=", "≤")
-    drawn = margin * size if finite else math.copysign(_ENDLESS, margin)
-    text = text.replace("-", "−") if margin else f"0 {pretty(own)}"
-    return {"name": words, "margin": drawn, "finite": finite, "kind": kind, "text": text}

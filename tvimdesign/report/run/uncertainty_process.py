@@ -83,7 +83,7 @@ class UncertaintyProcess(FedProcess):
             reason = uncertainty["error"]
         raise TvimError(
             f"the uncertainty of the design could not be computed: {reason}; "
-            "for the yield and the ranges, run `tvimdesign tolerate` with the results folder"
+            "run the study again, or `tvimdesign tolerate` with the results folder for the yield alone"
         )
 
     def _reply(self, deadline: Deadline) -> str:

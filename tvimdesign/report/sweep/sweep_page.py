@@ -1,75 +1,17 @@
-"""The page of a sweep: what was swept and how, figures, cells as tables, and the commands that open a cell."""
+"""The page of a sweep: what was swept and how, figures, and cells as tables."""
 
 from __future__ import annotations
 
-import shlex
-from pathlib import Path
-
-from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Choice
-from tvimdesign.page.blocks import Block, Cell, Facts, Folded, Grid, Head, Listing, Page, Section, Tone, Words
+from tvimdesign.base.units import pretty
+from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Page, Section, Tone
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.report.sweep.sweep_figures import figure_data, figures
-from tvimdesign.study import given
 from tvimdesign.study.tree import study_text
 from tvimdesign.sweep.gather import Column, Value, columns
 from tvimdesign.sweep.plan import SweepPlan, written
 from tvimdesign.sweep.swept_cells import CellTable
-
-_DIGITS = 12
-_PLAIN = frozenset('"$`\\!')
-"""Characters that double quotes do not keep as they are."""
-
-
-class CellCommands:
-    """Writes the commands of a sweep's cells; `out` is its folder."""
-
-    def __init__(self, plan: SweepPlan, out: Path) -> None:
-        """Find what every command has: the study, and what a run of it is to leave out."""
-        self._plan, self._out = plan, out
-        path = plan.tree.path
-        changed = path is None or bool(plan.written.changes)
-        study = str(out / "study.yaml" if path is None or changed else path)
-        self._study = shlex.quote(study)
-        folder = plan.study.catalog_folder
-        self._always = [f"catalog={Path(folder).resolve()}"] if changed and folder else []
-        self._always += ["front="] if plan.written.section("front") else []
-        self._always += _starts(plan) if plan.task == "evaluate" else []
-
-    def run(self, cell: int) -> str:
-        """Do the cell, by its number from 1, as a study of its own."""
-        return f"tvimdesign run {self._study} {self._settings(cell)} --out {shlex.quote(f'{self._out}-cell-{cell}')}"
-
-    def explore(self, cell: int) -> str:
-        """Open the cell in the explorer."""
-        out = shlex.quote(f"{self._out}-cell-{cell}-explore")
-        return f"tvimdesign explore {self._study} {self._settings(cell)} --out {out}"
-
-    def _settings(self, cell: int) -> str:
-        texts = self._plan.points.texts(cell - 1)
-        here = [f"{axis.name}={text}" for axis, text in zip(self._plan.axes, texts, strict=True)]
-        return " ".join(f"--set {_quoted(setting)}" for setting in [*here, *self._always])
-
-
-def _starts(plan: SweepPlan) -> list[str]:
-    """List a cell's start where the study varies something and the cell is only evaluated: a run would leave it."""
-    numbers, settings = given(plan.first), []
-    for name in plan.first.vary:
-        value, row = numbers[name], plan.study.table.by_name[name]
-        if isinstance(row, Choice):
-            settings.append(f"{name}={getattr(value, 'name', value)}")
-            continue
-        unit = plan.unit(name)
-        settings.append(f"{name}={from_si(float(value), unit):.{_DIGITS}g}{'' if unit == '1' else f' {unit}'}")
-    return settings
-
-
-def _quoted(setting: str) -> str:
-    """Return a setting as shells of all systems take it."""
-    return shlex.quote(setting) if _PLAIN & set(setting) else f'"{setting}"'
-
 
 MOST_OUTPUTS = 12
 """Outputs of the page's table; `cells.csv` has all."""
@@ -147,7 +89,6 @@ def sweep_page(plan: SweepPlan, seen: CellTable, command: Command) -> Page:
     sections = [Section("curves", "Figure", [lines])] if lines else []
     sections += [Section("cells", "Cells", [*([brushed] if brushed else []), cells_grid(plan, seen)])]
     sections += [Section("failed", "Cells without an answer", [failed_grid(plan, seen)])] if seen.failures else []
-    sections += [_commands(seen, CellCommands(plan, command.out))] if answered else []
     return command.page(
         plan.study.name, f"sweep of a {plan.study.mode} module", verdict, [swept_facts(plan, seen)], sections,
         tone="warn" if seen.failures else "", files=_FILES, study=study_text(plan.written),
@@ -184,22 +125,3 @@ def _axis(plan: SweepPlan, place: int) -> str:
     values = list(dict.fromkeys(text.value for text in listed))
     shown = ", ".join(values) if len(values) <= _FEW else f"{values[0]} ... {values[-1]}, {len(values)} values"
     return f"`{axis.name}`: {shown}"
-
-
-def _commands(seen: CellTable, commands: CellCommands) -> Section:
-    """Return how a cell becomes a study of its own."""
-    with_answer = [int(str(row["cell"])) for row in seen.listed if row["broken"] is not None]
-    chosen = list(dict.fromkeys(int(best["cell"]) for best in seen.best.values())) or with_answer[:1]
-    words = Words([
-        "`run` does a cell as a study of its own, with its parts, and writes its report; `--no-cad` leaves the parts "
-        "out. `explore` opens it with controls that change it. Both start from the folder in which the sweep was done.",
-    ])  # fmt: skip
-    first = "\n".join(line for cell in chosen for line in (commands.run(cell), commands.explore(cell)))
-    every = "\n".join(commands.run(cell) for cell in with_answer)
-    blocks: list[Block] = [words]
-    if chosen:
-        of = "the least of each output" if seen.best else "one cell"
-        blocks += [Listing(f"Commands of {of}", first)]
-    if with_answer:
-        blocks += [Folded("The command of each cell of the table", [Listing("Commands of the cells", every)])]
-    return Section("open", "Open a cell", blocks)

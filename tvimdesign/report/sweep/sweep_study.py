@@ -232,8 +232,8 @@ def _evaluated(cell: CellFound) -> StudyTree:
         raise InputError(f"cell {cell.number}: it has no answer, so no parts; `reason` in its table says why")
     if cell.study.profile.pieces():
         raise InputError(
-            f"cell {cell.number}: its current follows a profile, which a sweep's table does not hold; the page of the "
-            "sweep has the command that runs it"
+            f"cell {cell.number}: its current follows a profile, which a sweep's table does not hold; `run` it "
+            "with its values, each by --set"
         )
     return cell.fixed
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,10 +11,8 @@ import numpy as np
 from tvimdesign.base.units import from_si, pretty, si_unit, to_si
 from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import axis_label, finite, head, name_in_words
-from tvimdesign.report.run.uncertainty_data import interval_entry, share_entry
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.report.run.uncertainty_data import share_entry
 from tvimdesign.solve.nlp.constraints import in_words
-from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread
 from tvimdesign.study import Study
 from tvimdesign.study.text.values import difference_unit
@@ -111,56 +109,6 @@ def _preload(preload: Preload) -> dict[str, float]:
         "yield_as_bought": preload.yield_as_bought.share,
         "yield_adjusted": preload.yield_adjusted.share,
     }
-
-
-_FEWEST = 4
-"""Modules drawn for a yield that is not told here: the analysis has its own."""
-
-
-def epistemic_uncertainty(resolved: ResolvedModule, spread: Spread, workers: int) -> DesignUncertainty:
-    """Return intervals of a module's outputs, and how far its limits hold, parts as drawn."""
-    return UncertaintyModel(resolved, spread.asked).at(resolved, _FEWEST, workers=workers)
-
-
-def unknown_data(unknown: DesignUncertainty, table: Table) -> dict[str, Any]:
-    """Return the epistemic uncertainty as plain data."""
-    return {
-        "holds": share_entry(unknown.holds),
-        "held": unknown.held,
-        "unmeasured": [unmeasured_input.name for unmeasured_input in unknown.unmeasured],
-        "intervals": {
-            name: interval_entry(name, interval, table, unknown.before.get(name))
-            for name, interval in unknown.intervals.items()
-        },
-    }
-
-
-def unknown_rows(data: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Return a row an output: what it may be, all together and one at a time, and what carries most of it."""
-    return [
-        {
-            "output": name, "unit": entry["unit"], "as_drawn": entry["value"],
-            "low": entry["low"], "high": entry["high"],
-            "one_at_a_time_low": entry["one_at_a_time"]["low"], "one_at_a_time_high": entry["one_at_a_time"]["high"],
-            "measure_first": next(iter(entry["shares"]), ""), "share": next(iter(entry["shares"].values()), None),
-            "to_halve": ", ".join(entry["to_halve"]),
-        }
-        for name, entry in data["intervals"].items()
-    ]  # fmt: skip
-
-
-def unknown_sentences(unknown: DesignUncertainty, spread: Spread) -> list[str]:
-    """Return how far the limits hold, and what to measure first; said beside the yield, never in it."""
-    if unknown.holds is None:
-        return []
-    sentence = (
-        f"Unmeasured inputs: with parts as drawn every limit holds in {100.0 * unknown.holds.share:.3g} % of the "
-        f"ranges of {len(unknown.unmeasured)} unmeasured values. The yield of {100.0 * spread.together.share:.3g} % "
-        "counts none of that: it is of the parts, with these values as assumed."
-    )
-    first = [f"{name}: {interval.first} ({100.0 * interval.shares[interval.first]:.0f} %)"
-             for name, interval in unknown.intervals.items() if interval.first]  # fmt: skip
-    return [sentence, *([f"Measure first, of {'; of '.join(first)}."] if first else [])]
 
 
 _PARTS = 6

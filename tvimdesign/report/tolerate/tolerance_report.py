@@ -1,4 +1,4 @@
-"""A tolerance analysis on the terminal and as a page: what varies from part to part, then unmeasured inputs.
+"""A tolerance analysis on the terminal and as a page: what varies from part to part.
 
 The spread of a module in sentences: how many modules are good, what to tighten first, what the free angle does.
 """
@@ -16,7 +16,6 @@ from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Folded, Grid, Picture, Section
 from tvimdesign.report.output.numbers import ends_text, number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.run.blocks.tables import intervals_grid
 from tvimdesign.report.tolerate.tolerance_data import spreads
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import Yield
@@ -46,15 +45,6 @@ def concern_table(spread: Spread, table: Table) -> Grid:
     return grid("Limits that too many modules break", ("", "yield", "C_pk", "most by"), rows, right=(1, 2))
 
 
-def robustness_table(data: Mapping[str, Any]) -> Grid:
-    """Tabulate minimised outputs without and with the robustness that a study asks for."""
-    rows = [
-        (row["output"], number(row["nominal"]), number(row["robust"]), row["unit"])
-        for row in data.get("cost_of_robustness", ())
-    ]
-    return grid("What robustness costs", ("", "nominal optimum", "robust optimum", "unit"), rows, right=(1, 2))
-
-
 def _most_by(spread: Spread, i: int) -> str:
     """Return the contributor that carries most of an output's spread, with its share."""
     most = int(spread.shares[i].argmax())
@@ -63,7 +53,7 @@ def _most_by(spread: Spread, i: int) -> str:
 
 FILES = {
     "outputs.csv": "spread of every output", "limits.csv": "yield of every limit",
-    "contributors.csv": "who contributes", "not_known.csv": "unmeasured inputs",
+    "contributors.csv": "who contributes",
 }  # fmt: skip
 _FIGURE = "spread.png"
 
@@ -76,17 +66,15 @@ def verdict(data: Mapping[str, Any]) -> str:
 
 
 def sections_of(folder: ResultsFolder, spread: Spread, data: Mapping[str, Any], table: Table) -> list[Section]:
-    """Return what varies from part to part, then ranges over unmeasured inputs; `data` is that of tolerances.json."""
-    grids = (spread_table(spread, data), concern_table(spread, table), robustness_table(data))
+    """Return what varies from part to part; `data` is that of tolerances.json."""
+    grids = (spread_table(spread, data), concern_table(spread, table))
     varies: list[Block] = [grid for grid in grids if grid.rows]
     picture = folder.path / _FIGURE
     if picture.exists():
         says = "Who contributes how much to each output's spread, and how modules drawn at random spread"
         varies.append(Picture(picture.read_bytes(), says, says))
     varies.append(Folded("Every limit and who contributes", [_limits(data), _contributors(data)]))
-    unknown = intervals_grid(data["not_known"]["intervals"])
-    unmeasured = [Section("assumptions", "Unmeasured inputs", [unknown])] if unknown.rows else []
-    return [Section("parts", "From part to part", varies), *unmeasured]
+    return [Section("parts", "From part to part", varies)]
 
 
 def _limits(data: Mapping[str, Any]) -> Block:

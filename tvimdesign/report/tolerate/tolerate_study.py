@@ -9,7 +9,6 @@ from typing import Any
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Points
 from tvimdesign.report.output.command import Command, design_file
@@ -20,20 +19,16 @@ from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.tolerate.tolerance_data import (
     contributor_rows,
-    epistemic_uncertainty,
     figure_data,
     limit_rows,
     output_rows,
     reported,
-    unknown_data,
-    unknown_rows,
-    unknown_sentences,
 )
 from tvimdesign.report.tolerate.tolerance_report import FILES, sections_of, sentences, verdict
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
-from tvimdesign.solve.uncertainty.tolerance import Preload, Spread, Tolerancing
+from tvimdesign.solve.uncertainty.tolerance import Spread, Tolerancing
 from tvimdesign.study import Study, read_study, standard_tolerances
 from tvimdesign.study.design import Design, read_design, write_design
 
@@ -48,8 +43,6 @@ class TolerancedModule:
     resolved: ResolvedModule
     design: Design | None
     notes: tuple[str, ...]
-    nominal: ResolvedModule | None = None
-    """The optimum without the robustness the study asks for."""
 
 
 def tolerate_study(
@@ -66,19 +59,12 @@ def tolerate_study(
     with Command(out, overwrite=overwrite, as_json=as_json, plots=study.write.plots) as command:
         folder, progress = command.folder, command.progress
         subject = _subject(source, study, progress)
-        modules = [subject.resolved, *([subject.nominal] if subject.nominal else [])]
-        analyses = [Tolerancing(module, progress, threads) for module in modules]
-        spread, preload = _analysed(analyses[0], count)
+        analysis, seed = Tolerancing(subject.resolved, progress, threads), subject.resolved.study.solver.seed
+        spread, preload = analysis.analyse(count, seed), analysis.preload(count, seed)
         table, study = subject.resolved.table, subject.resolved.study
         data = reported(spread, preload, table, study, count)
-        progress("varying the assumed inputs")
-        unknown = epistemic_uncertainty(subject.resolved, spread, threads)
-        data["not_known"] = unknown_data(unknown, table)
         data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]
-        data["sentences"] = [*sentences(spread, preload, table), *unknown_sentences(unknown, spread)]
-        if subject.nominal is not None:
-            before, _ = _analysed(analyses[1], count)
-            data["cost_of_robustness"] = _price(before, spread, table, study)
+        data["sentences"] = sentences(spread, preload, table)
         _write(folder, source, subject, data, spread, table)
         command.begin_plots([Drawing("spread", "analysis_figures.spread", figure_data(spread, table))], study.name)
         command.finish_plots()
@@ -115,12 +101,7 @@ def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule
     design = _optimum(study, progress)
     module = f"Module: the optimum of {source}{', robust as it asks' if study.robust else ''}."
     notes = [module, *design.rating_notes, *notes]
-    nominal = None
-    if study.robust:
-        progress("searching for the optimum without margins")
-        plain = _optimum(study.model_copy(update={"robust": None}), progress)
-        nominal = resolve_design(plain)
-    return TolerancedModule(resolve_design(design), design, tuple(notes), nominal)
+    return TolerancedModule(resolve_design(design), design, tuple(notes))
 
 
 def _optimum(study: Study, progress: Progress) -> Design:
@@ -129,22 +110,6 @@ def _optimum(study: Study, progress: Progress) -> Design:
     if not result.found:
         raise InfeasibleError(complaint(result, table))
     return result.design
-
-
-def _analysed(analysis: Tolerancing, samples: int) -> tuple[Spread, Preload | None]:
-    seed = analysis.resolved.study.solver.seed
-    return analysis.analyse(samples, seed), analysis.preload(samples, seed)
-
-
-def _price(before: Spread, after: Spread, table: Table, study: Study) -> list[dict[str, Any]]:
-    """Return what robustness costs: each minimised output without and with it, and the yields."""
-    rows: list[dict[str, Any]] = []
-    for name in study.minimize:
-        unit = table.unit(name)
-        values = [from_si(float(analysis.nominal[analysis.outputs.index(name)]), unit) for analysis in (before, after)]
-        rows.append({"output": name, "unit": pretty(unit), "nominal": values[0], "robust": values[1]})
-    shares = [analysis.together.share for analysis in (before, after)]
-    return [*rows, {"output": "yield of all limits", "unit": "", "nominal": shares[0], "robust": shares[1]}]
 
 
 def _write(
@@ -156,5 +121,4 @@ def _write(
     folder.write_json("tolerances.json", data)
     folder.write("outputs.csv", csv_text(output_rows(spread, table), digits=6))
     folder.write("limits.csv", csv_text(limit_rows(spread, table), digits=6))
-    folder.write("not_known.csv", csv_text(unknown_rows(data["not_known"]), digits=6))
     folder.write("contributors.csv", csv_text(contributor_rows(spread, table, subject.resolved.study), digits=6))

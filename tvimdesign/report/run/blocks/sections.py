@@ -134,7 +134,7 @@ def assumptions_section(answered: AnsweredStudy) -> Section:
     """Return every unmeasured input with its range and what it moves; then the range of each output."""
     uncertainty = answered.uncertainty
     if not uncertainty:
-        words = "How sure the design is was not computed in this run; `tvimdesign tolerate` computes it."
+        words = "How sure the design is was not computed in this run."
         return Section("assumptions", "Assumptions", [Words([words])])
     more = [
         tables.unmeasured_grid(uncertainty, answered.reported["values"]),

@@ -1,24 +1,19 @@
-"""Rows of a verification as table, JSON and page, and as a section of its run's page, read from the folder."""
+"""Rows of a verification as table, JSON and page."""
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.base.atomic_files import digest_of
-from tvimdesign.base.results_folder import made_from, rewrite
 from tvimdesign.base.units import pretty
 from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.blocks import Block, Grid, Picture, Section, Words
-from tvimdesign.page.page_file import FILE, MOST, with_section
 from tvimdesign.report.output.numbers import csv_text, finite, head, number
 from tvimdesign.report.output.page_sections import grid
 
-NAME, DATA, DESIGN = "verification", "verify.json", "design.json"
+DATA = "verify.json"
 FAR = 0.10
 """Share by which model and FE may differ before the row is marked."""
 SOLVED = (
@@ -34,12 +29,6 @@ _SHOWS = {
     "link": "Stress in the link under a force in its tool hole",
     "heat": "Temperature of half an arc or half a vane when the polymer's mean is as warm as asked",
 }
-_BEFORE = "study"
-"""The section of a run's page that it stands before."""
-_BASE64 = 4.0 / 3.0
-"""Bytes that a byte of a picture takes in a page."""
-_AROUND = 1000
-"""Bytes at most of what stands around a picture."""
 
 
 def verified(rows: Sequence[Compared], solved: Mapping[str, Solved]) -> dict[str, Any]:
@@ -94,16 +83,10 @@ def rows_grid(verification: Mapping[str, Any]) -> Grid:
     return grid("The model against finite elements on the drawn parts", heads, cells, right=(1, 2, 4, 5))
 
 
-def fields(folder: Path, room: float = MOST) -> list[Block]:
-    """Return those pictures of a verification's folder for which there is `room` in the page [bytes]."""
-    pictures: list[Block] = []
-    for name, words in _SHOWS.items():
-        picture = folder / f"{name}.png"
-        taken = _AROUND + _BASE64 * picture.stat().st_size if picture.exists() else float("inf")
-        if taken < room:
-            pictures.append(Picture(picture.read_bytes(), words, words))
-            room -= taken
-    return pictures
+def fields(folder: Path) -> list[Block]:
+    """Return the pictures that a verification's folder has."""
+    pictures = ((folder / f"{name}.png", words) for name, words in _SHOWS.items())
+    return [Picture(picture.read_bytes(), words, words) for picture, words in pictures if picture.exists()]
 
 
 def verify_sections(folder: Path, verification: Mapping[str, Any]) -> list[Section]:
@@ -118,47 +101,3 @@ def verify_sections(folder: Path, verification: Mapping[str, Any]) -> list[Secti
         *([Section("fields", "Fields", pictures)] if (pictures := fields(folder)) else []),
         Section("solved", "How it was solved", [Words([SOLVED]), table]),
     ]
-
-
-def folder_of_verification(run: Path) -> Path:
-    """Return the default folder of a run's verification."""
-    return run.with_name(f"{run.resolve().name}-verified")
-
-
-def verification_sections(run: Path) -> list[Section]:
-    """Return the section of a run's page where there is a verification of this very design; none otherwise."""
-    folder = folder_of_verification(run)
-    if not _is_of(folder, run):
-        return []
-    return [verification_section(folder, run)]
-
-
-def verification_section(folder: Path, run: Path, room: float = MOST) -> Section:
-    """Return rows worst first, a conclusion, and those fields for which there is `room` in the page [bytes]."""
-    verification: dict[str, Any] = json.loads((folder / DATA).read_text("utf-8"))
-    sentences = [verification["summary"], f"Solvers and versions: {os.path.relpath(folder, run)}/{FILE}."]
-    blocks = [Words(sentences), rows_grid(verification), *fields(folder, room)]
-    return Section(NAME, "Finite elements", blocks, folded=True)
-
-
-def put_on_page(folder: Path, run: Path) -> bool:
-    """Put a finished verification on the page of its run; returns whether there is such a page, as it was written.
-
-    Of the fields it takes as many as the page has room for: it is to go into a mail.
-    """
-    page = run / FILE
-    if not _is_of(folder, run) or not page.exists():
-        return False
-    text = page.read_text("utf-8")
-    alone = with_section(text, verification_section(folder, run, 0.0), _BEFORE)
-    if alone is None:
-        return False
-    room = MOST - len(alone.encode())
-    data = (with_section(text, verification_section(folder, run, room), _BEFORE) or alone).encode()
-    return rewrite(run, FILE, data)
-
-
-def _is_of(folder: Path, run: Path) -> bool:
-    """Return whether a folder has the verification of a run's design, as it is now."""
-    design = run / DESIGN
-    return (folder / DATA).exists() and design.exists() and made_from(folder, "design") == digest_of(design)
