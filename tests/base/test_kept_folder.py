@@ -132,3 +132,18 @@ def test_a_group_without_other_members_has_no_others(tmp_path: Path, monkeypatch
         monkeypatch.setattr("grp.getgrgid", lambda _, group=group: group)
         assert is_own_folder(tmp_path) == own
     tmp_path.chmod(0o700)
+
+
+def test_damaged_code_is_not_used_and_the_oldest_goes(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    keep_code(b"code", "text")
+    (file,) = (cache / "code").iterdir()
+    whole = file.read_bytes()
+    for damaged in (whole[:-1], b"", b"x" * len(whole), whole[:-1] + bytes([whole[-1] ^ 1])):
+        file.write_bytes(damaged)
+        assert find_code("text") is None
+    monkeypatch.setattr("tvimdesign.base.user_cache._MOST", 3)
+    for number in range(6):
+        keep_code(b"code", f"text {number}")
+        latest = max(file.parent.iterdir(), key=lambda path: path.stat().st_mtime)
+        os.utime(latest, (number, number))
+    assert [find_code(f"text {number}") for number in range(6)] == [None, None, None, b"code", b"code", b"code"]

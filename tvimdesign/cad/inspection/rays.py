@@ -8,6 +8,7 @@ from functools import cached_property
 from math import ceil, cos, pi, sin, sqrt
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
@@ -15,10 +16,18 @@ from scipy.spatial import KDTree
 
 from tvimdesign.cad.cad_report import Level, SolidCheck, at_least, finding
 from tvimdesign.cad.export.mesh import CHORD, Array, Mesh
-from tvimdesign.cad.inspection import ray_code
-from tvimdesign.cad.inspection.ray_code import LEAF, ROOM
 
 Index = NDArray[np.int64]
+LEAF = 4
+"""Triangles in a box that is not divided further."""
+ROOM = 1e-7
+"""What boxes and triangles are larger than they are [mm], so that no ray slips through between two."""
+_BEHIND = 1e-3
+"""How far behind the nearest triangle so far a box must begin to be left out [mm]."""
+_DEEPEST = 64
+"""Boxes that wait at once, at most: one for each level of the tree, and one."""
+_FLAT = 1e-12
+"""A ray and a triangle whose determinant is not above this are parallel."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +71,74 @@ class Triangles:
         """Return the first triangle each ray meets further than `beyond` [mm] from where it starts; unit directions."""
         order, boxes, triangles = self._grown
         starts, ways = (np.ascontiguousarray(given, dtype=np.float64) for given in (origins, directions))
-        distance, place = np.empty(len(starts)), np.empty(len(starts), dtype=np.int64)
-        ray_code.first_hits()(
-            boxes.ctypes.data, triangles.ctypes.data, len(boxes) // 2, starts.ctypes.data, ways.ctypes.data,
-            len(starts), beyond, distance.ctypes.data, place.ctypes.data,
-        )  # fmt: skip
+        distance, place = first_hits(boxes, triangles, starts, ways, beyond)
         return Hits(distance, np.where(place < 0, -1, order[place]))
+
+
+@njit(cache=True, error_model="numpy")
+def first_hits(boxes: Array, triangles: Array, starts: Array, ways: Array, beyond: float) -> tuple[Array, Index]:
+    """Walk rays through a tree of boxes; return how far each goes [mm], and the place of the triangle that it meets.
+
+    What a ray meets behind the nearest triangle so far is left out. Boxes are met by slabs (Kay and Kajiya 1986),
+    triangles by Moeller and Trumbore (1997).
+    """
+    leaf, waiting_boxes = len(boxes) // 2, np.empty(_DEEPEST, np.int64)
+    distance, place = np.full(len(starts), np.inf), np.full(len(starts), -1)
+    for ray in range(len(starts)):
+        start, way = starts[ray], ways[ray]
+        inverse = (1.0 / way[0], 1.0 / way[1], 1.0 / way[2])
+        waiting_boxes[0], waiting = 0, 1
+        while waiting > 0:
+            waiting -= 1
+            box = waiting_boxes[waiting]
+            if not _meets(boxes, box, start, inverse, distance[ray] + _BEHIND):
+                continue
+            if box < leaf:
+                waiting_boxes[waiting], waiting_boxes[waiting + 1] = 2 * box + 2, 2 * box + 1
+                waiting += 2
+                continue
+            for slot in range(LEAF * (box - leaf), LEAF * (box - leaf + 1)):
+                far = _distance(triangles, slot, start, way)
+                if beyond < far <= distance[ray] and far < np.inf:
+                    distance[ray], place[ray] = far, slot
+    return distance, place
+
+
+@njit(cache=True, error_model="numpy")
+def _meets(boxes: Array, box: int, start: Array, inverse: tuple[float, float, float], most: float) -> bool:
+    """Return whether a ray meets a box at or after its start, and not beyond `most`; an empty box is not a number.
+
+    Where a ray lies in the plane of a side, 0 x inf is not a number either, and limits nothing.
+    """
+    near, far = 0.0, np.inf
+    for axis in range(3):
+        one = (boxes[box, axis] - start[axis]) * inverse[axis]
+        other = (boxes[box, axis + 3] - start[axis]) * inverse[axis]
+        if one > other:
+            one, other = other, one
+        near = max(near, one)
+        far = min(far, other)
+    return far >= near and near <= most and not np.isnan(boxes[box, 0])
+
+
+@njit(cache=True, error_model="numpy")
+def _distance(triangles: Array, slot: int, start: Array, way: Array) -> float:
+    """Return how far along a ray it meets a triangle (a corner, the ways to the two others); infinite if not."""
+    x, y, z = start[0] - triangles[slot, 0], start[1] - triangles[slot, 1], start[2] - triangles[slot, 2]
+    ax, ay, az = triangles[slot, 3], triangles[slot, 4], triangles[slot, 5]
+    bx, by, bz = triangles[slot, 6], triangles[slot, 7], triangles[slot, 8]
+    px, py, pz = way[1] * bz - way[2] * by, way[2] * bx - way[0] * bz, way[0] * by - way[1] * bx
+    volume = ax * px + ay * py + az * pz
+    u = (x * px + y * py + z * pz) / volume
+    qx, qy, qz = y * az - z * ay, z * ax - x * az, x * ay - y * ax
+    v = (way[0] * qx + way[1] * qy + way[2] * qz) / volume
+    inside = u >= -ROOM and v >= -ROOM and u + v <= 1.0 + ROOM and abs(volume) > _FLAT
+    return (bx * qx + by * qy + bz * qz) / volume if inside else np.inf
+
+
+def compile_rays() -> None:
+    """Load or compile the walk of rays, before a process is forked for each piece of work."""
+    first_hits(np.empty((1, 6)), np.empty((LEAF, 9)), np.empty((0, 3)), np.empty((0, 3)), 0.0)
 
 
 def _tree(corners: Array) -> tuple[Index, Array]:

@@ -68,14 +68,14 @@ def warm_up(mode: str = "") -> None:
     from tvimdesign.cad.assembly import assembly_note
     from tvimdesign.cad.drawing import drawing_requirements, iso_286
     from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
-    from tvimdesign.cad.inspection import ray_code
+    from tvimdesign.cad.inspection import rays
     from tvimdesign.cad.jobs.cache import code_digest
 
     import_module(_NEEDED)
     if mode:
         table_for(mode)
     data = (drawing_requirements.requirements_data, iso_286.standard_data, assembly_note.all_steps)
-    for prepare in (*data, ray_code.first_hits, code_digest):
+    for prepare in (*data, rays.compile_rays, code_digest):
         prepare()
     sheet = DrawingSheet(1.0)
     sheet.text(_LETTERS, (20.0, 20.0))
