@@ -141,6 +141,7 @@ def test_damaged_code_is_not_used_and_the_oldest_goes(cache: Path, monkeypatch: 
     for damaged in (whole[:-1], b"", b"x" * len(whole), whole[:-1] + bytes([whole[-1] ^ 1])):
         file.write_bytes(damaged)
         assert find_code("text") is None
+    file.unlink()
     monkeypatch.setattr("tvimdesign.base.user_cache._MOST", 3)
     for number in range(6):
         keep_code(b"code", f"text {number}")
