@@ -50,6 +50,21 @@ def test_registers_that_are_used_again_never_lose_what_is_still_read(
     assert len(expected[0]) == 5
 
 
+@given(taken=steps, at=st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3), first=st.integers(1, 2))
+def test_a_tape_in_two_parts_is_the_whole(taken: list[tuple[int, int, int]], at: list[float], first: int) -> None:
+    x, many, one = grown(taken)
+    arguments = ca.SX.sym("y", first), ca.SX.sym("k", 3 - first)
+    values = ca.substitute(ca.vertcat(many, one), x, ca.vertcat(*arguments))
+    given_tape, rest = Tape.parted(arguments, [values])
+    (constants,) = given_tape.values(np.array(at[first:]))
+    (parted,) = rest.values(np.array(at[:first]), constants)
+    (whole,) = Tape.of(arguments, [values], inverses=True).values(np.array(at[:first]), np.array(at[first:]))
+    assert parted.tolist() == whole.tolist()
+    used = {int(place) for side in (rest.code.first, rest.code.second) for place in side}
+    used |= {int(place) for place in rest.results[0]}
+    assert set(range(first, first + len(constants))) <= used, "what is handed on is needed"
+
+
 @given(taken=steps)
 def test_no_operation_writes_where_its_own_group_reads(taken: list[tuple[int, int, int]]) -> None:
     x, many, one = grown(taken)

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -46,8 +46,7 @@ class Tape:
     @classmethod
     def of(cls, arguments: Sequence[Any], results: Sequence[Any], *, inverses: bool = False) -> Tape:
         """Record expressions (SX) of symbols."""
-        values = [ca.SX(result) for result in results]
-        return cls.of_function(ca.Function("tape", list(arguments), values, {"live_variables": False}), inverses)
+        return cls.of_function(_function(arguments, results), inverses)
 
     @classmethod
     def of_function(cls, function: Any, inverses: bool = False) -> Tape:
@@ -55,51 +54,39 @@ class Tape:
 
         With `inverses`, what several quotients are divided by is inverted once, which may change their last bits.
         """
-        starts = np.concatenate([[0], np.cumsum([function.nnz_in(i) for i in range(function.n_in())])]).astype(np.int64)
-        results = tuple(np.zeros(function.nnz_out(i), np.int64) for i in range(function.n_out()))
-        place: dict[int, int] = {}
-        """Where the value of CasADi's work register is: an argument or constant (>= 0), or an operation (< 0)."""
-        constants: dict[float, int] = {}
-        operations: dict[tuple[int, int, int], int] = {}
-        """Operation and operands, in CasADi's order, with its place; what is written twice is computed once."""
-        written: list[tuple[int, int, int]] = []
-        for k in range(function.n_instructions()):
-            op, given, to = _operation(function, k), _given(function, k), _to(function, k)
-            if op == ca.OP_INPUT:
-                place[to[0]] = int(starts[given[0]]) + given[1]
-            elif op == ca.OP_CONST:
-                place[to[0]] = int(starts[-1]) + constants.setdefault(function.instruction_constant(k), len(constants))
-            elif op == ca.OP_OUTPUT:
-                written.append((to[0], to[1], place[given[0]]))
-            elif op in _KNOWN:
-                one, other = place[given[0]], place[given[-1]]
-                if op in _COMMUTE and one < other:
-                    one, other = other, one
-                place[to[0]] = -1 - operations.setdefault((op, one, other), len(operations))
-            else:
-                raise ValueError(f"CasADi's operation {op} is not known to tvimdesign.engine.interpreter")
-        base, listed = int(starts[-1]) + len(constants), list(operations)
-        if inverses:
-            listed, moved = _with_inverses(listed)
-            written = [(result, entry, moved[-1 - one] if one < 0 else one) for result, entry, one in written]
-        table = np.column_stack([_levels(listed), np.array(listed, dtype=np.int64).reshape(-1, 3)])
+        return cls._of_record(_recorded(function, inverses))
+
+    @classmethod
+    def parted(cls, arguments: Sequence[Any], results: Sequence[Any]) -> tuple[Tape, Tape]:
+        """Record expressions in two: constants that follow from the last argument alone; then the results, of the other
+        arguments and these constants.
+        """
+        constants, rest = _parted(_recorded(_function(arguments, results), inverses=True))
+        return cls._of_record(constants), cls._of_record(rest)
+
+    @classmethod
+    def _of_record(cls, record: _Record) -> Tape:
+        operations, base = record.operations, int(record.starts[-1]) + len(record.constants)
+        table = np.column_stack([_levels(operations), np.array(operations, dtype=np.int64).reshape(-1, 3)])
         order = np.lexsort((table[:, 1], table[:, 0]))
         changes = np.flatnonzero(np.any(np.diff(table[order, :2], axis=0) != 0, axis=1)) + 1
         starting = np.concatenate([[0], changes, [len(table)]]) if len(table) else np.zeros(1, np.int64)
-        register, size = _allocated(table, order, starting, [at for *_, at in written], base)
+        register, size = _allocated(table, order, starting, [at for *_, at in record.written], base)
 
         def resolved(places: Integers) -> Integers:
-            return np.where(places < 0, register[np.maximum(-1 - places, 0)], places)
+            constants = np.where(places >= _CONSTANT, places - _CONSTANT + record.starts[-1], places)
+            return np.where(places < 0, register[np.maximum(-1 - places, 0)] if len(register) else 0, constants)
 
         kinds = np.append(table[order[starting[:-1]], 1], 0)
         first, second = (resolved(table[order, side]).astype(np.uint32) for side in (2, 3))
         groups = np.column_stack([kinds, starting]).astype(np.int64)
         code = Code(first, second, register[order].astype(np.uint32), groups)
         registers = np.zeros(size)
-        registers[int(starts[-1]) : base] = list(constants)
-        for result, entry, at in written:
-            results[result][entry] = at if at >= 0 else register[-1 - at]
-        return cls(code, registers, starts, results)
+        registers[int(record.starts[-1]) : base] = record.constants
+        results = tuple(np.zeros(length, np.int64) for length in record.lengths)
+        for (result, entry, _), at in zip(record.written, resolved(_places(record.written)), strict=True):
+            results[result][entry] = at
+        return cls(code, registers, record.starts, results)
 
     @cached_property
     def _work(self) -> Array:
@@ -125,6 +112,93 @@ class Tape:
         w[:count], d[:count, :directions] = np.concatenate(arguments), np.concatenate(moved)
         push(self.code, w, d)
         return [(w[places], d[places, :directions]) for places in self.results]
+
+
+def _function(arguments: Sequence[Any], results: Sequence[Any]) -> Any:
+    return ca.Function("tape", list(arguments), [ca.SX(result) for result in results], {"live_variables": False})
+
+
+_CONSTANT = 1 << 40
+"""Place of the first constant."""
+
+
+class _Record(NamedTuple):
+    """Operations on places: an entry of an argument (>= 0), the value of an operation (-1 - its number), a constant."""
+
+    starts: Integers
+    """Entry at which each argument starts, and where the last ends."""
+    constants: list[float]
+    operations: list[tuple[int, int, int]]
+    """Operation and operands, in CasADi's order."""
+    written: list[tuple[int, int, int]]
+    """Result, its nonzero, and the place of that."""
+    lengths: list[int]
+    """Count of each result's nonzeros."""
+
+
+def _recorded(function: Any, inverses: bool) -> _Record:
+    starts = np.concatenate([[0], np.cumsum([function.nnz_in(i) for i in range(function.n_in())])]).astype(np.int64)
+    place: dict[int, int] = {}
+    """By CasADi's work register."""
+    constants: dict[float, int] = {}
+    operations: dict[tuple[int, int, int], int] = {}
+    """With their numbers; what is written twice is computed once."""
+    written: list[tuple[int, int, int]] = []
+    for k in range(function.n_instructions()):
+        op, given, to = _operation(function, k), _given(function, k), _to(function, k)
+        if op == ca.OP_INPUT:
+            place[to[0]] = int(starts[given[0]]) + given[1]
+        elif op == ca.OP_CONST:
+            place[to[0]] = _CONSTANT + constants.setdefault(function.instruction_constant(k), len(constants))
+        elif op == ca.OP_OUTPUT:
+            written.append((to[0], to[1], place[given[0]]))
+        elif op in _KNOWN:
+            one, other = place[given[0]], place[given[-1]]
+            if op in _COMMUTE and one < other:
+                one, other = other, one
+            place[to[0]] = -1 - operations.setdefault((op, one, other), len(operations))
+        else:
+            raise ValueError(f"CasADi's operation {op} is not known to tvimdesign.engine.interpreter")
+    listed = list(operations)
+    if inverses:
+        listed, moved = _with_inverses(listed)
+        written = [(result, entry, moved[-1 - one] if one < 0 else one) for result, entry, one in written]
+    return _Record(starts, list(constants), listed, written, [function.nnz_out(i) for i in range(function.n_out())])
+
+
+def _parted(whole: _Record) -> tuple[_Record, _Record]:
+    """Part a record into what follows from its last argument alone, and the rest, whose last argument that is."""
+    first, end = (int(place) for place in whole.starts[-2:])
+    alone: list[bool] = []
+    for _, *operands in whole.operations:
+        alone.append(all(alone[-1 - place] if place < 0 else place >= first for place in operands))
+    handed: dict[int, int] = {}
+    """Places that the rest takes, and their numbers."""
+    parts: tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]] = ([], [])
+    numbers: list[int] = []
+
+    def before(place: int) -> int:
+        return numbers[-1 - place] if place < 0 else place if place >= _CONSTANT else place - first
+
+    def behind(place: int) -> int:
+        if first <= place < end or (place < 0 and alone[-1 - place]):
+            return first + handed.setdefault(place, len(handed))
+        return numbers[-1 - place] if place < 0 else place
+
+    for (op, one, other), is_alone in zip(whole.operations, alone, strict=True):
+        moved, part = (before, parts[0]) if is_alone else (behind, parts[1])
+        part.append((op, moved(one), moved(other)))
+        numbers.append(-len(part))
+    written = [(result, entry, behind(place)) for result, entry, place in whole.written]
+    given = [(0, i, before(place)) for place, i in handed.items()]
+    return (
+        _Record(np.array([0, end - first]), whole.constants, parts[0], given, [len(given)]),
+        _Record(np.append(whole.starts[:-1], first + len(given)), whole.constants, parts[1], written, whole.lengths),
+    )
+
+
+def _places(written: Sequence[tuple[int, int, int]]) -> Integers:
+    return np.array([place for *_, place in written], dtype=np.int64)
 
 
 def _with_inverses(operations: list[tuple[int, int, int]]) -> tuple[list[tuple[int, int, int]], list[int]]:

@@ -71,7 +71,7 @@ class Simulator:
             if standing is not None:
                 state = standing.state[: engine.size]
                 balances[name] = np.append(state, standing.current)
-                values |= {one: engine.value(one, state, standing.current, inputs) for one in stays}
+                values |= {one: run.value(one, state, standing.current) for one in stays}
         return Cycle(values, trajectories, balances)
 
     def run_to_show(self, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None) -> Cycle:

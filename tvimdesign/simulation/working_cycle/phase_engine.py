@@ -6,9 +6,9 @@ A direction says how the inputs move: a column of `along`, a row an input. The p
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -31,6 +31,15 @@ MANY = 5000
 """Nodes of an expression from which on it is recorded apart from what has fewer."""
 
 
+class Watch(NamedTuple):
+    """Quantities at an instant, recorded."""
+
+    given: Tape
+    """What they take from the inputs alone: constants of a run."""
+    at: Tape
+    """The quantities, one below the other, of state, current and these constants."""
+
+
 class PhaseEngine:
     """One phase, recorded when it is first asked for; `inputs` is a vector in the order of the model's names."""
 
@@ -41,7 +50,7 @@ class PhaseEngine:
         self.size = phase.state_size
         self.lip = 0 if phase._stack.lip is None else 2
         """Temperatures of the lip, which has no heat capacity: unknowns beside the state."""
-        self._tapes: dict[tuple[str, ...], Tape] = {}
+        self._watches: dict[tuple[str, ...], Watch] = {}
         place = phase.input_names.index(phase.phase.current_input)
         self._current_place = place
 
@@ -78,12 +87,12 @@ class PhaseEngine:
         before = ca.SX.sym("before", len(self.phase._initial(self.phase._stack._replace(freezing=None))))
         return Tape.of([before, self.phase._inputs], [self.phase.begin(before, self.phase._inputs)])
 
-    def tape(self, *names: str) -> Tape:
-        """Record what quantities are at an instant: of state, current and inputs."""
-        if names not in self._tapes:
-            values = [ca.SX(self.phase._instant[name]) for name in names]
-            self._tapes[names] = Tape.of(self.phase._arguments, values, inverses=True)
-        return self._tapes[names]
+    def watch(self, *names: str) -> Watch:
+        """Record what quantities are at an instant."""
+        if names not in self._watches:
+            values = ca.densify(ca.vertcat(*(ca.SX(self.phase._instant[name]) for name in names)))
+            self._watches[names] = Watch(*Tape.parted(self.phase._arguments, [values]))
+        return self._watches[names]
 
     @cached_property
     def together(self) -> dict[str, tuple[tuple[str, ...], int]]:
@@ -95,26 +104,6 @@ class PhaseEngine:
         heavy = [name for name in names if ca.n_nodes(ca.SX(self.phase._instant[name])) > MANY]
         groups = (tuple(name for name in names if name not in heavy), tuple(heavy))
         return {name: (group, place) for group in groups for place, name in enumerate(group)}
-
-    def value(self, name: str, state: Array, current: float, inputs: Array) -> float:
-        """Return a quantity at an instant."""
-        group, place = self.together[name]
-        return float(self.tape(*group).values(state[: self.size], np.array([current]), inputs)[place][0])
-
-    def values(self, group: tuple[str, ...], passed: Sequence[Instant], inputs: Array) -> Array:
-        """Return quantities that are recorded together, a column each, at some instants, a row each."""
-        tape = self.tape(*group)
-        every = (tape.values(one.state[: self.size], np.array([one.current]), inputs) for one in passed)
-        return np.array([np.concatenate(one) for one in every])
-
-    def slopes(self, name: str, now: Instant, inputs: Array, along: Array) -> tuple[float, Array]:
-        """Return a quantity at an instant, and its slopes."""
-        group, place = self.together[name]
-        value, slopes = self.tape(*group).tangents(
-            (now.state[: self.size], np.array([now.current]), inputs),
-            (now.of_state[: self.size], now.of_current[None], along),
-        )[place]
-        return float(value[0]), slopes[0]
 
     def run(
         self,
@@ -141,7 +130,7 @@ class PhaseEngine:
             found.end = run.driven(start, drive.with_length())
             if found.end is not None:
                 found.add(ends, found.end.time, found.end.of_time)
-                found.short, found.of_short = self.slopes(ends, found.end, inputs, run.along)
+                found.short, found.of_short = run.slopes(ends, found.end)
                 results.add_samples(found, wanted)
         else:
             grid = grid or run.first(start, pace, sought, horizon, tolerance)

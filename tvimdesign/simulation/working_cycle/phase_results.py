@@ -24,7 +24,7 @@ class PhaseResults:
 
     def __init__(self, run: PhaseRun) -> None:
         """Start with nothing evaluated."""
-        self.run, self.of, self.inputs, self.along = run, run.of, run.inputs, run.along
+        self.run, self.of = run, run.of
         self._seen: dict[tuple[str, ...], Array] = {}
         """Quantities at the ends of the steps, by those that are recorded together."""
 
@@ -40,7 +40,7 @@ class PhaseResults:
                 place = self.of.size + self.of.lip + self.of.integrals.index(row.name)
                 found.add(row.name, end.state[place], end.of_state[place])
             elif row.reduce == "end":
-                found.add(row.name, *self.of.slopes(row.name, end, self.inputs, self.along))
+                found.add(row.name, *self.run.slopes(row.name, end))
             else:
                 found.add(row.name, *self._highest(row.name, passed))
 
@@ -48,7 +48,7 @@ class PhaseResults:
         """Add every quantity whose highest value is asked of, at the end of every step."""
         for row in self.of.phase.paths:
             if row.reduce == "maximum" and (wanted is None or row.name in wanted):
-                every = [self.of.slopes(row.name, one, self.inputs, self.along) for one in self.run.instants]
+                every = [self.run.slopes(row.name, one) for one in self.run.instants]
                 values, slopes = zip(*every, strict=True)
                 found.samples[row.name] = np.array(values), np.array(slopes)
 
@@ -56,7 +56,7 @@ class PhaseResults:
         """Return the maximum of a quantity up to the end; between two steps it is looked for along cubics."""
         group, place = self.of.together[name]
         if group not in self._seen:
-            self._seen[group] = self.of.values(group, passed, self.inputs)
+            self._seen[group] = self.run.values(group, passed)
         values = self._seen[group][:, place].copy()
         k = int(np.argmax(values))
         best = passed[k]
@@ -66,7 +66,7 @@ class PhaseResults:
                 share, value = _peak(self._along_cubic(name, one, other))
                 if value > values[k]:
                     best, values[k] = self._between(one, other, share), value
-        return self.of.slopes(name, best, self.inputs, self.along)
+        return self.run.slopes(name, best)
 
     def passed(self, end: Instant) -> list[Instant]:
         """Return the ends of the steps up to an instant."""
@@ -92,7 +92,7 @@ class PhaseResults:
         """Return a quantity as a function of the share of a step."""
         length, rise = other.time - one.time, other.current - one.current
         here, there = self.run.rates(one) * length, self.run.rates(other) * length
-        return lambda share: self.run.gap(
+        return lambda share: self.run.value(
             name, hermite(share, one.state, other.state, here, there), one.current + share * rise
         )
 
@@ -130,7 +130,7 @@ class PhaseResults:
         if standing is None:
             return
         for name in rows:
-            found.add(name, *self.of.slopes(name, standing, self.inputs, self.along))
+            found.add(name, *self.run.slopes(name, standing))
 
     def standing(self, end: Instant) -> Instant | None:
         """Return state and current that stay, with their tangents; None where there are none.
@@ -142,7 +142,6 @@ class PhaseResults:
         ends, size = self.of.phase.phase.ends, self.of.size
         y, current = end.state.copy(), end.current
         of_current = np.append(np.zeros(self.run.lanes), 1.0)
-        along = np.column_stack([self.along, np.zeros(len(self.along))])
         too_small, too_large, before = np.nan, np.nan, np.inf
         for _ in range(60):
             settled = self._settle(y, current)
@@ -154,7 +153,7 @@ class PhaseResults:
                 continue
             y, s = settled
             now = Instant(0.0, of_current, y, s, current, of_current)
-            gap, slopes = self.of.slopes(ends, now, self.inputs, along)
+            gap, slopes = self.run.slopes(ends, now)
             if not np.isfinite(gap) or slopes[-1] == 0.0:
                 return None
             room = 0.5 * abs(current) + 0.05

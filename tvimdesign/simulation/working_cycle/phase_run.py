@@ -6,7 +6,7 @@ smooth function of the inputs, and its derivatives are those of the steps as the
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -43,11 +43,12 @@ class PhaseRun:
     def __init__(
         self, phase: PhaseEngine, motion: Motion, registers: tuple[Array, Array, Array], inputs: Array, along: Array
     ) -> None:
-        """Start before the first step; `registers` have the constants in place."""
+        """Start before the first step; `registers` have the constants of the motion in place."""
         self.of, self.motion, self.registers = phase, motion, registers
         self.inputs, self.along, self.lanes = inputs, along, along.shape[1]
         self.instants: list[Instant] = []
         """The start, and the ends of all steps."""
+        self._given: dict[tuple[str, ...], tuple[Array, Array]] = {}
 
     # --- steps ---
 
@@ -68,7 +69,7 @@ class PhaseRun:
         nothing will change any more. Raises SimulationError where not even the first step can be taken.
         """
         start = replace(start, current=float(profile.at(np.zeros(1))[0]))
-        found = {name: start for name in sought if self.gap(name, start.state, start.current) >= 0.0}
+        found = {name: start for name in sought if self.value(name, start.state, start.current) >= 0.0}
         self.instants, h = [start], FIRST * pace
         y, ahead, one = start.state.copy(), np.zeros(start.state.size), start
         nothing, settled = np.zeros((y.size, self.lanes)), False
@@ -93,7 +94,7 @@ class PhaseRun:
             other = Instant(one.time + length, one.of_time, y.copy(), nothing, current, one.of_current, one.step + 1)
             self.instants.append(other)
             for name in sought:
-                if name not in found and self.gap(name, other.state, current) >= 0.0:
+                if name not in found and self.value(name, other.state, current) >= 0.0:
                     found[name] = self._crossing(name, one, other, slope) if seek else other
             if slope == 0.0 and not throughout and np.isinf(profile.next_corner(other.time)):
                 settled = bool(np.max(np.abs(self.rates(other)[: self.of.size])) * (horizon - other.time) < STALLED)
@@ -156,14 +157,43 @@ class PhaseRun:
         steps = _Steps(start, lengths, of_lengths, u, du)
         return self.instants[-1] if self._advanced(steps, len(lengths)) else None
 
+    # --- quantities ---
+
+    def value(self, name: str, y: Array, current: float) -> float:
+        """Return a quantity at an instant; of an event what it waits for."""
+        group, place = self.of.together[name]
+        return float(self._values(group, y, current)[place])
+
+    def values(self, group: tuple[str, ...], passed: Sequence[Instant]) -> Array:
+        """Return quantities that are recorded together, a column each, at some instants, a row each."""
+        return np.array([self._values(group, one.state, one.current) for one in passed])
+
+    def _values(self, group: tuple[str, ...], y: Array, current: float) -> Array:
+        (values,) = self.of.watch(*group).at.values(
+            y[: self.of.size], np.array([current]), self._constants_of(group)[0]
+        )
+        return values
+
+    def slopes(self, name: str, now: Instant) -> tuple[float, Array]:
+        """Return a quantity at an instant, and its slopes; along directions beyond the run's the inputs stay."""
+        (group, place), size = self.of.together[name], self.of.size
+        k, dk = self._constants_of(group)
+        dk = np.pad(dk, ((0, 0), (0, now.of_state.shape[1] - self.lanes)))
+        ((values, slopes),) = self.of.watch(*group).at.tangents(
+            (now.state[:size], np.array([now.current]), k), (now.of_state[:size], now.of_current[None], dk)
+        )
+        return float(values[place]), slopes[place]
+
+    def _constants_of(self, group: tuple[str, ...]) -> tuple[Array, Array]:
+        if group not in self._given:
+            ((k, dk),) = self.of.watch(*group).given.tangents([self.inputs], [self.along])
+            self._given[group] = k, dk
+        return self._given[group]
+
     # --- events ---
 
-    def gap(self, name: str, y: Array, current: float) -> float:
-        """Return a quantity of the phase; of an event what it waits for."""
-        return self.of.value(name, y, current, self.inputs)
-
     def _gap_at(self, name: str, k: int) -> float:
-        return self.gap(name, self.instants[k].state, self.instants[k].current)
+        return self.value(name, self.instants[k].state, self.instants[k].current)
 
     def rates(self, now: Instant) -> Array:
         """Return the time derivative of the state."""
@@ -188,14 +218,14 @@ class PhaseRun:
             return hermite(share, one.state, other.state, here, there)
 
         def due(share: float) -> float:
-            return self.gap(name, between(share), one.current + slope * share * whole)
+            return self.value(name, between(share), one.current + slope * share * whole)
 
         share, steep = _root(due)
         length, steep = whole * share, steep / whole
         least, most, before, last = 0.0, 1.05 * whole, None, other
         for _ in range(MOST_TRIALS):
             last = self._last_step(one, length, slope, 0.4 * (between(length / whole) - one.state), 0)
-            gap = self.gap(name, last.state, last.current)
+            gap = self.value(name, last.state, last.current)
             if before is not None and length != before[0] and gap != before[1]:
                 steep = (gap - before[1]) / (length - before[0])
             least, most = (length, most) if gap < 0.0 else (least, length)
@@ -208,7 +238,7 @@ class PhaseRun:
             if near:
                 break
         last = self._last_step(one, length, slope, 0.4 * (last.state - one.state), self.lanes)
-        gap, slopes = self.of.slopes(name, last, self.inputs, self.along)
+        gap, slopes = self.slopes(name, last)
         short, longer = -gap / slopes[-1], -slopes / slopes[-1]
         longer[-1] = 0.0
         by_length, s = last.of_state[:, -1:].copy(), last.of_state

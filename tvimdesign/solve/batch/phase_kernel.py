@@ -17,6 +17,7 @@ from tvimdesign.engine.lane_events import NOWHERE
 from tvimdesign.engine.lanes import evaluate, lanes_of
 from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_engine import Watch
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 
 Array = NDArray[np.float64]
@@ -58,13 +59,11 @@ class PhaseKernel:
         self._moving = np.array([model.index[name] for name in moving], dtype=np.int64)
         self.size = self.engine.size
         self._current = model.index[phase.phase.current_input], phase.phase.sign
-        self.watching = np.concatenate([[self.size], self.size + 1 + self._moving])
-        """Registers of the current and of the moving inputs, where the state comes before."""
         self.motion, self._given = self.engine.recorded
         self._begin = self.engine.start if self.after else None
         for names in (*([name] for name in self.events), self.highest, self.at_end, self.steadies):
             if names:
-                self.engine.tape(*names)
+                self.engine.watch(*names)
 
     def begin(self, columns: Array, before: Array | None) -> tuple[Array, Array, Array]:
         """Return current, constants of the motion and first states of some designs."""
@@ -80,20 +79,26 @@ class PhaseKernel:
         current = columns[moved[:1]] if len(moved) else np.full((1, columns.shape[1]), self.start[place])
         return sign * current, constants, first
 
-    def _evaluated(self, tape: Tape, given: Array, places: NDArray[np.int64], inputs_from: int) -> Array:
-        """Results of a tape one below the other; its inputs begin at a register, and are as drawn where not given."""
+    def _evaluated(self, tape: Tape, given: Array, places: NDArray[np.int64], inputs_from: int | None = None) -> Array:
+        """Results of a tape one below the other; its inputs may begin at a register, as drawn where not given."""
         w = lanes_of(tape)
-        w[inputs_from : inputs_from + len(self.start)] = self.start[:, None]
+        if inputs_from is not None:
+            w[inputs_from : inputs_from + len(self.start)] = self.start[:, None]
         results = np.concatenate(tape.results)
         evaluated = np.empty((len(results), given.shape[1]))
         evaluate(tape.code, w, places, given, results, evaluated, 0, given.shape[1])
         return evaluated
 
-    def watched(self, names: Sequence[str], states: Array, watched: Array) -> Array:
-        """Quantities at an instant, a row each."""
-        places = np.concatenate([np.arange(self.size), self.watching])
-        given = np.concatenate([states[: self.size], watched])
-        return self._evaluated(self.engine.tape(*names), given, places, self.size + 1)
+    def watched(self, names: Sequence[str], states: Array, currents: Array, columns: Array) -> Array:
+        """Quantities of designs at an instant, or at some one after the other, a row each."""
+        watch, instants = self.engine.watch(*names), states.shape[1] // columns.shape[1]
+        constants = np.concatenate([currents, self.constants(watch, columns)])
+        given = np.concatenate([states[: self.size], np.tile(constants, instants)])
+        return self._evaluated(watch.at, given, np.arange(len(given)))
+
+    def constants(self, watch: Watch, columns: Array) -> Array:
+        """Return what quantities take from the inputs of some designs."""
+        return self._evaluated(watch.given, columns, self._moving, 0)
 
     def run(
         self, columns: Array, before: Array | None, pace: float, balance: Array | None, fit: Fit | None = None,
@@ -119,7 +124,7 @@ class PhaseKernel:
 
     def _at_rest(self, run: _Run, balance: Array | None) -> dict[str, Array]:
         """Steady rows, from the balance of the study's own design; infinite where Newton finds none."""
-        count = run.watched.shape[1]
+        count = run.count
         if balance is None or self.ends is None:
             return dict.fromkeys(self.steadies, np.full(count, np.inf))
         staying = self.size + self.engine.lip
@@ -128,21 +133,23 @@ class PhaseKernel:
         exists, watch = np.zeros(count, dtype=bool), run.watches[self.ends]
         lane_events.settle(
             run.motion.system, run.room.slopes, run.room.rates, run.places, run.given, watch.code, watch.registers,
-            watch.result, self.watching, run.watched, self.size, state, currents, exists,
+            watch.result, watch.places, watch.given, self.size, state, currents, exists,
         )  # fmt: skip
-        steady = self.watched(self.steadies, state, np.concatenate([currents[None], run.watched[1:]]))
+        steady = self.watched(self.steadies, state, currents[None], run.columns)
         exists &= ~np.isnan(run.end[0])
         return {name: np.where(exists, steady[i], np.inf) for i, name in enumerate(self.steadies)}
 
 
-class _Watch:
+class _Event:
     """An event that a block of designs is watched for."""
 
-    def __init__(self, phase: PhaseKernel, name: str, count: int) -> None:
-        tape, first = phase.engine.tape(name), phase.size + 1
-        self.code, self.result = tape.code, int(tape.results[0][0])
-        self.registers = lanes_of(tape)
-        self.registers[first : first + len(phase.start)] = phase.start[:, None]
+    def __init__(self, phase: PhaseKernel, name: str, current: Array, columns: Array) -> None:
+        watch, count = phase.engine.watch(name), columns.shape[1]
+        self.code, self.result = watch.at.code, int(watch.at.results[0][0])
+        self.registers = lanes_of(watch.at)
+        self.given = np.concatenate([current, phase.constants(watch, columns)])
+        """Current and constants of each design."""
+        self.places = phase.size + np.arange(len(self.given))
         self.low, self.high = np.full(count, -1), np.full(count, NOWHERE)
         """The last step after which it has not happened, the first after which it has, by design."""
         self.below, self.above = np.full(count, np.nan), np.full(count, np.nan)
@@ -160,13 +167,13 @@ class _Run:
         current, constants, first = phase.begin(columns, before)
         self.given = np.concatenate([current, constants])
         self.places = np.arange(self.motion.size, self.motion.size + len(self.given))
-        self.watched = np.concatenate([current, columns])
+        self.current, self.columns = current, columns
         self.states = np.zeros((1, self.motion.size, self.count))
         """By step, as far as `reached`."""
         self.states[0, : phase.size] = first
         self.reached = 0
         self.lost = np.isnan(first[0])
-        self.watches = {name: _Watch(phase, name, self.count) for name in phase.events}
+        self.watches = {name: _Event(phase, name, current, columns) for name in phase.events}
         self.at: dict[str, Array] = {}
         """When each event happens, infinite where it never does."""
         self.end = np.full((self.motion.size, self.count), np.nan)
@@ -182,7 +189,7 @@ class _Run:
             waiting = np.zeros(self.count, dtype=bool)
             for name, watch in self.watches.items():
                 lane_events.search(
-                    watch.code, watch.registers, watch.result, self.phase.watching, self.watched, self.states,
+                    watch.code, watch.registers, watch.result, watch.places, watch.given, self.states,
                     self.phase.size, self.reached, expected[name], watch.low, watch.high, watch.below, watch.above,
                 )  # fmt: skip
                 waiting |= watch.high == NOWHERE
@@ -201,15 +208,15 @@ class _Run:
         )  # fmt: skip
         self.reached += steps
 
-    def _cross(self, name: str, watch: _Watch) -> None:
+    def _cross(self, name: str, watch: _Event) -> None:
         """Find when an event happens in the step that it happens in."""
         started, passed = watch.high == 0, (watch.high != NOWHERE) & (watch.high > 0)
         shares, ends = np.zeros(self.count), np.empty(self.states.shape[1:])
         ends[:, started] = self.states[0][:, started]
         lane_events.cross(
             self.motion.system, self.room.slopes, self.room.rates, self.places, self.given, self.states,
-            self.lengths[: self.reached], self.scales, watch.code, watch.registers, watch.result, self.phase.watching,
-            self.watched, self.phase.size, passed, watch.low, watch.below, watch.above, shares, ends,
+            self.lengths[: self.reached], self.scales, watch.code, watch.registers, watch.result, watch.places,
+            watch.given, self.phase.size, passed, watch.low, watch.below, watch.above, shares, ends,
         )  # fmt: skip
         step = np.clip(watch.low, 0, len(self.lengths) - 1)
         times = np.where(started, 0.0, self.scales * (self.times[step] + shares * self.lengths[step]))
@@ -225,7 +232,8 @@ class _Run:
         first = phase.size + phase.engine.lip
         values_by_name = {name: self.end[first + phase.engine.integrals.index(name)] for name in phase.integrals}
         if phase.at_end:
-            values_by_name |= dict(zip(phase.at_end, phase.watched(phase.at_end, self.end, self.watched), strict=True))
+            ended = phase.watched(phase.at_end, self.end, self.current, self.columns)
+            values_by_name |= dict(zip(phase.at_end, ended, strict=True))
         values_by_name = {name: np.where(never, np.inf, values) for name, values in values_by_name.items()}
         if phase.highest:
             values_by_name |= dict(zip(phase.highest, self._highest(), strict=True))
@@ -237,9 +245,7 @@ class _Run:
         """
         phase, steps = self.phase, self.reached + 1
         states = np.concatenate([*self.states[:steps], self.end], axis=1)
-        values = phase.watched(phase.highest, states, np.tile(self.watched, steps + 1)).reshape(
-            -1, steps + 1, self.count
-        )
+        values = phase.watched(phase.highest, states, self.current, self.columns).reshape(-1, steps + 1, self.count)
         ended = ~np.isnan(self.end[0])
         after = np.arange(steps)[:, None] > np.where(ended, self.last, steps)
         values[:, :-1] = np.where(after, values[:, -1:], values[:, :-1])
