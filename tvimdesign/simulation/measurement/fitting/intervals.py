@@ -363,14 +363,15 @@ def profile_end(residuals: Residuals, fit: RobustFit, known: Spread, at: int, si
     """Find the end of an interval: where the best fit with the parameter held is worse by what chance explains [B].
 
     The solver's number, no farther than the parameter's bound; infinite where the data do not bound it within
-    `_FARTHEST` deviations.
+    `_FARTHEST` deviations, or within the bounds of a positive one.
     """
     deviation, quantile = known.deviation(known.axis(at)), known.quantile(known.axis(at))
     allowed = quantile**2 * known.slack[at]
     along = known.covariance[:, at] / known.covariance[at, at]
     parameter = residuals.problem.parameters[at]
-    bound = parameter.bounds[0] if side < 0 and not parameter.positive else side * np.inf
-    most = abs(bound - fit.inner[at]) / deviation
+    end = parameter.bounds[0 if side < 0 else 1]
+    bound = side * np.inf if parameter.positive else end
+    most = abs(end - fit.inner[at]) / deviation
     steps, low, high = quantile, 0.0, np.inf
     for _ in range(_TRIES):
         steps = min(steps, most)

@@ -29,6 +29,8 @@ _RECORD = ("latent_heat", "melting_start", "melting_end", "crystallization_half_
            "avrami_exponent")  # fmt: skip
 _HALF_TIMES = np.geomspace(3.0, 3000.0, 13)  # s
 _CONSTANTS = np.geomspace(3e4, 6e5, 11)  # K^2
+_EXPONENTS = (0.5, 6.0)
+"""Range of Avrami's exponent, as of the setting."""
 _STEPS = (0.2, 4.0)
 """Range of the step of the specific heat where no mass is known."""
 _NO_MASS = (
@@ -63,7 +65,9 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
             Parameter("nucleation_constant", "K^2", "K_g of Hoffman and Lauritzen", constant),
         ]
         if "avrami_exponent" not in settings:
-            parameters.append(Parameter("avrami_exponent", "1", "n of Avrami's law", 3.0))
+            parameters.append(
+                Parameter("avrami_exponent", "1", "n of Avrami's law", 3.0, least=_EXPONENTS[0], most=_EXPONENTS[1])
+            )
     channels = []
     for i, run in enumerate(runs):
         size = float(np.ptp(run.heat)) or 1.0

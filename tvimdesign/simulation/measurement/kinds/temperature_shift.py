@@ -73,7 +73,7 @@ def shift_note(activation: Activation, shifts: Mapping[float, Estimate], referen
         f"{temperature - ZERO_CELSIUS:.0f} degC: {shift.value:.3g}" for temperature, shift in shifts.items()
     )
     law = (
-        f"Arrhenius' law with {activation.energy / 1e3:.1f} kJ/mol describes them."
+        "Arrhenius' law describes them."
         if activation.describes
         else f"Arrhenius' law misses one by {100.0 * activation.farthest:.0f} %: no activation energy is given, and "
         "the shift of the record this is based on is not that of these data."

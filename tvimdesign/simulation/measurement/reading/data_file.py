@@ -276,7 +276,9 @@ def _number(cell: str, line: int, at: int, sheet: Sheet, file: str) -> float:
     if value is None:
         if cell.lower() in _NOTHING:
             return float("nan")
-        raise InputError(f"{file}:{line}: column {at + 1}: {cell[:30]!r} is no number")
+        raise InputError(
+            f"{file}:{line}: column {at + 1}: {cell[:30]!r} is no number; correct it, or leave the cell empty"
+        )
     return value
 
 
