@@ -87,6 +87,24 @@ def test_what_breaks_without_bending_is_known_from_several(tmp_path: Path) -> No
     assert held.high > 10.5
 
 
+def test_joints_that_give_at_torques_of_their_own_have_one_each(tmp_path: Path) -> None:
+    torques, angle = [9.0, 10.0, 11.0, 10.5], np.linspace(0.0, 0.1, 60)
+    paths = [
+        csv(tmp_path / f"{i}.csv", angle__rad=angle,
+            torque__Nm=np.minimum(200.0 * angle, most) + np.random.default_rng(i).normal(0.0, 0.03, 60))
+        for i, most in enumerate(torques)
+    ]  # fmt: skip
+    result = found(paths, "frozen_torque", **SIZES)
+    assert [result.fit.value(f"holding_torque_{i}") for i in (1, 2, 3, 4)] == pytest.approx(torques, rel=5e-3)
+    assert not result.fit.misfit
+    # the next value of a normal population: mean and deviation of logarithms, Student's t of 3 degrees of freedom
+    logs = np.log(np.array(torques) * 0.040 / 1.7985e-6)
+    half = 3.182 * np.std(logs, ddof=1) * np.sqrt(1.25)
+    bond = result.record_values["bond_strength"]
+    assert [bond.low, bond.high] == pytest.approx(list(np.exp(np.mean(logs) + np.array([-half, half]))), rel=0.01)
+    assert not found(paths[:2], "frozen_torque", **SIZES).record_values
+
+
 def test_a_torque_that_is_largest_in_the_first_row_is_told(tmp_path: Path) -> None:
     file = csv(tmp_path / "f.csv", angle__rad=[0.001, 0.002, 0.003, 0.004], torque__Nm=[5.0, 1e-3, 2e-3, 1e-3])
     with pytest.raises(InputError, match=r"up to its largest torque, 5 N\.m, the joint has one angle, 0\.001 rad"):

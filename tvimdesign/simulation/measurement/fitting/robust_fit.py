@@ -1,7 +1,8 @@
 """Robust least squares: an outlier pulls with less than its square, and each channel's noise is read off its residuals.
 
 Sources: [H] Huber and Ronchetti, Robust Statistics, 2nd ed. (M-estimates, "proposal 2" for the scale);
-loss and solver as in scipy.optimize.least_squares (soft_l1, trust-region reflective).
+loss and solver as in scipy.optimize.least_squares (soft_l1, trust-region reflective); [Sch] Schwarz, Ann. Statist. 6
+(1978) 461 (criterion of how many parameters the data bear).
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ from scipy.special import erfcx
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Residuals
 
+BETTER = 6.0
+"""By how much Schwarz's criterion has to fall for more parameters: strong evidence (Kass and Raftery, 1995)."""
 LINEAR_UP_TO = 2.0
 """Deviations from which on a residual pulls as its size and no more as its square; 3 % wider intervals without
 outliers."""
@@ -25,7 +28,7 @@ _ROUGH, _FEW_STEPS = 1e-6, 8
 _PASSING = 1e-4
 """Tolerance of the loss while the noise is not settled."""
 _SETTLED = 1e-3
-_LEAST_NOISE = 1e-9
+_LEAST_NOISE, _LEAST_SQUARE = 1e-9, 1e-14
 _LARGEST = 1e120
 """Residual whose square, or whose share of a small one, still is a number."""
 
@@ -147,6 +150,17 @@ def weights_of(residuals: Residuals, noise: Array) -> Array:
 def cost(residuals: Residuals, inner: Array, noise: Array) -> float:
     """Return the sum of the loss."""
     return float(np.sum(loss(residuals.at(inner) * weights_of(residuals, noise))))
+
+
+def criterion(residuals: Residuals, fit: RobustFit) -> float:
+    """Return Schwarz's criterion, less is better: n ln(mean square) of what errs alike, and ln(n) a parameter [Sch]."""
+    values, total = residuals.at(fit.inner), len(fit.inner) * float(np.log(residuals.problem.count))
+    for group in residuals.groups:
+        left = np.concatenate([values[residuals.parts[i]] for i in group])
+        channels = [residuals.problem.channels[i] for i in group]
+        size = 1.0 if channels[0].relative else max(float(np.ptp(channel.measured)) for channel in channels)
+        total += len(left) * float(np.log(max(float(np.mean((left / size) ** 2)), _LEAST_SQUARE)))
+    return total
 
 
 def _noises(residuals: Residuals, inner: Array, taken: Array) -> Array:

@@ -18,7 +18,7 @@ from tvimdesign.physics.polymers import polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.measurement.fitting.fit import BestFit, best_fit, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.melt_spectrum import BETTER, criterion
+from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, criterion
 from tvimdesign.simulation.measurement.kinds.melt_tests import temperature_of, title_of
 from tvimdesign.simulation.measurement.kinds.temperature_shift import USUAL_ENERGY, temperature_known
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, rows_of
@@ -45,11 +45,6 @@ class _Curves:
         self.reference = settings.get("reference_temperature", middle)
         self.energy = settings.get("flow_activation_energy")
         self.several = bool(np.ptp(self.temperatures) > _TOGETHER) if len(blocks) > 1 else False
-
-    @property
-    def values(self) -> int:
-        """Values measured."""
-        return sum(map(len, self.rates))
 
     def shift(self, temperature: float, values: Values) -> Any:
         """Return the factor a_T of a curve."""
@@ -135,9 +130,9 @@ def _simplest(curves: _Curves) -> tuple[int, BestFit]:
     fits: list[BestFit] = []
     for law in range(len(_LAWS)):
         problem = curves.problem(law)
-        if curves.values > len(problem.parameters) + 1 or not fits:
+        if problem.count > len(problem.parameters) + 1 or not fits:
             fits.append(best_fit(problem))
-    criteria = [criterion(fit, curves.values) for fit in fits]
+    criteria = [criterion(*fit) for fit in fits]
     chosen = 0
     for law in range(1, len(fits)):
         chosen = law if criteria[law] < criteria[chosen] - BETTER else chosen

@@ -2,34 +2,39 @@
 
 T = K (theta - theta_0) up to the torque at which the layer gives, and that torque from there on, with a corner rounded
 over a fiftieth of it; what comes after a break is left out. Joints that break without bending give their largest
-torque each, three or more of them its middle. The bond's strength is the traction at the layer's outer
+torque each, three or more of them its middle. Joints that give at torques of their own, as after more and more cycles,
+have one each, and the interval is that of the next such joint. The bond's strength is the traction at the layer's outer
 rim, as the product has it (physics/layers/layer.py, `traction`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.special import stdtrit
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers.polymer import ramp
-from tvimdesign.simulation.measurement.fitting.fit import fitted
+from tvimdesign.simulation.measurement.fitting.fit import Fit, best_fit, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
+from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, criterion
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, endings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 _SIZES = ("layer_inner_radius", "layer_outer_radius", "layer_span")
+_TORQUE = "holding_torque"
 _CORNER = 0.02
 _BROKEN = 0.7
 """Share of the largest torque below which, after it, the joint is broken."""
 _BENDS = 0.9
 """Share of the first stiffness below which, near the largest torque, the joint gives."""
 _LEAST_BREAKS = 3
-"""Joints that must break without bending for their torques to have an interval."""
+"""Joints that must break without bending, or give at torques of their own, for these to have an interval."""
 
 
 class Turned(NamedTuple):
@@ -64,26 +69,51 @@ class Turned(NamedTuple):
         return float(np.max(self.torque))
 
     def channel(self) -> Channel:
-        """Return the channel of its torque."""
+        """Return the channel of its torque, by a holding torque of its own where there is one."""
         angle = ca.DM(self.angle)
 
         def predicted(values: Values) -> Any:
-            return torque_of(angle, values, f"zero_angle{self.end}", bends=self.bends)
+            own = {"holding_torque": values[f"{_TORQUE}{self.end}"]} if f"{_TORQUE}{self.end}" in values else {}
+            return torque_of(angle, {**values, **own}, f"zero_angle{self.end}", bends=self.bends)
 
         return Channel(f"torque of {self.file}", "N*m", self.torque, predicted, self.angle, "angle", "deg",
                        step=self.step, noise_of="torque")  # fmt: skip
 
 
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
-    """Fit joints that were turned until they gave, together: one stiffness and torque. Raises InputError."""
+    """Fit joints that were turned until they gave, together: one stiffness, and one torque if they share it.
+
+    Raises InputError for what lacks.
+    """
     joints = [_turned(block, end) for block, end in zip(blocks, endings(blocks), strict=True)]
     gave = [joint for joint in joints if joint.bends]
     broke = [joint for joint in joints if joint.broke and not joint.bends]
     broke = broke if len(broke) >= _LEAST_BREAKS else []
+    with_bond = bool(gave or broke) and any(name in settings for name in _SIZES)
+    best, own = best_fit(_problem(joints, [], gave, broke, settings if with_bond else None)), False
+    if len(gave) > 1 and not broke:
+        apart = best_fit(_problem(joints, gave, gave, [], settings if with_bond else None))
+        own = criterion(*apart) < criterion(*best) - BETTER
+        best = apart if own else best
+    fit = with_intervals(best, profiles=profiles)
+    notes = _notes(joints, bool(gave or broke), with_bond)
+    if own:
+        fit, note = _of_next_joint(fit, gave)
+        notes.append(note)
+    certain = with_bond and not (own and len(gave) < _LEAST_BREAKS)
+    return Measurement(fit, tuple(notes), {"bond_strength": fit["bond_strength"]} if certain else {})
+
+
+def _problem(
+    joints: Sequence[Turned], own: Sequence[Turned], gave: Sequence[Turned], broke: Sequence[Turned],
+    bond: Settings | None,
+) -> Problem:  # fmt: skip
+    """Return the problem of joints that share a torque, or where those of `own` have one each."""
     parameters = [Parameter("stiffness", "N*m/rad", "Stiffness of the frozen joint", joints[0].line[0])]
-    if gave or broke:
+    if (gave or broke) and not own:
         most = float(np.median([joint.most for joint in (*gave, *broke)]))
-        parameters.append(Parameter("holding_torque", "N*m", "Torque at which it gives", most))
+        parameters.append(Parameter(_TORQUE, "N*m", "Torque at which it gives", most))
+    parameters += [Parameter(_TORQUE + joint.end, "N*m", "Torque at which it gives", joint.most) for joint in own]
     parameters += [
         Parameter(f"zero_angle{joint.end}", "deg", "Angle without torque", joint.line[1], positive=False,
                   scale=float(np.ptp(joint.angle)))
@@ -93,14 +123,27 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     if broke:
         torques = np.array([joint.most for joint in broke])
         channels.append(
-            Channel("torque at the break", "N*m", torques,
-                    lambda values: values["holding_torque"] * ca.DM.ones(len(torques)),
+            Channel("torque at the break", "N*m", torques, lambda values: values[_TORQUE] * ca.DM.ones(len(torques)),
                     np.arange(1.0, len(torques) + 1.0), "joint", "1", relative=True)
         )  # fmt: skip
-    with_bond = bool(gave or broke) and any(name in settings for name in _SIZES)
-    fit = fitted(Problem(parameters, channels, _bond(settings) if with_bond else []), profiles=profiles)
-    record = {"bond_strength": fit["bond_strength"]} if with_bond else {}
-    return Measurement(fit, tuple(_notes(joints, bool(gave or broke), with_bond)), record)
+
+    def middle(values: Values) -> Any:
+        logs = [np.log(values[_TORQUE + joint.end]) for joint in own]
+        return np.exp(sum(logs) / len(logs)) if logs else values[_TORQUE]
+
+    return Problem(parameters, channels, [_bond(bond, middle)] if bond is not None else [])
+
+
+def _of_next_joint(fit: Fit, gave: Sequence[Turned]) -> tuple[Fit, str]:
+    """Return the fit in which the bond's interval is that of the next joint, by the scatter of these, and a note."""
+    torques = [fit.value(_TORQUE + joint.end) for joint in gave]
+    listed = ", ".join(f"{torque:.3g}" for torque in torques)
+    note = f"The joints give at torques of their own, {listed} N.m in the order of the tables. "
+    if len(gave) < _LEAST_BREAKS:
+        return fit, f"{note}{_LEAST_BREAKS} joints or more give the bond's strength an interval and a record."
+    half = float(stdtrit(len(gave) - 1, 0.975) * np.std(np.log(torques), ddof=1) * np.sqrt(1.0 + 1.0 / len(gave)))
+    derived = [replace(each, low=each.value * np.exp(-half), high=each.value * np.exp(half)) for each in fit.derived]
+    return replace(fit, derived=tuple(derived)), f"{note}The bond's interval is that of the next such joint."
 
 
 def torque_of(angle: Any, values: Values, zero: str = "zero_angle", *, bends: bool = True) -> Any:
@@ -128,13 +171,11 @@ def _turned(block: Block, end: str) -> Turned:
     return Turned(block.file, angle[:last], torque[:last], bool(len(after)), end, block.step("torque"))
 
 
-def _bond(settings: Settings) -> list[Derived]:
+def _bond(settings: Settings, torque: Callable[[Values], Any]) -> Derived:
     inner, outer, span = (required(settings, name, "for the strength of the bond") for name in _SIZES)
     moment = settings["layer_count"] * span / 4.0 * (outer**4 - inner**4)
-    return [
-        Derived("bond_strength", "MPa", "Traction at the layer's outer rim where it gives",
-                lambda values: layer.traction(values["holding_torque"], moment, outer))
-    ]  # fmt: skip
+    return Derived("bond_strength", "MPa", "Traction at the layer's outer rim where it gives",
+                   lambda values: layer.traction(torque(values), moment, outer))  # fmt: skip
 
 
 def _notes(joints: Sequence[Turned], seen: bool, with_bond: bool) -> list[str]:

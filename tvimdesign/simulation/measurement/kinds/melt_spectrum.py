@@ -2,9 +2,8 @@
 
 Modes (tau_i, G_i) are free in time and modulus. Each temperature but the reference shifts its rates by a factor a_T of
 its own, and by Arrhenius' law where that describes them all; a ramp has rows at all temperatures, and goes by the law
-from the start. How many modes: as long as one more betters Schwarz's criterion [Sch]. Sources: [BW] Baumgaertel and
-Winter, Rheol. Acta 28 (1989) 511 (free times and moduli, as few modes as the data bear); [Sch] Schwarz, Ann. Statist. 6
-(1978) 461.
+from the start. How many modes: as long as one more betters Schwarz's criterion. Source: [BW] Baumgaertel and Winter,
+Rheol. Acta 28 (1989) 511 (free times and moduli, as few modes as the data bear).
 """
 
 from __future__ import annotations
@@ -18,14 +17,13 @@ import numpy as np
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.measurement.fitting.fit import BestFit, best_fit
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
+from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, criterion
 from tvimdesign.simulation.measurement.kinds.temperature_shift import USUAL_ENERGY, guessed_shift, shift_name
 from tvimdesign.simulation.measurement.measurement import Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array
 
 _TOGETHER = 1.0
 """Tests within so many kelvin are of one temperature."""
-BETTER = 6.0
-"""By how much Schwarz's criterion has to fall for one mode more: strong evidence (Kass and Raftery, 1995)."""
 _A_PARAMETER = 2
 """Values for each parameter, at least, of a spectrum of several modes: with fewer it follows the noise."""
 BEYOND = 10.0
@@ -86,11 +84,6 @@ class Melt(NamedTuple):
         fast = [(values["fast_time"], values["fast_viscosity"] / values["fast_time"])] if self.fast else []
         return [*slow, *modes_of(values, count), *fast]
 
-    @property
-    def values(self) -> int:
-        """Values measured."""
-        return sum(len(curve.measured) for test in self.tests for curve in test.curves)
-
     def factor(self, values: Values, test: MeltTest) -> Any:
         """Return the shift of the rates of a test: one, or one for each row of a ramp."""
         if self.energy is not None and (test.ramp is not None or self._near(test) != self.reference):
@@ -131,32 +124,17 @@ def fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
     Raises InputError where there are fewer values than one mode has parameters.
     """
     chosen, best = 1, best_fit(spectrum_problem(melt, 1))
-    least = criterion(best, melt.values)
+    least = criterion(*best)
     for count in range(2, most + 1):
         problem = spectrum_problem(melt, count)
-        if len(problem.parameters) > melt.values / _A_PARAMETER:
+        if len(problem.parameters) > problem.count / _A_PARAMETER:
             break
         candidate = best_fit(problem)
-        candidate_criterion = criterion(candidate, melt.values)
+        candidate_criterion = criterion(*candidate)
         if candidate_criterion > least - BETTER:
             break
         chosen, best, least = count, candidate, candidate_criterion
     return chosen, best
-
-
-def criterion(fit: BestFit, values: int) -> float:
-    """Return Schwarz's criterion, less is better [Sch]."""
-    return _misfit(fit) + len(fit.problem.parameters) * float(np.log(values))
-
-
-def _misfit(fit: BestFit) -> float:
-    """Return the sum of n ln(mean square of the residuals) over what errs alike."""
-    squares: dict[str, list[Any]] = {}
-    for channel, predicted in zip(fit.problem.channels, fit.predicted(), strict=True):
-        left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
-        squares.setdefault(channel.noise_of, []).append(left if channel.relative else left / np.ptp(channel.measured))
-    groups = [np.concatenate(group) for group in squares.values()]
-    return sum(len(group) * float(np.log(max(np.mean(group**2), 1e-14))) for group in groups)
 
 
 def spectrum_problem(melt: Melt, count: int) -> Problem:
