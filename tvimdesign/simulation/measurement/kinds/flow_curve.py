@@ -19,8 +19,8 @@ from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.measurement.fitting.fit import BestFit, best_fit, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, criterion
+from tvimdesign.simulation.measurement.kinds.melt_spectrum import USUAL_ENERGY, temperature_known
 from tvimdesign.simulation.measurement.kinds.melt_tests import temperature_of, title_of
-from tvimdesign.simulation.measurement.kinds.temperature_shift import USUAL_ENERGY, temperature_known
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca

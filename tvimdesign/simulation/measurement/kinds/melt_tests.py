@@ -23,9 +23,8 @@ from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Values
-from tvimdesign.simulation.measurement.kinds.melt_spectrum import MeltTest
+from tvimdesign.simulation.measurement.kinds.melt_spectrum import MeltTest, guessed_shift
 from tvimdesign.simulation.measurement.kinds.spectrum_fit import fit_spectrum
-from tvimdesign.simulation.measurement.kinds.temperature_shift import guessed_shift
 from tvimdesign.simulation.measurement.measure_files import kind_sheets
 from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block

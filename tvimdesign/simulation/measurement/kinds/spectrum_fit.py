@@ -13,14 +13,12 @@ from tvimdesign.simulation.measurement.kinds.melt_spectrum import (
     BEYOND,
     Melt,
     MeltTest,
+    arrhenius,
     fewest_modes,
     melt_of,
-    spectrum_problem,
-)
-from tvimdesign.simulation.measurement.kinds.temperature_shift import (
-    arrhenius,
     shift_name,
     shift_note,
+    spectrum_problem,
     temperature_known,
 )
 from tvimdesign.simulation.measurement.measurement import Measurement, RecordTable, Settings
