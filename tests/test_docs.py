@@ -107,6 +107,7 @@ def test_the_screen_in_the_readme_is_that_of_the_run(tvimdesign: Command, tmp_pa
     assert [re.sub(r" · \d+ s$", "", line) for line in shown] == [re.sub(r" · \d+ s$", "", line) for line in written]
 
 
+@pytest.mark.gate
 def test_every_start_of_the_readme_s_study_converges() -> None:
     study = read_study_text(_blocks("yaml")[0], "README.md")
     found = answer(study)

@@ -22,8 +22,8 @@ FILES = {
 }  # fmt: skip
 PLOTS = {"impedance.png", "cycle.png", "stiffness_and_damping.png", "power_and_energy.png", "torque.png"}
 OPTIMISED = {"why.csv"}
-MARKS = {"paper_reconstructed": (), "paper_compression": (), "paper_shear": (pytest.mark.gate,)}
-"""Studies that take seconds, and the one that the gate runs; the others are slow tests."""
+MARKS = {"paper_reconstructed": (), "paper_compression": (pytest.mark.gate,), "paper_shear": (pytest.mark.gate,)}
+"""The study that takes seconds, and those that the gate runs; the others are slow tests."""
 UNDRAWN = {"paper_reconstructed", "paper_compression"}
 """Run without plots, as drawing takes longer than evaluating: other evaluated modules of their modes have the same."""
 MESHED = 1e-3

@@ -38,10 +38,12 @@ def losses(tmp_path: Path, count: int) -> Iterator[str]:
         yield from (f"{number}: {one} ({done})" for one in lost)
 
 
+@pytest.mark.gate
 def test_no_byte_of_the_user_s_is_changed_or_removed(tmp_path: Path) -> None:
     assert list(losses(tmp_path, 20)) == []
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("broken", ["digest", "rename", "links"])
 def test_the_campaign_sees_what_is_lost(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, broken: str) -> None:
     if broken == "digest":  # as if a file's name were enough to make it ours

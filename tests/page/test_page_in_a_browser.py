@@ -34,6 +34,7 @@ def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path)
     assert report.stat().st_size < MOST
 
 
+@pytest.mark.gate
 def test_a_page_that_carries_megabytes_is_there_within_two_seconds(opened: Open, tmp_path: Path) -> None:
     heavy = np.random.default_rng(1).bytes(1_900_000)  # files of parts: nothing to compress
     page = sample_pages.run_page(tmp_path / "run", more={"print/housing.3mf": heavy})
@@ -71,6 +72,7 @@ def test_axe_finds_no_serious_fault(opened: Open, report: Path, colours: str, ru
     assert [(one["id"], [node["html"][:120] for node in one["nodes"][:3]]) for one in serious] == []
 
 
+@pytest.mark.gate
 def test_a_page_is_dark_where_the_reader_is_without_white_slabs(opened: Open, report: Path) -> None:
     def brightness(colours: str) -> int:
         page = opened(report, color_scheme=colours).page

@@ -59,6 +59,7 @@ def test_twice_the_depth_by_flux_and_by_diffusion(
     assert low < times[1] / times[0] < high
 
 
+@pytest.mark.gate
 def test_twice_the_depth_takes_two_to_four_times_as_long(squeezed: dict[str, Any]) -> None:
     ratios = []
     for current in (0.5, 1.5, 4.0, 12.0):
@@ -68,6 +69,7 @@ def test_twice_the_depth_takes_two_to_four_times_as_long(squeezed: dict[str, Any
     assert 2.0 < ratios[0] < ratios[-1] < 4.0
 
 
+@pytest.mark.gate
 def test_twice_the_depth_of_a_whole_module() -> None:
     # Pads and vanes of both sides take heat as well, which does not double: at 1.5 A twice takes less than twice as
     # long. The deeper it is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the

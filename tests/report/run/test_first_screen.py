@@ -102,7 +102,7 @@ def case(asked: str) -> AnsweredStudy:
 
 
 CASES = [
-    "paper_shear",
+    pytest.param("paper_shear", marks=pytest.mark.gate),
     *(pytest.param(name, marks=pytest.mark.slow)
       for name in ("paper_reconstructed", "paper_compression", "wrist_joint", "choices", "many")),
 ]  # fmt: skip
@@ -111,6 +111,7 @@ each = pytest.mark.parametrize("name", [*CASES, "choices alone", "many alone"])
 widths = pytest.mark.parametrize("width", [80, 100, 140])
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("width", [100, 80])
 def test_a_screen_is_that_of_the_snapshot(width: int) -> None:
     """Numbers follow the model and are masked; UPDATE_SCREENS=1 writes the files anew."""
@@ -173,6 +174,7 @@ def test_the_first_line_says_verdict_name_starts_and_seconds() -> None:
     assert first_screen(case("many alone"), 140)[0].startswith("Do not build it: ")
 
 
+@pytest.mark.gate
 def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s() -> None:
     one = case("paper_shear")
     rows = {row.name: row for row in requirements(one.result, {})}
@@ -193,6 +195,7 @@ def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s() -> None:
     assert line.startswith(f"Active constraints: {label(first.output)} ")
 
 
+@pytest.mark.gate
 def test_headlines_and_requirements_have_their_ranges() -> None:
     one = case("paper_shear")
     intervals, text = one.uncertainty["intervals"], "\n".join(first_screen(one, 100))

@@ -97,6 +97,7 @@ def test_the_line_that_is_proposed_mends(output: str) -> None:
     assert not {output, "tang_bond_safety"} & {check.output for check in again.warnings}
 
 
+@pytest.mark.gate
 def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask() -> None:
     proposed = _proposed()
     # Of all wave springs the one that goes around the core of 10 mm and lies on the hub of 13.4.

@@ -249,9 +249,3 @@ def freezing_travel(m: Module) -> Scalar:
 def freezing_gap(m: Module) -> Scalar:
     """Depth that a freezing block loses, and leaves beside its vane."""
     return m.block_depth * transitions.linear_share(m.freezing_shrinkage)
-
-
-@shrinkages.output("deg")
-def freezing_backlash(m: Module) -> Scalar:
-    """Angle between a block's touch on either side of a rotor vane, after freezing at rest without load."""
-    return 2.0 * m.freezing_gap / m.pcl_mean_radius

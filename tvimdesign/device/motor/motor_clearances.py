@@ -177,15 +177,3 @@ _TOO_WEAK = "the motor cannot for long turn the springs alone by the stroke"
 def motor_torque_margin(m: Module) -> Scalar:
     """Continuous torque of the motor less what turns the springs alone by the stroke; zero without a motor."""
     return m.drive_motor.continuous_torque - m.spring_stiffness * m.stroke
-
-
-@torques.output("A")
-def motor_hold_current(m: Module) -> Scalar:
-    """Current with which the motor bears the load of the hold; zero without a motor."""
-    return m.hold_torque / m.drive_motor.torque_constant
-
-
-@torques.output("N*m", requires=WITH_ENCODER)
-def encoder_torque_step(m: Module) -> Scalar:
-    """Torque of the molten joint that one step of the encoder stands for; zero without an encoder."""
-    return 2.0 * np.pi / m.angle_sensor.resolution * m.spring_stiffness

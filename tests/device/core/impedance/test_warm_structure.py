@@ -74,7 +74,7 @@ def test_metal_hardly_softens_and_a_warm_cold_point_weakens() -> None:
     assert 0.0 < found["warm_structure_stiffness@hot"] < 200.0
     assert found["joint_stiffness@hot"] > 0.0
     table = table_for("shear")
-    names = ["core_holding_torque", "link_screw_bearing_torque"]
+    names = ["core_holding_torque"]
     cold, warmer = (table.evaluate({**inputs_of("shear"), "temperature@cold": t + 273.15}, names) for t in (23.0, 45.0))
     for name in names:
         assert warmer[name] / cold[name] == pytest.approx(np.exp(-0.003 * 22.0), rel=2e-3), name

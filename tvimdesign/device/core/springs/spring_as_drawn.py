@@ -181,12 +181,6 @@ def held_spring_rate(m: Module) -> Scalar:
     return m.spring_rate * plastics.winding_left(m.spring_rate, (m.pin_give, 0.0), (m.tang_give, 0.0))
 
 
-@quantities.output("rad")
-def preload_give(m: Module) -> Scalar:
-    """Winding that the coil loses at once at rest as pin and floor give; none of the margin, as its torque stays."""
-    return m.preload_angle * (1.0 - m.held_spring_rate / m.spring_rate)
-
-
 def _structure_creep(m: Module) -> plastics.Creep:
     """Return the creep of the structure."""
     return plastics.Creep(m.structure_creep_share, m.structure_creep_exponent, m.structure_creep_energy)
