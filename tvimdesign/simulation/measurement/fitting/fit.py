@@ -92,21 +92,14 @@ class BestFit(NamedTuple):
         """The problem that was fitted."""
         return self.residuals.problem
 
-    def predicted(self) -> list[Array]:
-        """Return the fitted values of each channel [SI]."""
-        return self.residuals.predicted(self.found.inner)
-
 
 def best_fit(problem: Problem) -> BestFit:
     """Fit a problem.
 
     Raises InputError where there are fewer values than parameters, or the equations give no number at the start.
     """
-    residuals = Residuals(problem)
-    return BestFit(
-        residuals,
-        robust_fit(residuals, np.array([parameter.inner(parameter.start) for parameter in problem.parameters])),
-    )
+    residuals, starts = Residuals(problem), [parameter.inner(parameter.start) for parameter in problem.parameters]
+    return BestFit(residuals, robust_fit(residuals, np.array(starts)))
 
 
 def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
@@ -131,7 +124,7 @@ def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
     misfit = _misfit(residuals, best, known) or _drifting(fit.problem, drift)
     return Fit(
         fit.problem, tuple(parameters), _derived(residuals, best, known, drift), correlation(known.covariance),
-        tuple(fit.predicted()), tuple(map(float, best.noise)),
+        tuple(residuals.predicted(best.inner)), tuple(map(float, best.noise)),
         tuple(parameter.rho for parameter in known.follows), (*words, *([misfit] if misfit else [])), misfit,
     )  # fmt: skip
 

@@ -9,7 +9,7 @@ rim, as the product has it (physics/layers/layer.py, `traction`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -89,31 +89,33 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     gave = [joint for joint in joints if joint.bends]
     broke = [joint for joint in joints if joint.broke and not joint.bends]
     broke = broke if len(broke) >= _LEAST_BREAKS else []
-    with_bond = bool(gave or broke) and any(name in settings for name in _SIZES)
-    best, own = best_fit(_problem(joints, [], gave, broke, settings if with_bond else None)), False
+    ended = [*gave, *broke]
+    bond = settings if ended and any(name in settings for name in _SIZES) else None
+    notes = _notes(joints, bool(ended), bond is not None)
+    best = best_fit(_problem(joints, {"": ended} if ended else {}, broke, bond))
     if len(gave) > 1 and not broke:
-        apart = best_fit(_problem(joints, gave, gave, [], settings if with_bond else None))
-        own = criterion(*apart) < criterion(*best) - BETTER
-        best = apart if own else best
-    fit = with_intervals(best, profiles=profiles)
-    notes = _notes(joints, bool(gave or broke), with_bond)
-    if own:
-        fit, note = _of_next_joint(fit, gave)
-        notes.append(note)
-    certain = with_bond and not (own and len(gave) < _LEAST_BREAKS)
-    return Measurement(fit, tuple(notes), {"bond_strength": fit["bond_strength"]} if certain else {})
+        apart = best_fit(_problem(joints, {joint.end: [joint] for joint in gave}, [], bond))
+        if criterion(*apart) < criterion(*best) - BETTER:
+            fit, note = _of_next_joint(with_intervals(apart, profiles=profiles), gave)
+            return _measured(fit, [*notes, note])
+    return _measured(with_intervals(best, profiles=profiles), notes)
+
+
+def _measured(fit: Fit, notes: Sequence[str]) -> Measurement:
+    """Return the measurement, with the bond's strength where it has an interval."""
+    bond = {each.name: each for each in fit.derived if each.low is not None}
+    return Measurement(fit, tuple(notes), bond)
 
 
 def _problem(
-    joints: Sequence[Turned], own: Sequence[Turned], gave: Sequence[Turned], broke: Sequence[Turned],
-    bond: Settings | None,
-) -> Problem:  # fmt: skip
-    """Return the problem of joints that share a torque, or where those of `own` have one each."""
+    joints: Sequence[Turned], torques: Mapping[str, Sequence[Turned]], broke: Sequence[Turned], bond: Settings | None
+) -> Problem:
+    """Return the problem of joints; `torques` are those that share one, by the end of its name."""
     parameters = [Parameter("stiffness", "N*m/rad", "Stiffness of the frozen joint", joints[0].line[0])]
-    if (gave or broke) and not own:
-        most = float(np.median([joint.most for joint in (*gave, *broke)]))
-        parameters.append(Parameter(_TORQUE, "N*m", "Torque at which it gives", most))
-    parameters += [Parameter(_TORQUE + joint.end, "N*m", "Torque at which it gives", joint.most) for joint in own]
+    parameters += [
+        Parameter(_TORQUE + end, "N*m", "Torque at which it gives", float(np.median([joint.most for joint in alike])))
+        for end, alike in torques.items()
+    ]
     parameters += [
         Parameter(f"zero_angle{joint.end}", "deg", "Angle without torque", joint.line[1], positive=False,
                   scale=float(np.ptp(joint.angle)))
@@ -121,15 +123,14 @@ def _problem(
     ]  # fmt: skip
     channels = [joint.channel() for joint in joints]
     if broke:
-        torques = np.array([joint.most for joint in broke])
+        most, count = np.array([joint.most for joint in broke]), len(broke)
         channels.append(
-            Channel("torque at the break", "N*m", torques, lambda values: values[_TORQUE] * ca.DM.ones(len(torques)),
-                    np.arange(1.0, len(torques) + 1.0), "joint", "1", relative=True)
+            Channel("torque at the break", "N*m", most, lambda values: values[_TORQUE] * ca.DM.ones(count),
+                    np.arange(1.0, count + 1.0), "joint", "1", relative=True)
         )  # fmt: skip
 
     def middle(values: Values) -> Any:
-        logs = [np.log(values[_TORQUE + joint.end]) for joint in own]
-        return np.exp(sum(logs) / len(logs)) if logs else values[_TORQUE]
+        return np.exp(sum(np.log(values[_TORQUE + end]) for end in torques) / len(torques))
 
     return Problem(parameters, channels, [_bond(bond, middle)] if bond is not None else [])
 
@@ -140,7 +141,9 @@ def _of_next_joint(fit: Fit, gave: Sequence[Turned]) -> tuple[Fit, str]:
     listed = ", ".join(f"{torque:.3g}" for torque in torques)
     note = f"The joints give at torques of their own, {listed} N.m in the order of the tables. "
     if len(gave) < _LEAST_BREAKS:
-        return fit, f"{note}{_LEAST_BREAKS} joints or more give the bond's strength an interval and a record."
+        left_open = tuple(replace(each, low=None, high=None) for each in fit.derived)
+        note += f"{_LEAST_BREAKS} joints or more give the bond's strength an interval and a record."
+        return replace(fit, derived=left_open), note
     half = float(stdtrit(len(gave) - 1, 0.975) * np.std(np.log(torques), ddof=1) * np.sqrt(1.0 + 1.0 / len(gave)))
     derived = [replace(each, low=each.value * np.exp(-half), high=each.value * np.exp(half)) for each in fit.derived]
     return replace(fit, derived=tuple(derived)), f"{note}The bond's interval is that of the next such joint."

@@ -8,7 +8,7 @@ import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.measurement.fitting.fit import BestFit, Fit, best_fit, fitted, with_intervals
+from tvimdesign.simulation.measurement.fitting.fit import BestFit, Estimate, Fit, best_fit, fitted, with_intervals
 from tvimdesign.simulation.measurement.kinds.melt_spectrum import (
     BEYOND,
     Melt,
@@ -110,32 +110,34 @@ def _blind(melt: Melt) -> str:
 
 def _viscosity_record(best: Fit, melt: Melt, count: int, notes: Sequence[str]) -> Measurement:
     """Return the measurement of a melt whose spectrum goes on outside the tests: its viscosity, if it flows."""
-    conditions = {"melt_reference_temperature": (melt.reference, "degC")}
+    values: dict[str, Estimate] = {}
+    slowest = max((best.value(f"time_{i}") for i in range(1, count + 1)), default=0.0)
     if melt.solid:
-        solid = best["solid_modulus"]
         why = (
-            f"The data do not flow: {solid.value:.3g} Pa are left at the longest times, as of a solid. No viscosity "
-            "follows, and no record is written. Measure at lower frequencies or for longer, or hotter."
+            f"The data do not flow: {best.value('solid_modulus'):.3g} Pa are left at the longest times, as of a solid. "
+            "No viscosity follows, and no record is written. Measure at lower frequencies or for longer, or hotter."
         )
-        return Measurement(best, (*notes, why))
-    if _blind(melt) == "rise":
+    elif _blind(melt) == "rise":
         why = (
             "What relaxes while the strain rises is not seen, and the viscosity is its sum with the rest: no record is "
             "written. Set rise_time, or fit a frequency sweep together with it (--as melt)."
         )
-        return Measurement(best, (*notes, why))
-    slowest = max((best.value(f"time_{i}") for i in range(1, count + 1)), default=0.0)
-    if slowest > melt.window[1] / BEYOND:
-        return Measurement(best, (*notes, _extrapolated(slowest, melt.window[1] / BEYOND)))
-    viscosity = best["zero_shear_viscosity"]
-    there = f", {best['fast_viscosity'].value:.3g} Pa.s" if melt.fast else " or what the inertia hides"
-    why = f"Faster than the tests see there is only a viscosity{there}: the plateau modulus does not follow. "
-    if viscosity.low is None or viscosity.high is None:
-        return Measurement(best, (*notes, why + "The data leave the viscosity open: no record is written."))
-    values = {each.name: each for each in (*best.parameters, *best.derived)
-              if each.name in {"zero_shear_viscosity", "flow_activation_energy"}}  # fmt: skip
-    why += "The record has the viscosity alone, with the plateau modulus of the record it is based on."
+    elif slowest > melt.window[1] / BEYOND:
+        why = _extrapolated(slowest, melt.window[1] / BEYOND)
+    else:
+        there = f", {best.value('fast_viscosity'):.3g} Pa.s" if melt.fast else " or what the inertia hides"
+        why = f"Faster than the tests see there is only a viscosity{there}: the plateau modulus does not follow. "
+        if best["zero_shear_viscosity"].low is None:
+            why += "The data leave the viscosity open: no record is written."
+        else:
+            why += "The record has the viscosity alone, with the plateau modulus of the record it is based on."
+            values = _reported(best, "zero_shear_viscosity", "flow_activation_energy")
+    conditions = {"melt_reference_temperature": (melt.reference, "degC")} if values else {}
     return Measurement(best, (*notes, why), values, {}, conditions)
+
+
+def _reported(best: Fit, *names: str) -> dict[str, Estimate]:
+    return {each.name: each for each in (*best.parameters, *best.derived) if each.name in names}
 
 
 def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: Sequence[str]) -> Measurement:
@@ -156,9 +158,7 @@ def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: S
     seen = next(parameter.most for parameter in best.problem.parameters if parameter.name == "time_1") / BEYOND
     if modes[0][0] > seen:
         return Measurement(best, (*notes, _extrapolated(modes[0][0], seen)))
-    values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
-    if any(parameter.name == "flow_activation_energy" for parameter in best.parameters):
-        values["flow_activation_energy"] = best["flow_activation_energy"]
+    values = _reported(best, "zero_shear_viscosity", "plateau_modulus", "flow_activation_energy")
     table = RecordTable({"relaxation_time": "s", "modulus": "Pa"}, split_to(modes, most))
     return Measurement(
         best, tuple(notes), values, {"melt_spectrum": table}, {"melt_reference_temperature": (reference, "degC")}
