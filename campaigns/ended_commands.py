@@ -22,7 +22,6 @@ COMMANDS = {
     "front": ["run", str(SMALL), *_FRONT],
     "prove": ["run", str(SMALL), *_LISTED, "--prove", "--no-cad", "--no-plots"],
     "parts": ["cad", _DESIGN],
-    "cells": ["cad", "../swept/out", "--cells", "1,2"],
     "simulate": ["simulate", _DESIGN, "--test", "sine"],
     "tolerate": ["tolerate", _DESIGN, "--samples", "16384"],
     "robot": ["robot", _DESIGN],
@@ -39,11 +38,8 @@ FIRST = {
         for name, words in COMMANDS.items()
         if any(word.startswith(_RUN) for word in words)
     },
-    "cells": ("swept", ["sweep", _STUDY, "--set", _TWO, "--workers", "1", "--no-plots"]),
 }
 """What is done once before a command: the folder beside those of the tries, and a command whose results go there."""
-KEPT = {"cells": "kept"}
-"""Folder beside those of the tries in which parts are kept from one to the next: how they are made is `parts`' try."""
 GOES_ON = {"front": "front/progress", "sweep": "shards"}
 """Commands that can be resumed, and the folder of what they go on from."""
 NEEDS_FE = "verify"

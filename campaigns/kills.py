@@ -36,7 +36,7 @@ from typing import Any
 
 import explorer_talk
 import psutil
-from ended_commands import COMMANDS, FIRST, GOES_ON, KEPT, NEEDS_FE, ROOT, SERVED, SERVES, SMALL, coarse_python
+from ended_commands import COMMANDS, FIRST, GOES_ON, NEEDS_FE, ROOT, SERVED, SERVES, SMALL, coarse_python
 from shell_signals import follow_signals
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
@@ -57,25 +57,25 @@ class Try:
     """Seconds of the processor."""
 
 
-def environment(own: Path, kept: str = "") -> dict[str, str]:
-    """A temporary folder of its own, no kept parts or those in a folder beside, and a mark of its processes."""
+def environment(own: Path) -> dict[str, str]:
+    """A temporary folder of its own, no kept parts, and a mark of its processes."""
     (own / "tmp").mkdir(parents=True, exist_ok=True)
     return {
         **os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(own / "tmp"),
-        "TVIMDESIGN_CACHE": str(own.parent / kept) if kept else "",
+        "TVIMDESIGN_CACHE": "",
         "TVIMDESIGN_SPREAD": "on", "OMP_NUM_THREADS": "1", MARK: str(own),
     }  # fmt: skip
 
 
-def start(words: list[str], own: Path, kept: str = "") -> subprocess.Popen[bytes]:
-    """Start a command in `own`, its results into the folder out; with `kept` parts are kept in that folder beside.
+def start(words: list[str], own: Path) -> subprocess.Popen[bytes]:
+    """Start a command in `own`, its results into the folder out.
 
     The folder is named as it stands from there: a page that names it is the same of each try.
     """
     with (own / "said.txt").open("ab") as said, (own / "told.txt").open("ab") as told:
         return subprocess.Popen(
             [sys.executable, "-m", "tvimdesign", *words, "--out", "out"],
-            cwd=own, stdout=told, stderr=said, env=environment(own, kept), start_new_session=True,
+            cwd=own, stdout=told, stderr=said, env=environment(own), start_new_session=True,
         )  # fmt: skip
 
 
@@ -158,7 +158,7 @@ def at_work(own: Path) -> list[psutil.Process]:
 
 def faults_after(one: Try, own: Path, seed: int = 1) -> list[str]:
     """Run a command, end it, and say what is not as it should be."""
-    process = start(COMMANDS[one.command], own, KEPT.get(one.command, ""))
+    process = start(COMMANDS[one.command], own)
     talk = Talking(process, own, seed) if one.command == SERVES else None
     until(process, one.after)
     ended = process.poll() is not None  # it was through before
@@ -239,7 +239,7 @@ def whole(path: Path, data: bytes) -> bool:
 
 def resumed_differs(command: str, own: Path, reference: Path) -> list[str]:
     """Go on with a command that was ended, and compare what it made with one that ran through."""
-    process = start([*COMMANDS[command], "--resume"], own, KEPT.get(command, ""))
+    process = start([*COMMANDS[command], "--resume"], own)
     if process.wait(timeout=600.0 * load()) != 0:
         return [f"resumed, it ends with {process.returncode}"]
     files, other = (_compared(folder) for folder in (reference, own / "out"))
@@ -302,10 +302,8 @@ def run_through(command: str, folder: Path) -> Through:
     if command == SERVES:
         return Through(own / "out", SERVED)
     prepare(command, folder)
-    if command in KEPT and start(COMMANDS[command], own, KEPT[command]).wait() == 0:  # what is kept is no part of a try
-        shutil.rmtree(own / "out")
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if code := start(COMMANDS[command], own, KEPT.get(command, "")).wait():
+    if code := start(COMMANDS[command], own).wait():
         sys.exit(f"{command} ends with {code} where nobody ends it: {(own / 'said.txt').read_text()}")
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return Through(own / "out", after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)

@@ -93,13 +93,6 @@ def robot(env: Environment) -> None:
     env.run("python", "-c", f"import mujoco; mujoco.MjModel.from_xml_path('results/{STUDY}-robot/joint_cold.xml')")
 
 
-def parquet(env: Environment) -> None:
-    """A sweep whose table pyarrow writes."""
-    _write_sweep(env)
-    env.run("tvimdesign", "sweep", f"{STUDY}.yaml", "--parquet")
-    env.has(f"results/{STUDY}-sweep/cells.parquet")
-
-
 def cluster(env: Environment) -> None:
     """A sweep on a scheduler with one worker."""
     _write_sweep(env)
@@ -138,7 +131,7 @@ def _write_sweep(env: Environment) -> None:
 
 
 CHECKS: dict[str, Callable[[Environment], None]] = {
-    LIGHT: light, VALIDATION: validation, "cad": cad, "cluster": cluster, "parquet": parquet, "robot": robot, "fe": fe,
+    LIGHT: light, VALIDATION: validation, "cad": cad, "cluster": cluster, "robot": robot, "fe": fe,
 }  # fmt: skip
 
 

@@ -24,7 +24,6 @@ def ask_for_one_thread() -> None:
 MODULES = {
     "cad": ("cadquery", "ezdxf", "trimesh", "vtkmodules"),
     "cluster": ("distributed",),
-    "parquet": ("pyarrow",),
 }
 """What each extra brings, by the modules that are imported."""
 

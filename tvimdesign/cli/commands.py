@@ -192,25 +192,16 @@ def cad(
     design: Annotated[
         Path,
         typer.Argument(
-            metavar="DESIGN|STUDY|SWEEP",
-            help="design.json of a run, a study file, or with --cells the folder of a sweep.",
+            metavar="DESIGN|STUDY",
+            help="design.json of a run, or a study file.",
             autocompletion=options.designs_and_studies,
         ),
     ],
-    cells: Annotated[
-        str, typer.Option("--cells", metavar="CELLS", help="Cells of the sweep, such as 3,7-9, or best.")
-    ] = "",
     out: options.Out = None,
     overwrite: options.Overwrite = False,
     json: options.AsJson = False,
 ) -> None:
     """Make parts: STEP, print files, drawings, checks. They go into a folder beside the run's, ending in -cad."""
-    if cells:
-        from tvimdesign.report.sweep.sweep_study import make_parts_of_cells
-
-        folder = out or design.parent / f"{options.name_of(design)}-cad"
-        make_parts_of_cells(design, folder, cells, overwrite=overwrite, as_json=json)
-        return
     from tvimdesign.report.run.run_study import make_parts
 
     make_parts(design, out or options.default_folder(design), overwrite=overwrite, as_json=json)

@@ -131,7 +131,6 @@ def sweep(
     workers: options.Workers = 0,
     shard: options.Shard = "",
     scheduler: options.Scheduler = "",
-    parquet: Annotated[bool, typer.Option("--parquet", help="Write cells.parquet too.")] = False,
     plots: options.Plots = True,
     time_limit: options.TimeLimit = "",
     settings: options.Settings = None,
@@ -143,7 +142,7 @@ def sweep(
 
     sweep_study(
         study, out or options.results(study, "sweep"), Executor.of(workers, scheduler, shard),
-        overwrite=overwrite, resume=resume, parquet=parquet, plots=plots, as_json=json,
+        overwrite=overwrite, resume=resume, plots=plots, as_json=json,
         settings=options.changes(settings, time_limit),
     )  # fmt: skip
 

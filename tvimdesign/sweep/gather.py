@@ -1,4 +1,4 @@
-"""The cells of a finished sweep gathered to tables: CSV, SQLite, and Parquet with the extra."""
+"""The cells of a finished sweep gathered to tables: CSV and SQLite."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ import csv
 import sqlite3
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tvimdesign.base.atomic_files import TABLE_ENCODING, whole_file
-from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import OutputError
 from tvimdesign.base.units import from_si
 from tvimdesign.study.sections.sweep_block import SweptAxis
@@ -113,7 +112,7 @@ def _write_tables(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) -
 def _into(connection: sqlite3.Connection, plan: SweepPlan, every: Iterable[list[Value]]) -> Iterator[list[Value]]:
     """Hand on each row, once it stands in the database."""
     named = columns(plan)
-    types = ["TEXT" if _is_text(column) else "REAL" for column in named]
+    types = ["REAL" if column.unit else "TEXT" for column in named]
     listed = ", ".join(f'"{column.name}" {kind}' for column, kind in zip(named, types, strict=True))
     connection.execute(f"CREATE TABLE cells ({listed})")
     connection.execute("CREATE TABLE columns (name TEXT, unit TEXT, kind TEXT, meaning TEXT)")
@@ -122,30 +121,3 @@ def _into(connection: sqlite3.Connection, plan: SweepPlan, every: Iterable[list[
     for row in every:
         connection.execute(f"INSERT INTO cells VALUES ({marks})", row)
         yield row
-
-
-def _is_text(column: Column) -> bool:
-    return not column.unit
-
-
-def write_parquet(plan: SweepPlan, folder: Path) -> None:
-    """Write cells.parquet from cells.csv, units and meanings with its columns. Raises InputError without pyarrow."""
-    pyarrow = parquet_library()
-    named = columns(plan)
-    types = {c.name: pyarrow.string() if _is_text(c) else pyarrow.float64() for c in named}
-    from pyarrow import csv as pyarrow_csv
-    from pyarrow import parquet as pyarrow_parquet
-
-    options = pyarrow_csv.ConvertOptions(column_types=types, null_values=[""])
-    table = pyarrow_csv.read_csv(folder / "cells.csv", convert_options=options)
-    fields = [table.schema.field(c.name).with_metadata({"unit": c.unit, "meaning": c.meaning}) for c in named]
-    with whole_file(folder / "cells.parquet") as beside:
-        pyarrow_parquet.write_table(table.cast(pyarrow.schema(fields)), beside)
-
-
-def parquet_library() -> Any:
-    """Return PyArrow; raises InputError where it is not installed, so that it is known before the work."""
-    require_extra("parquet", "--parquet (cells.csv and cells.sqlite hold the same table)")
-    import pyarrow
-
-    return pyarrow

@@ -14,7 +14,7 @@ from typing import Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.study import Study, read_tree
-from tvimdesign.study.tree import StudyTree, tree_of_file, without_section
+from tvimdesign.study.tree import StudyTree, tree_of_file
 from tvimdesign.sweep.gather import Value, columns
 from tvimdesign.sweep.plan import ALWAYS, SweepPlan, plan_of, set_in
 from tvimdesign.sweep.shards import SHARDS
@@ -94,7 +94,6 @@ class CellTable:
             self.best[name] = {"cell": row["cell"], "value": value, "unit": self._units[name]}
 
 
-_OF_SEARCHES = ("robust", "profile")
 _DIGITS = 12
 """Of a number in a sweep's table."""
 _SUMMARY, _TABLE = "sweep.json", "cells.sqlite"
@@ -117,14 +116,6 @@ class CellFound:
     answered: bool
     at: dict[str, str]
     """Empty where there is no answer."""
-
-    @property
-    def fixed(self) -> StudyTree:
-        """The study of the module that was found: nothing varies, so that it is evaluated."""
-        tree = self.tree
-        for name in _OF_SEARCHES:
-            tree = without_section(tree, name)
-        return set_in(tree, list(self.at), list(self.at.values()))
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,7 @@ def _tone(value: str, column: Column) -> Tone:
 
 
 _FILES = {
-    "cells.csv": "every cell as CSV", "cells.sqlite": "as SQLite", "cells.parquet": "as Parquet",
+    "cells.csv": "every cell as CSV", "cells.sqlite": "as SQLite",
     "sweep.json": "columns with units and meanings", "sweep.png": "the figure",
 }  # fmt: skip
 _FEW = 8
