@@ -108,8 +108,9 @@ same-optima: $(STAMP)  ## search the studies again and compare the optima with t
 validation: $(STAMP)  ## compare with handbooks, closed solutions, FE and published data, and write docs/validation.md (minutes)
 	$(BENCH) validation/run.py
 
-fit-coverage: $(STAMP)  ## how often the intervals of fits hold the truth, over 100 seeds of every kind; goes on where it was left (an hour)
+fit-coverage: $(STAMP)  ## how often the intervals of fits hold the truth, over 100 seeds of every kind, without and with faults; goes on where it was left (40 minutes)
 	$(BENCH) benchmarks/fit_coverage.py
+	$(BENCH) benchmarks/fit_coverage.py --faults
 
 check-wheel: $(STAMP)  ## fit, verify and validation from a wheel outside the repository; FE_PYTHON=... names a Python that has ngsolve (minutes)
 	$(BIN)/python -m pytest -q -m slow tests/test_wheel.py

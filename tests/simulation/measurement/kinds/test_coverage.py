@@ -13,7 +13,7 @@ from tvimdesign.simulation.measurement.measure_files import kind_sheet, kind_she
 
 QUICK = ["torque_angle", "pad", "frozen_torque", "amplitude_sweep", "relaxation", "flow_curve"]
 LONGER = ["release", "sine", "frequency_sweep", "temperature_ramp", "creep", "melt", "dsc", "heating_log"]
-SLOW = ["creep", "melt", "heating_log"]
+SLOW = ["heating_log"]
 RARE = 1e-3
 
 
@@ -88,7 +88,7 @@ def test_the_width_is_held_against_the_scatter() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("fault", FAULTS)
-@pytest.mark.parametrize("kind", ["flow_curve", "frozen_torque", "relaxation"])
+@pytest.mark.parametrize("kind", ["flow_curve", "frozen_torque", "relaxation", "creep", "melt"])
 def test_records_of_faulty_data_hold_the_truth(kind: str, fault: str) -> None:
     fits = [fit_of(f"{kind}+{fault}", seed) for seed in range(4)]
     for name in {name for fit in fits for name in fit}:
