@@ -159,12 +159,10 @@ def melted(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
 
 def _fraction_and_slope(psi: Any, kinetics: transitions.Kinetics) -> tuple[Any, Any]:
     """Return X(psi) and dX/dpsi, the exact derivative of the product's equation."""
-    reduced, exponent = ca.SX.sym("psi"), ca.SX.sym("n")
+    reduced, exponent = ca.MX.sym("psi", psi.shape[0]), ca.MX.sym("n")
     fraction = transitions.solid_fraction(reduced, kinetics._replace(avrami_exponent=exponent))
-    both = ca.Function("both", [reduced, exponent], [fraction, ca.gradient(fraction, reduced)])
-    count = psi.shape[0]
-    values, slope = both.map(count)(psi.T, ca.repmat(ca.MX(kinetics.avrami_exponent), 1, count))
-    return values.T, slope.T
+    slope = ca.jtimes(fraction, reduced, ca.DM.ones(psi.shape[0]))
+    return tuple(ca.Function("both", [reduced, exponent], [fraction, slope])(psi, kinetics.avrami_exponent))
 
 
 def _window_start(runs: Sequence[Run]) -> list[Parameter]:
