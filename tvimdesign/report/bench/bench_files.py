@@ -33,7 +33,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, 
 from tvimdesign.solve.uncertainty.uncertain_inputs import unmeasured_inputs
 from tvimdesign.study.design import Design, read_design, write_design
 
-_DESIGN, _DATA = "design.json", "data.csv"
+_DATA = "data.csv"
 
 
 @dataclass(frozen=True)
@@ -80,12 +80,12 @@ def write_bench(path: Path, out: Path, filled: Path | None, *, overwrite: bool, 
     design = read_design(source)
     with Command(out, overwrite=overwrite, as_json=as_json, plots=plots) as command:
         command.progress("predicting the tests")
-        predictions = predict(design, command.folder.path / _DESIGN)
+        predictions = predict(design)
         if not predictions:
             raise InputError(f"{source}: no test of `bench` fits this module")
         shares = _shares(source.with_name("results.json"))
         predictions.sort(key=lambda each: -sum(shares.get(name, 0.0) for name in each.explains))
-        write_design(design, command.folder.path / _DESIGN)
+        write_design(design, command.folder.path / bench_tests.DESIGN)
         measured = _measured(predictions, filled, source, command) if filled else {}
         blocks = {name: done.blocks for name, done in measured.items()}
         command.begin_plots([Drawing("bench", "analysis_figures.bench", _figure(predictions, blocks))], design.name)
@@ -106,8 +106,8 @@ def write_bench(path: Path, out: Path, filled: Path | None, *, overwrite: bool, 
     command.report(data, where, lambda console: _print(predictions, measured, records, console))
 
 
-def predict(design: Design, source: Path) -> list[Prediction]:
-    """Return the tests that a design's module can be put to; `source` is the design's file that fits will name."""
+def predict(design: Design) -> list[Prediction]:
+    """Return the tests that a design's module can be put to."""
     resolved = resolve_design(design)
     values = {**resolved.values, "response_time": design.value("response_time")}
     module = ResolvedModule(resolved.study, values, resolved.current_profiles)
@@ -121,7 +121,7 @@ def predict(design: Design, source: Path) -> list[Prediction]:
         moved = [columns_of(module, {each: end}) for each in explains for end in ranges.get(each, ())]
         low, high = ({column: _end(drawn[column], [each[column] for each in moved], sign)
                       for column in protocols()[name]["measured"]} for sign in (-1.0, 1.0))  # fmt: skip
-        predictions.append(Prediction(name, drawn, low, high, settings_of(module, source), explains, holding))
+        predictions.append(Prediction(name, drawn, low, high, settings_of(module), explains, holding))
     return predictions
 
 
@@ -183,7 +183,7 @@ def readme(design: Design, predictions: Sequence[Prediction], shares: Mapping[st
     for each in predictions:
         words = {**each.settings, "holding": each.holding, "first": _first(each)}
         steps = (step.format(**words) for step in each.sheet["protocol"])
-        options = " ".join(f"--set {name}='{_local(text)}'" for name, text in each.settings.items())
+        options = " ".join(f"--set {name}='{text}'" for name, text in each.settings.items())
         lines += [
             "", f"## {each.sheet['title']}", "", *(f"{i}. {step}" for i, step in enumerate(steps, start=1)), "",
             "```sh", f"tvimdesign fit {each.name}/{_DATA} --as {each.sheet['kind']} {options}".rstrip(), "```", "",
@@ -200,10 +200,6 @@ def readme(design: Design, predictions: Sequence[Prediction], shares: Mapping[st
 def _first(prediction: Prediction) -> str:
     angle = prediction.columns.get("angle")
     return "" if angle is None else f"{from_si(float(angle[0]), 'deg'):.3g} degrees"
-
-
-def _local(text: str) -> str:
-    return _DESIGN if text.endswith(_DESIGN) else text
 
 
 def _spread(prediction: Prediction) -> str:

@@ -136,8 +136,9 @@ def fit_data(measured: Measured) -> dict[str, Any]:
             "rows": [[finite(float(measurement.fit.correlation[i, j])) for j in shown] for i in shown],
         },
         "noise": [
-            {"channel": channel.name, "deviation": _deviation(channel.relative, noise, channel.unit), "unit":
-             "1" if channel.relative else channel.unit, "values": len(channel.measured)}
+            {"channel": channel.name, "unit": "1" if channel.relative else channel.unit,
+             "deviation": noise if channel.relative else from_si(noise, channel.unit) - from_si(0.0, channel.unit),
+             "values": len(channel.measured)}
             for channel, noise in zip(measurement.fit.problem.channels, measurement.fit.noise, strict=True)
         ],
         "notes": list(measurement.notes),
@@ -153,10 +154,6 @@ def _entry(estimate: Estimate) -> dict[str, Any]:
         **number_entry(estimate.value, estimate.unit, (estimate.low, estimate.high)),
         "meaning": estimate.meaning,
     }
-
-
-def _deviation(relative: bool, noise: float, unit: str) -> float:
-    return noise if relative else from_si(noise, unit) - from_si(0.0, unit)
 
 
 def residuals_csv(fit: Fit) -> str:

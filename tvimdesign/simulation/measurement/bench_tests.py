@@ -24,6 +24,8 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 Columns = dict[str, Array]
 Inputs = Mapping[str, float]
+DESIGN = "design.json"
+"""File of the module, in the folder of its tests."""
 ARM = 0.1
 """m, of the arm that weights hang on."""
 _AIR = 296.15  # K
@@ -45,9 +47,8 @@ def weights(module: ResolvedModule, inputs: Inputs) -> Columns:
     return {"mass": mass, "angle": torque_angle.angle_of(mass * ARM * torque_angle.GRAVITY, known)}
 
 
-def weights_settings(module: ResolvedModule, source: Path) -> dict[str, str]:
+def weights_settings(module: ResolvedModule) -> dict[str, str]:
     """Return the spring's sizes; the coils that bend are those that give the module's rate."""
-    del source
     modulus, wire, coil = (float(module.values[name]) for name in (
         "spring_youngs_modulus", "wire_diameter", "coil_diameter"))  # fmt: skip
     values = _values(module, ["spring_stiffness", "spring_rate", "spring_count"], {})
@@ -109,9 +110,8 @@ def holding(module: ResolvedModule) -> float:
     return _values(module, ["holding_torque"], {})["holding_torque"]
 
 
-def bond_settings(module: ResolvedModule, source: Path) -> dict[str, str]:
+def bond_settings(module: ResolvedModule) -> dict[str, str]:
     """Return the sizes of the layer."""
-    del source
     inner, outer, span, count = _layer(module)
     return {
         "layer_inner_radius": f"{1e3 * inner:.6g} mm", "layer_outer_radius": f"{1e3 * outer:.6g} mm",
@@ -131,9 +131,9 @@ def ringing(module: ResolvedModule, inputs: Inputs) -> Columns:
     return {"time": time, "angle": _numbers(release.swing(time, known, 6, first * omega))}
 
 
-def ringing_settings(module: ResolvedModule, source: Path) -> dict[str, str]:
+def ringing_settings(module: ResolvedModule) -> dict[str, str]:
     """Return the inertia, and the module whose joint it is."""
-    return {"inertia": f"{float(module.values['moving_inertia']):.6g} kg.m^2", "study": str(source), "state": FROZEN}
+    return {"inertia": f"{float(module.values['moving_inertia']):.6g} kg.m^2", "study": DESIGN, "state": FROZEN}
 
 
 def _swinging(module: ResolvedModule, inputs: Inputs) -> tuple[float, float, float]:
@@ -167,15 +167,10 @@ def _numbers(expression: Any) -> Array:
     return np.asarray(ca.DM(ca.evalf(ca.MX(expression)))).ravel()
 
 
-TESTS: dict[str, tuple[Callable[[ResolvedModule, Inputs], Columns], Callable[[ResolvedModule, Path], dict[str, str]]]]
-TESTS = {
-    "weights": (weights, weights_settings),
-    "pads": (pads, lambda _module, _source: {}),
-    "log": (log, lambda _module, source: {"study": str(source)}),
-    "frozen": (frozen, bond_settings),
-    "ringing": (ringing, ringing_settings),
-    "thawed": (thawed, bond_settings),
-}
+TESTS: dict[str, tuple[Callable[[ResolvedModule, Inputs], Columns], Callable[[ResolvedModule], dict[str, str]]]] = {
+    "weights": (weights, weights_settings), "pads": (pads, lambda _: {}), "log": (log, lambda _: {"study": DESIGN}),
+    "frozen": (frozen, bond_settings), "ringing": (ringing, ringing_settings), "thawed": (thawed, bond_settings),
+}  # fmt: skip
 """By name: the columns of a test, and the settings of its fit."""
 
 

@@ -114,15 +114,10 @@ class KindSheet:
                 settings[name] = parse_quantity(text, self.settings[name]["unit"])
             except UnitError as error:
                 raise InputError(f"--set {name}: {error}") from None
-            _refuse_beyond(name, settings[name], self.settings[name])
+            low, high = (self.settings[name].get(end, settings[name]) for end in ("from", "to"))
+            if not low <= settings[name] <= high:
+                raise InputError(f"--set {name}: {settings[name]:g} is not between {low} and {high}")
         return settings
-
-
-def _refuse_beyond(name: str, value: float, setting: Mapping[str, Any]) -> None:
-    """Raise InputError for a number that is not among those a setting may be."""
-    low, high = setting.get("from", value), setting.get("to", value)
-    if not low <= value <= high:
-        raise InputError(f"--set {name}: {value:g} is not between {low} and {high}")
 
 
 def _changes(block: Block, name: str, *, settled: bool = False) -> bool:
@@ -148,16 +143,12 @@ def _changes(block: Block, name: str, *, settled: bool = False) -> bool:
 @cache
 def kind_sheets() -> dict[str, KindSheet]:
     """Return every kind by its name."""
-    tree = plain_data(_FILE.read_text(encoding="utf-8"))
-    return {
-        name: KindSheet(
-            name, entry["function"], entry["about"], tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ())),
-            entry.get("category", ""), entry["settings"], _words(entry.get("varies", "")),
-            _words(entry.get("constant", "")), entry.get("only_asked", False), _words(entry.get("decided_by", "")),
-            entry.get("rather_than", ""), _words(entry.get("excluded_by", "")),
-        )
-        for name, entry in tree.items()
-    }  # fmt: skip
+    sheets = {}
+    for name, entry in plain_data(_FILE.read_text(encoding="utf-8")).items():
+        columns = {key: _words(entry.get(key, "")) for key in ("varies", "constant", "decided_by", "excluded_by")}
+        needs, takes = tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ()))
+        sheets[name] = KindSheet(name=name, **{**entry, **columns, "needs": needs, "takes": takes})
+    return sheets
 
 
 def _words(text: str) -> tuple[str, ...]:
