@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.physics.polymers.polymer import GAS_CONSTANT, ZERO_CELSIUS
 from tvimdesign.simulation.measurement.fitting.fit import BestFit, Estimate, Fit, best_fit, fitted, with_intervals
 from tvimdesign.simulation.measurement.kinds.melt_spectrum import (
     BEYOND,
     Melt,
     MeltTest,
-    arrhenius,
     fewest_modes,
     melt_of,
     shift_name,
-    shift_note,
     spectrum_problem,
     temperature_known,
 )
@@ -27,6 +25,8 @@ _UNTOLD = (
     "The files do not say their temperature: the spectrum is that of their temperature, whichever it was. No record "
     "is written; --set temperature=... says it."
 )
+_FAR = 0.15
+"""Shift factors may miss Arrhenius' law by this share of themselves and it is still of use; more, and it is not."""
 _AT_END = 0.01
 """Share of a time up to which a mode lies at the end of what is looked for."""
 _SPLIT = 0.02
@@ -78,11 +78,35 @@ def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fi
         return with_intervals(first, profiles=profiles), []
     free = with_intervals(first, profiles=False)
     shifts = {temperature: free[shift_name(temperature)] for temperature in melt.shifted}
-    activation = arrhenius(shifts, melt.reference)
-    note = shift_note(activation, shifts, melt.reference)
-    if activation.describes:
-        return fitted(spectrum_problem(melt._replace(energy=activation.energy), count), profiles=profiles), note
-    return (with_intervals(first) if profiles else free), note
+    energy, note = arrhenius(shifts, melt.reference)
+    if energy is not None:
+        return fitted(spectrum_problem(melt._replace(energy=energy), count), profiles=profiles), [note]
+    return (with_intervals(first) if profiles else free), [note]
+
+
+def arrhenius(shifts: Mapping[float, Estimate], reference: float) -> tuple[float | None, str]:
+    """Return the energy [J/mol] of Arrhenius' law through shift factors, none where it misses one, and a note.
+
+    By least squares of ln a_T over 1/T - 1/T_ref, through zero, weighted by the intervals; a miss is what is more than
+    a factor's own interval.
+    """
+    inverse = np.array([1.0 / shift - 1.0 / reference for shift in shifts])
+    logs = np.array([np.log(shift.value) for shift in shifts.values()])
+    halves = np.array([
+        1.0 if each.low is None or each.high is None else 0.5 * np.log(each.high / each.low) for each in shifts.values()
+    ])  # fmt: skip
+    weights = 1.0 / np.maximum(halves, 1e-6) ** 2
+    energy = GAS_CONSTANT * float(np.sum(weights * inverse * logs) / np.sum(weights * inverse**2))
+    missed = np.maximum(np.abs(logs - energy / GAS_CONSTANT * inverse) - halves, 0.0)
+    farthest = float(np.expm1(np.max(missed)))
+    table = ", ".join(f"{at - ZERO_CELSIUS:.0f} degC: {shift.value:.3g}" for at, shift in shifts.items())
+    note = f"Shift factors to {reference - ZERO_CELSIUS:.0f} degC: {table}. Arrhenius' law "
+    if energy > 0.0 and farthest < _FAR:
+        return energy, f"{note}describes them."
+    return None, (
+        f"{note}misses one by {100.0 * farthest:.0f} %: no activation energy is given, and the shift of the record "
+        "this is based on is not that of these data."
+    )
 
 
 def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list[str]:
