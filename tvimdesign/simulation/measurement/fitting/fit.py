@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ from tvimdesign.simulation.measurement.fitting.intervals import (
     spread,
 )
 from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Problem, Residuals
-from tvimdesign.simulation.measurement.fitting.robust_fit import RobustFit, robust_fit
+from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, RobustFit, criterion, robust_fit
 
 CLOSE = 0.95
 """Correlation from which on two parameters are named together."""
@@ -100,6 +100,20 @@ def best_fit(problem: Problem) -> BestFit:
     """
     residuals, starts = Residuals(problem), [parameter.inner(parameter.start) for parameter in problem.parameters]
     return BestFit(residuals, robust_fit(residuals, np.array(starts)))
+
+
+def simplest_fit(problems: Iterable[Problem]) -> tuple[int, BestFit]:
+    """Return which of problems of more and more parameters the data bear, and its fit.
+
+    It is the last up to which Schwarz's criterion falls by `BETTER`. Raises InputError as `best_fit` does.
+    """
+    fits = map(best_fit, problems)
+    chosen, best = 0, next(fits)
+    for at, candidate in enumerate(fits, start=1):
+        if criterion(*candidate) > criterion(*best) - BETTER:
+            break
+        chosen, best = at, candidate
+    return chosen, best
 
 
 def fitted(problem: Problem, *, profiles: bool = True) -> Fit:

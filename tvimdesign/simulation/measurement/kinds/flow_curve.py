@@ -16,9 +16,8 @@ import numpy as np
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.measurement.fitting.fit import BestFit, best_fit, with_intervals
+from tvimdesign.simulation.measurement.fitting.fit import simplest_fit, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, criterion
 from tvimdesign.simulation.measurement.kinds.melt_spectrum import USUAL_ENERGY, temperature_known
 from tvimdesign.simulation.measurement.kinds.melt_tests import temperature_of, title_of
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, rows_of
@@ -101,7 +100,8 @@ def carreau(rate: Any, values: Values) -> Any:
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
     """Fit flow curves of one melt, together. Raises InputError for what lacks."""
     curves = _Curves(blocks, settings)
-    law, best = _simplest(curves)
+    first, *others = map(curves.problem, range(len(_LAWS)))
+    law, best = simplest_fit([first, *(each for each in others if each.count > len(each.parameters) + 1)])
     fit = with_intervals(best, profiles=profiles)
     zero = fit["zero_shear_viscosity"]
     notes = [f"{_LAWS[law][0].upper()}{_LAWS[law][1:]}: one parameter more would not better the fit by what it costs."]
@@ -123,20 +123,6 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     values = {"zero_shear_viscosity": zero}
     values |= {e.name: e for e in fit.parameters if e.name == "flow_activation_energy"}
     return Measurement(fit, tuple(notes), values, {}, {"melt_reference_temperature": (curves.reference, "degC")})
-
-
-def _simplest(curves: _Curves) -> tuple[int, BestFit]:
-    """Return the law up to which more parameters better Schwarz's criterion, and its fit."""
-    fits: list[BestFit] = []
-    for law in range(len(_LAWS)):
-        problem = curves.problem(law)
-        if problem.count > len(problem.parameters) + 1 or not fits:
-            fits.append(best_fit(problem))
-    criteria = [criterion(*fit) for fit in fits]
-    chosen = 0
-    for law in range(1, len(fits)):
-        chosen = law if criteria[law] < criteria[chosen] - BETTER else chosen
-    return chosen, fits[chosen]
 
 
 def _curve(block: Block) -> tuple[Array, Array, float]:

@@ -19,9 +19,8 @@ from scipy.special import stdtrit
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers.polymer import ramp
-from tvimdesign.simulation.measurement.fitting.fit import Fit, best_fit, with_intervals
+from tvimdesign.simulation.measurement.fitting.fit import Fit, simplest_fit, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, criterion
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, endings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -92,19 +91,15 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     ended = [*gave, *broke]
     bond = settings if ended and any(name in settings for name in _SIZES) else None
     notes = _notes(joints, bool(ended), bond is not None)
-    best = best_fit(_problem(joints, {"": ended} if ended else {}, broke, bond))
+    problems = [_problem(joints, {"": ended} if ended else {}, broke, bond)]
     if len(gave) > 1 and not broke:
-        apart = best_fit(_problem(joints, {joint.end: [joint] for joint in gave}, [], bond))
-        if criterion(*apart) < criterion(*best) - BETTER:
-            fit, note = _of_next_joint(with_intervals(apart, profiles=profiles), gave)
-            return _measured(fit, [*notes, note])
-    return _measured(with_intervals(best, profiles=profiles), notes)
-
-
-def _measured(fit: Fit, notes: Sequence[str]) -> Measurement:
-    """Return the measurement, with the bond's strength where it has an interval."""
-    bond = {each.name: each for each in fit.derived if each.low is not None}
-    return Measurement(fit, tuple(notes), bond)
+        problems.append(_problem(joints, {joint.end: [joint] for joint in gave}, [], bond))
+    own, best = simplest_fit(problems)
+    fit = with_intervals(best, profiles=profiles)
+    if own:
+        fit, note = _of_next_joint(fit, gave)
+        notes.append(note)
+    return Measurement(fit, tuple(notes), {each.name: each for each in fit.derived if each.low is not None})
 
 
 def _problem(

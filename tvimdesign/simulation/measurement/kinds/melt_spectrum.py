@@ -17,9 +17,8 @@ import numpy as np
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.measurement.fitting.fit import BestFit, best_fit
+from tvimdesign.simulation.measurement.fitting.fit import BestFit, simplest_fit
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, criterion
 from tvimdesign.simulation.measurement.measurement import Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array
 
@@ -122,22 +121,15 @@ def melt_of(tests: Sequence[MeltTest], settings: Settings) -> Melt:
 
 
 def fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
-    """Return modes up to which one more betters Schwarz's criterion, from one to `most`, and the fit with them.
+    """Return how many modes the data bear, from one to `most`, and the fit with them.
 
     Raises InputError where there are fewer values than one mode has parameters.
     """
-    chosen, best = 1, best_fit(spectrum_problem(melt, 1))
-    least = criterion(*best)
-    for count in range(2, most + 1):
-        problem = spectrum_problem(melt, count)
-        if len(problem.parameters) > problem.count / _A_PARAMETER:
-            break
-        candidate = best_fit(problem)
-        candidate_criterion = criterion(*candidate)
-        if candidate_criterion > least - BETTER:
-            break
-        chosen, best, least = count, candidate, candidate_criterion
-    return chosen, best
+    first, *others = (spectrum_problem(melt, count) for count in range(1, most + 1))
+    chosen, best = simplest_fit(
+        [first, *(each for each in others if each.count >= _A_PARAMETER * len(each.parameters))]
+    )
+    return chosen + 1, best
 
 
 def spectrum_problem(melt: Melt, count: int) -> Problem:
