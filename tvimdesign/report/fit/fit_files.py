@@ -96,7 +96,9 @@ def _print(measured: Measured, written: Mapping[str, Path], console: Console) ->
     for i, path in enumerate(written.values()):
         console.print(f"{'' if i else chr(10)}Record: [bold]{escape(str(path))}[/bold]", soft_wrap=True)
     if written:
-        console.print(escape(_use(written)), soft_wrap=True)
+        named = ", ".join(f"{choice}: {path.stem}" for choice, path in written.items())
+        folder = next(iter(written.values())).parent.parent
+        console.print(escape(f"In a study: catalog: {folder}, module: {{{named}}}"), soft_wrap=True)
 
 
 def estimates(measured: Measured, title: str) -> Grid:
@@ -108,11 +110,6 @@ def estimates(measured: Measured, title: str) -> Grid:
         rows.append((estimate.name, value, *ends, pretty(estimate.unit), estimate.meaning))
     heads = ("parameter", "value", "95 % from", "to", "unit", "meaning")
     return grid(title, heads, rows, right=(1, 2, 3))
-
-
-def _use(written: Mapping[str, Path]) -> str:
-    named = ", ".join(f"{choice}: {path.stem}" for choice, path in written.items())
-    return f"In a study: catalog: {next(iter(written.values())).parent.parent}, module: {{{named}}}"
 
 
 _MOST_PANELS, _TITLE_LETTERS = 6, 110

@@ -57,6 +57,10 @@ class KindSheet:
         """Return the first of the columns that will do and that a block has."""
         return next((name for name in need if name in block.columns), None)
 
+    def rows(self, block: Block) -> int:
+        """Return how many rows of a block have all that is needed."""
+        return block.complete([name for need in self.needs if (name := self.column(block, need))])
+
     @property
     def _in_time(self) -> bool:
         return any("time" in need for need in self.needs)
@@ -216,7 +220,7 @@ def measure_files(
     fitting = tuple(
         block
         for block in blocks
-        if sheet.fits(block) and _rows(block, sheet) >= LEAST_ROWS and not _other_flow(block, sheet)
+        if sheet.fits(block) and sheet.rows(block) >= LEAST_ROWS and not _other_flow(block, sheet)
     )
     if not fitting:
         raise InputError(_refusal(blocks, sheet))
@@ -267,10 +271,6 @@ def measure_of(sheet: KindSheet) -> Callable[..., Measurement]:
     module, _, function = sheet.function.rpartition(".")
     measure: Callable[..., Measurement] = getattr(import_module(f"{__package__}.kinds.{module}"), function)
     return measure
-
-
-def _rows(block: Block, sheet: KindSheet) -> int:
-    return block.complete([name for need in sheet.needs if (name := sheet.column(block, need))])
 
 
 def _likely_kind(blocks: Sequence[Block]) -> KindSheet:

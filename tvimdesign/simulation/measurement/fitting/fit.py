@@ -299,8 +299,8 @@ def _free(parameters: Sequence[Parameter], direction: Array, moved: Sequence[int
     shares = np.array([direction[i] if parameters[i].positive else direction[i] / (inner[i] or np.inf) for i in moved])
     ratio = " Only their ratios are known." if np.ptp(shares) < _SAME * np.max(np.abs(shares)) else ""
     return (
-        f"The data cannot tell {_listed(names)} apart: they {together} without changing any prediction.{ratio} "
-        "Measure one of them otherwise and give it with --set."
+        f"The data cannot tell {', '.join(names[:-1])} and {names[-1]} apart: they {together} without changing any "
+        f"prediction.{ratio} Measure one of them otherwise and give it with --set."
     )
 
 
@@ -317,7 +317,3 @@ def _correlated(parameters: Sequence[Parameter], rho: Array, left_out: set[int])
                 f"{parameter.name} {how} {parameters[j].name}{end}, and each alone is less sure than both together."
             )
     return sentences
-
-
-def _listed(names: Sequence[str]) -> str:
-    return ", ".join(names[:-1]) + f" and {names[-1]}"

@@ -267,7 +267,9 @@ def runs_of(blocks: Sequence[Block], settings: Settings) -> tuple[list[Run], boo
         runs = [replace(run, heat=run.heat / (mass or 1.0), step=run.step / (mass or 1.0)) for run in runs]
     if not runs:
         raise InputError("no part of the data is cooled, held or heated for long enough to be fitted")
-    sign = _exothermic(runs)
+    peaks = [float(bent[np.argmax(np.abs(bent))]) for bent in map(_bent, runs)]
+    votes = sum(-peak if run.way == "heated" else peak for run, peak in zip(runs, peaks, strict=True))
+    sign = 1.0 if votes >= 0.0 else -1.0  # freezing gives heat off, melting takes it up
     return [replace(run, heat=sign * run.heat) for run in runs], sign > 0.0
 
 
@@ -323,10 +325,3 @@ def mass_known(blocks: Sequence[Block], settings: Settings) -> bool:
 def _bent(run: Run) -> Array:
     """Return the heat above the line between its ends."""
     return np.asarray(run.heat - np.interp(run.time, run.time[[0, -1]], run.heat[[0, -1]]))
-
-
-def _exothermic(runs: Sequence[Run]) -> float:
-    """Return +1 where the files count heat given off as positive: freezing gives it off, melting takes it up."""
-    peaks = [float(bent[np.argmax(np.abs(bent))]) for bent in map(_bent, runs)]
-    votes = sum(-peak if run.way == "heated" else peak for run, peak in zip(runs, peaks, strict=True))
-    return 1.0 if votes >= 0.0 else -1.0

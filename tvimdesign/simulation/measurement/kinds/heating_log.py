@@ -1,14 +1,10 @@
 """The log of a module that is heated, and cooled after it: its contacts and losses.
 
-Current and temperatures over time are compared with the module's own heat equation (`logged_module`) of a study or a
-result; what is fitted are the values of `heat_paths` that the module has, and the temperature of the air.
-
-A module's own heat equation along the current of a log: temperatures at each moment, with exact derivatives.
-
-The rates are the product's (`PhaseFunctions`): heating along the equilibrium curve, cooling with the polymer's history.
-Each interval of the log is gone through in equal steps of Alexander's method of second order, stiffly stable in two
-implicit stages; Newton's method solves each, and its derivatives are those of the implicit function. Source: Alexander,
-SIAM J. Numer. Anal. 14 (1977) 1006.
+Current and temperatures over time are compared with the heat equation of a study's or a result's module
+(`PhaseFunctions`): heating along the equilibrium curve, cooling with the polymer's history. Fitted are the values of
+`heat_paths` that the module has, and the temperature of the air. Each interval is gone through in equal steps of
+Alexander's method of second order, stiffly stable in two implicit stages; Newton's method solves each, and its
+derivatives are those of the implicit function. Source: Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
 """
 
 from __future__ import annotations

@@ -173,7 +173,8 @@ def creeps_in(block: Block, settings: Settings) -> list[MeltTest]:
         f"{block.place}: up to {time[loaded][first]:.3g} s the compliance rises faster than any melt's, as the "
         f"instrument's inertia makes it: the first {first} rows are left out."
     )
-    creep = _under_load(where, time[loaded][first:], measured[loaded][first:], block.share(*_creep_columns(block)))
+    share = block.share("compliance" if "compliance" in block.columns else "strain")
+    creep = _under_load(where, time[loaded][first:], measured[loaded][first:], share)
     curves, own = [creep], []
     if np.sum(~loaded) >= LEAST_ROWS:
         recovery, release = _recovery(where, last, time[~loaded], measured[~loaded])
@@ -202,10 +203,6 @@ def _inert_rows(time: Array, compliance: Array) -> int:
     reach = int(np.searchsorted(x, x[first] + np.log(_RINGING))) if first else 0
     rings = np.flatnonzero(np.diff(y[: reach + 1]) < -5.0 * scatter - _FASTER * _FASTER)
     return max(first, int(rings[-1]) + 2) if len(rings) else first
-
-
-def _creep_columns(block: Block) -> list[str]:
-    return ["compliance" if "compliance" in block.columns else "strain"]
 
 
 def _time_of(block: Block) -> str:

@@ -86,10 +86,6 @@ def _begins(sheet: Sheet, at: int) -> bool:
     return at + 1 < len(rows) and sheet.numbers(rows[at + 1]) >= 1
 
 
-def _heads(row: Row, sheet: Sheet) -> bool:
-    return not row.empty and sheet.numbers(row) == 0
-
-
 def _setting_text(row: Row, settings: dict[str, str]) -> str:
     """Note what a line says of the tables below it; returns the title in it, if it is one."""
     cells = [cell for cell in row.cells if cell]
@@ -156,7 +152,7 @@ def _rows_above(sheet: Sheet, begin: int) -> list[Row]:
         at -= 1
     while at >= 0 and len(above) < _HEADING_ROWS:
         row = sheet.rows[at]
-        if not (_heads(row, sheet) or (row.empty and len(row.cells) > 1)):  # a line of separators does not end them
+        if len(row.cells) < 2 if row.empty else sheet.numbers(row):  # a line of separators does not end them
             break
         above += [row] if row.filled > 1 else []
         at -= 1
