@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -76,6 +76,21 @@ class JointTask:
         if not SMALLEST <= task.diameter <= LARGEST:
             raise InputError(f"diameter: {diameter} is not from 20 mm to 200 mm, which `size` is made for")
         return task
+
+    def options(self) -> dict[str, str]:
+        """Return the options of `size` that ask for this."""
+        low, high = self.stiffness
+        centre = 0.5 * (low + high)
+        around = math.isclose(high - low, 2.0 * _BAND * centre, rel_tol=1e-6)
+        return {
+            "torque": f"{self.torque:.4g} N.m", "diameter": _mm(self.diameter), "time": f"{self.time:.4g} s",
+            "stiffness": f"{centre:.4g} N.m/rad" if around else f"{low:.4g} to {high:.4g} N.m/rad",
+            "supply": f"{self.voltage:.4g} V, {self.current:.4g} A", "stroke": f"{self.stroke:.4g} rad",
+        }  # fmt: skip
+
+    def with_stiffness(self, stiffness: float) -> JointTask:
+        """Return the task with another stiffness, 20 % to either side."""
+        return replace(self, stiffness=((1.0 - _BAND) * stiffness, (1.0 + _BAND) * stiffness))
 
 
 def _positive(name: str, text: str, unit: str) -> float:

@@ -8,10 +8,10 @@ import pytest
 
 from tvimdesign.report.run.blocks.facts import (
     chosen_fact,
-    driver_in_words,
     measured_fact,
     shrunk,
     stalling_in_words,
+    stepped_down,
     time_over_rise,
 )
 from tvimdesign.solve.nlp.solution import Choosing, SolverEffort, Standard
@@ -106,10 +106,10 @@ def test_a_layer_that_stalls_cools_again_or_never_softens() -> None:
     assert stalling_in_words(falling, 0.0) == ""  # soft from the start: nothing is waited for
 
 
-@pytest.mark.parametrize(("volts", "words"), [(7.15, ["step-down driver from 24 V"]), (22.0, []), (24.0, [])])
-def test_a_heater_that_needs_far_less_than_the_supply_names_its_driver(volts: float, words: list[str]) -> None:
+@pytest.mark.parametrize(("volts", "words"), [(7.151, "7.15 of 24 V (step-down)"), (22.0, ""), (24.0, "")])
+def test_a_heater_that_needs_far_less_than_the_supply_is_stepped_down(volts: float, words: str) -> None:
     limits = [{"output": "peak_voltage", "sense": "<=", "limit": 24.0}]
     design = SimpleNamespace(values={"peak_voltage": volts}, study={"require": limits})
-    assert driver_in_words(cast(StudyResult, SimpleNamespace(design=design))) == words
+    assert stepped_down(cast(StudyResult, SimpleNamespace(design=design))) == words
     design.study["require"] = []
-    assert driver_in_words(cast(StudyResult, SimpleNamespace(design=design))) == []
+    assert stepped_down(cast(StudyResult, SimpleNamespace(design=design))) == ""

@@ -51,16 +51,22 @@ def value_names(study: Study) -> list[str]:
 def limits_shown(
     study: Study, known: Mapping[str, Any], values: Mapping[str, float], binding: Collection[str]
 ) -> list[Shown]:
-    """Return every requirement and the active or violated rules, violated ones first."""
+    """Return every requirement and the active or violated rules, violated ones first.
+
+    Of the limits that one requirement puts on several outputs, and that are met, the closest is shown.
+    """
     stand = [
         (limit, _stands(limit, values[limit.output], study.table, limit.name in binding))
         for limit in constraints_of(study, study.table, known)
     ]
+    order = ("broken", "binds", "kept")
+    stand.sort(key=lambda pair: (order.index(pair[1]), -float(pair[0].residual(values[pair[0].output]))))
     limits = [
         _limit(limit, values[limit.output], study.table, stands) for limit, stands in stand
         if limit.origin == "require" or stands != "kept"
     ]  # fmt: skip
-    return sorted(limits, key=lambda row: ("broken", "binds", "kept").index(row["stands"]))
+    first = {(row["of"], row["sense"]): row for row in reversed(limits)}
+    return [row for row in limits if row["stands"] != "kept" or first[row["of"], row["sense"]] is row]
 
 
 def _stands(limit: Constraint, value: float, table: Table, presses: bool) -> str:

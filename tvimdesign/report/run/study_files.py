@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InfeasibleError, InputError
-from tvimdesign.base.units import format_quantity
+from tvimdesign.base.units import format_quantity, pretty
+from tvimdesign.report.output.numbers import ends_text
 from tvimdesign.study import read_study_text
 from tvimdesign.study.design import read_design
 from tvimdesign.study.sizing import LARGEST, STROKE, JointTask, diameters, hardware_by_fit, study_text
@@ -62,8 +63,16 @@ def print_schema() -> None:
 
 _CANDIDATES = 3
 """Sets of hardware that are tried, the best fit first."""
-_WIDER = 1.12
-"""Step between diameters that are tried if no hardware fits."""
+_BESIDE = 2
+"""Sets of hardware that are tried with other numbers."""
+_SMALLER = 0.9
+"""Diameter over that of the smallest hardware below which no number but the diameter is changed."""
+_WIDER, _ROOM = (1.1, 1.25), 1.03
+"""Factors on a diameter that are tried, and room over the least: ranges follow the diameter, and must allow it."""
+_STIFFER = (2.0, 4.0, 8.0, 16.0)
+"""Stiffnesses that are tried, over the one asked for, if no other diameter alone is enough."""
+_SHORTER = (0.85, 0.7, 0.5, 0.3)
+"""Strokes that are tried, over the one asked for."""
 
 
 def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: bool, **run: Any) -> None:
@@ -90,63 +99,123 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
 def sized_text(task: JointTask, name: str, progress: Callable[[str], None] = lambda _: None) -> str:
     """Return the study of a joint, with the first hardware whose limits can hold with margins for its tolerances.
 
-    Raises InfeasibleError, with the conflict and the nearest numbers that were tried and have none.
+    Raises InfeasibleError, with the nearest numbers that were tried and have such hardware.
     """
     progress("choosing the hardware")
-    for hardware in hardware_by_fit(task)[:_CANDIDATES]:
-        if _least_diameter(task, hardware) <= task.diameter:
-            return study_text(task, hardware, name)
+    if hardware := _hardware(task):
+        return study_text(task, hardware, name)
     progress("looking for the nearest numbers that fit")
     raise InfeasibleError(_refusal(task, name))
 
 
-def _least_diameter(task: JointTask, hardware: str) -> float:
-    """Return the least diameter with margins, for ranges that suit the one asked for; infinite if there is none."""
+def _refusal(task: JointTask, name: str) -> str:
+    """Return why there is no study of a joint, and what to ask for instead."""
+    size, hold = format_quantity(task.diameter, "mm", 3), format_quantity(task.torque, "N*m", 3)
+    soft = f"{ends_text(*task.stiffness)} {pretty('N*m/rad')}"
+    lines = [f"{name}: no joint of {size} holds {hold} frozen and has {soft} soft, with margins for its tolerances."]
+    least = min(diameters().values())
+    if task.diameter < least:
+        lines.append(f"The smallest screws and springs of the catalogue suit joints of about {1e3 * least:.0f} mm.")
+    ways = ["  " + " ".join(f"--{option} '{value}'" for option, value in way.items()) for way in _nearest(task)]
+    if ways:
+        lines.append("Hardware fits, by arithmetic and with the other numbers as given, for:")
+    return "\n".join([*lines, *ways] if ways else [*lines, "No one of the numbers cures it: ask for less of several."])
+
+
+def _hardware(task: JointTask) -> str:
+    """Return the best set of hardware with which the limits can hold with margins; empty if none does."""
+    if task.diameter < _SMALLER * min(diameters().values()):
+        return ""
+    return next((hardware for hardware in hardware_by_fit(task)[:_CANDIDATES] if _least_diameter(task, hardware)), "")
+
+
+def _least_diameter(task: JointTask, hardware: str) -> float | None:
+    """Return the least diameter with margins, for ranges that suit the one asked for; None if that is not enough."""
+    least = _extreme(task, hardware, "envelope_diameter")
+    return least if least and least <= task.diameter else None
+
+
+def _extreme(
+    task: JointTask, hardware: str, output: str, weight: float = 1.0, *, margins: bool = True
+) -> float | None:  # fmt: skip
+    """Return the least value of an output that the other limits allow; with a negative weight the largest."""
     from tvimdesign.solve.uncertainty.robust import least_with_margins  # it loads the compiler
 
-    least = least_with_margins(read_study_text(study_text(task, hardware)), "envelope_diameter")
-    return math.inf if least is None else least
-
-
-def _refusal(task: JointTask, name: str) -> str:
-    """Return the conflict, and the smallest diameter and the largest torque that the limits allow with margins."""
-    from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
-
-    size, hold = format_quantity(task.diameter, "mm", 3), format_quantity(task.torque, "N*m", 3)
     try:
-        refuse_what_cannot_be(read_study_text(study_text(task, hardware_by_fit(task)[0]), name))
-        lines = [f"{name}: a joint of {size} cannot hold {hold} with margins for the tolerances."]
-    except (InputError, InfeasibleError) as error:
-        lines = [str(error)]
-    enough, most = _smallest(task), _most_torque(task)
-    ways = [f"a diameter of {format_quantity(enough, 'mm', 4)}"] if enough else []
-    ways += [f"{size} and {format_quantity(most, 'N*m', 3)}"] if most else []
-    lines += [f"With margins the limits can hold for {', or for '.join(ways)}: size it with these numbers."] * bool(
-        ways
-    )
-    return "\n".join(lines)
+        return least_with_margins(read_study_text(study_text(task, hardware)), output, weight, margins=margins)
+    except InputError:  # no module at the start of the ranges
+        return None
 
 
-def _smallest(task: JointTask) -> float | None:
-    """Return the smallest diameter [m], in whole millimetres, that some hardware bears; None if none is known to."""
-    diameter = max(task.diameter, min(diameters().values()))
-    while diameter <= LARGEST:
-        wider = replace(task, diameter=diameter)
-        for hardware in hardware_by_fit(wider)[:2]:
-            least = max(_least_diameter(wider, hardware), task.diameter)
-            if least <= diameter:
-                smaller = replace(task, diameter=1e-3 * math.ceil(least / 1e-3 + 0.2))
-                fits = smaller.diameter < diameter and _least_diameter(smaller, hardware) <= smaller.diameter
-                return smaller.diameter if fits else 1e-3 * math.ceil(diameter / 1e-3)
-        diameter *= _WIDER
+def _nearest(task: JointTask) -> list[dict[str, str]]:
+    """Return options of `size` with which hardware fits: changed alone, else a diameter with a stiffness."""
+    changed = [_wider(task)]
+    if task.diameter >= _SMALLER * min(diameters().values()):
+        changed.append(_weaker(task) if task.assumes_stroke else _shorter(task))
+        changed += [] if any(changed) else [_other_stiffness(task)]
+    changed = [way for way in changed if way] or [_wider_and_stiffer(task)]
+    own = task.options()
+    return [{name: text for name, text in way.options().items() if text != own[name]} for way in changed if way]
+
+
+def _wider(task: JointTask) -> JointTask | None:
+    """Return the task with the smallest diameter that some hardware bears, in whole millimetres."""
+    for wider, hardware in _wider_ones(task):
+        nominal = _extreme(wider, hardware, "envelope_diameter", margins=False)
+        if nominal and nominal <= wider.diameter and (least := _least_diameter(wider, hardware)):
+            snug = replace(task, diameter=1e-3 * math.ceil(max(_ROOM * least, task.diameter) / 1e-3))
+            return snug if snug.diameter < wider.diameter and _hardware(snug) else wider
     return None
 
 
-def _most_torque(task: JointTask) -> float | None:
-    """Return the largest torque [N m], rounded down, that some hardware of this diameter holds; None if none does."""
-    from tvimdesign.solve.uncertainty.robust import least_with_margins
+def _wider_ones(task: JointTask) -> Iterator[tuple[JointTask, str]]:
+    """Yield the task with larger and larger diameters, each with the hardware that suits it."""
+    own = hardware_by_fit(task)[0]
+    yield from ((replace(task, diameter=factor * task.diameter), own) for factor in _WIDER
+                if task.diameter * factor <= LARGEST and task.diameter >= diameters()[own] / factor)  # fmt: skip
+    for hardware, diameter in diameters().items():
+        if diameter > task.diameter:
+            yield replace(task, diameter=diameter), hardware
 
-    studies = (read_study_text(study_text(task, hardware)) for hardware in hardware_by_fit(task)[:2])
-    most = max(least_with_margins(study, "holding_torque", -1.0) or 0.0 for study in studies)
-    digits = 10.0 ** (math.floor(math.log10(most)) - 1) if most > 0.0 else 1.0
-    return math.floor(most / digits) * digits if 0.0 < most < task.torque else None
+
+def _weaker(task: JointTask) -> JointTask | None:
+    """Return the task with the largest torque that hardware of its diameter holds."""
+    values = [_extreme(task, hardware, "holding_torque", -1.0) for hardware in hardware_by_fit(task)[:_BESIDE]]
+    most = _down(max((value for value in values if value), default=0.0))
+    weaker = replace(task, torque=most)
+    return weaker if 0.0 < most < task.torque and _hardware(weaker) else None
+
+
+def _other_stiffness(task: JointTask) -> JointTask | None:
+    """Return the task with the nearest stiffness that hardware of its diameter has."""
+    for hardware in hardware_by_fit(task)[:_BESIDE]:
+        for weight in (1.0, -1.0):
+            end = _extreme(task, hardware, "joint_stiffness@hot", weight, margins=False)
+            if end and weight * end > weight * task.stiffness[weight > 0.0]:
+                other = task.with_stiffness(_down(end))
+                if _hardware(other):
+                    return other
+    return None
+
+
+def _shorter(task: JointTask) -> JointTask | None:
+    """Return the task with the largest of some shorter strokes that hardware of its diameter bears."""
+    strokes = (replace(task, stroke=_down(share * task.stroke)) for share in _SHORTER)
+    return next((shorter for shorter in strokes if _hardware(shorter)), None)
+
+
+def _wider_and_stiffer(task: JointTask) -> JointTask | None:
+    """Return the task with a diameter and a stiffness that cure it together: thin wire spreads beyond its band."""
+    centre = 0.5 * sum(task.stiffness)
+    for wider, hardware in list(_wider_ones(task))[:_BESIDE]:
+        for factor in _STIFFER:
+            stiffer = wider.with_stiffness(_down(factor * centre))
+            if _least_diameter(stiffer, hardware):
+                return stiffer
+    return None
+
+
+def _down(value: float) -> float:
+    """Return a number rounded down to two digits."""
+    digits = 10.0 ** (math.floor(math.log10(value)) - 1) if value > 0.0 else 1.0
+    return math.floor(value / digits) * digits

@@ -178,7 +178,7 @@ def least_with_margins(study: Study, output: str, weight: float = 1.0, *, margin
         "tolerances": tolerances, "minimize": {output: weight},
         "robust": RobustOptions(sigma=_SIGMA) if margins else None,
         "require": tuple(limit for limit in study.require if limit.output != output),
-        "profile": ProfileOptions(), "solver": study.solver.model_copy(update={"starts": _STARTS}),
+        "profile": ProfileOptions(), "solver": study.solver.model_copy(update={"starts": _STARTS if margins else 1}),
     }  # fmt: skip
     try:
         optimizer = Optimizer(study.model_copy(update=update), without_cycle=True)

@@ -85,33 +85,35 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     """
     value = _Values(answer, uncertainty)
     size = f"{value('envelope_diameter')} diameter x {value('envelope_height')} high"
-    voltage = value.most("peak_voltage", "stiffening_peak_voltage")
+    voltage = stepped_down(answer) or value.most("peak_voltage", "stiffening_peak_voltage")
     current = value.most("peak_current", "stiffening_peak_current")
     peaks = f"at most {value('peak_power')}, {voltage}, {current}"
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
         *_impedance(value),
-        Fact("Energy", [f"{value('switch_energy')} to soften", peaks, *driver_in_words(answer)]),
+        Fact("Energy", [f"{value('switch_energy')} to soften", peaks]),
     ]
     doubts = (*_manufacturing(uncertainty), *_model(uncertainty))
     return [*facts, *_lost_motion(value), *_active_constraints(answer), *doubts]
 
 
-def driver_in_words(answer: StudyResult) -> list[str]:
-    """Return how a supply drives a heater that needs far less than the voltage that the study allows."""
+def stepped_down(answer: StudyResult) -> str:
+    """Return the heater's voltage of the supply's if a driver must step it down; empty if they are close."""
     limits = [limit["limit"] for limit in answer.design.study["require"] if limit["output"] == "peak_voltage"]
-    values = answer.design.values
-    if not limits or values["peak_voltage"] > _NEAR * min(limits):
-        return []
-    return [f"step-down driver from {number(min(limits), 3)} V"]
+    volts = answer.design.values["peak_voltage"]
+    far = bool(limits) and volts < _NEAR * min(limits)
+    return f"{number(volts, _DIGITS)} of {number(min(limits), _DIGITS)} V (step-down)" if far else ""
 
 
 def _times(value: _Values) -> Iterator[str]:
     soft, stiff = (value.values[name] for name in ("softening_time", "stiffening_time"))
     yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}"
+    reached = from_si(value.values["softened_temperature"], "degC")
+    if math.isfinite(reached):
+        yield f"heating stops at {reached:.0f} {pretty('degC')}"
     if math.isfinite(stiff):
-        yield f"stiff {value('stiffening_time')} after heating stops"
+        yield f"stiff {value('stiffening_time')} later"
     elif math.isfinite(soft):
         yield "never stiff again"
 
@@ -144,8 +146,7 @@ def _impedance(value: _Values) -> list[Fact]:
     """Return stiffness and damping when heating stops, and the stiffness when frozen; none if heating never stops."""
     if math.isinf(value.values["softened_stiffness"]):
         return []
-    reached = f"{from_si(value.values['softened_temperature'], 'degC'):.0f} {pretty('degC')}"
-    soft = f"{value('softened_stiffness')}, {value('softened_damping')} as heating stops, {reached}"
+    soft = f"soft {value('softened_stiffness')}, {value('softened_damping')}"
     return [Fact("Impedance", [soft, f"frozen {value('joint_stiffness@cold')}"])]
 
 
