@@ -98,7 +98,7 @@ def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result
 def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result[tvim.Study]) -> None:
     before = dict(mpl.rcParams)
     figures = {name: result.plot(name) for name in result.plots}
-    assert {"cycle", "impedance", "mass", "bounds"} <= set(figures)
+    assert {"cycle", "impedance", "torque"} <= set(figures)
     assert dict(mpl.rcParams) == before
     for figure in figures.values():
         assert len(figure.axes) > 0

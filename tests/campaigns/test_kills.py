@@ -55,15 +55,6 @@ def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, mon
         kills.run_through("run", tmp_path)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("number", kills.SIGNALS)
-def test_parts_of_cells_that_are_ended_leave_nothing_behind(number: signal.Signals, tmp_path: Path) -> None:
-    kills.prepare("cells", tmp_path)
-    own = tmp_path / "one"
-    own.mkdir()
-    assert kills.faults_after(Try("cells", number, 8.0), own) == []
-
-
 ENDS = """
 import json, os, pathlib, signal, sys
 def end(*_):
@@ -92,7 +83,7 @@ while True:
 def test_after_a_signal_a_command_is_interrupted_or_was_through(
     code: int, status: str, faults: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def start(_: list[str], own: Path, __: str) -> subprocess.Popen[bytes]:
+    def start(_: list[str], own: Path) -> subprocess.Popen[bytes]:
         (own / "said.txt").write_text("")
         command = [sys.executable, "-S", "-c", ENDS.format(code=code, status=status)]
         return subprocess.Popen(command, cwd=own, env=kills.environment(own))
@@ -107,7 +98,7 @@ def test_a_command_that_goes_on_as_if_nothing_had_come_is_seen(tmp_path: Path, m
         "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN)\nwhile time.process_time() < 3.0: pass"
     )
 
-    def start(_: list[str], own: Path, __: str) -> subprocess.Popen[bytes]:
+    def start(_: list[str], own: Path) -> subprocess.Popen[bytes]:
         (own / "said.txt").write_text("")
         return subprocess.Popen([sys.executable, "-S", "-c", goes_on], cwd=own, env=kills.environment(own))
 

@@ -104,7 +104,6 @@ class Fitted:
         return write_record(self._measured, Path(catalog), name, based_on, overwrite=overwrite)
 
     def __repr__(self) -> str:
-        """Show kind, files and parameters in a line."""
         names = ", ".join(estimate.name for estimate in self._estimates())
         return f"<Fitted {self.kind}, {len(self._measured.blocks)} tables: {names}>"
 

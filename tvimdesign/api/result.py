@@ -36,7 +36,6 @@ class NoDesignError(InfeasibleError):
     """No design is feasible; `result` is where the search ended, the closest design."""
 
     def __init__(self, message: str, result: Result[Any]) -> None:
-        """Keep the result beside the message."""
         super().__init__(message)
         self.result = result
 
@@ -57,7 +56,6 @@ class Reasons:
         )
 
     def __str__(self) -> str:
-        """Return the sentences, one a line."""
         return "\n".join(self.sentences) or "Nothing binds: the study was evaluated, or every limit has some margin."
 
     def _repr_html_(self) -> str:
@@ -300,7 +298,6 @@ class Result(Generic[StudyT]):
         return margin_text(check, self._answered.study.table).lstrip("-")
 
     def __repr__(self) -> str:
-        """Name, mode and status in a line."""
         return f"<Result {self.name!r}: {self.design.mode} mode, {self.status}>"
 
     def _repr_html_(self) -> str:

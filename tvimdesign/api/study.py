@@ -277,7 +277,6 @@ class Study:
     # --- what it looks like ---
 
     def __repr__(self) -> str:
-        """Name, mode and task in a line."""
         study = self.resolved
         return f"<Study {study.name!r}: {_task(study)}>"
 

@@ -133,17 +133,14 @@ class Sweep(Generic[StudyT]):
         return CellAnswers(SweptStudy.of(self.plan))
 
     def __len__(self) -> int:
-        """Count of cells."""
         return len(self.kept)
 
     def __getitem__(self, number: int) -> Cell[StudyT]:
-        """Return a cell by its number, from 0."""
         answer, texts = self.kept[number].answer, self.plan.points.texts(range(len(self))[number])
         names = [axis.name for axis in self.plan.axes]
         return Cell(dict(zip(names, texts, strict=True)), answer.status, answer.reason, self, texts)
 
     def __iter__(self) -> Iterator[Cell[StudyT]]:
-        """Yield every cell."""
         return (self[number] for number in range(len(self)))
 
     def _repr_html_(self) -> str:

@@ -192,7 +192,6 @@ class FedProcess:
             stream.close()
 
     def __enter__(self) -> Self:
-        """Return itself."""
         return self
 
     def __exit__(self, *raised: object) -> None:
@@ -212,14 +211,12 @@ class CommandGroup:
     """Runs commands, from any thread, until it is left; those that are at work then are ended."""
 
     def __init__(self) -> None:
-        """Start without a running command."""
         self._at_work: set[subprocess.Popen[str]] = set()
         self._guard = threading.Lock()
         self._over = False
         self._reads, self._holds = os.pipe() if _GROUPS else (-1, -1)  # neither is inherited unless it is handed on
 
     def __enter__(self) -> CommandGroup:
-        """Begin."""
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:

@@ -109,7 +109,6 @@ class ResultsFolder:
         return PurePosixPath(name).parent == self._progress
 
     def __enter__(self) -> ResultsFolder:
-        """Return itself."""
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:

@@ -79,7 +79,6 @@ class PartsProcess:
         return int(self._process.pid)
 
     def __enter__(self) -> PartsProcess:
-        """Return itself."""
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:

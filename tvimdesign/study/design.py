@@ -289,7 +289,6 @@ class JsonPlaces:
     """Lines and columns of the values in a JSON file, which is YAML too; a broken file has none."""
 
     def __init__(self, data: bytes) -> None:
-        """Read a whole JSON file."""
         self._root: Any = None
         try:
             text = data.decode(json.detect_encoding(data), "surrogatepass")

@@ -30,7 +30,6 @@ class CellAnswers:
     """Answers the cells of a sweep."""
 
     def __init__(self, job: SweptStudy) -> None:
-        """Start with nothing compiled."""
         self._job = job
         self._simulators: OrderedDict[Any, Simulator] = OrderedDict()
         self._searches: OrderedDict[Texts, AnchoredSearch] = OrderedDict()

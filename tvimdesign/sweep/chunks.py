@@ -18,7 +18,6 @@ class ChunkAnswers:
     """Answers chunks of some work, and says what each cell took."""
 
     def __init__(self, job: SweptStudy) -> None:
-        """Start with nothing compiled."""
         from tvimdesign.sweep.answers import CellAnswers  # loads CasADi, which only workers need
 
         self._answers = CellAnswers(job)
@@ -48,7 +47,6 @@ class CellQueue:
             self._groups.setdefault(self._kind(cell), deque()).append(cell)
 
     def __len__(self) -> int:
-        """Return how many cells are left."""
         return sum(map(len, self._groups.values()))
 
     def next(self, worker: int) -> list[Cell]:

@@ -60,7 +60,6 @@ class Pool:
     """Some worker processes on one job, which keep their cells in shards of a folder."""
 
     def __init__(self, job: SweptStudy, folder: Path, workers: int) -> None:
-        """Start with no process."""
         self._job, self._folder, self._count = job, folder, workers
         self._lines: queue.Queue[tuple[int, str | None]] = queue.Queue()
         self._workers: dict[int, _Worker] = {}

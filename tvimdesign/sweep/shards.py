@@ -30,17 +30,14 @@ class ShardWriter:
     """Appends to a shard of its own, which is made with the first cells."""
 
     def __init__(self, folder: Path, columns: Sequence[str]) -> None:
-        """Start with nothing written."""
         self._folder, self._columns = folder / SHARDS, list(columns)
         self._path: Path | None = None
         self._file, self._digest = -1, hashlib.sha256()
 
     def __enter__(self) -> ShardWriter:
-        """Return itself."""
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
-        """Close the file."""
         if self._file >= 0:
             os.close(self._file)
             self._file = -1
@@ -108,11 +105,9 @@ class Shards:
             self._look_through(path, columns)
 
     def __contains__(self, key: str) -> bool:
-        """Return whether a cell is there."""
         return key in self._places
 
     def __len__(self) -> int:
-        """Count of cells."""
         return len(self._places)
 
     def kept(self, keys: Iterator[str]) -> Iterator[StoredCell]:

@@ -32,7 +32,6 @@ class CellTable:
     """Looks at every row of a table once."""
 
     def __init__(self, plan: SweepPlan) -> None:
-        """Start with no cells."""
         self._names = [column.name for column in columns(plan)]
         self._units = {column.name: column.unit for column in columns(plan)}
         self._every = -(-plan.count // MOST_DRAWN)

@@ -59,13 +59,21 @@ LEFT_OUT = {
     "ankle", "driven_joint", "fast_switch", "front_shear", "machined_shear", "rigid_modules",
 }  # fmt: skip
 """Shipped studies not in the table, with the reason in README.md."""
+PAST = Path(__file__).with_name("studies")
+"""Studies that are no longer shipped, whose parts FE has solved."""
 DESIGN = ("SI", "record")
 """Units of a table's rows that tell the design."""
 
 
+def study_file(study: str) -> Path:
+    """Return the file of a study, shipped or past."""
+    past = PAST / f"{study}.yaml"
+    return past if past.exists() else ROOT / f"studies/{study}.yaml"
+
+
 def design_rows(study: str, values: dict[str, float], choices: dict[str, str]) -> list[Row]:
     """Value (SI) or chosen record of each quantity that a study varies, of a design of its."""
-    varied = sorted(read_study(ROOT / f"studies/{study}.yaml").vary)
+    varied = sorted(read_study(study_file(study)).vary)
     return [
         Row(study, name, "record", choices[name]) if name in choices else Row(study, name, "SI", values[name])
         for name in varied
@@ -97,7 +105,7 @@ def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], 
         case["adhesive_shear_modulus"] = values["heater_adhesive_youngs_modulus"] * 0.5e-9 / (1.0 + poisson)
     if mm.get("liner_depth") and inputs["mode"] == "shear":
         case["liner_shear_modulus"] = values["liner_youngs_modulus"] * 0.5e-9 / (1.0 + values["liner_poissons_ratio"])
-    table, given_here = table_for(inputs["mode"]), {**given(read_study(ROOT / f"studies/{study}.yaml")), **varied}
+    table, given_here = table_for(inputs["mode"]), {**given(read_study(study_file(study))), **varied}
     frozen = float(table.evaluate(given_here, ["frozen_shear_modulus"])["frozen_shear_modulus"])
     return case | {"frozen_shear_modulus": float(f"{frozen * 1e-9:.4g}")}
 
@@ -109,7 +117,7 @@ def fe_values(joint: dict[str, float], spring: dict[str, float]) -> dict[str, fl
 
 def model_values(study: str, varied: dict[str, float | str]) -> dict[str, tuple[str, float]]:
     """Unit and value by the model, of a study with the values (SI) and records of what it varies."""
-    read = read_study(ROOT / f"studies/{study}.yaml")
+    read = read_study(study_file(study))
     rows = comparison.model_values(ResolvedModule(read, {**given(read), **varied}))
     selected = {name: value for name, value in rows.items() if name not in NOT_KEPT}
     return {name: ("MPa/(N*m)" if name in STRESSES else "N*m/rad", float(value)) for name, value in selected.items()}

@@ -30,7 +30,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from models import DESIGN, LEFT_OUT, Row, case_of, design_rows, designed, fe_values, model_values
+from models import DESIGN, LEFT_OUT, Row, case_of, design_rows, designed, fe_values, model_values, study_file
 
 from tvimdesign.cad.fe.exported_parts import export_parts
 from tvimdesign.cad.fe.run_solvers import SOLVERS
@@ -69,7 +69,7 @@ def solved(study: str, work: Path, fe_python: Path) -> tuple[dict[str, float], d
         "-m",
         "tvimdesign",
         "run",
-        ROOT / f"studies/{study}.yaml",
+        study_file(study),
         "--no-cad",
         "--no-plots",
         "--out",

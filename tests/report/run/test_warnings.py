@@ -7,7 +7,6 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
-import numpy as np
 import pytest
 import yaml
 from comparable import COARSE, COMPRESSION, SHEAR
@@ -16,7 +15,6 @@ from support import ROOT
 
 from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
-from tvimdesign.report.compare.comparison_page import _from_where_it_moves
 from tvimdesign.report.run.blocks.remedies import Remedies
 from tvimdesign.report.run.blocks.warnings import RunWarning, filled, hints, lines_of, warnings_of
 from tvimdesign.report.run.first_screen import warning_lines
@@ -135,16 +133,6 @@ def test_a_run_says_where_the_pcl_loses_contact() -> None:
     assert "at hot no PCL touches the link for" in said
     assert "at cold no PCL" not in said
     assert "no PCL touches the link" not in _said(SHEAR)
-
-
-def test_a_release_is_drawn_from_where_a_link_begins_to_move() -> None:
-    times = np.geomspace(1e-8, 1.0, 400)
-    quick, slow = ({"label": "", "x": times.tolist(), "y": (0.1 * np.cos(w * times)).tolist()} for w in (100.0, 10.0))
-    one, other = _from_where_it_moves([quick, slow])
-    # cos(w t) = 0.999 at w t = sqrt(0.002); samples are 4.7 % apart.
-    assert one["x"][0] == other["x"][0] == pytest.approx(np.sqrt(0.002) / 100.0, rel=0.05)
-    assert one["x"][-1] == 1.0
-    assert len(one["x"]) == len(one["y"]) < 400
 
 
 def test_a_requirement_is_tried_beside_the_remedies_before_it() -> None:

@@ -41,7 +41,6 @@ class Named(float):
         return number
 
     def __neg__(self) -> Named:
-        """Return the expression with the other sign."""
         return Named(-float(self), f"-{_operand(self)}")
 
 

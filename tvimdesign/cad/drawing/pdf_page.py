@@ -31,7 +31,6 @@ class PdfPage(Backend):
     """A sheet of a size [mm] that ezdxf draws on; `scale` is paper over drawing."""
 
     def __init__(self, size: tuple[float, float], scale: float) -> None:
-        """Start an empty page."""
         super().__init__()
         self._size = size
         self._scale = scale

@@ -214,7 +214,6 @@ class Samples:
         return Samples(self.point[wanted], self.normal[wanted], self.triangle[wanted], self.area[wanted])
 
     def __len__(self) -> int:
-        """Return how many there are."""
         return len(self.point)
 
 

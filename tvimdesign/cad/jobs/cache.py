@@ -39,7 +39,6 @@ class Watched(Mapping[str, Any]):
         self._whole, self._read = whole, read
 
     def __getitem__(self, name: str) -> Any:
-        """Read one value."""
         self._read[name] = self._whole.get(name)
         return self._whole[name]
 
@@ -54,7 +53,6 @@ class Watched(Mapping[str, Any]):
         return iter(self._whole)
 
     def __len__(self) -> int:
-        """Return how many names there are."""
         return len(self._whole)
 
 
@@ -100,7 +98,7 @@ _MOST = 16
 _HALF_MADE = 3600.0
 """Seconds after which a result that is not finished never will be."""
 _TRACE = "trace.json"
-_LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "llvmlite", "manifold3d", "matplotlib", "numpy", "trimesh", "vtk")
+_LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "manifold3d", "matplotlib", "numba", "numpy", "trimesh", "vtk")
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,6 @@ class Command:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
-        """Stop what draws and release the folder."""
         self._stack.__exit__(kind, value, at)
 
     def start_plotter(self, *, gives_way: bool = False) -> None:

@@ -264,7 +264,6 @@ class RemainingTime:
     """
 
     def __init__(self) -> None:
-        """Start without a series."""
         self._series: tuple[str, str] | None = None
         self._first, self._began = 0, 0.0
         self._end: float | None = None

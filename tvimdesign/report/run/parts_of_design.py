@@ -43,11 +43,9 @@ class BackgroundPartsJob:
         self._out = Path()
 
     def __enter__(self) -> BackgroundPartsJob:
-        """Return itself."""
         return self
 
     def __exit__(self, *raised: object) -> None:
-        """End the process if it has not ended."""
         self.stop()
 
     def stop(self) -> None:

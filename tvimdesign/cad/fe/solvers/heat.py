@@ -88,7 +88,6 @@ class Course:
     """The module heated step by step."""
 
     def __init__(self, inputs: dict[str, Any], found: Meshed, heated: Heated) -> None:
-        """Begin at ambient."""
         self.values, self.found, self.heated_by = inputs["values"], found, heated
         self.profile = inputs["current_profiles"].get("softening")
         self.sunk = inputs["choices"].get("cold_side") == "sink"

@@ -18,7 +18,6 @@ class Layer:
     """The polymer by columns from its pads to its far face."""
 
     def __init__(self, grid: heat_lines.Grid, found: Meshed, points: Any) -> None:
-        """Find its cells and what they weigh."""
         self.found, self.grid = found, grid
         own = found.cells["layer"]
         self.axis = 1 if grid.upright else 2
