@@ -177,6 +177,9 @@ def test_a_phone_has_it_all_in_its_width_and_axe_finds_no_serious_fault(
     page = another(viewport={"width": 360, "height": 740}, color_scheme=colours, bypass_csp=True).page
     page.locator("#report[data-report]").wait_for()
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    place = "document.getElementById(id).getBoundingClientRect().top"
+    tops = page.evaluate(f"['draft', 'controls', 'limits'].map((id) => {place})")
+    assert tops == sorted(tops)  # the module in 3-D is seen first
     page.evaluate("document.getElementById('report').remove()")  # the report has its own test
     page.evaluate(AXE)
     faults = page.evaluate("axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations)")

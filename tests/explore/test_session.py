@@ -37,6 +37,8 @@ def test_the_newest_state_of_a_drag_is_answered(tmp_path: Path) -> None:
     assert [item["number"] for item in answers] == sorted(item["number"] for item in answers)
     power = next(item for item in last["shown"]["limits"] if item["of"] == "peak_power")
     assert (power["stands"], power["got"], power["text"]) == ("binds", "8.95 W", "peak power <= 8.95 W")
+    met = [(item["of"], item["sense"]) for item in last["shown"]["limits"] if item["stands"] == "kept"]
+    assert len(set(met)) == len(met)  # one row for a stiffness that is limited at five angles
     assert last["shown"]["variables"]["current"]["value"] < first["shown"]["variables"]["current"]["value"]
 
 
