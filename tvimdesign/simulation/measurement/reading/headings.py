@@ -30,8 +30,7 @@ _WRITTEN_SMALL = {
     "nm": "N*m", "mnm": "mN*m", "degc": "degC", "c": "degC", "k": "K", "ma": "mA", "a": "A", "mv": "mV", "v": "V",
     "w": "W", "mw": "mW", "pa": "Pa", "kpa": "kPa", "hz": "Hz", "n": "N", "pas": "Pa*s", "mpas": "mPa*s",
     "rads": "rad/s", "pct": "%", "percent": "%", "1s": "1/s", "s1": "1/s", "wg": "W/g", "mwmg": "mW/mg", "wkg": "W/kg",
-    "1pa": "1/Pa", "deg": "deg", "rad": "rad", "sec": "s", "secs": "s", "seconds": "s", "min": "min", "hours": "h",
-    "celsius": "degC", "kelvin": "K", "amps": "A", "volts": "V", "ohm": "ohm", "um": "um", "unm": "uN*m",
+    "1pa": "1/Pa", "deg": "deg", "sec": "s", "seconds": "s", "min": "min", "celsius": "degC", "kelvin": "K",
 }  # fmt: skip
 """Units as column names in programs have them."""
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
