@@ -50,15 +50,15 @@ def inputs_of(model: DeviceFunctions) -> dict[str, Any]:
 
 
 def model_of(path: Path, **changes: float) -> DeviceFunctions:
-    """Return the module at a study's start, with some inputs changed (SI)."""
-    study = read_study(path)
+    """Return the module at a study's start, with some inputs changed (SI); its melt has no memory of its crystals."""
+    study, changes = read_study(path), {"melt_memory": 1.0, **changes}
     return DeviceFunctions(study.table, {**given(study), **changes}, tuple(study.operating_points), study.solver.cells)
 
 
 def optimum_of(folder: Path, **changes: float) -> DeviceFunctions:
-    """Return the module of a run, with some inputs changed (SI)."""
+    """Return the module of a run, with some inputs changed (SI); its melt has no memory of its crystals."""
     module = resolve_design(read_design(folder / "design.json"))
-    values = {**module.values, **changes}
+    values = {**module.values, "melt_memory": 1.0, **changes}
     return DeviceFunctions(module.table, values, module.points, module.study.solver.cells)
 
 

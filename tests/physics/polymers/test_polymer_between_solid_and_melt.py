@@ -4,14 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 from scipy.integrate import quad
 
 from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
 from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 from tvimdesign.physics.polymers import polymer
+from tvimdesign.physics.polymers.viscoelasticity import zero_shear_viscosity
 
-CELSIUS = 273.15
+Array = NDArray[np.float64]
+CELSIUS, GAS = 273.15, 8.314462618
 # Capa 6500 and 6800: 76.7 kJ/kg. Specific heats: the middles of 1.7-2.0 and 2.0-2.2 kJ/kg K.
 MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
 MODES = ((1.0, 2.0e5), (0.1, 3.0e5), (0.01, 5.0e5))
@@ -190,6 +193,27 @@ def test_every_state_is_passive_and_stiffer_the_more_is_frozen(
     assert loss > 0.0
     more, _ = polymer.moduli(CELSIUS + celsius, fraction + 0.01, frequency, rheology)
     assert more > storage
+
+
+def test_memory_multiplies_viscosity_and_activation_energy_by_ten_at_most() -> None:
+    # Sangroniz et al., Eur. Polym. J. (2018) 495: viscosity and flow activation energy of self-nucleated melts of
+    # polycaprolactone are up to an order of magnitude above those of equilibrated ones.
+    plain = rheology_of("pcl_80k")
+    marked = plain._replace(memory=polymer.MeltMemory(10.0, CELSIUS + 68.0, 3.0, 5.0))
+
+    def viscosity(celsius: Array, rheology: polymer.Rheology) -> Array:
+        return np.array([zero_shear_viscosity(polymer.spectrum(CELSIUS + t, 0.0, rheology)) for t in celsius])
+
+    celsius = np.linspace(60.0, 120.0, 241)
+    risen = viscosity(celsius, marked) / viscosity(celsius, marked.equilibrated)
+    assert risen[0] == pytest.approx(10.0, rel=0.01)
+    assert np.all(np.diff(risen) < 0.0)
+    assert risen[-1] == pytest.approx(1.0, abs=1e-3)
+    energy = GAS * np.gradient(np.log(viscosity(celsius, marked)), 1.0 / (CELSIUS + celsius))
+    assert 150e3 < np.max(energy) < 350e3  # 35 kJ/mol without
+    five_minutes = marked._replace(memory=marked.memory._replace(time=300.0))
+    at_half = np.array([68.0])
+    assert viscosity(at_half, five_minutes) == pytest.approx(10.0**0.5 * viscosity(at_half, plain), rel=1e-12)
 
 
 def test_five_percent_of_the_modulus_are_gone_at_the_linear_limit() -> None:

@@ -83,3 +83,20 @@ def test_freezing_time_is_an_interval_until_a_user_fits_his_own(freezing_module:
     assert 0.0 < steep.at_high < steep.at_low  # a steeper slope below the reference freezes sooner
     own = replace(freezing_module, values={**freezing_module.values, "pcl_crystallization_half_time": 60.0})
     assert "pcl_crystallization_half_time" not in {one.name for one in unmeasured_inputs(own)}
+
+
+@pytest.mark.gate
+def test_memory_of_the_melt_is_in_the_intervals_unless_named_off() -> None:
+    warm = TEXT.replace("0.6 mm", "4 mm") + "operating_points: {cold: {temperature: 30 degC}, hot: {temperature: 70 degC}}\n"
+    resolved = resolve_study(read_study_text(warm, "a test"))
+    (memory,) = [one for one in unmeasured_inputs(resolved) if one.name == "melt_memory"]
+    assert (memory.low, memory.high, memory.logarithmic) == (1.0, 10.0, True)
+    intervals = UncertaintyModel(resolved, ["joint_damping@hot", "impedance_range"]).at(resolved, 0).intervals
+    for name in ("joint_damping@hot", "impedance_range"):
+        swing = {swing.moved.name: swing for swing in intervals[name].swings}["melt_memory"]
+        assert swing.size > 0.2 * intervals[name].nominal, name
+    assert 1.5 < resolved.quantity("memory_factor@hot") < 3.0
+    without = resolve_study(read_study_text(warm.replace("{cold_side", "{melt_memory: 1, cold_side"), "a test"))
+    assert without.quantity("memory_factor@hot") == 1.0
+    assert without.quantity("joint_damping@hot") < 0.7 * resolved.quantity("joint_damping@hot")
+    assert "melt_memory" not in {one.name for one in unmeasured_inputs(without)}

@@ -5,7 +5,8 @@ over a window; freezing, which lags behind it by tens of kelvin, is not in these
 Sources: [F] Ferry, Viscoelastic Properties of Polymers, 3rd ed. (generalised Maxwell model, time-temperature shift);
 [V] Voller and Prakash, Int. J. Heat Mass Transfer 30 (1987) 1709 (enthalpy form of melting over a range);
 [S] Soskey and Winter, J. Rheol. 28 (1984) 625 (damping function of large strains);
-[W] Winter, Rheol. Acta 47 (2008) 909 (spectrum of entangled chains: a power of time up to a longest one).
+[W] Winter, Rheol. Acta 47 (2008) 909 (spectrum of entangled chains: a power of time up to a longest one);
+[M] Sangroniz et al., Eur. Polym. J. (2018) 495 (melts that were heated from the solid are more viscous).
 """
 
 from __future__ import annotations
@@ -175,6 +176,32 @@ def melt_spectrum(zero_shear_viscosity: Any, plateau_modulus: Any, count: int) -
     return [(longest * time, plateau_modulus * share) for time, share in zip(times, shares, strict=True)]
 
 
+MEMORY_HOLD = 300.0
+"""Time in the melt [s] that a temperature of fading goes with: five minutes, the usual hold in a calorimeter."""
+
+
+class MeltMemory(NamedTuple):
+    """Memory of its crystals in a melt that was heated from the solid: it relaxes more slowly [M]."""
+
+    ratio: Any
+    """Viscosity of a melt that remembers all over that of the equilibrated melt [1]."""
+    temperature: Any
+    """Temperature at which half of the ratio's logarithm is left after `MEMORY_HOLD` [K]."""
+    width: Any
+    """Rise of temperature that makes the memory fade e times as fast [K]."""
+    time: Any
+    """Time in the melt [s]."""
+
+
+def memory_shift(temperature_kelvin: Any, memory: MeltMemory) -> Any:
+    """Return the logarithm of how much later a melt relaxes that remembers its crystals [1].
+
+    ln r/(1 + t/t_1(T)) with t_1 = `MEMORY_HOLD` exp(-(T - T_1)/w): the form is assumed, the ratio r observed [M].
+    """
+    faded = memory.time / MEMORY_HOLD * np.exp((temperature_kelvin - memory.temperature) / memory.width)
+    return np.log(memory.ratio) / (1.0 + faded)
+
+
 class Rheology(NamedTuple):
     """Parameters of the spectrum of a polymer, frozen and molten; the two tables pair row by row."""
 
@@ -185,6 +212,12 @@ class Rheology(NamedTuple):
     """Relaxation spectrum of the melt at its reference temperature: (time [s], modulus [Pa])."""
     activation_energy: Any
     melt_reference: Any
+    memory: MeltMemory | None = None
+
+    @property
+    def equilibrated(self) -> Rheology:
+        """Return the same without memory: of a melt that cools, or was hot for long."""
+        return self._replace(memory=None)
 
 
 class OneSpectrum(Protocol):
@@ -192,6 +225,10 @@ class OneSpectrum(Protocol):
 
     def at(self, temperature_kelvin: Any) -> list[tuple[Any, Any]]:
         """Return the relaxation spectrum (time [s], modulus [Pa]) at a temperature."""
+
+    @property
+    def equilibrated(self) -> OneSpectrum:
+        """Return the spectrum itself: it has no memory."""
 
 
 AnyRheology = Rheology | OneSpectrum
@@ -203,13 +240,15 @@ def spectrum(temperature_kelvin: Any, fraction: Any, rheology: AnyRheology) -> l
     Paired modes mix by their logarithms: ln G = X ln G_solid + (1 - X) ln G_melt, ln tau likewise. So moduli and times
     are positive in every state, which is therefore passive, and every test in time or frequency follows from one
     spectrum. Lichtenecker's rule, assumed: between the pure phases it is right in order of magnitude only. The melt's
-    times shift with temperature, the solid's do not; the solid's moduli follow `solid_shear_modulus`.
+    times shift with temperature and memory, the solid's do not; the solid's moduli follow `solid_shear_modulus`.
     """
     if not isinstance(rheology, Rheology):
         return rheology.at(temperature_kelvin)
     pinned, _ = maxwell_moduli(PINNED_FREQUENCY, rheology.solid_modes)
     level = np.log(solid_shear_modulus(temperature_kelvin, rheology.solid)) - np.log(pinned)
     shift = np.log(arrhenius_shift(temperature_kelvin, rheology.melt_reference, rheology.activation_energy))
+    if rheology.memory is not None:
+        shift = shift + memory_shift(temperature_kelvin, rheology.memory)
     molten = 1.0 - fraction
     return [
         (

@@ -185,6 +185,11 @@ class Glass(NamedTuple):
     modes: Modes
     """Relaxation spectrum at T_g: (time [s], modulus relative to the others [1]); the longest time is the rubber's."""
 
+    @property
+    def equilibrated(self) -> Glass:
+        """Return the glass itself: it has no memory."""
+        return self
+
     def at(self, temperature_kelvin: Any) -> list[tuple[Any, Any]]:
         """Return the relaxation spectrum (time [s], modulus [Pa]) at a temperature: times shift, moduli are those of
         the reference."""

@@ -113,9 +113,13 @@ class Specimen:
         return PlottedLine(sheet, x, y, self.label if label is None else label, band, dashed)
 
 
-def at_fraction(resolved: ResolvedModule, temperature: float, fraction: float) -> State:
-    """Return polymer of a rig's module at a temperature [K] and a solid fraction. Raises InputError for no spectrum."""
-    spectrum = polymer.spectrum(temperature, fraction, resolved.quantity("pcl_rheology"))
+def at_fraction(resolved: ResolvedModule, temperature: float, fraction: float, *, cooled: bool = False) -> State:
+    """Return polymer of a rig's module at a temperature [K] and a solid fraction. Raises InputError for no spectrum.
+
+    One `cooled` from the melt has no memory of its crystals.
+    """
+    rheology = resolved.quantity("pcl_rheology")
+    spectrum = polymer.spectrum(temperature, fraction, rheology.equilibrated if cooled else rheology)
     modes = tuple((float(time), float(modulus)) for time, modulus in spectrum)
     check_spectrum(modes, f"pcl_grade {resolved.values['pcl_grade'].name} at {_celsius(temperature)} °C")
     limit = float(polymer.linear_strain(fraction, resolved.quantity("pcl_linear_range")))
@@ -137,7 +141,7 @@ def specimen(resolved: ResolvedModule, temperature: float) -> Specimen:
     return Specimen(
         temperature,
         at_fraction(resolved, temperature, nominal),
-        tuple(at_fraction(resolved, temperature, float(fraction)) for fraction in others),
+        tuple(at_fraction(resolved, temperature, float(x), cooled=bool(x < nominal)) for x in others),
     )
 
 

@@ -90,6 +90,18 @@ def pcl_glass(m: Module) -> transitions.Glass:
     )
 
 
+@quantities.helper(requires=CRYSTALLIZING, default=None)
+def pcl_memory(m: Module) -> polymer.MeltMemory:
+    """Memory of its crystals in the molten PCL; none where it freezes as it melts."""
+    return polymer.MeltMemory(m.melt_memory, m.memory_temperature, m.memory_width, m.time_in_melt)
+
+
+@quantities.output("1", per_point=True)
+def memory_factor(m: Module) -> Scalar:
+    """Viscosity of the melt over that without memory of its crystals, at an operating point."""
+    return 1.0 if m.pcl_memory is None else np.exp(polymer.memory_shift(m.temperature, m.pcl_memory))
+
+
 @quantities.helper()
 def pcl_rheology(m: Module) -> polymer.AnyRheology:
     """Relaxation spectrum of the PCL at any temperature and solid fraction.
@@ -101,7 +113,8 @@ def pcl_rheology(m: Module) -> polymer.AnyRheology:
     solid = solid_modes(m.pcl_grade)
     modes = melt_modes(m.pcl_grade, m.pcl_zero_shear_viscosity, m.pcl_plateau_modulus)
     melt = [(m.melt_viscosity_factor * time, modulus) for time, modulus in modes]
-    return polymer.Rheology(m.pcl_solid_modulus, solid, melt, m.pcl_flow_activation_energy, m.pcl_melt_reference)
+    flow = m.pcl_flow_activation_energy, m.pcl_melt_reference
+    return polymer.Rheology(m.pcl_solid_modulus, solid, melt, *flow, m.pcl_memory)
 
 
 @quantities.helper()
