@@ -140,3 +140,23 @@ def test_a_rotor_that_hangs_on_the_melt_draws_it_thicker_in_minutes() -> None:
         time += (0.1e-3 / steps) * found["pcl_viscosity@hot"] * length * 14e-3**3 / (force * h**3)
     assert found["layer_drawing_time"] == pytest.approx(time, rel=1e-4)
     assert 60.0 < found["layer_drawing_time"] < 600.0
+
+
+def test_a_derated_bond_loses_by_cycles_and_temperature_where_the_study_says_so() -> None:
+    names = "bond_derating bond_strength layer_holding_torque layer_edge_safety freezing_safety"
+    # ln E falls by 0.45 ln(1 + exp((T - 42)/5)) from 23 degC on; the cold point is at 30 degC.
+    warm = ((1.0 + exp(-19.0 / 5.0)) / (1.0 + exp(-12.0 / 5.0))) ** 0.45
+    new, old, damp, still = (
+        values_of(names, **given)
+        for given in (
+            {}, {"bond_rating": "derated"},
+            # Laps of polycarbonate lost 48 % over heat cycles in damp air (Sakai and Nassar).
+            {"bond_rating": "derated", "bond_cycle_loss": 0.2}, {"bond_rating": "derated", "bond_cycles": 0},
+        )
+    )  # fmt: skip
+    assert still["bond_derating"] == pytest.approx(warm, rel=1e-9)
+    assert new["bond_derating"] == old["bond_derating"] == pytest.approx(warm * 0.95**3, rel=1e-4)
+    assert damp["bond_derating"] / warm == pytest.approx(1.0 - 0.48, rel=0.02)
+    assert new["bond_strength"] == pytest.approx(2e6)
+    for name in names.split()[1:]:
+        assert old[name] == pytest.approx(new[name] * old["bond_derating"], rel=1e-9), name

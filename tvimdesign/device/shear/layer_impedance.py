@@ -24,10 +24,15 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import lasting_load, layer, shear_lag
-from tvimdesign.physics.polymers import melt, transitions
+from tvimdesign.physics.polymers import melt, polymer, transitions
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Impedance")
+
+quantities.option(
+    "bond_rating", ("as_new", "derated"),
+    "Bond that the torques count with: as new, or after `bond_cycles` and at the cold point's temperature",
+)  # fmt: skip
 
 
 @quantities.output("m^4")
@@ -161,10 +166,29 @@ def stroke_strains(m: Module) -> list[tuple[Scalar, Scalar]]:
     return [(m.layer_strain * reach, share) for reach, share in nodes]
 
 
+@quantities.output("1")
+def bond_derating(m: Module) -> Scalar:
+    """Share of the bond's strength after `bond_cycles` meltings and at the cold point; counted if the study says so.
+
+    A share is lost with each tenfold of cycles, and with the frozen PCL's modulus by temperature: both are assumed.
+    """
+    cold, sheet = (
+        polymer.solid_shear_modulus(kelvin, m.pcl_solid_modulus)
+        for kelvin in (m.temperature_at_cold, m.pcl_reference_temperature)
+    )
+    return (1.0 - m.bond_cycle_loss) ** np.log10(1.0 + m.bond_cycles) * cold / sheet
+
+
+@quantities.output("MPa")
+def bond_strength(m: Module) -> Scalar:
+    """Traction that the bond of layer and faces bears, derated where the study's `bond_rating` says so."""
+    return m.pcl_bond_strength * (m.bond_derating if m.bond_rating == "derated" else 1.0)
+
+
 @quantities.output("N*m")
 def layer_holding_torque(m: Module) -> Scalar:
     """Torque at which the frozen layer's bond, its shear yield, or a liner on it gives way at its outer rim."""
-    traction = np.fmin(m.pcl_bond_strength, structure.shear_yield(m.pcl_tensile_yield))
+    traction = np.fmin(m.bond_strength, structure.shear_yield(m.pcl_tensile_yield))
     traction = traction_with_liner(m.liner_material, traction, m.liner_traction)
     return layer.torque_at_traction(traction, m.layer_polar_moment, m.pcl_outer_radius)
 
@@ -192,7 +216,7 @@ _PEELS = "the bond may fail along the arcs' edges below the torque that the join
 @quantities.output("1", advice=(Rule(sense=">=", value=1.0, reason=_PEELS),))
 def layer_edge_safety(m: Module) -> Scalar:
     """Strength of the bond over the traction along the edge of an arc under the torque the joint holds."""
-    return m.pcl_bond_strength / m.layer_edge_traction
+    return m.bond_strength / m.layer_edge_traction
 
 
 @quantities.output("1", headline=True)
@@ -269,7 +293,7 @@ _MAY_PART = "the freezing layer shrinks, the rotor cannot follow, and the bond m
 @plays.output("1", advice=(Rule(sense=">=", value=1.0, reason=_MAY_PART),))
 def freezing_safety(m: Module) -> Scalar:
     """Strength of the bond over the tension that the freezing layer puts on it."""
-    return m.pcl_bond_strength / m.freezing_traction
+    return m.bond_strength / m.freezing_traction
 
 
 @plays.output("%")
