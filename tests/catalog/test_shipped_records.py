@@ -256,6 +256,28 @@ def test_each_assumed_value_names_its_least_test(category: str, name: str) -> No
     assert {key for key, entry in ranges.items() if "; test: " not in entry.source} == set()
 
 
+@pytest.mark.parametrize("warmer", [5.0, 20.0, 50.0])
+@pytest.mark.parametrize("diameter", [0.05, 0.09, 0.17])
+def test_convection_is_that_of_free_air_in_every_orientation(diameter: float, warmer: float) -> None:
+    # Incropera, 7th ed.: air by Sutherland's law; eqs. 9.30 and 9.32 with L = A/P = D/4, eq. 9.27 with L = D.
+    kelvin = 295.0 + 0.5 * warmer
+    viscosity = 1.716e-5 * (kelvin / 273.15) ** 1.5 * 383.55 / (kelvin + 110.4)
+    conductivity, density = 0.0241 * (kelvin / 273.15) ** 0.9, 101325.0 / 287.05 / kelvin
+    kinematic, prandtl = viscosity / density, viscosity * 1006.0 / conductivity
+
+    def rayleigh(length: float) -> float:
+        return 9.81 / kelvin * warmer * length**3 / kinematic**2 * prandtl
+
+    flat = rayleigh(0.25 * diameter)
+    slope = 0.670 / (1.0 + (0.492 / prandtl) ** (9.0 / 16.0)) ** (4.0 / 9.0)
+    upright = 0.68 + slope * rayleigh(diameter) ** 0.25
+    faces = [0.54 * flat**0.25 / (0.25 * diameter), 0.52 * flat**0.2 / (0.25 * diameter), upright / diameter]
+    for name in ("rotor_coefficient", "housing_coefficient"):
+        entry = CATALOG.record("heat_paths", "handbook").entry(name)
+        assert entry.low <= min(faces) * conductivity
+        assert max(faces) * conductivity <= entry.high
+
+
 def test_a_data_sheet_is_that_of_the_type() -> None:
     """A sheet's source names the type or grade that the record's title names: a figure printed for another is none."""
     in_doubt = {"flexural_modulus", "reference_temperature"}  # of the polymers: one figure for two grades

@@ -25,12 +25,18 @@ def test_layers_shrink_and_leave_play_where_nothing_holds_the_rotor() -> None:
     assert 0.04 < found["freezing_shrinkage"] < 0.092
     assert found["freezing_shrinkage"] == pytest.approx(1.0 - 1070.0 / 1145.0)
     assert found["freezing_travel"] == pytest.approx(70.1e-6, rel=1e-3)
-    bare = values_of("axial_play layer_play", pcl_thickness="0.6 mm")
+    rows = "axial_play layer_play expansion_travel rotor_bottom_level hub_bottom_level core_temperature@hot"
+    bare = values_of(rows, pcl_thickness="0.6 mm", structure_expansion="6e-5 1/K")
     assert bare["axial_play"] == pytest.approx(0.4e-3)  # the running clearance of a print, below the hub
-    assert bare["layer_play"] == pytest.approx(0.4 / 0.6)
+    # 15 mm of PETG and 50 K would be 45 um; plate and hub are nearer to each other, and the core is cooler.
+    length, warmer = bare["rotor_bottom_level"] - bare["hub_bottom_level"], bare["core_temperature@hot"] - 295.15
+    assert bare["expansion_travel"] == pytest.approx(45e-6 * length / 15e-3 * warmer / 50.0, rel=1e-9)
+    assert bare["layer_play"] == pytest.approx((0.4e-3 + bare["expansion_travel"]) / 0.6e-3)
     assert not advised("layer_play", bare["layer_play"])
     for held in ({"axial_preload": "wave_21x25"}, {"bearing": "ball_6802"}):
-        assert values_of("layer_play", pcl_thickness="0.6 mm", **held)["layer_play"] == 0.0
+        found = values_of("layer_play expansion_travel", pcl_thickness="0.6 mm", **held)
+        assert found["layer_play"] == pytest.approx(found["expansion_travel"] / 0.6e-3)
+        assert advised("layer_play", found["layer_play"])
 
 
 def test_a_held_layer_pulls_on_its_bond_and_one_that_is_followed_does_not() -> None:

@@ -305,7 +305,17 @@ def layer_wedge(m: Module) -> Scalar:
 _FLOATS = "the rotor can rise by that share of the layer's thickness, and nothing holds it down (assumed, 5 to 20 %)"
 
 
+@plays.output("mm")
+def expansion_travel(m: Module) -> Scalar:
+    """Length by which the warm core outgrows its hub from plate to retainer: the gap of the layer widens by it.
+
+    The core is as warm as with the PCL hot for long, the hub as cold as the air: an upper bound.
+    """
+    length = m.rotor_bottom_level - m.hub_bottom_level
+    return m.structure_expansion * length * (m.core_temperature_at_hot - m.ambient_temperature)
+
+
 @plays.output("%", advice=(Rule(sense="<=", value=0.1, reason=_FLOATS),))
 def layer_play(m: Module) -> Scalar:
-    """Distance that the rotor can rise off the layer over the layer's thickness: by so much the melt may be thicker."""
-    return m.axial_play / m.pcl_thickness
+    """Way of the rotor off the layer, by its play and by expansion, over the layer's thickness: so much more melt."""
+    return (m.axial_play + m.expansion_travel) / m.pcl_thickness
