@@ -87,7 +87,10 @@ def test_freezing_time_is_an_interval_until_a_user_fits_his_own(freezing_module:
 
 @pytest.mark.gate
 def test_memory_of_the_melt_is_in_the_intervals_unless_named_off() -> None:
-    warm = TEXT.replace("0.6 mm", "4 mm") + "operating_points: {cold: {temperature: 30 degC}, hot: {temperature: 70 degC}}\n"
+    warm = (
+        TEXT.replace("0.6 mm", "4 mm")
+        + "operating_points: {cold: {temperature: 30 degC}, hot: {temperature: 70 degC}}\n"
+    )
     resolved = resolve_study(read_study_text(warm, "a test"))
     (memory,) = [one for one in unmeasured_inputs(resolved) if one.name == "melt_memory"]
     assert (memory.low, memory.high, memory.logarithmic) == (1.0, 10.0, True)
@@ -95,8 +98,8 @@ def test_memory_of_the_melt_is_in_the_intervals_unless_named_off() -> None:
     for name in ("joint_damping@hot", "impedance_range"):
         swing = {swing.moved.name: swing for swing in intervals[name].swings}["melt_memory"]
         assert swing.size > 0.2 * intervals[name].nominal, name
-    assert 1.5 < resolved.quantity("memory_factor@hot") < 3.0
+    assert 1.5 < resolved.quantity("memory_factor@hot") < 2.0
     without = resolve_study(read_study_text(warm.replace("{cold_side", "{melt_memory: 1, cold_side"), "a test"))
     assert without.quantity("memory_factor@hot") == 1.0
-    assert without.quantity("joint_damping@hot") < 0.7 * resolved.quantity("joint_damping@hot")
+    assert without.quantity("joint_damping@hot") < 0.9 * resolved.quantity("joint_damping@hot")
     assert "melt_memory" not in {one.name for one in unmeasured_inputs(without)}

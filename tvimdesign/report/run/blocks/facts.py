@@ -187,7 +187,7 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
 
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
-    """Return what `--full` and the page add: thresholds, cooling, idealizations, choices, margins, the ranges."""
+    """Return what `--full` and the page add: thresholds, cooling, idealizations, choices, margins."""
     table = table_for(answer.design.mode)
     facts = [
         Fact("Soft", list(_soft(answer, uncertainty))),
@@ -196,7 +196,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Accepts", list(_accepts(answer))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table), *measured_fact(uncertainty),
-        *_margins(answer, table), *_yield(answer, uncertainty), *_ranges(uncertainty),
+        *_margins(answer, table), *_yield(answer, uncertainty),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
 
@@ -394,17 +394,3 @@ def _yield(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
         raise_it = f"to raise it: {standard}`robust: {{yield: 95 %}}`"
         parts.append(raise_it if answer.solution else "which limit loses most: `tvimdesign tolerate`")
     return [Fact("Yield", parts)]
-
-
-def _ranges(uncertainty: Mapping[str, Any]) -> list[Fact]:
-    """Return in how many of the plausible cases all limits are met, and which limit in the fewest."""
-    holds = uncertainty.get("ranges_hold")
-    if holds is None:
-        return []
-    count = len(uncertainty["unmeasured"])
-    text = f"if the {count} unmeasured inputs take any value in their ranges, all limits are met in"
-    parts = [f"{text} {percent(holds['share'])} of cases"]
-    name, share = most_in_doubt(uncertainty)
-    if name:
-        parts.append(f"the most often violated is {name}, met in {percent(share)}")
-    return [Fact("Assumed values", parts)]
