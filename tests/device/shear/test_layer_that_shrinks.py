@@ -34,9 +34,9 @@ def test_layers_shrink_and_leave_play_where_nothing_holds_the_rotor() -> None:
     assert bare["layer_play"] == pytest.approx((0.4e-3 + bare["expansion_travel"]) / 0.6e-3)
     assert not advised("layer_play", bare["layer_play"])
     for held in ({"axial_preload": "wave_21x25"}, {"bearing": "ball_6802"}):
-        found = values_of("layer_play expansion_travel", pcl_thickness="0.6 mm", **held)
-        assert found["layer_play"] == pytest.approx(found["expansion_travel"] / 0.6e-3)
-        assert advised("layer_play", found["layer_play"])
+        clamped = values_of("layer_play expansion_travel", pcl_thickness="0.6 mm", **held)
+        assert clamped["layer_play"] == pytest.approx(clamped["expansion_travel"] / 0.6e-3)
+        assert advised("layer_play", clamped["layer_play"])
 
 
 def test_a_held_layer_pulls_on_its_bond_and_one_that_is_followed_does_not() -> None:
@@ -148,7 +148,7 @@ def test_a_rotor_that_hangs_on_the_melt_draws_it_thicker_in_minutes() -> None:
     assert 60.0 < found["layer_drawing_time"] < 600.0
 
 
-def test_a_derated_bond_loses_by_cycles_and_temperature_where_the_study_says_so() -> None:
+def test_a_derated_bond_loses_by_cycles_and_temperature() -> None:
     names = "bond_derating bond_strength layer_holding_torque layer_edge_safety freezing_safety"
     # ln E falls by 0.45 ln(1 + exp((T - 42)/5)) from 23 degC on; the cold point is at 30 degC.
     warm = ((1.0 + exp(-19.0 / 5.0)) / (1.0 + exp(-12.0 / 5.0))) ** 0.45

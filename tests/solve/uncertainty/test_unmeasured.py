@@ -92,7 +92,7 @@ def test_memory_of_the_melt_is_in_the_intervals_unless_named_off() -> None:
         + "operating_points: {cold: {temperature: 30 degC}, hot: {temperature: 70 degC}}\n"
     )
     resolved = resolve_study(read_study_text(warm, "a test"))
-    (memory,) = [one for one in unmeasured_inputs(resolved) if one.name == "melt_memory"]
+    (memory,) = [each for each in unmeasured_inputs(resolved) if each.name == "melt_memory"]
     assert (memory.low, memory.high, memory.logarithmic) == (1.0, 10.0, True)
     intervals = UncertaintyModel(resolved, ["joint_damping@hot", "impedance_range"]).at(resolved, 0).intervals
     for name in ("joint_damping@hot", "impedance_range"):
@@ -102,4 +102,4 @@ def test_memory_of_the_melt_is_in_the_intervals_unless_named_off() -> None:
     without = resolve_study(read_study_text(warm.replace("{cold_side", "{melt_memory: 1, cold_side"), "a test"))
     assert without.quantity("memory_factor@hot") == 1.0
     assert without.quantity("joint_damping@hot") < 0.9 * resolved.quantity("joint_damping@hot")
-    assert "melt_memory" not in {one.name for one in unmeasured_inputs(without)}
+    assert "melt_memory" not in {each.name for each in unmeasured_inputs(without)}
