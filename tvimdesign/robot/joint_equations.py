@@ -108,7 +108,7 @@ def _element_times(frequency: float) -> tuple[float, ...]:
     return tuple((10.0**decades / (2.0 * np.pi * frequency)).tolist())
 
 
-_OF_SLICES = ("stack_profile", "pcl_rheology", "moment_now", "pcl_depth", "support_now", "spring_stiffness")
+_OF_SLICES = ("stack_profile", "rheology_now", "moment_now", "pcl_depth", "support_now", "spring_stiffness")
 _BESIDE = 3  # numbers after those of the elements
 _HIDDEN = "#define CASADI_SYMBOL_EXPORT  /* two joints may be loaded at once */\n"
 

@@ -50,7 +50,7 @@ def compare(model: DeviceFunctions, value_at: Callable[[Array, Array], Supplied]
 
 @pytest.mark.parametrize("design", ["as it is", "sink"])
 def test_derivatives_of_all_values_are_those_of_the_values(design: str, build: Callable[..., DeviceFunctions]) -> None:
-    model = build(design)
+    model = build(design, melt_memory=1.0)  # with one that fades within 3 K the soft time ripples by 1.2e-5
     grids: dict[str, Grid] = {}
     compare(
         model, lambda inputs, along: CycleEngine(model).run(inputs, along, None, grids),

@@ -191,10 +191,16 @@ def frequency_now(m: Module) -> Scalar:
 
 
 @quantities.helper(instant=True)
+def rheology_now(m: Module) -> polymer.AnyRheology:
+    """Relaxation spectrum of the PCL: a melt that is heated has a memory of its crystals, one that cools has none."""
+    return m.pcl_rheology if m.phase.sign > 0.0 else m.pcl_rheology.equilibrated
+
+
+@quantities.helper(instant=True)
 def slice_moduli(m: Module) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the phase leads."""
     return polymer.moduli(
-        m.stack_profile.cells, m.stack_profile.fractions, 2.0 * np.pi * m.frequency_now, m.pcl_rheology
+        m.stack_profile.cells, m.stack_profile.fractions, 2.0 * np.pi * m.frequency_now, m.rheology_now
     )
 
 
@@ -205,7 +211,7 @@ def column_compliances(m: Module) -> list[tuple[Scalar, Scalar]]:
         return []
     omega = 2.0 * np.pi * m.frequency_now
     return [
-        layer.melting_compliance(column, m.stack_now.melting, omega, m.pcl_rheology) for column in m.layer_temperatures
+        layer.melting_compliance(column, m.stack_now.melting, omega, m.rheology_now) for column in m.layer_temperatures
     ]
 
 
