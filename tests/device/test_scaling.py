@@ -23,9 +23,10 @@ SWINGS = {
     "melt_head": 1, "melt_loss": 1, "melt_creep": 2, "layer_drawing_time": -1,
 }  # fmt: skip
 # Rows whose formulas hold a diameter in millimetres, strength and tolerance by size, lengths that are sold, or the one
-# over which a corner's stress is a mean; and temperatures of parts that lose heat.
+# over which a corner's stress is a mean; and temperatures of parts that lose heat, with what these expand.
 FIXED = {"spring_tensile_strength", "wire_range_margin", "coil_diameter_tolerance", "screw_length_misfit",
-         "dowel_length_misfit", "core_foot_rise", "plate_temperature", "core_temperature"}  # fmt: skip
+         "dowel_length_misfit", "core_foot_rise", "plate_temperature", "core_temperature", "expansion_travel",
+         "layer_play"}  # fmt: skip
 TEMPERATURES = {"plate_temperature", "core_temperature"}
 TABLES = {mode: table_for(mode) for mode in MODES}
 
