@@ -72,7 +72,7 @@ def test_springs_seats_and_screws_are_ordered_by_number_and_fit() -> None:
     assert "thread_locker" not in [one.kind for one in beside(design_of("paper", {}), {})]
     design = design_of("paper", {"link_screw_length": 16e-3, "link_dowel_length": 10e-3})
     titles = _titles(design)
-    assert titles["link_screw"] == "Button head screw ISO 7380-1 - M3 x 16 - 10.9"
+    assert titles["link_screw"] == "Button head screw ISO 7380-1 - M3 x 16 - A2-70"
     assert titles["link_dowel"] == "Dowel pin ISO 8734 - 2.5 m6 x 10 - A, hardened steel"
     assert titles["peltier_module"] == Catalog().record("peltiers", str(design.choices["peltier_module"])).title
     own = Record("screws", "own", "Screw from the drawer")

@@ -19,10 +19,10 @@ def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source() -> Non
 
 
 def test_a_screw_is_ordered_by_its_length() -> None:
-    ten = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 10 - 10.9")
+    ten = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 10 - A2-70")
     assert ten is not None
     assert (ten.number, ten.pack, ten.in_words) == ("92095A182", 100, "7.19 USD a pack of 100 (2025-06)")
-    assert offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - 10.9") is None
+    assert offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - A2-70") is None
 
 
 @pytest.mark.parametrize(

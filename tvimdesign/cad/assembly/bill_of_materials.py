@@ -21,6 +21,8 @@ from tvimdesign.cad.parts import casting_jig, setting_jig
 from tvimdesign.device.components.tang import BONDED
 from tvimdesign.study.design import Design
 
+_DRY = 0.2
+"""Friction in a plain bore below which it is greased; see the source of `bore_friction`."""
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
 """Rows of the switch that a supply is bought by: volts, amperes."""
 _WIRED = {
@@ -215,7 +217,8 @@ def _glues(design: Design) -> list[Item]:
 def _beside_the_module(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return the screws that fix the module, and grease where parts rub."""
     bears = up(design.value("structure_service_temperature") - ZERO_CELSIUS)
-    grease = f"Grease for plastics and metals, for {bears} °C: retainer, wave spring, springs' posts and pins"
+    bore = ", bore" if design.choices.get("bearing", "none") == "none" and design.value("bore_friction") < _DRY else ""
+    grease = f"Grease for plastics and metals, for {bears} °C: retainer{bore}, wave spring, springs' posts and pins"
     items = [Item("grease", 1, False, "", grease, 0.0, ())]
     if design.values.get("drive_height", 0.0) > 0.0:
         return items

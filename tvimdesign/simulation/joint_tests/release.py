@@ -126,7 +126,8 @@ def _slip_note(resolved: ResolvedModule, releases: Sequence[Released]) -> tuple[
         return ()
     most = float(resolved.quantity("holding_torque"))
     return (
-        f"At {' and '.join(slips)} the joint bears {most:.3g} N·m and no more: the layer slips or yields by "
+        f"At {' and '.join(slips)} the joint bears {most:.3g} N·m and no more: the weakest on its way (see the "
+        f"run's table of frozen torque) slips or yields by "
         f"{1e3 * max(slips.values()):.3g} mrad while the link is held, and the link stays turned.",
     )
 

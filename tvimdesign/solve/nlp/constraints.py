@@ -110,8 +110,8 @@ def unchangeable(limit: Constraint, table: Table, value: float, study: Study) ->
     if bought := sorted({brought[row.name] for row in behind if row.name in brought}):
         ways = f"choose another `{'`, `'.join(bought)}`" + (f", or {ways}" if variable else "")
     elif not variable:
-        fixed = [row.name for row in behind if row.record is None][:_INPUTS_NAMED] or ["the records it stands on"]
-        ways = f"change under `module`: {', '.join(fixed)}"
+        fixed = [row.name for row in behind if row.record is None] or [row.name for row in behind]
+        ways = f"change under `module`: {', '.join(fixed[:_INPUTS_NAMED])}"
     return f"{in_words(limit, table)} does not hold (it is {is_now}), and nothing under `vary` can change it; {ways}"
 
 

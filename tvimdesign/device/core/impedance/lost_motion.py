@@ -73,7 +73,7 @@ def friction_torque(m: Module) -> Scalar:
     return m.pin_friction_torque + m.bearing_friction_torque + m.preload_friction_torque
 
 
-@quantities.output("1", advice=(Rule(sense="<=", value=1.0, reason="friction holds the soft joint off its rest"),))
+@quantities.output("1", advice=(Rule(sense="<=", value=0.5, reason="friction holds the soft joint far off its rest"),))
 def friction_share(m: Module) -> Scalar:
     """Friction torque over the springs' torque at full stroke; beyond one the springs do not bring the joint back."""
     return m.friction_torque / m.spring_torque_full_stroke

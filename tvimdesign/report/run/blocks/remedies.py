@@ -14,7 +14,7 @@ from typing import Any
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.yaml_data import plain_data
-from tvimdesign.device import Choice, Table, table_for
+from tvimdesign.device import Choice, Input, Table, table_for
 from tvimdesign.report.output.numbers import with_unit
 from tvimdesign.solve.nlp.constraints import advice_of, on_cycle, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
@@ -60,7 +60,7 @@ class Remedies:
         refusal: str | None = ""
         for line in lines:
             entry = plain_data(line)
-            if changes := _words(entry, self._table):
+            if changes := _changes(entry, self._table):
                 if _cures(check, changes, self._answer, self._table):
                     changed = self._study.model_copy(update={"module": {**self._study.module, **changes}})
                     if self._answer.solution is None or cheap or self._least(changed, "module_mass") is not None:
@@ -101,24 +101,24 @@ class Remedies:
             return None
 
 
-def _words(entry: Mapping[str, Any], table: Table) -> dict[str, str]:
-    """Return the records and options that a line chooses; empty if it sets anything else."""
-    words = dict(entry.get("module", {}))
-    return words if all(isinstance(table.by_name.get(name), Choice) for name in words) else {}
+def _changes(entry: Mapping[str, Any], table: Table) -> dict[str, Any]:
+    """Return the records, options and numbers that a line sets in the module; empty if it sets anything else."""
+    changes = dict(entry.get("module", {}))
+    return changes if all(isinstance(table.by_name.get(name), Choice | Input) for name in changes) else {}
 
 
-def _cures(check: ConstraintCheck, words: Mapping[str, str], answer: StudyResult, table: Table) -> bool:
-    """Return whether the advice is followed with other words chosen, numbers and working cycle being the same."""
+def _cures(check: ConstraintCheck, changes: Mapping[str, Any], answer: StudyResult, table: Table) -> bool:
+    """Return whether the advice is followed with a part or number changed, the working cycle being the same."""
     design = answer.design
     study = Study.model_validate(design.study)
     chosen = {name: design.choices[name] for name in study.vary if name in design.choices}
-    changed = study.model_copy(update={"vary": {}, "profile": {}, "module": {**study.module, **chosen, **words}})
+    changed = study.model_copy(update={"vary": {}, "profile": {}, "module": {**study.module, **chosen, **changes}})
     try:
         values = given(changed)
         values |= {name: design.values[name] for name in study.vary if name in design.values}
         values |= {row.name: design.values[row.name] for row in table.supplied}
         value = table.evaluate(values, [check.output])[check.output]
-        if not _fits(words, values, table):
+        if not _fits(changes, values, table):
             return False
     except TvimError:
         return False
@@ -126,12 +126,12 @@ def _cures(check: ConstraintCheck, words: Mapping[str, str], answer: StudyResult
     return all(limit.residual(value) <= CYCLE_TOLERANCE for limit in limits)
 
 
-def _fits(words: Mapping[str, str], values: Mapping[str, Any], table: Table) -> bool:
-    """Return whether what the words bring into the module meets its own rules: a spring must fit its hub."""
+def _fits(changes: Mapping[str, Any], values: Mapping[str, Any], table: Table) -> bool:
+    """Return whether what the changes bring into the module meets its own rules: a spring must fit its hub."""
     brought = [
         (row.name, rule)
         for row in table.outputs
-        if any(feature.choice in words for feature in row.requires)
+        if any(feature.choice in changes for feature in row.requires)
         for rule in row.rules
     ]
     fit_values = table.evaluate(values, list(dict.fromkeys(name for name, _ in brought)))
