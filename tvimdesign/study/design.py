@@ -35,6 +35,10 @@ _AGAIN = "write it anew with `tvimdesign run` from its study"
 _NOWHERE = At(0, 0)
 
 
+_NEAR = 0.9
+"""Share of the supply's voltage from which a heater needs no other voltage."""
+
+
 class Design(BaseModel):
     """One module with all its numbers, in SI, by the names of the table."""
 
@@ -71,6 +75,13 @@ class Design(BaseModel):
         return [
             f"The design is beyond its rating, {how}: {', '.join(names)}." for how, names in groups.items() if names
         ]
+
+    @property
+    def supply_voltage(self) -> float | None:
+        """Voltage [V] that the study gives the heaters at most, where a driver must step it down; else None."""
+        limits = [limit["limit"] for limit in self.study.get("require", ()) if limit["output"] == "peak_voltage"]
+        peak = self.values.get("peak_voltage", math.inf)
+        return min(limits) if limits and peak < _NEAR * min(limits) else None
 
     def value(self, name: str) -> float:
         """SI value of a row; raises InputError for a name the design does not have."""

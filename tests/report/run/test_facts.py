@@ -16,6 +16,7 @@ from tvimdesign.report.run.blocks.facts import (
 )
 from tvimdesign.solve.nlp.solution import Choosing, SolverEffort, Standard
 from tvimdesign.solve.result import StudyResult
+from tvimdesign.study.design import Design
 
 
 def entry(value: float, now: tuple[float, float], before: tuple[float, float | None] | None) -> dict[str, Any]:
@@ -109,7 +110,7 @@ def test_a_layer_that_stalls_cools_again_or_never_softens() -> None:
 @pytest.mark.parametrize(("volts", "words"), [(7.151, "7.15 of 24 V (step-down)"), (22.0, ""), (24.0, "")])
 def test_a_heater_that_needs_far_less_than_the_supply_is_stepped_down(volts: float, words: str) -> None:
     limits = [{"output": "peak_voltage", "sense": "<=", "limit": 24.0}]
-    design = SimpleNamespace(values={"peak_voltage": volts}, study={"require": limits})
+    design = Design.model_construct(values={"peak_voltage": volts}, study={"require": limits})
     assert stepped_down(cast(StudyResult, SimpleNamespace(design=design))) == words
     design.study["require"] = []
     assert stepped_down(cast(StudyResult, SimpleNamespace(design=design))) == ""

@@ -310,12 +310,17 @@ def _supply(design: Design) -> list[Item]:
     both = " both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else ""
     wired = _WIRED[design.choices.get("heater_wiring", "series")]
     asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
-    bridge, bears = "H-bridge" if both else "Switch", (volts, amperes)
+    bridge, bears, asks = "H-bridge" if both else "Switch", (volts, amperes), (volts, amperes)
+    supply = f"DC supply, {asked}"
+    if (given := design.supply_voltage) is not None:
+        # Power is what stays; a tenth is lost in the driver. No offer is known of one that steps down.
+        bears, asks = (given, volts * amperes / given / 0.9), (math.inf, amperes)
+        supply = f"DC supply of {given:.4g} V, at least {up(bears[1])} A"
+        bridge = f"Step-down driver from {given:.4g} V"
+    driver = f"{bridge} with a controlled current{both}, {asked}"
     return [
-        Item("supply", 1, False, "", f"DC supply, {asked}", 0.0, (), asks=bears),
-        Item(
-            "driver", 1, False, "", f"{bridge} with a controlled current{both}, {asked}", 0.0, (), asks=(volts, amperes)
-        ),
+        Item("supply", 1, False, "", supply, 0.0, (), asks=bears),
+        Item("driver", 1, False, "", driver, 0.0, (), asks=asks),
     ]
 
 

@@ -100,10 +100,8 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
 
 def stepped_down(answer: StudyResult) -> str:
     """Return the heater's voltage of the supply's if a driver must step it down; empty if they are close."""
-    limits = [limit["limit"] for limit in answer.design.study["require"] if limit["output"] == "peak_voltage"]
-    volts = answer.design.values["peak_voltage"]
-    far = bool(limits) and volts < _NEAR * min(limits)
-    return f"{number(volts, _DIGITS)} of {number(min(limits), _DIGITS)} V (step-down)" if far else ""
+    supplied, volts = answer.design.supply_voltage, answer.design.values["peak_voltage"]
+    return f"{number(volts, _DIGITS)} of {number(supplied, _DIGITS)} V (step-down)" if supplied else ""
 
 
 def _times(value: _Values) -> Iterator[str]:
@@ -118,8 +116,6 @@ def _times(value: _Values) -> Iterator[str]:
         yield "never stiff again"
 
 
-_NEAR = 0.9
-"""Share of the supply's voltage from which a heater needs no other voltage."""
 _LARGE = 0.1
 """Share of stroke or spring torque from which lost motion or friction stands on the first screen."""
 _LOST = (
