@@ -52,16 +52,16 @@ def test_registers_that_are_used_again_never_lose_what_is_still_read(
 
 @given(taken=steps, at=st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3), first=st.integers(1, 2))
 def test_a_tape_in_two_parts_is_the_whole(taken: list[tuple[int, int, int]], at: list[float], first: int) -> None:
-    x, many, one = grown(taken)
+    x, many, single = grown(taken)
     arguments = ca.SX.sym("y", first), ca.SX.sym("k", 3 - first)
-    values = ca.substitute(ca.vertcat(many, one), x, ca.vertcat(*arguments))
-    given_tape, rest = Tape.parted(arguments, [values])
-    (constants,) = given_tape.values(np.array(at[first:]))
-    (parted,) = rest.values(np.array(at[:first]), constants)
+    values = ca.substitute(ca.vertcat(many, single), x, ca.vertcat(*arguments))
+    constants_tape, values_tape = Tape.parted(arguments, [values])
+    (constants,) = constants_tape.values(np.array(at[first:]))
+    (parted,) = values_tape.values(np.array(at[:first]), constants)
     (whole,) = Tape.of(arguments, [values], inverses=True).values(np.array(at[:first]), np.array(at[first:]))
     assert parted.tolist() == whole.tolist()
-    used = {int(place) for side in (rest.code.first, rest.code.second) for place in side}
-    used |= {int(place) for place in rest.results[0]}
+    used = {int(place) for side in (values_tape.code.first, values_tape.code.second) for place in side}
+    used |= {int(place) for place in values_tape.results[0]}
     assert set(range(first, first + len(constants))) <= used, "what is handed on is needed"
 
 

@@ -61,8 +61,8 @@ class Tape:
         """Record expressions in two: constants that follow from the last argument alone; then the results, of the other
         arguments and these constants.
         """
-        constants, rest = _parted(_recorded(_function(arguments, results), inverses=True))
-        return cls._of_record(constants), cls._of_record(rest)
+        constants, values = _parted(_recorded(_function(arguments, results), inverses=True))
+        return cls._of_record(constants), cls._of_record(values)
 
     @classmethod
     def _of_record(cls, record: _Record) -> Tape:
@@ -153,10 +153,10 @@ def _recorded(function: Any, inverses: bool) -> _Record:
         elif op == ca.OP_OUTPUT:
             written.append((to[0], to[1], place[given[0]]))
         elif op in _KNOWN:
-            one, other = place[given[0]], place[given[-1]]
-            if op in _COMMUTE and one < other:
-                one, other = other, one
-            place[to[0]] = -1 - operations.setdefault((op, one, other), len(operations))
+            operands = place[given[0]], place[given[-1]]
+            if op in _COMMUTE:
+                operands = max(operands), min(operands)
+            place[to[0]] = -1 - operations.setdefault((op, *operands), len(operations))
         else:
             raise ValueError(f"CasADi's operation {op} is not known to tvimdesign.engine.interpreter")
     listed = list(operations)
@@ -185,9 +185,9 @@ def _parted(whole: _Record) -> tuple[_Record, _Record]:
             return first + handed.setdefault(place, len(handed))
         return numbers[-1 - place] if place < 0 else place
 
-    for (op, one, other), is_alone in zip(whole.operations, alone, strict=True):
+    for (op, first_of, other), is_alone in zip(whole.operations, alone, strict=True):
         moved, part = (before, parts[0]) if is_alone else (behind, parts[1])
-        part.append((op, moved(one), moved(other)))
+        part.append((op, moved(first_of), moved(other)))
         numbers.append(-len(part))
     written = [(result, entry, behind(place)) for result, entry, place in whole.written]
     given = [(0, i, before(place)) for place, i in handed.items()]

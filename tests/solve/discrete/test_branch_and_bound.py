@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, cast
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -55,7 +56,8 @@ class Bowl:
         point = tuple(min(max(c, low), high) for c, (low, high) in zip(self.centre, ends, strict=True))
         self.solved += 1
         values = dict(zip(self.sizes.names, point, strict=True))
-        return SimpleNamespace(values=values, start=SimpleNamespace(converged=True, objective=self.at(point))), True
+        start = SimpleNamespace(converged=True, objective=self.at(point))
+        return SimpleNamespace(values=values, start=start, unknowns=np.array(point)), True
 
     def exactly(self, box: Box, near: Any) -> tuple[Any, bool]:
         return self.best_within(box, near)

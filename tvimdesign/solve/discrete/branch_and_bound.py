@@ -126,7 +126,7 @@ class BranchAndBound:
     _made: int = 0
     _reports: int = 0
     _tried_others: set[int] = field(default_factory=set)
-    _begun: set[tuple[int, Box, bytes]] = field(default_factory=set)
+    _starts_tried: set[tuple[int, Box, bytes]] = field(default_factory=set)
     """Combinations with the unknowns that each was solved from."""
     _bounded: list[NDArray[np.bool_]] = field(default_factory=list)
     _pseudo_costs: dict[int, PseudoCosts] = field(default_factory=dict)
@@ -254,9 +254,9 @@ class BranchAndBound:
         """Solve combinations; the better of two where another box came to one too, and promises better."""
         first: dict[tuple[int, Box], Task] = {}
         for task in tasks:
-            begun = task.place, task.box, b"" if task.near is None else task.near.unknowns.tobytes()
-            if begun not in self._begun and self._promises(task):
-                self._begun.add(begun)
+            start = task.place, task.box, b"" if task.near is None else task.near.unknowns.tobytes()
+            if start not in self._starts_tried and self._promises(task):
+                self._starts_tried.add(start)
                 first.setdefault((task.place, task.box), task)
         others: list[Task] = []
         for key, (run, certain) in zip(first, self._answers(list(first.values())), strict=False):
