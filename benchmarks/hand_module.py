@@ -43,7 +43,7 @@ RETAINER, RETAINER_RADIUS = 2.5e-3, 13e-3
 # Screws: four M3 of the link, one M4 of the retainer
 LINK_PILOT, LINK_HOLE, LINK_HEAD, LINK_HEAD_HEIGHT, LINK_SCREW = 2.5e-3, 3.4e-3, 5.7e-3, 1.65e-3, 12e-3
 LAST_PILOT, LAST_HOLE, LAST_HEAD, LAST_HEAD_HEIGHT, LAST_SCREW = 3.3e-3, 4.5e-3, 7.6e-3, 2.2e-3, 10e-3
-TIP_ROOM, RHO_STEEL = 0.5e-3, 7850.0
+TIP_ROOM, RHO_STEEL, RHO_SCREW = 0.5e-3, 7850.0, 7900.0
 CUTOUT_RADIUS = 2.1e-3
 CUTOUT = 3500.0 * PI * (CUTOUT_RADIUS**2 * 11.2e-3 + 0.5e-3**2 * 2.0 * 6e-3)  # kg, with the straight ends of its wires
 DOWELS, DOWEL, DOWEL_LONG, DOWEL_CIRCLE = 4.0, 2.5e-3, 10e-3, 7e-3
@@ -320,14 +320,15 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     shank, head = 0.25 * PI * LAST_PILOT**2 * LAST_SCREW, 0.25 * PI * LAST_HEAD**2 * LAST_HEAD_HEIGHT
     screws = shanks * (0.125 * LINK_PILOT**2 + BOLT_CIRCLE**2) + heads * (0.125 * LINK_HEAD**2 + BOLT_CIRCLE**2)
     screws += 0.125 * (shank * LAST_PILOT**2 + head * LAST_HEAD**2)
-    inertia += RHO_STEEL * (screws + dowel_polar * DOWEL_LONG)
+    inertia += RHO_SCREW * screws + RHO_STEEL * dowel_polar * DOWEL_LONG
     wire = leg * rise + n * math.sqrt((PI * coil) ** 2 + pitch**2) + curve * (0.5 * PI - math.atan(slope))
     wire += FLOOR - TANG_END_GAP
     mass = RHO_PETG * (housing + turning + link + retainer) + RHO_PCL * area * t + pads
     mass += (
         CUTOUT
         + RHO_WIRE * SPRINGS * 0.25 * PI * d**2 * wire
-        + RHO_STEEL * (shanks + heads + shank + head + dowel * DOWEL_LONG)
+        + RHO_SCREW * (shanks + heads + shank + head)
+        + RHO_STEEL * dowel * DOWEL_LONG
     )
     # gaps
     far_pin = math.sqrt(pin_at**2 + r**2 - 2.0 * pin_at * r * math.cos(STOP))

@@ -66,9 +66,9 @@ SETTLED = (
 """What the joint's impedance at an instant needs to know of the module."""
 AT_AN_INSTANT = (
     layer_heat.edge_drops, layer_heat.layer_surroundings, layer_heat.end_places, layer_heat.end_profile,
-    layer_heat.layer_temperatures, thermal_stack.slice_moduli, thermal_stack.column_compliances,
-    thermal_stack.layer_moduli, thermal_stack.layer_stiffness_now, warm_structure.parts_now, warm_structure.support_now,
-    thermal_stack.branch_now, thermal_stack.impedance_now,
+    layer_heat.layer_temperatures, thermal_stack.rheology_now, thermal_stack.slice_moduli,
+    thermal_stack.column_compliances, thermal_stack.layer_moduli, thermal_stack.layer_stiffness_now,
+    warm_structure.parts_now, warm_structure.support_now, thermal_stack.branch_now, thermal_stack.impedance_now,
 )  # fmt: skip
 
 
@@ -79,14 +79,14 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     found = model.table.evaluate(known, [*SETTLED, "layer_polar_moment", "joint_impedance@hot"])
     stack, moment = found["stack"], found["layer_polar_moment"]
     target, soft = numbers["target_temperature"], numbers["softening_band"] * found["joint_impedance@hot"]
-    current, frequency = numbers["current"], numbers["frequency@hot"]
+    current, frequency, phase = numbers["current"], numbers["frequency@hot"], model.phases["softening"].phase
 
     def rates(_: float, state: Array) -> Any:
         return heat.rates(state, stack, current)
 
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
-        m = Module(stack_profile=now, stack_now=stack, frequency_now=frequency, moment_now=moment, **found)
+        m = Module(phase=phase, stack_profile=now, stack_now=stack, frequency_now=frequency, moment_now=moment, **found)
         for function in AT_AN_INSTANT:
             setattr(m, function.__name__, function(m))
         mean = np.mean(now.cells)

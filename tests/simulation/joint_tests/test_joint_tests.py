@@ -163,7 +163,8 @@ def test_interval_holds_what_stands_between_the_histories(resolved: ResolvedModu
     found = next(one for one in release.findings if one.name == "settling_time@melting")
     temperature = resolved.quantity("temperature@melting")
     fraction = 0.25 * fractions_at(resolved, temperature)[2]
-    time, modulus = polymer.spectrum(temperature, fraction, resolved.quantity("pcl_rheology"))[0]
+    lasting = resolved.quantity("pcl_rheology").equilibrated  # it was cooled
+    time, modulus = polymer.spectrum(temperature, fraction, lasting)[0]
     creep = (
         time
         * modulus

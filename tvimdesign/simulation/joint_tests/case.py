@@ -14,7 +14,7 @@ from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.link_motion.course import Plant
 from tvimdesign.simulation.link_motion.sampled_motion import OneSided, with_loss
 from tvimdesign.simulation.trial import Column, CurveTable, Finding
-from tvimdesign.simulation.working_cycle.melt_history import fractions_at
+from tvimdesign.simulation.working_cycle.melt_history import fractions_at, left_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
 
@@ -81,7 +81,8 @@ class Case:
 
     def rows(self, resolved: ResolvedModule, names: Sequence[str]) -> dict[str, Any]:
         """Return rows of the table at this point, as this history leaves it, by plain name."""
-        values = {**resolved.values, f"solid_fraction@{self.point}": self.history.fraction}
+        nominal = fractions_at(resolved, self.temperature).nominal
+        values = left_at(resolved.values, self.point, self.history.fraction, nominal)
         values_by_name = resolved.table.evaluate(values, [f"{name}@{self.point}" for name in names])
         return {name: values_by_name[f"{name}@{self.point}"] for name in names}
 

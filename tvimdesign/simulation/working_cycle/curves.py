@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at
+from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, left_at
 from tvimdesign.simulation.working_cycle.phase_functions import SHOWN, PhaseFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.simulation.working_cycle.trajectory import Trajectory
@@ -79,7 +79,7 @@ def impedance_sweep(resolved: ResolvedModule) -> Curves:
     low, nominal, high = np.array([fractions_at(resolved, float(at)) for at in celsius + ZERO_CELSIUS]).T
     shares = np.array([nominal, *(low + part * (high - low) for part in np.linspace(0.0, 1.0, HISTORIES))])
     # Every sample at once; the solid fraction at the hot point is given.
-    swept = {**resolved.values, "temperature@hot": celsius + ZERO_CELSIUS, "solid_fraction@hot": shares}
+    swept = left_at(resolved.values, "hot", shares, nominal) | {"temperature@hot": celsius + ZERO_CELSIUS}
     found = resolved.table.evaluate(swept, [f"{name}@hot" for name in names])
     curves: Curves = {"temperature": celsius.tolist()}
     for name in names:

@@ -8,7 +8,7 @@ glass follows that curve both ways.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 Array = NDArray[np.float64]
+MEMORY = "melt_memory"
 HISTORIES = 5
 """Solid fractions, equally spaced from the least to the largest, of which the extremes are taken."""
 
@@ -101,12 +102,14 @@ def intervals(
         runs = []
         for share in (nominal, *np.linspace(low, high, HISTORIES)):
             seen = (
-                _as_left(resolved, model, point, float(share), current_profiles)
+                _as_left(resolved, model, left_at(resolved.values, point, float(share), nominal), current_profiles)
                 if _sets_a_target(model.table, point)
                 else cycle
             )
+            left = left_at(resolved.values, point, float(share), nominal)
             outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
-            runs.append(np.asarray(outputs(inputs, [seen[name] for name in model.switch_names])).ravel())
+            given = np.array([left[name] if name == MEMORY else inputs[i] for name, i in model.index.items()])
+            runs.append(np.asarray(outputs(given, [seen[name] for name in model.switch_names])).ravel())
         least, most = np.min(runs, axis=0), np.max(runs, axis=0)
         for name, a, b in zip(model.output_names, least, most, strict=True):
             if not (np.isnan(a) or np.isclose(a, b, rtol=1e-9, atol=0.0)):
@@ -114,6 +117,15 @@ def intervals(
                 found[name] = (float(min(a, other[0])), float(max(b, other[1])))
         found[f"solid_fraction@{point}"] = (low, high)
     return found
+
+
+def left_at(values: Mapping[str, Any], point: str, share: Any, nominal: Any) -> dict[str, Any]:
+    """Return a module's values as a history leaves its layer at a point.
+
+    With a solid fraction below the `nominal` one on heating it was cooled, and its melt has no memory of its crystals.
+    """
+    left = {**values, f"solid_fraction@{point}": share}
+    return left | ({MEMORY: np.where(share < nominal, 1.0, values[MEMORY])} if MEMORY in values else {})
 
 
 def _sets_a_target(table: Table, point: str) -> bool:
@@ -124,14 +136,11 @@ def _sets_a_target(table: Table, point: str) -> bool:
 def _as_left(
     resolved: ResolvedModule,
     model: DeviceFunctions,
-    point: str,
-    share: float,
+    left: Mapping[str, Any],
     current_profiles: Mapping[str, CurrentProfile] | None,
 ) -> Mapping[str, float]:
-    """Return the cycle's values where a point has a given solid fraction."""
-    other = DeviceFunctions(
-        resolved.table, {**resolved.values, f"solid_fraction@{point}": share}, resolved.points, model.cells
-    )
+    """Return the cycle's values of a module as a history leaves it."""
+    other = DeviceFunctions(resolved.table, left, resolved.points, model.cells)
     return Simulator(other).run(other.start, current_profiles).values
 
 

@@ -16,7 +16,7 @@ from tvimdesign.base.user_cache import find_code, keep_code
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
-from tvimdesign.solve.batch.cycle_kernel import Pace
+from tvimdesign.solve.batch.cycle_kernel import WIDE, Pace
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
 from tvimdesign.solve.sensitivity.output_sensitivity import behind_profiles
@@ -93,7 +93,7 @@ class UncertaintyModel:
     def _pace_at(self, resolved: ResolvedModule) -> Pace | None:
         assert self._model is not None
         inputs = np.array([float(value) for value in resolved.values.values() if isinstance(value, int | float)])
-        return self._model.pace_at(inputs, beside=self._pace)
+        return self._model.pace_at(inputs, beside=self._pace, width=WIDE)
 
     def fits(self, resolved: ResolvedModule) -> bool:
         """Return whether a module differs from the recorded one only in inputs that may change."""
