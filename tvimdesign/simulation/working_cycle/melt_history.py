@@ -99,17 +99,21 @@ def intervals(
         low, nominal, high = fractions_at(resolved, float(inputs[model.index[f"temperature@{point}"]]))
         if low == high:
             continue
-        runs = []
+        runs, here = [], np.array([name.endswith(f"@{point}") for name in model.output_names])
         for share in (nominal, *np.linspace(low, high, HISTORIES)):
             seen = (
                 _as_left(resolved, model, left_at(resolved.values, point, float(share), nominal), current_profiles)
                 if _sets_a_target(model.table, point)
                 else cycle
             )
-            left = left_at(resolved.values, point, float(share), nominal)
             outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
-            given = np.array([left[name] if name == MEMORY else inputs[i] for name, i in model.index.items()])
-            runs.append(np.asarray(outputs(given, [seen[name] for name in model.switch_names])).ravel())
+            supplied = [seen[name] for name in model.switch_names]
+            values = np.asarray(outputs(inputs, supplied)).ravel()
+            if share < nominal and MEMORY in model.index:  # other points are heated still
+                without = inputs.copy()
+                without[model.index[MEMORY]] = 1.0
+                values = np.where(here, np.asarray(outputs(without, supplied)).ravel(), values)
+            runs.append(values)
         least, most = np.min(runs, axis=0), np.max(runs, axis=0)
         for name, a, b in zip(model.output_names, least, most, strict=True):
             if not (np.isnan(a) or np.isclose(a, b, rtol=1e-9, atol=0.0)):
