@@ -23,7 +23,7 @@ from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.batch.cycle_kernel import NARROW, CycleKernel, Pace
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,7 @@ class BatchModel:
         """That of the module as drawn, for who gives none."""
         return self.pace_at(self._simulator.model.start)
 
-    def pace_at(self, inputs: Array, beside: Pace | None = None, width: float = NARROW) -> Pace | None:
+    def pace_at(self, inputs: Array, beside: Pace | None = None) -> Pace | None:
         """Return how the design with these inputs goes through its cycle; None if nothing depends on it.
 
         Its steps are those of a design `beside` it, if given, and chosen anew otherwise.
@@ -65,7 +65,7 @@ class BatchModel:
         pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
         column = inputs[self._places]
         if beside is None:
-            return self.cycle.fitted(pace, column, width)
+            return self.cycle.fitted(pace, column)
         return replace(pace, fits={name: replace(fit, about=column) for name, fit in beside.fits.items()})
 
     def __call__(

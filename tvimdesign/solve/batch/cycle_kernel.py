@@ -37,9 +37,8 @@ CLOSE, MOST = 8e-4, 0.9
 fine enough."""
 LATE = 3.0
 """Times of the study's own design up to which others are followed there."""
-MORE, NARROW, WIDE = 8, 0.05, 0.5
-"""Designs that steps are tried on, beside one for each moving input; how far from the one they are about modules are,
-and designs over the ranges of assumed values."""
+MORE, WIDTH = 8, 0.05
+"""Designs that steps are tried on, beside one for each moving input, and how far from the one they are about."""
 
 
 @dataclass(frozen=True)
@@ -111,10 +110,10 @@ class CycleKernel:
                 pass
         return results
 
-    def fitted(self, pace: Pace, column: Array, width: float = NARROW) -> Pace:
+    def fitted(self, pace: Pace, column: Array) -> Pace:
         """Choose the steps of each phase for designs about one, as coarse as is exact enough for all values."""
         tried = LANES * math.ceil((len(column) + MORE) / LANES)
-        drawn = np.random.default_rng(0).uniform(-width, width, (len(column), tried))
+        drawn = np.random.default_rng(0).uniform(-WIDTH, WIDTH, (len(column), tried))
         drawn[:, 0] = 0.0
         columns, ends, fits = column[:, None] * (1.0 + drawn), dict[str, Array](), dict[str, Fit]()
         for name, phase in self.phases.items():

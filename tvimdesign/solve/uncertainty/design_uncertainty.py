@@ -6,7 +6,7 @@ Scrambled Sobol points, kept from one run to the next: to load scipy's takes 0.4
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 
 import numpy as np
@@ -16,7 +16,7 @@ from tvimdesign.base.user_cache import find_code, keep_code
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
-from tvimdesign.solve.batch.cycle_kernel import WIDE, Pace
+from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
 from tvimdesign.solve.sensitivity.output_sensitivity import behind_profiles
@@ -93,7 +93,7 @@ class UncertaintyModel:
     def _pace_at(self, resolved: ResolvedModule) -> Pace | None:
         assert self._model is not None
         inputs = np.array([float(value) for value in resolved.values.values() if isinstance(value, int | float)])
-        return self._model.pace_at(inputs, beside=self._pace, width=WIDE)
+        return self._model.pace_at(inputs, beside=self._pace)
 
     def fits(self, resolved: ResolvedModule) -> bool:
         """Return whether a module differs from the recorded one only in inputs that may change."""
@@ -120,14 +120,17 @@ class UncertaintyModel:
 
     def _rows(
         self, resolved: ResolvedModule, columns: Array, places: Sequence[str], workers: int,
-        only: Collection[str] | None = None,
+        only: Collection[str] | None = None, *, modules: bool = False,
     ) -> Array:  # fmt: skip
-        """Rows for `outputs`, all inputs but those in `places` as the design has them."""
+        """Rows for `outputs` of designs, or of `modules` of one, all inputs but those in `places` as the design has
+        them."""
         assert self._model is not None
         drawn = np.array([float(resolved.values[name]) for name in self.names])
         every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
         every[[self.names.index(name) for name in places]] = columns
-        return self._model(every, workers, self._pace, only)
+        # Steps that are fitted to modules are too coarse for what lies far off over the ranges of assumed values.
+        pace = self._pace if modules or self._pace is None else replace(self._pace, fits={})
+        return self._model(every, workers, pace, only)
 
     def _yield(
         self, resolved: ResolvedModule, limits: Sequence[Constraint], modules: int, workers: int
@@ -141,7 +144,9 @@ class UncertaintyModel:
             return None
         places = [contributor.name for contributor in contributors]
         points = sobol_points(len(contributors), modules, resolved.study.solver.seed)
-        drawn = self._rows(resolved, spread.inputs_at(contributors, points.T), places, workers, self._early)
+        drawn = self._rows(
+            resolved, spread.inputs_at(contributors, points.T), places, workers, self._early, modules=True
+        )
         return spread.share_kept(np.all(_satisfied(limits, self.outputs, drawn), axis=0))
 
     def _before(self, resolved: ResolvedModule, draws: int, workers: int) -> dict[str, tuple[float, float]]:
