@@ -136,7 +136,9 @@ def test_a_chosen_record_of_a_user_s_folder_is_the_one_that_is_shown(tmp_path: P
     (tmp_path / "polymers/mine.yaml").write_text(mine)
     study = read_study_text(f"mode: shear\ncatalog: {tmp_path}\nmodule: {{pcl_grade: mine}}\n", "a test")
     values = results(answer(study), TABLE)["values"]
-    assert values["pcl_melting_start"]["source"].startswith("polymers/mine: assumed: weighed by me")
+    assert values["pcl_melting_start"]["source"] == (
+        "polymers/mine: assumed: weighed by me; test: calorimeter, the lot heated at 10 K/min"
+    )
 
 
 def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path: Path) -> None:

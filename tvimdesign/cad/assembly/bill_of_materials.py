@@ -23,6 +23,8 @@ from tvimdesign.study.design import Design
 
 _DRY = 0.2
 """Friction in a plain bore below which it is greased; see the source of `bore_friction`."""
+_EFFICIENCY = 0.9
+"""Power out of a step-down driver over power into it, assumed."""
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
 """Rows of the switch that a supply is bought by: volts, amperes."""
 _WIRED = {
@@ -313,8 +315,8 @@ def _supply(design: Design) -> list[Item]:
     bridge, bears, asks = "H-bridge" if both else "Switch", (volts, amperes), (volts, amperes)
     supply = f"DC supply, {asked}"
     if (given := design.supply_voltage) is not None:
-        # Power is what stays; a tenth is lost in the driver. No offer is known of one that steps down.
-        bears, asks = (given, volts * amperes / given / 0.9), (math.inf, amperes)
+        # Power is what stays. No offer is known of a driver that steps down.
+        bears, asks = (given, volts * amperes / given / _EFFICIENCY), (math.inf, amperes)
         supply = f"DC supply of {given:.4g} V, at least {up(bears[1])} A"
         bridge = f"Step-down driver from {given:.4g} V"
     driver = f"{bridge} with a controlled current{both}, {asked}"
