@@ -26,7 +26,7 @@ from tvimdesign.device.compression import (
     vane_stiffness,
     vane_tiles,
 )
-from tvimdesign.device.core import clearances, layout, mass_properties, materials, motor_choice
+from tvimdesign.device.core import clearances, layout, mass_properties, materials, motor_choice, task
 from tvimdesign.device.core.heat import heater_form, softening, stiffening, thermal_stack
 from tvimdesign.device.core.impedance import (
     joint_impedance,
@@ -55,7 +55,7 @@ SHARED_FILES = (
     materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
     warm_structure, large_motion, thermal_stack, softening, stiffening, mass_properties, clearances, axial_preload,
     process, heater_form, screws, tang, dowels, hard_stops, heater_adhesive, liner, bearing, preload_adjuster, cover,
-    sensor_flange, motor_choice, motor_layout, motor_mass_properties, motor_clearances,
+    sensor_flange, motor_choice, motor_layout, motor_mass_properties, motor_clearances, task,
 )  # fmt: skip
 FILES_OF_MODE = {
     "shear": (

@@ -58,10 +58,11 @@ def _read(tree: StudyTree, table: TableOf, catalog: CatalogOf) -> tuple[Study, S
     mode = _mode(problems, nodes.get("mode"), tree, table)
     records = _records(problems, nodes.get("catalog", tree.root), folder if mode else None, catalog)
     readers = {section.name: section.read for section in SECTIONS}
-    reading = Reading(problems, mode, table(mode or MODES[0]), records, nodes, readers)
+    reading = Reading(problems, mode, table(mode or MODES[0]), records, nodes, readers, tree.folder)
     read = {section.name: reading.section(section.name) for section in SECTIONS if mode or not section.needs_mode}
     problems.stop()
     fields = {name: read[name] for name in Study.model_fields if name in read}
+    fields["trajectory"] = read["task"]["trajectory"] if mode else None
     named = {"name": read["name"] or tree.name, "mode": mode, "catalog_folder": folder.as_posix() if folder else None}
     study = Study(**{**fields, **named}).based_on(reading.catalog, reading.table)
     return with_fitting_defaults(study), read["sweep"]

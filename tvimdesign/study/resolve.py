@@ -18,6 +18,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.catalog.category import inherited_law_warnings
 from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.core.heat.heater_form import CUT, contradiction
+from tvimdesign.device.core.task import ARM, Trajectory
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
 _NONE = 1e-12
@@ -34,6 +35,8 @@ def given(study: Study) -> dict[str, Any]:
     known: dict[str, Any] = {}
     for choice in study.table.choices:
         known[choice.name] = _chosen(choice, study, known)
+    if study.trajectory and known.get("task", ARM) == ARM:
+        known["trajectory"] = Trajectory(*study.trajectory.model_dump().values())
     for row in study.table.inputs:
         if row.per_point:
             for point, values in study.operating_points.items():

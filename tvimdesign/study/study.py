@@ -130,6 +130,14 @@ class GivenCurrent(_Part):
     currents: tuple[float, ...] = Field(description="the current at each moment", json_schema_extra={"unit": "A"})
 
 
+class GivenTrajectory(_Part):
+    """Angles [rad] of the housing at some moments [s]; a cubic spline joins them."""
+
+    moments: tuple[float, ...] = Field(description="moments, rising", json_schema_extra={"unit": "s"})
+    angles: tuple[float, ...] = Field(description="the housing's angle at each", json_schema_extra={"unit": "rad"})
+    at_rest: bool = Field(True, description="the housing starts and ends at rest; else at constant speed")
+
+
 class FrontOptions(_Part):
     """Two or three outputs to be traded against one another."""
 
@@ -162,6 +170,8 @@ class Study(_Part):
     profile: ProfileOptions = ProfileOptions()
     currents: dict[str, GivenCurrent] = {}
     """Currents over time by phase, of a study that evaluates its module; constant ones are inputs of it."""
+    trajectory: GivenTrajectory | None = None
+    """Motion of the housing in the task."""
     tolerances: dict[str, Tolerance] = {}
     robust: Robust | None = None
     solver: SolverOptions = SolverOptions()

@@ -30,7 +30,7 @@ from tvimdesign.device.table.quantity import (
 F = TypeVar("F", bound=Callable[[Module], Any])
 
 GROUPS = (
-    "Materials", "Process", "Layout", "Springs", "Impedance", "Lost motion", "Hold", "Switch", "Softening",
+    "Materials", "Process", "Layout", "Springs", "Impedance", "Lost motion", "Hold", "Task", "Switch", "Softening",
     "Stiffening", "Size and weight", "Gaps", "Axial play",
 )  # fmt: skip
 """The headings under which reports list quantities, in their order."""

@@ -9,6 +9,7 @@ from tvimdesign.study.sections.goals import ACCEPT, FRONT, MINIMIZE, REQUIRE
 from tvimdesign.study.sections.section import Schema, Section
 from tvimdesign.study.sections.settings import CURRENTS, MODULE, POINTS, PROFILE, SOLVER, WRITE
 from tvimdesign.study.sections.sweeps import SWEEP
+from tvimdesign.study.sections.task import TASK
 from tvimdesign.study.sections.tolerances import ROBUST, TOLERANCES
 from tvimdesign.study.sections.vary import VARY
 from tvimdesign.study.study import FORMAT, Study
@@ -56,7 +57,8 @@ SECTIONS = (
         "catalog", "folder of your own records, relative to this file",
         _read_before, _TEXT, lambda study: study.catalog_folder,
     ),
-    MODULE, VARY, REQUIRE, ACCEPT, MINIMIZE, FRONT, POINTS, PROFILE, CURRENTS, TOLERANCES, ROBUST, SOLVER, SWEEP, WRITE,
+    MODULE, TASK, VARY, REQUIRE, ACCEPT, MINIMIZE, FRONT, POINTS, PROFILE, CURRENTS, TOLERANCES, ROBUST, SOLVER, SWEEP,
+    WRITE,
 )  # fmt: skip
 NAMES = tuple(section.name for section in SECTIONS)
 

@@ -51,7 +51,7 @@ def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...
         read = _limits(reading, value, path, name, row)
         _contradictions(reading, value, path, row, read)
         requirements += read
-    return tuple(requirements)
+    return (*requirements, *reading.section("task")["require"])
 
 
 def _read_minimize(reading: Reading, node: Node | None) -> dict[str, float]:

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device.core.task import GROUP as TASK_GROUP
 from tvimdesign.study.sections.section import (
     POINT,
     Schema,
@@ -59,7 +60,7 @@ def _read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
             reading.unknown_quantity(key, path, "input or choice", name, [row.name for row in settable(reading.table)])
         if read is not None:
             module[name] = read
-    return module
+    return {**module, **reading.section("task")["module"]}
 
 
 def _read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, float]]:
@@ -150,7 +151,11 @@ def _check_profile(reading: Reading) -> None:
 MODULE = Section(
     "module", "inputs and choices of the module", _read_module,
     lambda table: mapping({row.name: set_schema(row) for row in settable(table)}),
-    lambda study: {name: written_value(study.table, name, value) for name, value in study.module.items()},
+    lambda study: {
+        name: written_value(study.table, name, value)
+        for name, value in study.module.items()
+        if study.table.quantity(name).group != TASK_GROUP
+    },
 )  # fmt: skip
 POINTS = Section(
     "operating_points", "temperatures and frequencies for stiffness and damping; `cold` and `hot` always exist",

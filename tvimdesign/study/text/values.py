@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection, Iterable
 from collections.abc import Mapping as Mapped
 from contextlib import suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import CatalogError, UnitError
@@ -38,6 +39,8 @@ class Reading:
     nodes: Mapped[str, Node]
     """The sections as they are written."""
     readers: Mapped[str, Callable[[Reading, Node | None], Any]]
+    folder: Path = Path()
+    """The study's, from which the files that it names are sought."""
     values: dict[str, Any] = field(default_factory=dict)
     """The sections that have been read."""
 

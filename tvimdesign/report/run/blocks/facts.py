@@ -10,6 +10,7 @@ import numpy as np
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
+from tvimdesign.device.core.task import ARM
 from tvimdesign.report.output.choices_tables import choice_text
 from tvimdesign.report.output.numbers import (
     ends_text,
@@ -92,6 +93,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
         *_impedance(value),
+        *_task(value, answer.design.choices),
         Fact("Energy", [f"{value('switch_energy')} to soften", peaks]),
     ]
     doubts = (*_manufacturing(uncertainty), *_model(uncertainty))
@@ -144,6 +146,15 @@ def _impedance(value: _Values) -> list[Fact]:
         return []
     soft = f"soft {value('softened_stiffness')}, {value('softened_damping')}"
     return [Fact("Impedance", [soft, f"frozen {value('joint_stiffness@cold')}"])]
+
+
+def _task(value: _Values, choices: Mapping[str, str]) -> list[Fact]:
+    """Return the load that the frozen joint holds with its safety, and its sag; none without a task."""
+    if choices.get("task") != ARM:
+        return []
+    torque, safety = value("task_torque@cold"), number(value.values["load_safety"], _DIGITS)
+    load = f"{value('payload')} at {value('arm_length')}"
+    return [Fact("Task", [f"holds {load}: {torque} x safety {safety}", f"sags {value('sag@cold')} frozen"])]
 
 
 def _active_constraints(answer: StudyResult) -> list[Fact]:

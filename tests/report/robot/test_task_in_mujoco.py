@@ -1,0 +1,139 @@
+"""MuJoCo gives the exported joint an arm: torque, sag and impact are those of the table, within 5 %."""
+
+import re
+from dataclasses import replace
+from typing import Any
+from xml.etree import ElementTree as Xml
+
+import mujoco
+import numpy as np
+import pytest
+from robot_models import model_of, module_of
+
+from tvimdesign.device.core.task import Trajectory
+from tvimdesign.robot.model_files import mjcf
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+pytestmark = pytest.mark.gate
+TOLERANCE = 0.05
+"""Share by which MuJoCo may differ."""
+TASK = {
+    "task": "arm", "arm_length": 0.25, "arm_mass": 0.1, "payload": 0.15, "pose_time": 2.0, "sine_amplitude": 0.05,
+    "sine_from": 3.0, "sine_to": 3.0, "impact_mass": 0.1, "impact_speed": 0.3,
+    "trajectory": Trajectory((0.0, 0.3, 0.6), (0.0, 0.3, 0.0)),
+}  # fmt: skip
+
+
+def _task(mode: str) -> ResolvedModule:
+    module = module_of(mode)
+    return replace(module, values={**module.values, **TASK})
+
+
+def _arm(mode: str, point: str, step: float, extra: float = 0.0, *, ball: bool = False) -> mujoco.MjModel:
+    """Load the exported joint with the arm along x in place of the bench's load, gravity along -y."""
+    values = _task(mode).values
+    model = model_of(mode, step)
+    state = next(state for state in model.states if state.point == point)
+    root = Xml.fromstring(re.sub(r"<(mesh|geom) [^>]*>|<\?xml.*\?>", "", mjcf(model, state)))
+    for joint in root.iter("joint"):
+        joint.attrib.pop("frictionloss", None)  # the table's task has no friction
+    option, length = root.find("option"), values["arm_length"]
+    assert option is not None
+    option.set("gravity", f"0 {-values['gravity']} 0")
+    moving = next(body for body in root.iter("body") if body.get("name") == "moving")
+    load = moving.find("body")
+    assert load is not None
+    moving.remove(load)
+    bar = values["arm_mass"]
+    across = bar * length**2 / 12.0
+    for name, place, mass, inertia in (
+        ("bar", 0.5 * length, bar, across), ("end", length, values["payload"] + extra, 1e-9),
+    ):  # fmt: skip
+        body = Xml.SubElement(moving, "body", name=name, pos=f"{place} 0 0")
+        Xml.SubElement(body, "inertial", pos="0 0 0", mass=str(mass), diaginertia=f"{inertia} {inertia} {inertia}")
+    if ball:
+        body = Xml.SubElement(root.find("worldbody"), "body", name="ball", pos=f"{length} 0 0")  # type: ignore[arg-type]
+        Xml.SubElement(body, "joint", name="ball", type="slide", axis="0 1 0")
+        Xml.SubElement(body, "inertial", pos="0 0 0", mass=str(values["impact_mass"]), diaginertia="1e-6 1e-6 1e-6")
+        contact = Xml.SubElement(
+            root.find("tendon"), "fixed", stiffness=str(values["impact_stiffness"]), springlength="0"  # type: ignore[arg-type]
+        )  # fmt: skip
+        Xml.SubElement(contact, "joint", joint="ball", coef="1")
+        Xml.SubElement(contact, "joint", joint="joint", coef=str(-length))
+        keyframe = root.find("keyframe")
+        assert keyframe is not None
+        root.remove(keyframe)
+    return mujoco.MjModel.from_xml_string(Xml.tostring(root, encoding="unicode"))
+
+
+def _followed(loaded: mujoco.MjModel, seconds: float, base: Any = None, speed: float = 0.0) -> tuple[Any, Any]:
+    """Return angle and torque of the joint at each step, the base's angular acceleration given over time."""
+    if base is not None or speed:
+        loaded.opt.gravity[:] = 0.0
+    data, full = mujoco.MjData(loaded), np.zeros((loaded.nv, loaded.nv))
+    data.joint("joint").qvel[0] = speed
+    mujoco.mj_forward(loaded, data)
+    mujoco.mj_fullM(loaded, full, data.qM) if hasattr(data, "qM") else mujoco.mj_fullM(loaded, data, full)
+    inertia, place = full[0, 0], loaded.joint("joint").dofadr[0]
+    angles, torques = [], []
+    for _ in range(int(seconds / loaded.opt.timestep)):
+        push = 0.0 if base is None else -inertia * float(base(data.time))
+        data.qfrc_applied[place] = push
+        mujoco.mj_step(loaded, data)
+        angles.append(data.qpos[place])
+        torques.append(push - inertia * data.qacc[place])
+    return np.array(angles), np.array(torques)
+
+
+POINTS = [("shear", "cold", 2e-5), ("shear", "hot", 2e-5), ("compression", "cold", 2e-5)]
+
+
+@pytest.mark.parametrize(("mode", "point", "step"), POINTS)
+def test_sag_is_that_of_mujoco_s_arm(mode: str, point: str, step: float) -> None:
+    angles, _ = _followed(_arm(mode, point, step), 2.0)
+    last = angles[-int(0.3 / step) :]
+    assert -np.mean(last) * TASK["arm_length"] == pytest.approx(_task(mode).quantity(f"sag@{point}"), rel=TOLERANCE)
+
+
+@pytest.mark.parametrize(("mode", "point", "step"), POINTS)
+def test_torque_of_a_sine_and_a_trajectory_is_mujoco_s(mode: str, point: str, step: float) -> None:
+    module = _task(mode)
+    omega = 2.0 * np.pi * TASK["sine_from"]
+    amplitude = TASK["sine_amplitude"] * omega**2
+    angles, torques = _followed(_arm(mode, point, step), 3.0, lambda time: -amplitude * np.sin(omega * time))
+    last = slice(-int(1.0 / TASK["sine_from"] / step), None)
+    assert 0.5 * np.ptp(torques[last]) == pytest.approx(module.quantity(f"sine_torque@{point}"), rel=TOLERANCE)
+    assert 0.5 * np.ptp(angles[last]) == pytest.approx(module.quantity(f"sine_deflection@{point}"), rel=TOLERANCE)
+    upright = replace(module, values={**module.values, "gravity": 0.0})
+    every, _, accelerations = TASK["trajectory"].sampled()
+    times = every * np.arange(len(accelerations))
+    _, torques = _followed(_arm(mode, point, step), 0.6, lambda time: np.interp(time, times, accelerations))
+    assert np.max(np.abs(torques)) == pytest.approx(upright.quantity(f"trajectory_torque@{point}"), rel=TOLERANCE)
+
+
+@pytest.mark.parametrize(("mode", "point", "step"), POINTS)
+def test_impact_is_mujoco_s(mode: str, point: str, step: float) -> None:
+    module, mass, speed, length = _task(mode), TASK["impact_mass"], TASK["impact_speed"], TASK["arm_length"]
+    inertia = float(module.quantity("task_inertia")) + mass * length**2
+    start = mass * speed * length / inertia
+    angles, torques = _followed(_arm(mode, point, step, extra=mass), 0.4, speed=start)
+    assert np.max(np.abs(torques)) == pytest.approx(module.quantity(f"impact_torque@{point}"), rel=TOLERANCE)
+    assert np.max(np.abs(angles)) == pytest.approx(module.quantity(f"impact_deflection@{point}"), rel=TOLERANCE)
+
+
+@pytest.mark.parametrize("point", ["cold", "hot"])
+def test_force_of_an_impact_is_mujoco_s_and_that_of_iso_15066(point: str) -> None:
+    module, length = _task("shear"), TASK["arm_length"]
+    loaded = _arm("shear", point, 1e-5, ball=True)
+    loaded.opt.gravity[:] = 0.0
+    data = mujoco.MjData(loaded)
+    data.joint("ball").qvel[0] = TASK["impact_speed"]
+    stiffness, forces = module.values["impact_stiffness"], []
+    for _ in range(400):
+        mujoco.mj_step(loaded, data)
+        forces.append(stiffness * (data.joint("ball").qpos[0] - length * data.joint("joint").qpos[0]))
+    force = float(module.quantity(f"impact_force@{point}"))
+    assert max(forces) == pytest.approx(force, rel=TOLERANCE)
+    # ISO/TS 15066, A.3.6: F = v sqrt(mu k) with the reduced mass of body and free arm, which the joint hardly holds.
+    reduced = 1.0 / (1.0 / TASK["impact_mass"] + length**2 / float(module.quantity("task_inertia")))
+    assert force == pytest.approx(TASK["impact_speed"] * np.sqrt(reduced * stiffness), rel=0.02)

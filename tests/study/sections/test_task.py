@@ -1,0 +1,55 @@
+"""The section `task`: its values reach the module, its limits the requirements, its trajectory the table."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from support import ROOT
+
+from tvimdesign.device import table_for
+from tvimdesign.study import given
+from tvimdesign.study.reader import read_study_text
+from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.text.mistakes import StudyError
+
+STUDY = (ROOT / "studies/paper_shear.yaml").read_text()
+TASK = {
+    "payload": "3 kg", "arm_mass": "0.6 kg", "arm_length": "0.2 m", "allowed_sag": "5 mm", "gravity_angle": "90 deg",
+    "trajectory": {"moments": ["0 s", "1 s"], "angles": ["0 deg", "90 deg"]},
+}  # fmt: skip
+
+
+def _text(task: dict[str, object]) -> str:
+    return f"{STUDY}\n{yaml.safe_dump({'task': task})}"
+
+
+def test_a_task_is_read_written_and_evaluated() -> None:
+    study = read_study_text(_text(TASK))
+    assert study.module["payload"] == 3.0
+    assert ("sag@cold", 0.005) in [(limit.output, limit.limit) for limit in study.require]
+    again = read_study_text(yaml.safe_dump(written(study), allow_unicode=True))
+    assert again.module == study.module
+    assert again.trajectory == study.trajectory
+    values = table_for("shear").evaluate(given(study), ["pose_torque", "trajectory_torque@cold", "task_inertia"])
+    # m g L of the payload, and of the uniform bar half of it.
+    assert values["pose_torque"] == pytest.approx(9.80665 * 0.2 * 3.3, rel=1e-9)
+    # A cubic between rest and rest begins with 6 angle/time^2, at once, so that the stiff joint overshoots up to twice
+    # that; there the arm is horizontal, and gravity adds to it.
+    inertial = 6.0 * np.pi / 2.0 * values["task_inertia"]
+    beyond = (values["trajectory_torque@cold"] - values["pose_torque"]) / inertial
+    assert 1.7 < beyond < 2.0
+
+
+def test_a_csv_is_a_trajectory_and_what_is_none_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "gait.csv").write_text("time,angle\n0,0\n0.5,0.3\n1,0\n")
+    study = read_study_text(_text({**TASK, "trajectory": "gait.csv"}), folder=tmp_path)
+    assert study.trajectory is not None
+    assert study.trajectory.angles == (0.0, 0.3, 0.0)
+    (tmp_path / "gait.csv").write_text("time,angle\n0,0\n0.5\n")
+    for trajectory, words in (
+        ("gait.csv", "needs a heading"), ("none.csv", "cannot be read"),
+        ({"moments": ["1 s", "0 s"], "angles": ["0 rad", "1 rad"]}, "do not rise"),
+    ):  # fmt: skip
+        with pytest.raises(StudyError, match=words):
+            read_study_text(_text({**TASK, "trajectory": trajectory}), folder=tmp_path)

@@ -1,0 +1,164 @@
+"""The section `task`: an arm with its payload and its motions; inputs of the group "Task", limits, a trajectory."""
+
+from __future__ import annotations
+
+import csv
+import io
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.device import Choice, Input, Table
+from tvimdesign.device.core.task import ARM, GROUP
+from tvimdesign.study.sections.section import (
+    QUANTITY,
+    Schema,
+    Section,
+    changed,
+    field_schemas,
+    mapping,
+    set_schema,
+    shape,
+)
+from tvimdesign.study.study import GivenTrajectory, Requirement, Study
+from tvimdesign.study.text.mistakes import step
+from tvimdesign.study.text.values import (
+    Reading,
+    choice,
+    entries,
+    exactly,
+    flag,
+    in_unit,
+    misfit,
+    quantity,
+    text,
+    unknown_keys,
+)
+from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence
+
+_ALLOWED = {
+    "allowed_sag": ("sag@cold", "largest sag of the frozen joint: the requirement `sag@cold`"),
+    "allowed_force": ("impact_force@hot", "largest force on what strikes the soft joint's arm: `impact_force@hot`"),
+}
+_MOST_MOMENTS = 1000
+_LARGEST_FILE = 1_000_000
+_EXPECTED = "moments: [0 s, 0.5 s] and angles: [0 deg, 40 deg], for one, or the name of a CSV file beside the study"
+
+
+def task_quantities(table: Table) -> dict[str, Input | Choice]:
+    """Return what `task` sets, by name."""
+    given: tuple[Input | Choice, ...] = (*table.choices, *table.inputs)
+    return {row.name: row for row in given if row.group == GROUP and row.name != "trajectory"}
+
+
+def _read(reading: Reading, node: Node | None) -> dict[str, Any]:
+    """Return what `module`, `require` and `trajectory` take from the section; every problem is noted."""
+    problems, rows = reading.problems, task_quantities(reading.table)
+    given = entries(problems, node, "task", "an arm_length, a payload and what the arm does")
+    known = unknown_keys(problems, given, "task", "part of a task", [*rows, *_ALLOWED, "trajectory"])
+    module: dict[str, float | str] = {"task": ARM} if known else {}
+    limits: list[Requirement] = []
+    trajectory = None
+    for name, value in known.items():
+        path = step("task", name)
+        if name == "trajectory":
+            trajectory = _trajectory(reading, value, path)
+            continue
+        if name in _ALLOWED:
+            output, unit = _ALLOWED[name][0], reading.table.unit(_ALLOWED[name][0])
+            limit = in_unit(problems, value, path, unit, f"a quantity in {unit}")
+            if limit is not None:
+                limits.append(Requirement(output=output, sense="<=", limit=limit, text=f"<= {exactly(limit, unit)}"))
+            continue
+        row = rows[name]
+        read = choice(reading, value, path, row) if isinstance(row, Choice) else quantity(problems, value, path, row)
+        if read is not None:
+            module[name] = read
+    if trajectory is not None:
+        module["trajectory"] = "given"
+    return {"module": module, "require": tuple(limits), "trajectory": trajectory}
+
+
+def _trajectory(reading: Reading, node: Node, path: str) -> GivenTrajectory | None:
+    """Return the trajectory of a mapping or of a CSV file, or None with a problem noted."""
+    problems = reading.problems
+    if not isinstance(node, Mapping):
+        word = text(problems, node, path, _EXPECTED)
+        try:
+            return None if word is None else _checked(*_of_csv(reading.folder / word), at_rest=False)
+        except InputError as error:
+            problems.add(node, path, str(error), _EXPECTED)
+            return None
+    fields = GivenTrajectory.model_fields
+    known = unknown_keys(problems, node.entries, path, "series", list(fields))
+    series = []
+    for name, unit in (("moments", "s"), ("angles", "rad")):
+        items = known.get(name)
+        if not isinstance(items, Sequence):
+            misfit(problems, items or node, step(path, name), _EXPECTED)
+            return None
+        where = [(item, step(step(path, name), str(place))) for place, item in enumerate(items.items)]
+        read = [in_unit(problems, item, at, unit, f"a quantity in {unit}") for item, at in where]
+        series.append([value for value in read if value is not None])
+        if len(series[-1]) < len(read):
+            return None
+    at_rest = flag(problems, known["at_rest"], step(path, "at_rest")) if "at_rest" in known else True
+    try:
+        return _checked(series[0], series[1], at_rest=at_rest is not False)
+    except InputError as error:
+        problems.add(node, path, str(error), _EXPECTED)
+        return None
+
+
+def _checked(moments: list[float], angles: list[float], *, at_rest: bool) -> GivenTrajectory:
+    """Return a trajectory; raises InputError for one that is none."""
+    if len(moments) != len(angles) or not 2 <= len(moments) <= _MOST_MOMENTS:
+        counts = f"{len(moments)} moments and {len(angles)} angles"
+        raise InputError(f"{counts}: must be as many, and 2 to {_MOST_MOMENTS}")
+    if any(later <= earlier for earlier, later in pairwise(moments)):
+        raise InputError("the moments do not rise")
+    return GivenTrajectory(moments=tuple(moments), angles=tuple(angles), at_rest=at_rest)
+
+
+def _of_csv(path: Path) -> tuple[list[float], list[float]]:
+    """Return times [s] and angles [rad] of a file's first two columns, below a heading; raises InputError."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST_FILE + 1)
+        rows = [row for row in csv.reader(io.StringIO(content.decode("utf-8-sig"))) if row]
+        if len(content) > _LARGEST_FILE:
+            raise InputError(f"{path.name} is larger than {_LARGEST_FILE // 1_000_000} MB")
+        times, angles = zip(*((float(row[0]), float(row[1])) for row in rows[1:]), strict=True)
+    except OSError as error:
+        raise InputError(f"{path.name} cannot be read: {error.strerror}") from error
+    except (ValueError, IndexError, csv.Error) as error:
+        raise InputError(f"{path.name} needs a heading, then a time in s and an angle in rad a line") from error
+    return list(times), list(angles)
+
+
+def _write(study: Study) -> dict[str, Any]:
+    rows = task_quantities(study.table)
+    written: dict[str, Any] = {
+        name: value if isinstance(value, str) else exactly(value, study.table.unit(name))
+        for name, value in study.module.items()
+        if name in rows
+    }
+    if study.trajectory:
+        written["trajectory"] = changed(study.trajectory)
+    return written
+
+
+def _schema(table: Table) -> Schema:
+    allowed = {name: {"description": meaning, "allOf": [QUANTITY]} for name, (_, meaning) in _ALLOWED.items()}
+    given = shape(field_schemas(GivenTrajectory), ["moments", "angles"])
+    trajectory = {
+        "description": f"angles of the housing over time: {_EXPECTED}", "anyOf": [given, {"type": "string"}]
+    }  # fmt: skip
+    return mapping(
+        {**{name: set_schema(row) for name, row in task_quantities(table).items()}, **allowed, "trajectory": trajectory}
+    )
+
+
+TASK = Section("task", "arm and payload that the joint moves, and how: hold, sine, trajectory, impact", _read, _schema,
+               _write)  # fmt: skip
