@@ -15,7 +15,8 @@ from tvimdesign.study.text.mistakes import StudyError
 
 STUDY = (ROOT / "studies/paper_shear.yaml").read_text()
 TASK = {
-    "payload": "3 kg", "arm_mass": "0.6 kg", "arm_length": "0.2 m", "allowed_sag": "5 mm", "gravity_angle": "90 deg",
+    "payload": "3 kg", "arm_mass": "0.6 kg", "arm_length": "0.2 m", "allowed_sag": "5 mm", "allowed_force": "60 N",
+    "gravity_angle": "90 deg",
     "trajectory": {"moments": ["0 s", "1 s"], "angles": ["0 deg", "90 deg"]},
 }  # fmt: skip
 
@@ -27,7 +28,9 @@ def _text(task: dict[str, object]) -> str:
 def test_a_task_is_read_written_and_evaluated() -> None:
     study = read_study_text(_text(TASK))
     assert study.module["payload"] == 3.0
-    assert ("sag@cold", 0.005) in [(limit.output, limit.limit) for limit in study.require]
+    limits = {limit.output: limit.limit for limit in study.require}
+    assert limits["sag@cold"] == 0.005
+    assert limits["impact_force@cold"] == 60.0
     again = read_study_text(yaml.safe_dump(written(study), allow_unicode=True))
     assert again.module == study.module
     assert again.trajectory == study.trajectory

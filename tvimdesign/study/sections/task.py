@@ -39,7 +39,7 @@ from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence
 
 _ALLOWED = {
     "allowed_sag": ("sag@cold", "largest sag of the frozen joint: the requirement `sag@cold`"),
-    "allowed_force": ("impact_force@hot", "largest force on what strikes the soft joint's arm: `impact_force@hot`"),
+    "allowed_force": ("impact_force@cold", "largest force of the impact, which the frozen joint has most of"),
 }
 _MOST_MOMENTS = 1000
 _LARGEST_FILE = 1_000_000
