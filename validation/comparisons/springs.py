@@ -1,4 +1,4 @@
-"""Torsion and wave springs: rate, stress, strength, tolerances, and the springs of the published module."""
+"""Torsion and wave springs: rate, stress, strength, tolerances, and the springs of the paper's module."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Times of a switch of shipped studies, simulated as the product does, and what the published module does."""
+"""Times of a switch of shipped studies, simulated as the product does, and what the paper's module does."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def starts(inputs: Values) -> Values:
 
 
 def published_times(inputs: Values) -> Values:
-    """Times [s] of the published module with what the case changes, to the temperature that its paper states."""
+    """Times [s] of the paper's module with what the case changes, to the temperature that its paper states."""
     model = published_model()
     values = model.start.copy()
     for name, value in inputs["changes"].items():
@@ -40,6 +40,6 @@ def published_times(inputs: Values) -> Values:
 
 
 def published_sizes(_: Values) -> Values:
-    """Contact area [mm^2] and inertia-free figures of the published module."""
+    """Contact area [mm^2] and inertia-free figures of the paper's module."""
     values = published_values()
     return {"area": values["pcl_area"] * 1e6}

@@ -115,7 +115,7 @@ def _refusal(task: JointTask, name: str) -> str:
     lines = [f"{name}: no joint of {size} holds {hold} frozen and has {soft} soft, with margins for its tolerances."]
     least = min(diameters().values())
     if task.diameter < least:
-        lines.append(f"The smallest screws and springs of the catalogue suit joints of about {1e3 * least:.0f} mm.")
+        lines.append(f"The smallest set of screws, springs and bearing suits joints of about {1e3 * least:.0f} mm.")
     ways = ["  " + " ".join(f"--{option} '{value}'" for option, value in way.items()) for way in _nearest(task)]
     if ways:
         lines.append("Hardware fits, by arithmetic and with the other numbers as given, for:")
