@@ -23,6 +23,7 @@ ABOUT = {
     "Hold": "Creep under a load, the backlash it leaves, and what a quick turn loses.",
     "Axial play": "What the PCL loses in volume, how the rotor follows, and what creeps out of the melt.",
     "Switch": "The thermal stack and its surroundings.",
+    "Task": "Arm, payload and motion of a study's task, and what they ask of the joint.",
     "Softening": "Heating until the joint is soft.",
     "Stiffening": "Cooling until the joint is stiff again.",
     "Size and weight": "Volumes, masses and inertias of the parts.",
