@@ -15,7 +15,7 @@ from support import ROOT
 
 from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
-from tvimdesign.report.run.blocks.remedies import Remedies
+from tvimdesign.report.run.blocks.remedies import Remedies, _changes
 from tvimdesign.report.run.blocks.warnings import RunWarning, filled, hints, lines_of, warnings_of
 from tvimdesign.report.run.first_screen import warning_lines
 from tvimdesign.solve.nlp.solution import Solution
@@ -156,3 +156,8 @@ def test_a_requirement_is_tried_beside_the_remedies_before_it() -> None:
     assert not possible
     assert 700.0 < float(words.partition(" ")[0]) < 900.0
     assert tried('peak_power: "<= 9 W"') == [(False, "")]  # it depends on the switch
+
+
+def test_a_remedy_with_a_unit_is_tried_in_si() -> None:
+    changes = _changes({"module": {"target_temperature": "80 degC", "bore_friction": 0.15}}, table_for("shear"))
+    assert changes == {"target_temperature": pytest.approx(353.15), "bore_friction": 0.15}

@@ -13,6 +13,7 @@ from typing import Any
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.units import parse_quantity
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Input, Table, table_for
 from tvimdesign.report.output.numbers import with_unit
@@ -104,7 +105,13 @@ class Remedies:
 def _changes(entry: Mapping[str, Any], table: Table) -> dict[str, Any]:
     """Return the records, options and numbers that a line sets in the module; empty if it sets anything else."""
     changes = dict(entry.get("module", {}))
-    return changes if all(isinstance(table.by_name.get(name), Choice | Input) for name in changes) else {}
+    if not all(isinstance(table.by_name.get(name), Choice | Input) for name in changes):
+        return {}
+    for name, value in changes.items():
+        row = table.quantity(name)
+        if isinstance(row, Input) and isinstance(value, str):
+            changes[name] = parse_quantity(value, row.unit)
+    return changes
 
 
 def _cures(check: ConstraintCheck, changes: Mapping[str, Any], answer: StudyResult, table: Table) -> bool:
