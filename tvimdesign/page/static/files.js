@@ -13,6 +13,7 @@ export function serveFiles() {
     saved.href = URL.createObjectURL(new Blob([await unpacked(held)]));
     saved.download = address.split("/").at(-1) ?? "";
     saved.click();
-    URL.revokeObjectURL(saved.href);
+    // A browser reads the address after the click: one that is taken away at once may save nothing.
+    setTimeout(() => URL.revokeObjectURL(saved.href), 60_000);
   });
 }
