@@ -9,7 +9,8 @@ end an equation.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
 
@@ -25,6 +26,7 @@ from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Suppli
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid
 from tvimdesign.solve.nlp.constraints import Constraint
+from tvimdesign.solve.nlp.cycle_model import Curvatures, CycleModel
 from tvimdesign.solve.nlp.mixture import Mixture
 from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Parameters, Peak, Point
 
@@ -35,8 +37,8 @@ STEPS, FREEZING_STEPS, LEAST_STEPS = 40, 60, 3
 LATEST = 0.98
 """Share of the horizon at which an event must have come: times of the problem are some thousandths off those simulated.
 """
-REMEMBERED = 2
-"""Points that are remembered with their steps: the one where a solver ended, and the same with steps placed anew."""
+REMEMBERED = 3
+"""Points that are remembered: where a solver ended, by the cycle and by its model, and with steps placed anew."""
 UNIT = 1.0
 """Unit of the time that a profile takes [s]; its unknown is the logarithm."""
 
@@ -87,7 +89,10 @@ class Problem:
         self.sample_count = sum(self.samples(peak) for peak in self.peaks)
         self.own_count = self.slope_count + len(self.unlimited) + self.sample_count
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
-        self._last: list[tuple[bytes, dict[str, Grid], Point]] = []
+        self.curvatures = Curvatures(len(model.switch_names), self.unknown_count)
+        """Of what the cycle supplies."""
+        self._cycle_model: CycleModel | None = None
+        self._last: list[tuple[bytes, dict[str, Grid], CycleModel | None, Point]] = []
 
     # --- evaluation ---
 
@@ -114,12 +119,21 @@ class Problem:
     def at(self, x: Array, parameters: Parameters) -> Point:
         """Evaluate the problem at a point; NaN where the cycle has no end. The last points are remembered."""
         key = x.tobytes() + b"".join(part.tobytes() for part in vars(parameters).values())
-        for known, grids, point in self._last:
-            if known == key and grids is self.grids:
+        for known, grids, cycle_model, point in self._last:
+            if known == key and grids is self.grids and cycle_model is self._cycle_model:
                 return point
-        grids, point = self.grids, self._evaluated(x, parameters)
-        self._last = [*self._last[1 - REMEMBERED :], (key, grids, point)]
+        point = self._evaluated(x, parameters)
+        self._last = [*self._last[1 - REMEMBERED :], (key, self.grids, self._cycle_model, point)]
         return point
+
+    @contextmanager
+    def modelled(self, cycle_model: CycleModel) -> Iterator[None]:
+        """Evaluate with a model in place of the cycle, as long as the context lasts."""
+        self._cycle_model = cycle_model
+        try:
+            yield
+        finally:
+            self._cycle_model = None
 
     def _evaluated(self, x: Array, parameters: Parameters) -> Point:
         inputs, along = self.inputs_at(x, parameters.inputs)
@@ -159,9 +173,12 @@ class Problem:
             float(weights @ values[chosen]), weights @ slopes[chosen], every,
             np.concatenate([np.array(jacobian).reshape(len(jacobian), len(x)), of_steep, of_late, of_sampled]),
             dict(zip(self.wanted, values.tolist(), strict=True)), dict(zip(self.wanted, slopes, strict=True)), times,
+            cycle, of_cycle,
         )  # fmt: skip
 
     def _supplied(self, x: Array, inputs: Array, along: Array) -> Supplied:
+        if self._cycle_model is not None:
+            return Supplied(*self._cycle_model(x), {})
         if not self.events and not self._needed & set(self.model.switch_names):
             count = len(self.model.switch_names)
             return Supplied(np.full(count, np.inf), np.zeros((count, along.shape[1])), {})

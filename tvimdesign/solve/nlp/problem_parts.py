@@ -93,6 +93,9 @@ class Point(NamedTuple):
     gradients: dict[str, Array]
     times: dict[str, float]
     """Time [s] of each event the problem needs."""
+    cycle: Array
+    """What the cycle supplies, in the order of the model's `switch_names`, and its slopes."""
+    of_cycle: Array
 
 
 @dataclass(frozen=True)

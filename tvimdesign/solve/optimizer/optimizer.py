@@ -25,6 +25,7 @@ from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Derivatives, Ends, Progress, Run, Trace
+from tvimdesign.solve.nlp.trust_region import TrustRegion
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
@@ -243,9 +244,7 @@ class Optimizer:
             x = np.append(x, 0.0)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
-            solver = self._solver(beginning, programme)
-            answer = solver(programme, self.deadline, x0=x, **multipliers, **ends)
-            stats = solver.stats()
+            answer, stats = self._answer(programme, x, multipliers, ends, beginning)
             iterations += int(stats["iter_count"])
             x = np.asarray(answer["x"]).ravel()
             if sharp or not stats["success"] or not self.problem.events or self._settled(x[:count], parameters):
@@ -262,6 +261,18 @@ class Optimizer:
             answer = {**answer, "x": x[:count], "lam_x": np.asarray(answer["lam_x"]).ravel()[:count], "f": own}
         run = self.record(answer, {**stats, "iter_count": iterations}, inputs, seconds, parameters)
         return replace(run, within=within or {})
+
+    def _answer(
+        self, programme: ExtendedProblem, x: Array, multipliers: Mapping[str, Any], ends: Mapping[str, Array],
+        beginning: Beginning,
+    ) -> tuple[dict[str, Any], dict[str, Any]]:  # fmt: skip
+        """Return a solver's answer and statistics: by models of the cycle, or on it where those lead nowhere."""
+        if self.problem.events and not self.currents and beginning != "sharp":
+            region = TrustRegion(programme, lambda start: self._solver(start, programme), self.deadline, ends)
+            if (modelled := region.solve(x, multipliers, beginning)) is not None:
+                return modelled
+        solver = self._solver(beginning, programme)
+        return solver(programme, self.deadline, x0=x, **multipliers, **ends), solver.stats()
 
     def _where_it_ends(self, x: Array, parameters: Parameters, ends: Mapping[str, Array]) -> Array:
         """Return the unknowns with steps placed there; where a switch never ends, those of a module beside whose does.

@@ -1,0 +1,137 @@
+"""Solve a programme by local models of its working cycle, within a trust region.
+
+A cycle costs ten times what everything else does. Between two cycles IPOPT therefore solves the programme with the
+table's exact equations and a second-order model of what the cycle supplies. Values and slopes of the model are those
+of the last cycle; its curvature is learned from the slopes of all before (symmetric rank one). Where the model's
+optimum is the cycle's, the multipliers are, too.
+[Conn, Gould, Toint, Trust-region methods, 2000; Nocedal, Wright, Numerical optimization, 2006, eq. 6.24]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.base.deadline import Deadline
+from tvimdesign.solve.nlp.cycle_model import CycleModel
+from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
+from tvimdesign.solve.nlp.ipopt import Beginning, ProgrammeSolver
+from tvimdesign.solve.nlp.problem_parts import Point
+
+Array = NDArray[np.float64]
+
+FIRST_RADIUS, MOST_RADIUS, LEAST_RADIUS = 0.4, 2.0, 1e-5
+"""Half the edge of the trust region, in the unknowns: a logarithm of 0.4 is half as much again."""
+POOR, GOOD, EXACT = 0.1, 0.02, 1e-3
+"""Error of a modelled limit, as a share of it, from which a step is taken back, and below which the
+region grows; error up to which a model shows how a solver fares on the cycle."""
+MOST_CYCLES = 20
+"""A run that takes more cycles is left to IPOPT on the cycle itself."""
+FEASIBLE, STATIONARY, STILL = 1e-8, 1e-6, 1e-7
+"""Largest breach of a limit and slope of the Lagrangian at an optimum; step that leaves a point where it is."""
+
+
+class TrustRegion:
+    """Run of a programme by models of its cycle."""
+
+    def __init__(
+        self, programme: ExtendedProblem, solver: Callable[[Beginning], ProgrammeSolver], deadline: Deadline,
+        ends: Mapping[str, Array],
+    ) -> None:  # fmt: skip
+        """Take the programme, what solves it from a beginning, and nlpsol's bounds of unknowns and rows."""
+        self._programme, self._solver, self._deadline, self._ends = programme, solver, deadline, ends
+        self._problem = programme.problem
+        self._radius = FIRST_RADIUS
+
+    def solve(
+        self, x: Array, multipliers: Mapping[str, Any], beginning: Beginning
+    ) -> tuple[dict[str, Any], dict[str, Any]] | None:
+        """Return the solver's answer and statistics at an optimum from x; None where models do not lead to one.
+
+        A run that begins "feasible" ends at the first point that satisfies the limits.
+        """
+        x = np.clip(x, self._ends["lbx"], self._ends["ubx"])
+        model, curvatures, iterations = self._model(x), self._problem.curvatures, 0
+        for _ in range(MOST_CYCLES):
+            if model is None or self._deadline.remaining <= 0.0:
+                return None
+            near, radius = self._near(x), self._radius
+            answer, stats, to, expected = self._step(model, x, near, multipliers, beginning)
+            iterations += int(stats["iter_count"])
+            there, reached = self._programme.at(to), self._model(to)
+            length = float(np.max(np.abs(to - x), initial=0.0))
+            if reached is not None:
+                curvatures.learn(model, reached)
+            error = np.inf if reached is None else _error(expected, there)
+            if not error <= POOR:
+                if length < LEAST_RADIUS:
+                    return None
+                self._radius, model = 0.3 * min(self._radius, length), replace(model, curvatures=curvatures.matrices)
+                continue
+            self._radius = min(2.0 * self._radius, MOST_RADIUS) if error <= GOOD else self._radius
+            x, model = to, self._model(to)
+            stats = {**stats, "iter_count": iterations}
+            if stats["success"]:
+                multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
+                if self._ends_here(there, answer, near, beginning) or length < STILL:
+                    return {**answer, "x": to, "f": there.objective}, stats
+                beginning = beginning if beginning == "feasible" else "warm"
+            elif length < LEAST_RADIUS or (error <= EXACT and length < 0.99 * radius):
+                return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
+        return None
+
+    def _model(self, x: Array) -> CycleModel | None:
+        """Return the model of the cycle at a point; None where the cycle has no end."""
+        point = self._programme.at(x)
+        if not (np.all(np.isfinite(point.rows)) and np.isfinite(point.objective)):
+            return None
+        size = self._problem.unknown_count
+        return CycleModel.of(x[:size], point.cycle, point.of_cycle, self._problem.curvatures.matrices)
+
+    def _near(self, x: Array) -> dict[str, Array]:
+        """Return the bounds of the unknowns within the trust region."""
+        size, radius = self._problem.unknown_count, self._radius
+        lower, upper = self._ends["lbx"].copy(), self._ends["ubx"].copy()
+        lower[:size] = np.maximum(lower[:size], x[:size] - radius)
+        upper[:size] = np.minimum(upper[:size], x[:size] + radius)
+        return {"lbx": lower, "ubx": upper}
+
+    def _step(
+        self, model: CycleModel, x: Array, near: Mapping[str, Array], multipliers: Mapping[str, Any],
+        beginning: Beginning,
+    ) -> tuple[dict[str, Any], dict[str, Any], Array, Point]:  # fmt: skip
+        """Solve the programme with the cycle's model; return where that ends, and what is expected there."""
+        solver, rows = self._solver(beginning), {name: self._ends[name] for name in ("lbg", "ubg")}
+        with self._problem.modelled(model):
+            answer = solver(self._programme, self._deadline, x0=x, **multipliers, **rows, **near)
+            to = np.clip(np.asarray(answer["x"]).ravel(), near["lbx"], near["ubx"])
+            return answer, solver.stats(), to, self._programme.at(to)
+
+    def _ends_here(
+        self, point: Point, answer: Mapping[str, Any], near: Mapping[str, Array], beginning: Beginning
+    ) -> bool:
+        """Return whether the cycle's own rows and slopes say that an optimum of the models is one."""
+        breach = np.maximum(point.rows - self._ends["ubg"], self._ends["lbg"] - point.rows)
+        if np.max(breach, initial=0.0) > FEASIBLE:
+            return False
+        if beginning == "feasible":
+            return True
+        of_bounds = np.asarray(answer["lam_x"]).ravel()
+        # The trust region is no limit of the programme: where it presses, the search goes on.
+        real = (near["lbx"] == self._ends["lbx"]) & (of_bounds < 0.0) | (near["ubx"] == self._ends["ubx"]) & (
+            of_bounds > 0.0
+        )
+        slope = point.gradient + np.asarray(answer["lam_g"]).ravel() @ point.jacobian + np.where(real, of_bounds, 0.0)
+        return bool(np.max(np.abs(slope), initial=0.0) <= STATIONARY)
+
+
+def _error(expected: Point, there: Point) -> float:
+    """Return the largest error of a model, in the objective and in shares of the limits."""
+    # How far a limit is satisfied beyond some share of it does not matter to a step.
+    rows = np.maximum(there.rows, -POOR) - np.maximum(expected.rows, -POOR)
+    errors = np.append(np.abs(rows), abs(there.objective - expected.objective))
+    return float(np.max(errors)) if np.all(np.isfinite(errors)) else np.inf
