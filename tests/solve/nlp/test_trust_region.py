@@ -1,0 +1,63 @@
+"""Local models of the working cycle: their curvature, and the optima they lead to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
+from tvimdesign.solve.nlp.cycle_model import Curvatures, CycleModel
+from tvimdesign.solve.nlp.trust_region import TrustRegion
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study.reader import read_study
+
+STUDIES = Path(__file__).parents[3] / "studies"
+
+
+def test_curvatures_of_a_quadratic_are_exact_after_some_steps() -> None:
+    # Nocedal, Wright, Numerical optimization, 2006, theorem 6.1.
+    random = np.random.default_rng(0)
+    size = 4
+    slope, half = random.normal(size=size), random.normal(size=(size, size))
+    hessian, curvatures = half + half.T, Curvatures(1, size)
+
+    def model(x: np.ndarray) -> CycleModel:
+        logarithm, slopes = slope @ x + 0.5 * x @ hessian @ x, slope + hessian @ x
+        value = np.exp(np.array([logarithm]))
+        return CycleModel.of(x, value, value[:, None] * slopes, curvatures.matrices)
+
+    x = np.zeros(size)
+    for _ in range(3 * size):  # an unsound step is left out
+        to = x + 0.1 * random.normal(size=size)
+        curvatures.learn(model(x), model(to))
+        x = to
+    assert np.allclose(curvatures.matrices[0], hessian, rtol=1e-6, atol=1e-6)
+    there = x + 0.3
+    values, slopes = model(x)(there)
+    exact = model(there)
+    assert np.allclose(values, exact.values, rtol=1e-9)
+    assert np.allclose(slopes, exact.values[:, None] * exact.slopes, rtol=1e-6)
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize("study", ["compare_shear", "finger"])
+def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    runs = [0]
+    run = CycleEngine.run
+
+    def counted(self: CycleEngine, *given: object, **named: object) -> object:
+        runs[0] += 1
+        return run(self, *given, **named)  # type: ignore[arg-type]  # passes on whatever it was given
+
+    monkeypatch.setattr(CycleEngine, "run", counted)
+    optimizer = Optimizer(read_study(STUDIES / f"{study}.yaml"))
+    by_models, count = optimizer.solve(), runs[0]
+    monkeypatch.setattr(TrustRegion, "solve", lambda *_: None)
+    runs[0] = 0
+    on_cycle = Optimizer(read_study(STUDIES / f"{study}.yaml")).solve()
+    assert by_models.start.converged
+    assert on_cycle.start.converged
+    assert by_models.start.objective <= on_cycle.start.objective * (1.0 + 1e-6)
+    assert count < runs[0]
