@@ -79,7 +79,7 @@ def reach_yield(
             break
         optimizer.progress(f"adding tolerance margins: yield so far {drawn.together.share:.1%}, target {share:.0%}")
         following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves)
-        if following is run or (same_optimum(following.start, run.start) and not candidates[-1].reached):
+        if following is run:
             if optimizer.deadline.passed:
                 optimizer.deadline.leave_out(MARGINS)
             break
