@@ -29,9 +29,11 @@ FIRST_RADIUS, MOST_RADIUS, LEAST_RADIUS = 0.4, 2.0, 1e-5
 POOR, GOOD, EXACT = 0.1, 0.02, 1e-3
 """Error of a modelled limit, as a share of it, from which a step is taken back, and below which the
 region grows; error up to which a model shows how a solver fares on the cycle."""
+NOISE = 1e-6
+"""Change of the objective that says nothing."""
 MOST_CYCLES = 20
 """A run that takes more cycles is left to IPOPT on the cycle itself."""
-FEASIBLE, STATIONARY, STILL = 1e-8, 1e-6, 1e-7
+FEASIBLE, STATIONARY, STILL = 1e-7, 1e-6, 1e-7
 """Largest breach of a limit and slope of the Lagrangian at an optimum; step that leaves a point where it is."""
 
 
@@ -46,6 +48,10 @@ class TrustRegion:
         self._programme, self._solver, self._deadline, self._ends = programme, solver, deadline, ends
         self._problem = programme.problem
         self._radius = FIRST_RADIUS
+        self._filter: list[tuple[float, float]] = []
+        """Objective and largest breach of the points that were taken."""
+        self.reached = np.zeros(0)
+        """Unknowns of the last point that was taken."""
 
     def solve(
         self, x: Array, multipliers: Mapping[str, Any], beginning: Beginning
@@ -54,7 +60,7 @@ class TrustRegion:
 
         A run that begins "feasible" ends at the first point that satisfies the limits.
         """
-        x = np.clip(x, self._ends["lbx"], self._ends["ubx"])
+        x = self.reached = np.clip(x, self._ends["lbx"], self._ends["ubx"])
         model, curvatures, iterations = self._model(x), self._problem.curvatures, 0
         for _ in range(MOST_CYCLES):
             if model is None or self._deadline.remaining <= 0.0:
@@ -62,27 +68,43 @@ class TrustRegion:
             near, radius = self._near(x), self._radius
             answer, stats, to, expected = self._step(model, x, near, multipliers, beginning)
             iterations += int(stats["iter_count"])
-            there, reached = self._programme.at(to), self._model(to)
+            here, there, reached = self._programme.at(x), self._programme.at(to), self._model(to)
             length = float(np.max(np.abs(to - x), initial=0.0))
             if reached is not None:
                 curvatures.learn(model, reached)
             error = np.inf if reached is None else _error(expected, there)
-            if not error <= POOR:
-                if length < LEAST_RADIUS:
-                    return None
-                self._radius, model = 0.3 * min(self._radius, length), replace(model, curvatures=curvatures.matrices)
-                continue
-            self._radius = min(2.0 * self._radius, MOST_RADIUS) if error <= GOOD else self._radius
-            x, model = to, self._model(to)
             stats = {**stats, "iter_count": iterations}
+            if not stats["success"] and (error <= EXACT and length < 0.99 * radius):
+                return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
+            if not error <= POOR or not self._better(there):
+                if length < LEAST_RADIUS or not self._better(expected):
+                    return None
+                self._radius, model = 0.3 * min(radius, length), replace(model, curvatures=curvatures.matrices)
+                continue
+            self._radius = min(2.0 * radius, MOST_RADIUS) if error <= GOOD else radius
+            self._filter.append((there.objective, self._breach(there)))
+            x, model = to, self._model(to)
+            self.reached = x
             if stats["success"]:
                 multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
-                if self._ends_here(there, answer, near, beginning) or length < STILL:
+                stands = abs(there.objective - here.objective) < NOISE and length < 0.99 * radius
+                if length < STILL or self._ends_here(there, answer, near, beginning, stands=stands):
                     return {**answer, "x": to, "f": there.objective}, stats
                 beginning = beginning if beginning == "feasible" else "warm"
-            elif length < LEAST_RADIUS or (error <= EXACT and length < 0.99 * radius):
-                return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
+            elif length < LEAST_RADIUS:
+                return {**answer, "x": to, "f": there.objective}, stats
         return None
+
+    def _better(self, point: Point) -> bool:
+        """Return whether no point that was taken is as good in both the objective and the largest breach."""
+        breach, most = self._breach(point), point.objective + 0.01 * self._breach(point) - NOISE
+        return all(breach < 0.99 * old or most < objective for objective, old in self._filter)
+
+    def _breach(self, point: Point) -> float:
+        """Return the largest breach of a limit, zero where it is feasible."""
+        breach = np.maximum(point.rows - self._ends["ubg"], self._ends["lbg"] - point.rows)
+        largest = float(np.max(breach, initial=0.0))
+        return largest if largest > FEASIBLE else 0.0
 
     def _model(self, x: Array) -> CycleModel | None:
         """Return the model of the cycle at a point; None where the cycle has no end."""
@@ -112,13 +134,18 @@ class TrustRegion:
             return answer, solver.stats(), to, self._programme.at(to)
 
     def _ends_here(
-        self, point: Point, answer: Mapping[str, Any], near: Mapping[str, Array], beginning: Beginning
+        self,
+        point: Point,
+        answer: Mapping[str, Any],
+        near: Mapping[str, Array],
+        beginning: Beginning,
+        *,
+        stands: bool,
     ) -> bool:
         """Return whether the cycle's own rows and slopes say that an optimum of the models is one."""
-        breach = np.maximum(point.rows - self._ends["ubg"], self._ends["lbg"] - point.rows)
-        if np.max(breach, initial=0.0) > FEASIBLE:
+        if self._breach(point) > 0.0:
             return False
-        if beginning == "feasible":
+        if beginning == "feasible" or stands:
             return True
         of_bounds = np.asarray(answer["lam_x"]).ravel()
         # The trust region is no limit of the programme: where it presses, the search goes on.
@@ -130,7 +157,7 @@ class TrustRegion:
 
 
 def _error(expected: Point, there: Point) -> float:
-    """Return the largest error of a model, in the objective and in shares of the limits."""
+    """Return the largest error of the models, in the objective and in shares of the limits."""
     # How far a limit is satisfied beyond some share of it does not matter to a step.
     rows = np.maximum(there.rows, -POOR) - np.maximum(expected.rows, -POOR)
     errors = np.append(np.abs(rows), abs(there.objective - expected.objective))

@@ -271,6 +271,7 @@ class Optimizer:
             region = TrustRegion(programme, lambda start: self._solver(start, programme), self.deadline, ends)
             if (modelled := region.solve(x, multipliers, beginning)) is not None:
                 return modelled
+            x = region.reached
         solver = self._solver(beginning, programme)
         return solver(programme, self.deadline, x0=x, **multipliers, **ends), solver.stats()
 
