@@ -26,7 +26,7 @@ from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Suppli
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid
 from tvimdesign.solve.nlp.constraints import Constraint
-from tvimdesign.solve.nlp.cycle_model import Curvatures, CycleModel
+from tvimdesign.solve.nlp.cycle_model import CycleModel
 from tvimdesign.solve.nlp.mixture import Mixture
 from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Parameters, Peak, Point
 
@@ -89,7 +89,6 @@ class Problem:
         self.sample_count = sum(self.samples(peak) for peak in self.peaks)
         self.own_count = self.slope_count + len(self.unlimited) + self.sample_count
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
-        self.curvatures = Curvatures(len(model.switch_names), self.unknown_count)
         """Of what the cycle supplies."""
         self._cycle_model: CycleModel | None = None
         self._last: list[tuple[bytes, dict[str, Grid], CycleModel | None, Point]] = []

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import Deadline
-from tvimdesign.solve.nlp.cycle_model import CycleModel
+from tvimdesign.solve.nlp.cycle_model import Curvatures, CycleModel
 from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
 from tvimdesign.solve.nlp.ipopt import Beginning, ProgrammeSolver
 from tvimdesign.solve.nlp.problem_parts import Point
@@ -47,9 +47,12 @@ class TrustRegion:
         """Take the programme, what solves it from a beginning, and nlpsol's bounds of unknowns and rows."""
         self._programme, self._solver, self._deadline, self._ends = programme, solver, deadline, ends
         self._problem = programme.problem
+        self._curvatures = Curvatures(len(self._problem.model.switch_names), self._problem.unknown_count)
         self._radius = FIRST_RADIUS
         self._filter: list[tuple[float, float]] = []
         """Objective and largest breach of the points that were taken."""
+        self.iterations = 0
+        """Iterations of the solver over all models of the last run."""
         self.reached = np.zeros(0)
         """Unknowns of the last point that was taken."""
 
@@ -61,25 +64,26 @@ class TrustRegion:
         A run that begins "feasible" ends at the first point that satisfies the limits.
         """
         x = self.reached = np.clip(x, self._ends["lbx"], self._ends["ubx"])
-        model, curvatures, iterations = self._model(x), self._problem.curvatures, 0
+        self._radius, self._filter, self.iterations = FIRST_RADIUS, [], 0
+        model = self._model(x)
         for _ in range(MOST_CYCLES):
             if model is None or self._deadline.remaining <= 0.0:
                 return None
             near, radius = self._near(x), self._radius
             answer, stats, to, expected = self._step(model, x, near, multipliers, beginning)
-            iterations += int(stats["iter_count"])
+            self.iterations += int(stats["iter_count"])
             here, there, reached = self._programme.at(x), self._programme.at(to), self._model(to)
             length = float(np.max(np.abs(to - x), initial=0.0))
             if reached is not None:
-                curvatures.learn(model, reached)
+                self._curvatures.learn(model, reached)
             error = np.inf if reached is None else _error(expected, there)
-            stats = {**stats, "iter_count": iterations}
+            stats = {**stats, "iter_count": self.iterations}
             if not stats["success"] and (error <= EXACT and length < 0.99 * radius):
                 return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
             if not error <= POOR or not self._better(there):
                 if length < LEAST_RADIUS or not self._better(expected):
                     return None
-                self._radius, model = 0.3 * min(radius, length), replace(model, curvatures=curvatures.matrices)
+                self._radius, model = 0.3 * min(radius, length), replace(model, curvatures=self._curvatures.matrices)
                 continue
             self._radius = min(2.0 * radius, MOST_RADIUS) if error <= GOOD else radius
             self._filter.append((there.objective, self._breach(there)))
@@ -112,7 +116,7 @@ class TrustRegion:
         if not (np.all(np.isfinite(point.rows)) and np.isfinite(point.objective)):
             return None
         size = self._problem.unknown_count
-        return CycleModel.of(x[:size], point.cycle, point.of_cycle, self._problem.curvatures.matrices)
+        return CycleModel.of(x[:size], point.cycle, point.of_cycle, self._curvatures.matrices)
 
     def _near(self, x: Array) -> dict[str, Array]:
         """Return the bounds of the unknowns within the trust region."""

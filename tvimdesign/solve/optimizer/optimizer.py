@@ -242,9 +242,12 @@ class Optimizer:
             programme = ExtendedProblem(self.problem, parameters, steps, np.array([-_WORTH]))
             ends |= {"lbx": np.append(ends["lbx"], 0.0), "ubx": np.append(ends["ubx"], 1.0)}
             x = np.append(x, 0.0)
+        region = None
+        if self.problem.events and not self.currents and beginning != "sharp":
+            region = TrustRegion(programme, lambda start: self._solver(start, programme), self.deadline, ends)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
-            answer, stats = self._answer(programme, x, multipliers, ends, beginning)
+            answer, stats = self._answer(programme, region, x, multipliers, ends, beginning)
             iterations += int(stats["iter_count"])
             x = np.asarray(answer["x"]).ravel()
             if sharp or not stats["success"] or not self.problem.events or self._settled(x[:count], parameters):
@@ -263,17 +266,19 @@ class Optimizer:
         return replace(run, within=within or {})
 
     def _answer(
-        self, programme: ExtendedProblem, x: Array, multipliers: Mapping[str, Any], ends: Mapping[str, Array],
-        beginning: Beginning,
+        self, programme: ExtendedProblem, region: TrustRegion | None, x: Array, multipliers: Mapping[str, Any],
+        ends: Mapping[str, Array], beginning: Beginning,
     ) -> tuple[dict[str, Any], dict[str, Any]]:  # fmt: skip
         """Return a solver's answer and statistics: by models of the cycle, or on it where those lead nowhere."""
-        if self.problem.events and not self.currents and beginning != "sharp":
-            region = TrustRegion(programme, lambda start: self._solver(start, programme), self.deadline, ends)
+        tried = 0
+        if region is not None:
             if (modelled := region.solve(x, multipliers, beginning)) is not None:
                 return modelled
-            x = region.reached
+            x, tried = region.reached, region.iterations
         solver = self._solver(beginning, programme)
-        return solver(programme, self.deadline, x0=x, **multipliers, **ends), solver.stats()
+        answer = solver(programme, self.deadline, x0=x, **multipliers, **ends)
+        stats = solver.stats()
+        return answer, {**stats, "iter_count": tried + stats["iter_count"]}
 
     def _where_it_ends(self, x: Array, parameters: Parameters, ends: Mapping[str, Array]) -> Array:
         """Return the unknowns with steps placed there; where a switch never ends, those of a module beside whose does.
