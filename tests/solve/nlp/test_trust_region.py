@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
+from tvimdesign.solve.nlp import trust_region
 from tvimdesign.solve.nlp.cycle_model import Curvatures, CycleModel
-from tvimdesign.solve.nlp.trust_region import TrustRegion
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study.reader import read_study
 
@@ -42,7 +42,7 @@ def test_curvatures_of_a_quadratic_are_exact_after_some_steps() -> None:
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize("study", ["compare_shear", "finger"])
+@pytest.mark.parametrize("study", ["compare_shear", "elbow_printed"])
 def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study: str, monkeypatch: pytest.MonkeyPatch) -> None:
     runs = [0]
     run = CycleEngine.run
@@ -54,7 +54,7 @@ def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study: str, mon
     monkeypatch.setattr(CycleEngine, "run", counted)
     optimizer = Optimizer(read_study(STUDIES / f"{study}.yaml"))
     by_models, count = optimizer.solve(), runs[0]
-    monkeypatch.setattr(TrustRegion, "solve", lambda *_: None)
+    monkeypatch.setattr(trust_region, "MOST_CYCLES", 0)
     runs[0] = 0
     on_cycle = Optimizer(read_study(STUDIES / f"{study}.yaml")).solve()
     assert by_models.start.converged

@@ -52,7 +52,7 @@ class TrustRegion:
         self._filter: list[tuple[float, float]] = []
         """Objective and largest breach of the points that were taken."""
         self.iterations = 0
-        """Iterations of the solver over all models of the last run."""
+        """Steps of the last run: cycles it took."""
         self.reached = np.zeros(0)
         """Unknowns of the last point that was taken."""
 
@@ -66,19 +66,22 @@ class TrustRegion:
         x = self.reached = np.clip(x, self._ends["lbx"], self._ends["ubx"])
         self._radius, self._filter, self.iterations = FIRST_RADIUS, [], 0
         model = self._model(x)
+        if model is not None:
+            self._filter.append((self._programme.at(x).objective, self._breach(self._programme.at(x))))
         for _ in range(MOST_CYCLES):
             if model is None or self._deadline.remaining <= 0.0:
                 return None
             near, radius = self._near(x), self._radius
             answer, stats, to, expected = self._step(model, x, near, multipliers, beginning)
-            self.iterations += int(stats["iter_count"])
+            self.iterations += 1
             here, there, reached = self._programme.at(x), self._programme.at(to), self._model(to)
             length = float(np.max(np.abs(to - x), initial=0.0))
             if reached is not None:
                 self._curvatures.learn(model, reached)
             error = np.inf if reached is None else _error(expected, there)
             stats = {**stats, "iter_count": self.iterations}
-            if not stats["success"] and (error <= EXACT and length < 0.99 * radius):
+            fails = not stats["success"] and error <= EXACT and length < 0.99 * radius
+            if (length < LEAST_RADIUS and not stats["success"]) or (fails and not self._better(there, -NOISE)):
                 return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
             if not error <= POOR or not self._better(there):
                 if length < LEAST_RADIUS or not self._better(expected):
@@ -95,13 +98,11 @@ class TrustRegion:
                 if length < STILL or self._ends_here(there, answer, near, beginning, stands=stands):
                     return {**answer, "x": to, "f": there.objective}, stats
                 beginning = beginning if beginning == "feasible" else "warm"
-            elif length < LEAST_RADIUS:
-                return {**answer, "x": to, "f": there.objective}, stats
         return None
 
-    def _better(self, point: Point) -> bool:
+    def _better(self, point: Point, slack: float = NOISE) -> bool:
         """Return whether no point that was taken is as good in both the objective and the largest breach."""
-        breach, most = self._breach(point), point.objective + 0.01 * self._breach(point) - NOISE
+        breach, most = self._breach(point), point.objective + 0.01 * self._breach(point) - slack
         return all(breach < 0.99 * old or most < objective for objective, old in self._filter)
 
     def _breach(self, point: Point) -> float:
