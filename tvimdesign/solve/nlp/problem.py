@@ -89,7 +89,6 @@ class Problem:
         self.sample_count = sum(self.samples(peak) for peak in self.peaks)
         self.own_count = self.slope_count + len(self.unlimited) + self.sample_count
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
-        """Of what the cycle supplies."""
         self._cycle_model: CycleModel | None = None
         self._last: list[tuple[bytes, dict[str, Grid], CycleModel | None, Point]] = []
 
@@ -101,6 +100,12 @@ class Problem:
         inputs, cycle = ca.SX.sym("inputs", len(self.model.names)), ca.SX.sym("cycle", len(self.model.switch_names))
         values = self.model.outputs(self.wanted).call([inputs, cycle], True, False)[0]
         return Tape.of([inputs, cycle], [ca.densify(values)])
+
+    @cached_property
+    def _limit_rows(self) -> tuple[NDArray[np.int64], Array]:
+        """Place of each limit's output among the wanted, and the slope of its residual."""
+        places = np.array([self.wanted.index(limit.output) for limit in self.limits], dtype=np.int64)
+        return places, np.array([(1.0 if limit.sense == "<=" else -1.0) / limit.scale for limit in self.limits])
 
     def place_grids(self, x: Array, parameters: Parameters) -> None:
         """Choose the steps of each phase by their errors at a point; they stay until they are placed again."""
@@ -155,10 +160,9 @@ class Problem:
             shares = [self.model.index[name] for name in mixture.shares]
             rows.append(float(np.sum(inputs[shares])) - 1.0)
             jacobian.append(np.sum(along[shares], axis=0))
-        for limit in self.limits:
-            i = place[limit.output]
-            rows.append(limit.residual(values[i]))
-            jacobian.append((1.0 if limit.sense == "<=" else -1.0) / limit.scale * slopes[i])
+        places, factors = self._limit_rows
+        rows += [limit.residual(value) for limit, value in zip(self.limits, values[places].tolist(), strict=True)]
+        jacobian += list(factors[:, None] * slopes[places])
         if traded:
             rows += list(parameters.factors @ values[traded])
             jacobian += list(parameters.factors @ slopes[traded])
