@@ -8,10 +8,10 @@ import pytest
 
 from tvimdesign.report.run.blocks.facts import (
     chosen_fact,
+    heater_voltage,
     measured_fact,
     shrunk,
     stalling_in_words,
-    stepped_down,
     time_over_rise,
 )
 from tvimdesign.solve.nlp.solution import Choosing, SolverEffort, Standard
@@ -107,10 +107,15 @@ def test_a_layer_that_stalls_cools_again_or_never_softens() -> None:
     assert stalling_in_words(falling, 0.0) == ""  # soft from the start: nothing is waited for
 
 
-@pytest.mark.parametrize(("volts", "words"), [(7.151, "7.15 of 24 V (step-down)"), (22.0, ""), (24.0, "")])
+@pytest.mark.parametrize(
+    ("volts", "words"),
+    [(7.151, "7.15 of 24 V (7 to 8) stepped down"), (22.0, "22 V (7 to 8)"), (24.0, "24 V (7 to 8)")],
+)
 def test_a_heater_that_needs_far_less_than_the_supply_is_stepped_down(volts: float, words: str) -> None:
     limits = [{"output": "peak_voltage", "sense": "<=", "limit": 24.0}]
-    design = Design.model_construct(values={"peak_voltage": volts}, study={"require": limits})
-    assert stepped_down(cast(StudyResult, SimpleNamespace(design=design))) == words
+    values = {"peak_voltage": volts, "stiffening_peak_voltage": 1.0}
+    design = Design.model_construct(mode="shear", values=values, study={"require": limits})
+    answered = cast(StudyResult, SimpleNamespace(design=design))
+    assert heater_voltage(answered, {"intervals": {"peak_voltage": entry(volts, (7.0, 8.0), None)}}) == words
     design.study["require"] = []
-    assert stepped_down(cast(StudyResult, SimpleNamespace(design=design))) == ""
+    assert heater_voltage(answered, {}) == f"{volts:.3g} V"

@@ -15,7 +15,7 @@ import pytest
 from comparable import COARSE, COMPRESSION, SHEAR
 from support import ROOT, Command
 
-from tvimdesign.report.output.numbers import label
+from tvimdesign.report.output.numbers import ends_text, label
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.first_screen import LINES, NARROW_LINES, first_screen, verdict_of
@@ -148,9 +148,9 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
     lost = value("lost_motion") / value("stroke")
     rubs = value("friction_torque") / value("spring_torque_full_stroke")
     for share, unit in ((lost, "rad"), (rubs, "N·m")):
-        shown = re.search(rf"[\d.]+ of [\d.]+ {unit} \((\d+) %\)", text)
+        shown = re.search(rf"([\d.]+) of ([\d.]+) {unit}\b", text)
         assert bool(shown) == (share > 0.1), (unit, share)
-        assert not shown or int(shown[1]) == round(100.0 * share)
+        assert not shown or float(shown[1]) / float(shown[2]) == pytest.approx(share, rel=0.01)
     rows, text = requirements(one.result, one.uncertainty), "\n".join(first_screen(one, width))
     shown = [row for row in rows if re.search(rf"^{re.escape(label(row.name))}(\s|$)", text, re.MULTILINE)]
     assert len(shown) == len(rows) or f"closest {len(shown)} of {len(rows)}" in text
@@ -208,6 +208,8 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     soft = intervals["softening_time"]
     assert one.result.design.value("softening_time") == pytest.approx(soft["value"], rel=1e-3)
     assert f"s ({soft['low']:.3g} to {soft['high']:.3g})" in text
+    for output in ("joint_stiffness@cold", "lost_motion", "friction_torque", "peak_voltage"):
+        assert f"({ends_text(intervals[output]['low'], intervals[output]['high'])})" in text, output
     # A limit on the stiffness holds at every angle; at rest it is stiffest, at full stroke softest.
     intervals = one.uncertainty["intervals"]
     (row,) = [row for row in requirements(one.result, one.uncertainty) if row.name == "spring_stiffness"]

@@ -37,7 +37,8 @@ _LEAST = 5e-3
 """Change of an output, as a share of it, below which it does not depend on an unmeasured input."""
 FIRST_SCREEN = (
     "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
-    "softened_stiffness", "softened_damping", "frozen_time",
+    "softened_stiffness", "softened_damping", "softened_temperature", "joint_stiffness@cold", "frozen_time",
+    "lost_motion", "friction_torque",
     "peak_voltage", "stiffening_peak_voltage", "peak_current", "stiffening_peak_current", "peak_power",
     "switch_energy", "cycle_energy",
 )  # fmt: skip

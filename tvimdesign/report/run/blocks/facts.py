@@ -70,13 +70,22 @@ class _Values:
     def __call__(self, name: str) -> str:
         """Return one value with its unit, and its range in brackets."""
         value, unit = self.values[name], self.table.unit(name)
-        text = with_unit(value, unit, _DIGITS)
+        return f"{with_unit(value, unit, _DIGITS)}{self.ends(name)}"
+
+    def ends(self, name: str) -> str:
+        """Return the range of a value in brackets after a space; empty without one."""
         ends = range_text(self.intervals.get(name))
-        return f"{text} ({ends})" if ends else text
+        return f" ({ends})" if ends else ""
+
+    def of(self, name: str, whole: float) -> str:
+        """Return one value of a whole, with the unit and the value's range."""
+        unit = self.table.unit(name)
+        amounts = " of ".join(in_unit(amount, unit, _DIGITS) for amount in (self.values[name], whole))
+        return f"{amounts} {pretty(unit)}{self.ends(name)}"
 
     def most(self, *names: str) -> str:
-        """Return the largest of some that happen."""
-        return self(max(names, key=lambda name: self.values[name] if math.isfinite(self.values[name]) else -1.0))
+        """Return the name of the largest of some that happen."""
+        return max(names, key=lambda name: self.values[name] if math.isfinite(self.values[name]) else -1.0)
 
 
 def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
@@ -86,9 +95,8 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     """
     value = _Values(answer, uncertainty)
     size = f"{value('envelope_diameter')} diameter x {value('envelope_height')} high"
-    voltage = stepped_down(answer) or value.most("peak_voltage", "stiffening_peak_voltage")
     current = value.most("peak_current", "stiffening_peak_current")
-    peaks = f"at most {value('peak_power')}, {voltage}, {current}"
+    peaks = f"at most {value('peak_power')}, {heater_voltage(answer, uncertainty)}, {value(current)}"
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
@@ -100,18 +108,21 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     return [*facts, *_lost_motion(value), *_active_constraints(answer), *doubts]
 
 
-def stepped_down(answer: StudyResult) -> str:
-    """Return the heater's voltage of the supply's if a driver must step it down; empty if they are close."""
-    supplied, volts = answer.design.supply_voltage, answer.design.values["peak_voltage"]
-    return f"{number(volts, _DIGITS)} of {number(supplied, _DIGITS)} V (step-down)" if supplied else ""
+def heater_voltage(answer: StudyResult, uncertainty: Mapping[str, Any]) -> str:
+    """Return the heater's largest voltage with its range; of the supply's if a driver must step it down."""
+    value, supplied = _Values(answer, uncertainty), answer.design.supply_voltage
+    if supplied:
+        return f"{value.of('peak_voltage', supplied)} stepped down"
+    return value(value.most("peak_voltage", "stiffening_peak_voltage"))
 
 
 def _times(value: _Values) -> Iterator[str]:
     soft, stiff = (value.values[name] for name in ("softening_time", "stiffening_time"))
-    yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}"
     reached = from_si(value.values["softened_temperature"], "degC")
-    if math.isfinite(reached):
-        yield f"heating stops at {reached:.0f} {pretty('degC')}"
+    coldest = (
+        f" at {reached:.0f} {pretty('degC')}{value.ends('softened_temperature')}" if math.isfinite(reached) else ""
+    )
+    yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}{coldest}"
     if math.isfinite(stiff):
         yield f"stiff {value('stiffening_time')} later"
     elif math.isfinite(soft):
@@ -132,20 +143,19 @@ def _lost_motion(value: _Values) -> list[Fact]:
     """Return lost motion of the stroke and friction of the springs' torque where they are large, with main sources."""
     parts, most = [], []
     for name, whole, words, sources in _LOST:
-        lost, of, unit = value.values[name], value.values[whole], value.table.unit(name)
-        if lost > _LARGE * of:
-            numbers = " of ".join(in_unit(amount, unit, _DIGITS) for amount in (lost, of))
-            parts.append(f"{words}{numbers} {pretty(unit)} ({100.0 * lost / of:.0f} %)")
+        if value.values[name] > _LARGE * value.values[whole]:
+            parts.append(f"{words}{value.of(name, value.values[whole])}")
             most.append(label(max(sources, key=lambda source: value.values[source])))
     return [Fact("Lost motion", parts, f"most by {' and '.join(dict.fromkeys(most))}")] if parts else []
 
 
 def _impedance(value: _Values) -> list[Fact]:
-    """Return stiffness and damping when heating stops, and the stiffness when frozen; none if heating never stops."""
+    """Return the stiffness when frozen, stiffness and damping when heating stops; none if heating never stops."""
     if math.isinf(value.values["softened_stiffness"]):
         return []
-    soft = f"soft {value('softened_stiffness')}, {value('softened_damping')}"
-    return [Fact("Impedance", [soft, f"frozen {value('joint_stiffness@cold')}"])]
+    stiffness = in_unit(value.values["softened_stiffness"], value.table.unit("softened_stiffness"), _DIGITS)
+    soft = f"soft {stiffness}{value.ends('softened_stiffness')}, {value('softened_damping')}"
+    return [Fact("Impedance", [f"frozen {value('joint_stiffness@cold')}", soft])]
 
 
 def _task(value: _Values, choices: Mapping[str, str]) -> list[Fact]:
