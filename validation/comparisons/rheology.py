@@ -33,14 +33,11 @@ def _spectrum(measured: Measured) -> list[tuple[float, float]]:
 
 
 def viscosities(inputs: Values) -> Values:
-    """Zero-shear viscosity [Pa*s] of fits to the files `first` and `others`; its power of the molar mass."""
-    files = [*inputs["first"], *inputs["others"]]
-    results = [
-        viscoelasticity.zero_shear_viscosity(_spectrum(_fitted(CASES / name, inputs["modes"]))) for name in files
-    ]
-    count = len(inputs["first"])
+    """Zero-shear viscosity [Pa*s] of fits to files; its power of the molar mass."""
+    spectra = [_spectrum(_fitted(CASES / name, inputs["modes"])) for name in inputs["files"]]
+    results = [viscoelasticity.zero_shear_viscosity(modes) for modes in spectra]
     power = float(np.polyfit(np.log(inputs["molar_mass"]), np.log(results), 1)[0])
-    return {"first": results[:count], "others": results[count:], "power_of_molar_mass": power}
+    return {"viscosity": results, "power_of_molar_mass": power}
 
 
 def relaxation_from_a_sweep(inputs: Values) -> Values:

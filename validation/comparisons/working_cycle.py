@@ -18,10 +18,13 @@ STUDIES = Path(__file__).resolve().parents[2] / "studies"
 
 @cache
 def _times(study: str) -> Mapping[str, float]:
-    """Values of one working cycle of a study as it starts."""
+    """Values of one working cycle of a study as it starts, its melt without memory, as the plane's is."""
     read = read_study(STUDIES / f"{study}.yaml")
     model = resolve_study(read).functions
-    return Simulator(model).run(model.start.copy()).values
+    values = model.start.copy()
+    if "melt_memory" in model.index:
+        values[model.index["melt_memory"]] = 1.0
+    return Simulator(model).run(values).values
 
 
 def starts(inputs: Values) -> Values:

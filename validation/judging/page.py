@@ -13,12 +13,11 @@ from judging.outcome import INSIDE, KNOWN, OPEN, OUTSIDE, Compared, Outcome, Row
 _HEAD = (
     "# Validation",
     "",
-    "`make validation` compares the product with handbooks, closed solutions, finite elements and published data, and "
-    "writes this page. A case is a folder in `validation/cases/`. A table has the value of each case that is nearest "
-    "its limit or furthest beyond; [validation.csv](validation.csv) has all values. *Of limit* is the deviation over "
-    "the limit of the case. A *known difference* is beyond its limit for a stated reason. An *open* case has a source "
-    "that lacks something a comparison needs. Below a table stand source and figure of each case; "
-    "[references](theory/references.md) has short names of books in full.",
+    "`make validation` compares the product with outside values and writes this page. A table has the value of each "
+    "case (a folder in `validation/cases/`) that is nearest its limit or furthest beyond; "
+    "[validation.csv](validation.csv) has all. *Of limit* is the deviation over the limit. A *known difference* is "
+    "beyond it for a stated reason. An *open* case lacks what a comparison needs. "
+    "[References](theory/references.md) has short names of books in full.",
 )
 
 

@@ -21,11 +21,7 @@ def terminal_viscosities(inputs: Values) -> Values:
         rows = np.array([[float(x) for x in line.split()] for line in text.splitlines()[1:]])
         return float(np.mean(rows[:2, 2] / rows[:2, 0]))
 
-    return {
-        "first": [slow(name) for name in inputs["first"]],
-        "others": [slow(name) for name in inputs["others"]],
-        "power_of_molar_mass": 3.4,
-    }
+    return {"viscosity": [slow(name) for name in inputs["files"]], "power_of_molar_mass": 3.4}
 
 
 def zener(inputs: Values) -> Values:
