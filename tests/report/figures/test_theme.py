@@ -18,7 +18,6 @@ from tvimdesign.report.figures.theme import (
     LINE_STYLES,
     as_file,
     log_ticks,
-    luminance,
     new_figure,
     place,
     plain,
@@ -28,6 +27,12 @@ from tvimdesign.report.figures.virtual_test_figures import drawn
 from tvimdesign.report.output.numbers import axis_label, name_in_words
 
 OKABE_ITO = {"#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7"}
+
+
+def luminance(colour: str) -> float:
+    """Return how light a colour `#rrggbb` prints in grey, from 0 to 1 (ITU-R BT.601)."""
+    red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+    return 0.299 * red + 0.587 * green + 0.114 * blue
 
 
 def test_colours_are_okabe_and_ito_s_and_like_greys_have_other_lines() -> None:

@@ -71,12 +71,6 @@ def style_of(number: int) -> dict[str, Any]:
     return {"color": COLOURS[number % len(COLOURS)], "linestyle": LINE_STYLES[number % len(LINE_STYLES)]}
 
 
-def luminance(colour: str) -> float:
-    """Return how light a colour `#rrggbb` prints in grey, from 0 to 1 (ITU-R BT.601)."""
-    red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
-    return 0.299 * red + 0.587 * green + 0.114 * blue
-
-
 TICKS = 6
 """Steps of an axis at most: every tick, with its line and label, takes a millisecond to draw."""
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")

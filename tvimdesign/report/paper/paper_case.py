@@ -18,7 +18,6 @@ from tvimdesign.study import read_study_text
 
 if TYPE_CHECKING:
     from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
-    from tvimdesign.study import Study
 
 PLACES = {"mean_time": "mean", "near_face_time": "near face", "far_face_time": "far face"}
 """Places of a thermometer in the PCL, by the time that it tells."""
@@ -46,7 +45,7 @@ def pair_times(**choices: str) -> tuple[dict[str, float], dict[str, float]]:
     return times[0], times[1]
 
 
-def sentence() -> str:
+def _case() -> str:
     """Return the row of the paper check: what the pair takes, and what else it could be read as."""
     calibrated, metal = pair_times(), pair_times(structure_material=case()["material"])
     shear, compression = (times["mean_time"] for times in calibrated)
@@ -96,12 +95,6 @@ def instrument(name: str) -> Instrument:
     return Instrument(value, low, high, entry["status"], entry["source"])
 
 
-def _study() -> Study:
-    from tvimdesign.study import read_study_text
-
-    return read_study_text(claims()["study"], "the paper's module")
-
-
 @cache
 def published_model() -> DeviceFunctions:
     """Return the module's table and working cycle as functions."""
@@ -113,15 +106,19 @@ def published_module() -> ResolvedModule:
     """Return the module with a value for every input, and the records it chose."""
     from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 
-    return resolve_study(_study())
+    return resolve_study(read_study_text(claims()["study"], "the paper's module"))
 
 
 @cache
 def published_values() -> dict[str, float]:
     """Return the values of the module [SI], one working cycle simulated."""
+    return cycle_values(published_model())
+
+
+def cycle_values(model: DeviceFunctions) -> dict[str, float]:
+    """Return inputs and values of a module [SI], one working cycle simulated."""
     from tvimdesign.simulation.working_cycle.cycle import Simulator
 
-    model = published_model()
     numbers = dict(zip(model.names, model.start.tolist(), strict=True))
     return {**numbers, **model.values(model.start, Simulator(model).run(model.start).values)}
 

@@ -14,20 +14,26 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cache
 
+import numpy as np
+
 from tvimdesign.base.units import from_si
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.springs import spring
+from tvimdesign.report.output.numbers import label, listed
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import print_grid, wide_console
-from tvimdesign.report.paper import rheometer_rows, spring_rows
+from tvimdesign.report.paper import paper_case, rheometer_rows, spring_rows
 from tvimdesign.report.paper.paper_case import (
     claims,
+    cycle_values,
     from_paper,
+    instrument,
     published_model,
     published_module,
     published_rate,
     published_values,
 )
+from tvimdesign.study import standard_tolerances
 
 
 def _area() -> str:
@@ -87,12 +93,6 @@ def _bisect(function: Callable[[float], float], low: float, high: float, steps: 
     return 0.5 * (low + high)
 
 
-def _case() -> str:
-    from tvimdesign.report.paper.paper_case import sentence
-
-    return sentence()
-
-
 def _creep() -> str:
     first, second = from_paper("recovery_methods"), from_paper("recovery_results")
     return f"two different times for one test: {first:g} s and {second:g} s, a factor of {second / first:g}"
@@ -137,16 +137,38 @@ def _housing() -> str:
     )
 
 
-COMPUTED: dict[str, Callable[[], str]] = {
-    "area": _area,
-    "response": _response,
-    "case": _case,
-    "creep": _creep,
-    "parallel_springs": _parallel_springs,
-    "release": _release,
-    "housing": _housing,
-}
-"""Sentence for each row of the paper check, by the row's name."""
+def _torque_sensor() -> str:
+    values, angle, sensor = published_values(), from_paper("release_angle"), instrument("torque_error")
+    frozen, springs = (values[name] * angle for name in ("joint_stiffness@cold", "spring_stiffness"))
+    shares = [f"{100.0 * error * frozen / springs:.0f}" for error in (sensor.value, sensor.low, sensor.high)]
+    return (
+        f"a release from {angle:g} rad asks for {frozen:.0f} N·m frozen, for {springs:.2f} N·m of the springs alone. A "
+        f"sensor for the first, off by {sensor.value:.1%} of its range ({sensor.low:.1%} to {sensor.high:.1%}, "
+        f"{sensor.status}), is off by {shares[0]} % ({shares[1]} to {shares[2]}) of the second"
+    )
+
+
+_SMALL = 0.045
+"""Width [m] of a small joint."""
+
+
+def _small_joint() -> str:
+    from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+    from tvimdesign.solve.nlp.constraints import constraints_of
+
+    module, factor = published_module(), _SMALL / published_values()["envelope_diameter"]
+    shrunk = {row.name: factor * module.values[row.name] for row in module.table.inputs if row.unit == "mm"}
+    study = module.study.model_copy(update={"module": {**module.study.module, **shrunk}})
+    small = resolve_study(study)
+    values = cycle_values(small.functions)
+    limits = [limit for limit in constraints_of(study, small.table, small.values) if limit.output in values]
+    violated = [label(limit.output) for limit in limits if not limit.keeps(np.array(values[limit.output]))]
+    spread = from_si(standard_tolerances(small.table)["pcl_thickness"].plus_minus or 0.0, "mm")
+    return (
+        f"every length times {factor:.2f} makes it {_SMALL * 1e3:g} mm wide: {values['holding_torque']:.2f} N·m "
+        f"frozen, {values['spring_stiffness']:.2f} N·m/rad of springs, {values['pcl_thickness'] * 1e3:.2f} mm of PCL "
+        f"between printed faces that vary by {spread:g} mm; violated: {listed(violated)}"
+    )
 
 
 @dataclass(frozen=True)
@@ -159,14 +181,17 @@ class PaperFinding:
     verdict: str
 
 
-_COMPUTED = {**spring_rows.COMPUTED, **COMPUTED, **rheometer_rows.COMPUTED}
+def computed(row: str) -> str:
+    """Return the sentence of a row, by the function of its name."""
+    functions = {**vars(paper_case), **vars(spring_rows), **vars(rheometer_rows), **globals()}
+    return str(functions[f"_{row}"]())
 
 
 @cache
 def findings() -> tuple[PaperFinding, ...]:
     """Compute every row of the paper check."""
     return tuple(
-        PaperFinding(claim=row["claim"], where=row["where"], computed=_COMPUTED[row["row"]](), verdict=row["verdict"])
+        PaperFinding(claim=row["claim"], where=row["where"], computed=computed(row["row"]), verdict=row["verdict"])
         for row in claims()["rows"]
     )
 

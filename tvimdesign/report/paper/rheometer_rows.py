@@ -7,7 +7,6 @@ assumed with a range in `paper_claims.yaml`, as no sheet of its maker was read.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -162,16 +161,3 @@ def _pascal(modulus: float) -> str:
         if modulus >= size:
             return f"{modulus / size:.3g} {unit}"
     return f"{modulus:.3g} Pa"
-
-
-COMPUTED: dict[str, Callable[[], str]] = {
-    "strain_as_rate": _strain_as_rate,
-    "frequency": _frequency,
-    "small_strain": _small_strain,
-    "stiff_specimen": _stiff_specimen,
-    "premelt": _premelt,
-    "loss_modulus": _loss_modulus,
-    "adapted_moduli": _adapted_moduli,
-    "sweep_time": _sweep_time,
-}
-"""Sentence for each row of the paper check, by the row's name."""

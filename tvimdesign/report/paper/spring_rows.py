@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from tvimdesign.base.units import from_si, to_si
 from tvimdesign.physics.layers import layer
@@ -167,19 +166,3 @@ def _motion() -> str:
         f"I theta'' + b theta' + K theta = T rings, and is critically damped at b = "
         f"{motion.critical_damping(stiffness, inertia):.4f} N·m·s/rad"
     )
-
-
-COMPUTED: dict[str, Callable[[], str]] = {
-    "torsion_rate": _torsion_rate,
-    "output_stiffness": _output_stiffness,
-    "implied": _implied,
-    "modulus": _modulus,
-    "inch_sizes": _inch_sizes,
-    "pretension": _pretension,
-    "symbols": _symbols,
-    "angles": _angles,
-    "ratio": _ratio,
-    "inertia": _inertia,
-    "motion": _motion,
-}
-"""Sentence for each row of the paper check, by the row's name."""
