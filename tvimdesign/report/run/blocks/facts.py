@@ -188,7 +188,9 @@ def _manufacturing(uncertainty: Mapping[str, Any]) -> list[Fact]:
         return [Fact("Manufacturing", [f"no limit depends on {tolerances}"])]
     whole = math.floor(100.0 * share["share"] + 1e-9)
     count = "fewer than 1" if whole == 0 and share["share"] > 0.0 else f"{whole}"
-    return [Fact("Manufacturing", [f"{count} of 100 modules meet every limit"], f"by {tolerances}")]
+    return [
+        Fact("Manufacturing", [f"{count} of 100 modules meet every limit if assumed values hold"], f"by {tolerances}")
+    ]
 
 
 def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
