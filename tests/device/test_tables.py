@@ -62,6 +62,7 @@ def test_defaults_lie_within_their_limits_and_have_a_source(mode: str) -> None:
         status, _, source = row.source.partition(": ")
         assert status in {"paper", "handbook", "datasheet", "calibrated", "assumed", "chosen", "numerics", "record"}
         assert len(source) > 3
+        assert status != "assumed" or "; test: " in source, "names no least test"
 
     of_every(table_for(mode).inputs, check)
 
