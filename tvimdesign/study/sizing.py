@@ -24,13 +24,17 @@ _SCALED = {
     "coil_diameter": (0.04, 0.09, 0.25), "placement_radius": (0.25, 0.39, 0.48), "core_radius": (0.07, 0.11, 0.2),
     "link_thickness": (0.03, 0.045, 0.09), "pcl_inner_radius": (0.1, 0.16, 0.35),
     "pcl_outer_radius": (0.18, 0.29, 0.44), "wall_thickness": (0.017, 0.035, 0.06),
-    "floor_thickness": (0.025, 0.055, 0.09), "rotor_rim": (0.013, 0.02, 0.04), "rotor_thickness": (0.02, 0.04, 0.07),
+    "floor_thickness": (0.025, 0.055, 0.09), "hub_depth": (0.0, 0.02, 0.2), "rotor_rim": (0.013, 0.02, 0.04),
+    "rotor_thickness": (0.02, 0.04, 0.07),
 }  # fmt: skip
 """Least value, start and largest value of what scales with a module, over its diameter."""
 _WIRE = 0.0011 / (2.28 * 0.0894) ** 0.25
 """Wire [m] of the shipped elbow over the fourth root of its springs' stiffness [N m/rad] times its diameter [m]: the
 rate of a spring is E d^4 / (64 D n)."""
 _WIRE_RANGE = (0.72, 1.4)
+_BANDS = (1.1, 2.0)
+"""Ends of the factor on the hot impedance within which a joint counts as soft: wider, and a module that is said to be
+soft is stiffer than what was asked for."""
 _EXAMPLES = {
     "torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
     "stroke": "6 deg",
@@ -54,6 +58,8 @@ class JointTask:
     current: float
     stroke: float
     assumes_stroke: bool
+    friction: float = 0.5
+    """Most friction over the springs' torque at full stroke."""
 
     @classmethod
     def read(cls, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "") -> JointTask:
@@ -137,9 +143,11 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
     entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
     low, high = task.stiffness
     heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
+    band = min(max(high / low, _BANDS[0]), _BANDS[1])
+    soft = f"softening_band: {band:.3g}   # soft within the stiffness that is asked, not only near it\n"
     about = "to either side of rest" + ("; assumed, as --stroke was not given" if task.assumes_stroke else "")
     stroke = f"stroke: {task.stroke:.4g} rad  # {about}\n"
-    module = _indented(f"{stroke}{shared['common']}{heater}{shared[entry['springs']]}{entry['module']}")
+    module = _indented(f"{stroke}{shared['common']}{soft}{heater}{shared[entry['springs']]}{entry['module']}")
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
 #   tvimdesign run FILE        optimises it again after a change
@@ -163,6 +171,7 @@ require:
   current_margin: ">= 0 A"             # of the heater
   peltier_temperature_margin: ">= 5 K"
   structure_temperature_margin: ">= 0 K"
+  friction_share: "<= {task.friction:.1f}"             # over the springs' torque at full stroke
   spring_fatigue_safety: ">= 1.2"      # for 1e6 full strokes
   layer_edge_safety: ">= 1"            # the bond at the layer's edges
   pin_foot_safety: ">= 1"              # the pins' fillets

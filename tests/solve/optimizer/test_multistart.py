@@ -68,7 +68,7 @@ def test_points_whose_switch_never_ends_are_skipped_and_counted() -> None:
     tried = 1 + list(drawn(50)).index(ends[-1]) + 1
     assert sizes(found) == pytest.approx(ends)
     assert found.passed_over == {"switch never ends": tried - 3, "no such module": 0}
-    assert said == ["the switch of the study's own start never ends, or takes no time: starting elsewhere"]
+    assert said == ["looking for a start: the switch of the study's own never ends, or takes no time"]
 
 
 def test_points_without_a_module_are_skipped_unsimulated() -> None:
@@ -106,7 +106,7 @@ def test_a_point_that_simulates_replaces_a_start_that_does_not() -> None:
     assert second == pytest.approx(next(size for size in drawn(50) if 10.0 <= size < 40.0))
     assert found.model.start[0] == first
     assert found.cycle["time"] == first
-    assert said == ["the study's own start cannot be simulated: starting elsewhere"]
+    assert said == ["looking for a start: the study's own cannot be simulated"]
 
 
 def test_where_no_point_can_be_simulated_the_error_says_what_to_do() -> None:

@@ -172,8 +172,8 @@ def wide_console() -> Console:
 def progress_output() -> Iterator[Progress]:
     """Say on standard error what is going on, for how long, and what is left where that is known.
 
-    One moving line on a terminal; plain lines, one every few seconds, elsewhere. No message is printed twice: what goes
-    on, or comes again, is a line of time, with a bar where the end is known. An interrupt that a library swallows
+    One moving line on a terminal; plain lines, one every few seconds, elsewhere. What goes on, or comes again, is shorter,
+    with a bar where the end is known. An interrupt that a library swallows
     is raised again at the next thing said; CasADi swallows some. An empty text ends the line, to print something else.
     """
     shown = _Shown(Console(stderr=True, highlight=False, markup=False))
@@ -234,7 +234,7 @@ class _Shown:
             self._status.update(" · ".join(filter(None, [self._text, part, times])))
             self._status.start()
             return
-        text = "" if self._text in self._shown else self._text
+        text = f"still {self._text.partition(':')[0]}" if self._text in self._shown else self._text
         self._console.print(f"... {' · '.join(filter(None, [text, part, times]))}", soft_wrap=True)
         self._shown.add(self._text)
         self._printed = now

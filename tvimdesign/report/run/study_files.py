@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InfeasibleError, InputError
@@ -25,6 +25,9 @@ from tvimdesign.study.written_studies import (
     schema_text,
     template_text,
 )
+
+if TYPE_CHECKING:
+    from tvimdesign.solve.uncertainty.robust import Extreme
 
 
 def list_examples() -> None:
@@ -71,6 +74,8 @@ _WIDER, _ROOM = (1.1, 1.25), 1.03
 """Factors on a diameter that are tried, and room over the least: ranges follow the diameter, and must allow it."""
 _STIFFER = (2.0, 4.0, 8.0, 16.0)
 """Stiffnesses that are tried, over the one asked for, if no other diameter alone is enough."""
+_MORE_FRICTION = 1.0
+"""Friction over the springs' torque at full stroke where less is not to be had: they still bring the joint back."""
 _SHORTER = (0.85, 0.7, 0.5, 0.3)
 """Strokes that are tried, over the one asked for."""
 
@@ -102,8 +107,9 @@ def sized_text(task: JointTask, name: str, progress: Callable[[str], None] = lam
     Raises InfeasibleError, with the nearest numbers that were tried and have such hardware.
     """
     progress("choosing the hardware")
-    if hardware := _hardware(task):
-        return study_text(task, hardware, name)
+    for allowed in (task, replace(task, friction=_MORE_FRICTION)):
+        if hardware := _hardware(allowed):
+            return study_text(allowed, hardware, name)
     progress("looking for the nearest numbers that fit")
     raise InfeasibleError(_refusal(task, name))
 
@@ -114,9 +120,11 @@ def _refusal(task: JointTask, name: str) -> str:
     soft = f"{ends_text(*task.stiffness)} {pretty('N*m/rad')}"
     lines = [f"{name}: no joint of {size} holds {hold} frozen and has {soft} soft, with margins for its tolerances."]
     least = min(diameters().values())
-    if task.diameter < least:
+    if task.diameter < _SMALLER * least:
         lines.append(f"The smallest set of screws, springs and bearing suits joints of about {1e3 * least:.0f} mm.")
-    ways = ["  " + " ".join(f"--{option} '{value}'" for option, value in way.items()) for way in _nearest(task)]
+    wider, held_there = _wider(task)
+    lines += [held_there] if held_there else []
+    ways = ["  " + " ".join(f"--{option} '{value}'" for option, value in way.items()) for way in _nearest(task, wider)]
     if ways:
         lines.append("Hardware fits, by arithmetic and with the other numbers as given, for:")
     return "\n".join([*lines, *ways] if ways else [*lines, "No one of the numbers cures it: ask for less of several."])
@@ -132,12 +140,12 @@ def _hardware(task: JointTask) -> str:
 def _least_diameter(task: JointTask, hardware: str) -> float | None:
     """Return the least diameter with margins, for ranges that suit the one asked for; None if that is not enough."""
     least = _extreme(task, hardware, "envelope_diameter")
-    return least if least and least <= task.diameter else None
+    return least.value if least and least.value <= task.diameter else None
 
 
 def _extreme(
     task: JointTask, hardware: str, output: str, weight: float = 1.0, *, margins: bool = True
-) -> float | None:  # fmt: skip
+) -> Extreme | None:  # fmt: skip
     """Return the least value of an output that the other limits allow; with a negative weight the largest."""
     from tvimdesign.solve.uncertainty.robust import least_with_margins  # it loads the compiler
 
@@ -147,9 +155,9 @@ def _extreme(
         return None
 
 
-def _nearest(task: JointTask) -> list[dict[str, str]]:
+def _nearest(task: JointTask, wider: JointTask | None) -> list[dict[str, str]]:
     """Return options of `size` with which hardware fits: changed alone, else a diameter with a stiffness."""
-    changed = [_wider(task)]
+    changed = [wider]
     if task.diameter >= _SMALLER * min(diameters().values()):
         changed.append(_weaker(task) if task.assumes_stroke else _shorter(task))
         changed += [] if any(changed) else [_other_stiffness(task)]
@@ -158,14 +166,19 @@ def _nearest(task: JointTask) -> list[dict[str, str]]:
     return [{name: text for name, text in way.options().items() if text != own[name]} for way in changed if way]
 
 
-def _wider(task: JointTask) -> JointTask | None:
-    """Return the task with the smallest diameter that some hardware bears, in whole millimetres."""
+def _wider(task: JointTask) -> tuple[JointTask | None, str]:
+    """Return the task with the smallest diameter that some hardware bears, in whole millimetres, and what ends it."""
+    from tvimdesign.report.run.blocks.remedies import held_by  # it loads the compiler
+
     for wider, hardware in _wider_ones(task):
         nominal = _extreme(wider, hardware, "envelope_diameter", margins=False)
-        if nominal and nominal <= wider.diameter and (least := _least_diameter(wider, hardware)):
-            snug = replace(task, diameter=1e-3 * math.ceil(max(_ROOM * least, task.diameter) / 1e-3))
-            return snug if snug.diameter < wider.diameter and _hardware(snug) else wider
-    return None
+        if nominal and nominal.value <= wider.diameter:
+            least = _extreme(wider, hardware, "envelope_diameter")
+            if least and least.value <= wider.diameter:
+                snug = replace(task, diameter=1e-3 * math.ceil(max(_ROOM * least.value, task.diameter) / 1e-3))
+                ends = f"{format_quantity(least.value, 'mm', 3)} is the least that {held_by(least)} allow."
+                return snug if snug.diameter < wider.diameter and _hardware(snug) else wider, ends
+    return None, ""
 
 
 def _wider_ones(task: JointTask) -> Iterator[tuple[JointTask, str]]:
@@ -181,7 +194,7 @@ def _wider_ones(task: JointTask) -> Iterator[tuple[JointTask, str]]:
 def _weaker(task: JointTask) -> JointTask | None:
     """Return the task with the largest torque that hardware of its diameter holds."""
     values = [_extreme(task, hardware, "holding_torque", -1.0) for hardware in hardware_by_fit(task)[:_BESIDE]]
-    most = _down(max((value for value in values if value), default=0.0))
+    most = _down(max((most.value for most in values if most), default=0.0))
     weaker = replace(task, torque=most)
     return weaker if 0.0 < most < task.torque and _hardware(weaker) else None
 
@@ -191,8 +204,8 @@ def _other_stiffness(task: JointTask) -> JointTask | None:
     for hardware in hardware_by_fit(task)[:_BESIDE]:
         for weight in (1.0, -1.0):
             end = _extreme(task, hardware, "joint_stiffness@hot", weight, margins=False)
-            if end and weight * end > weight * task.stiffness[weight > 0.0]:
-                other = task.with_stiffness(_down(end))
+            if end and weight * end.value > weight * task.stiffness[weight > 0.0]:
+                other = task.with_stiffness(_down(end.value))
                 if _hardware(other):
                     return other
     return None

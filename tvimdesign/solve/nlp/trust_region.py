@@ -64,7 +64,7 @@ class TrustRegion:
         A run that begins "feasible" ends at the first point that satisfies the limits.
         """
         x = self.reached = np.clip(x, self._ends["lbx"], self._ends["ubx"])
-        self._radius, self._filter, self.iterations = FIRST_RADIUS, [], 0
+        self._radius, self._filter, self.iterations = FIRST_RADIUS if self._problem.events else np.inf, [], 0
         model = self._model(x)
         if model is not None:
             self._filter.append((self._programme.at(x).objective, self._breach(self._programme.at(x))))

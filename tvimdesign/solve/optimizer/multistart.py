@@ -50,7 +50,7 @@ class Multistart:
 
     def _move_start(self, error: SimulationError) -> None:
         """Put a point whose switch ends in the place of a start that cannot be simulated. Raises SimulationError."""
-        self.progress("the study's own start cannot be simulated: starting elsewhere")
+        self.progress("looking for a start: the study's own cannot be simulated")
         points = unit_points(1, len(self.problem.free), self.options.seed + 1) if self.problem.free else iter(())
         for point in islice(points, MAX_DRAWS):
             inputs = self._inputs_at(point)
@@ -73,7 +73,7 @@ class Multistart:
         if self.trial(self.model.start) is not None:
             yield self.model.start
         else:
-            self.progress("the switch of the study's own start never ends, or takes no time: starting elsewhere")
+            self.progress("looking for a start: the switch of the study's own never ends, or takes no time")
             self.passed_over["switch never ends"] += 1
             yield self._ending_point(points)
         for _ in range(self.options.starts - 1):

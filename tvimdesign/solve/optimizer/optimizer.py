@@ -243,7 +243,7 @@ class Optimizer:
             ends |= {"lbx": np.append(ends["lbx"], 0.0), "ubx": np.append(ends["ubx"], 1.0)}
             x = np.append(x, 0.0)
         region = None
-        if self.problem.events and not self.currents and beginning != "sharp":
+        if not self.currents and beginning != "sharp":
             region = TrustRegion(programme, lambda start: self._solver(start, programme), self.deadline, ends)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids

@@ -7,11 +7,12 @@ for what needs no working cycle; the optimum is then sought again. By a yield: s
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from tvimdesign.base.errors import InfeasibleError, TimeOverError
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import Constraint, on_cycle
+from tvimdesign.solve.nlp.constraints import Constraint, in_words, on_cycle
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import MARGINS, Ends, Run
@@ -19,7 +20,7 @@ from tvimdesign.solve.nlp.spread import moments_at
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
-from tvimdesign.solve.uncertainty.yield_search import Robust, reach_yield
+from tvimdesign.solve.uncertainty.yield_search import PRESSING, Robust, pressing, reach_yield
 from tvimdesign.study import ProfileOptions, Study
 from tvimdesign.study.study import Robust as RobustOptions
 
@@ -164,7 +165,14 @@ def _deviations(optimizer: Optimizer, run: Run, wanted: list[str]) -> dict[str, 
     return dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0].tolist(), strict=True))
 
 
-def least_with_margins(study: Study, output: str, weight: float = 1.0, *, margins: bool = True) -> float | None:
+class Extreme(NamedTuple):
+    """Least or largest value of an output, and the limits and ranges that hold it there, the costliest first."""
+
+    value: float
+    held_by: tuple[str, ...]
+
+
+def least_with_margins(study: Study, output: str, weight: float = 1.0, *, margins: bool = True) -> Extreme | None:
     """Return the least value of an output that the arithmetic limits allow, with margins for the study's tolerances.
 
     With a negative weight it is the largest. Limits on the output itself are left out; None if no start gets there.
@@ -188,5 +196,15 @@ def least_with_margins(study: Study, output: str, weight: float = 1.0, *, margin
         run = optimizer.solve(begin=begin)
         run = settle(optimizer, run, {}) if margins and run.start.converged else run
         if run.start.converged:
-            return run.start.objective * optimizer.reference[output] / weight
+            value = run.start.objective * optimizer.reference[output] / weight
+            return Extreme(value, _held_by(optimizer, run))
     return None
+
+
+def _held_by(optimizer: Optimizer, run: Run) -> tuple[str, ...]:
+    """Return the active limits and the ranges at whose ends an optimum lies, the costliest first."""
+    limits = {limit.name: in_words(limit, optimizer.table) for limit in optimizer.problem.limits}
+    costs = {limits[name]: cost for name, cost in pressing(optimizer, run).items()}
+    for free, cost in zip(optimizer.free, run.bound_multipliers.tolist(), strict=False):  # without nodes of currents
+        costs[f"the range of {free.name}"] = abs(cost)
+    return tuple(sorted((name for name, cost in costs.items() if cost > PRESSING), key=lambda name: -costs[name]))

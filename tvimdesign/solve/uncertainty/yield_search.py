@@ -30,7 +30,7 @@ and where it is short of that.
 """
 _MEDIAN, _DEVIATION = 0.5, 0.8413
 """Shares of a normal distribution up to its middle, and up to one standard deviation beyond."""
-_PRESSING = 1e-6
+PRESSING = 1e-6
 """Multiplier from which on a limit holds the design, objectives a share of its scale."""
 _UNKNOWN = 0.1
 """Step of a margin, as a share of its limit's scale, where too many modules never come to its output at all."""
@@ -74,7 +74,7 @@ def reach_yield(
             break
         margins = dict(optimizer.margins)
         candidates.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
-        moves = _moves(drawn, aim, margins, _pressing(optimizer, run))
+        moves = _moves(drawn, aim, margins, pressing(optimizer, run))
         if not moves or _no_better(candidates):
             break
         optimizer.progress(f"adding tolerance margins: yield so far {drawn.together.share:.1%}, target {share:.0%}")
@@ -112,7 +112,7 @@ def _settled(
             predicted = yields.beside(run.inputs, first.inputs, drawn)
         except SimulationError:
             break
-        moves = _moves(predicted, aim, optimizer.margins, _pressing(optimizer, run))
+        moves = _moves(predicted, aim, optimizer.margins, pressing(optimizer, run))
         if not moves:
             break
     return run
@@ -156,14 +156,14 @@ def _no_better(candidates: Sequence[Robust]) -> bool:
     )
 
 
-def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: Collection[str]) -> dict[str, float]:
+def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], active: Collection[str]) -> dict[str, float]:
     """By how much to move the margin of each limit; empty where all are settled.
 
     A limit that holds the design, or has a margin, gives back what it has too much; no margin falls below zero.
     """
     ordered = np.sort(np.where(np.isnan(drawn.residuals), np.inf, drawn.residuals), axis=1)
     before = np.array([margins.get(limit.name, 0.0) for limit in drawn.limits])
-    may_give = np.array([limit.name in pressing for limit in drawn.limits]) | (before > 0.0)
+    may_give = np.array([limit.name in active for limit in drawn.limits]) | (before > 0.0)
     first, last = 0, drawn.residuals.shape[1] - 1
     while first < last:
         middle = (first + last) // 2
@@ -177,7 +177,7 @@ def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: C
     settled = _SETTLED if drawn.together.low >= share else _SHORT
     deviations = np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
     unsettled = np.abs(moved) > settled * deviations + ALGEBRAIC_TOLERANCE
-    holding = np.array([limit.name in pressing for limit in drawn.limits], dtype=bool)
+    holding = np.array([limit.name in active for limit in drawn.limits], dtype=bool)
     if not np.any(unsettled & (holding | (moved > 0.0))):
         return {}
     return {drawn.limits[i].name: float(moved[i]) for i in np.flatnonzero(unsettled)}
@@ -189,8 +189,9 @@ def _shifts(ordered: Array, place: int, may_give: NDArray[np.bool_]) -> Array:
     return np.where(may_give, beyond, np.maximum(beyond, 0.0))
 
 
-def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
-    """Return the active limits of a design."""
+def pressing(optimizer: Optimizer, run: Run) -> dict[str, float]:
+    """Return the active limits of a design by name, with their multipliers, the largest first."""
     first, limits = optimizer.problem.equation_count, optimizer.problem.limits
-    of_limits = run.multipliers[first : first + len(limits)]
-    return {limit.name for limit, multiplier in zip(limits, of_limits, strict=True) if multiplier > _PRESSING}
+    of_limits = run.multipliers[first : first + len(limits)].tolist()
+    active = [(limit.name, value) for limit, value in zip(limits, of_limits, strict=True) if value > PRESSING]
+    return dict(sorted(active, key=lambda limit: -limit[1]))

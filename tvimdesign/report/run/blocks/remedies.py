@@ -16,14 +16,16 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Input, Table, table_for
-from tvimdesign.report.output.numbers import with_unit
+from tvimdesign.report.output.numbers import in_labels, with_unit
 from tvimdesign.solve.nlp.constraints import advice_of, on_cycle, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
-from tvimdesign.solve.uncertainty.robust import least_with_margins
+from tvimdesign.solve.uncertainty.robust import Extreme, least_with_margins
 from tvimdesign.study import Study, given, read_study_text
 from tvimdesign.study.written_studies import started_at
 
+_NAMED = 2
+"""Limits that are named, of those that allow no more."""
 RULE_TOLERANCE = 1e-9
 """By how much, in SI, a rule may seem violated by rounding."""
 
@@ -87,19 +89,24 @@ class Remedies:
                 most = self._least(self._study, limit.output, sign, margins=margins)
                 if most is None:
                     return ""
-                if sign * (most - limit.limit) > RULE_TOLERANCE:
-                    end, value = ("most" if sign < 0.0 else "least"), with_unit(most, self._table.unit(limit.output), 3)
-                    return f"{value} is the {end} that the study's limits allow: relax one of them first"
+                if sign * (most.value - limit.limit) > RULE_TOLERANCE:
+                    value = with_unit(most.value, self._table.unit(limit.output), 3)
+                    return f"{value} is the {'most' if sign < 0.0 else 'least'} that {held_by(most)} allow"
         self._study = self._study.model_copy(update={"require": (*self._study.require, *added)})
         return None
 
-    def _least(self, study: Study, output: str, weight: float = 1.0, *, margins: bool = False) -> float | None:
+    def _least(self, study: Study, output: str, weight: float = 1.0, *, margins: bool = False) -> Extreme | None:
         """Return the least value of an output that arithmetic allows; None if that is not known."""
         started = started_at(study, self._answer.design.values, self._answer.design.choices)
         try:
             return least_with_margins(started, output, weight, margins=margins)
         except TvimError:
             return None
+
+
+def held_by(extreme: Extreme) -> str:
+    """Return the limits and ranges that allow no more, the costliest, in words."""
+    return " and ".join(in_labels(text) for text in extreme.held_by[:_NAMED]) or "the study's limits"
 
 
 def _changes(entry: Mapping[str, Any], table: Table) -> dict[str, Any]:
