@@ -33,8 +33,8 @@ _WIRE = 0.0011 / (2.28 * 0.0894) ** 0.25
 rate of a spring is E d^4 / (64 D n)."""
 _WIRE_RANGE = (0.72, 1.4)
 _BANDS = (1.1, 2.0)
-"""Ends of the factor on the hot impedance within which a joint counts as soft: wider, and a module that is said to be
-soft is stiffer than what was asked for."""
+"""Ends of the factor on the hot impedance within which a joint counts as soft: of a wider one the stiffness that is
+asked for is not reached when the switch ends."""
 _EXAMPLES = {
     "torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
     "stroke": "6 deg",

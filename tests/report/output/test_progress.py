@@ -66,7 +66,7 @@ def test_plain_lines_come_every_few_seconds(
     assert re.fullmatch(r"\.\.\. still start 10 of 40 · █{4}░{16} 22% · \d+ s(, about .* left)?", lines[2])
 
 
-def test_what_comes_again_is_said_to_go_on_without_its_figures(
+def test_what_goes_on_is_shown_again_without_its_figures(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(terminal, "PLAIN_EVERY", 0.0)

@@ -172,9 +172,9 @@ def wide_console() -> Console:
 def progress_output() -> Iterator[Progress]:
     """Say on standard error what is going on, for how long, and what is left where that is known.
 
-    One moving line on a terminal; plain lines, one every few seconds, elsewhere. What goes on, or comes again, is shorter,
-    with a bar where the end is known. An interrupt that a library swallows
-    is raised again at the next thing said; CasADi swallows some. An empty text ends the line, to print something else.
+    One moving line on a terminal; plain lines, one every few seconds, elsewhere. What goes on, or comes again, is
+    shorter; it has a bar where the end is known. An interrupt that a library swallows is raised again at the next thing
+    said; CasADi swallows some. An empty text ends the line, to print something else.
     """
     shown = _Shown(Console(stderr=True, highlight=False, markup=False))
 
