@@ -229,6 +229,7 @@ def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: 
     alone = tmp_path / "report.html"
     alone.write_bytes(page_html(page))
     found = opened(alone)
+    found.page.wait_for_selector("html[data-ready]")  # until then a link leads to the folder beside the page
     for ending, held in (("STEP", data), ("3MF", b"PK")):
         with found.page.expect_download() as saved:
             found.page.get_by_role("link", name=ending).press("Enter")
