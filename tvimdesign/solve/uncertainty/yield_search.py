@@ -22,8 +22,9 @@ from tvimdesign.solve.nlp.solver_run import MARGINS, Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.yields import Drawn, Yields, yields_of
 
-ROUNDS, PREDICTIONS = 4, 5
-"""Designs of which modules are drawn, and at most how many between two of them are predicted from the last one's."""
+ROUNDS, MOST_ROUNDS, PREDICTIONS = 4, 8, 5
+"""Designs of which modules are drawn, how many at most while each of them keeps more than those before, and at most how
+many between two of them are predicted from the last one's."""
 _SETTLED, _SHORT = 0.02, 0.005
 """Change of a margin, in standard deviations of what it is for, below which it is settled: where the yield is reached,
 and where it is short of that.
@@ -64,7 +65,9 @@ def reach_yield(
     """
     candidates: list[Robust] = []
     yields, aim = yields_of(optimizer), share + _AIM * (1.0 - share)
-    for _ in range(ROUNDS):
+    for number in range(MOST_ROUNDS):
+        if number >= ROUNDS and candidates[-1].kept <= max(candidate.kept for candidate in candidates[:-1]):
+            break
         try:
             drawn = yields.at(run.inputs, deadline=optimizer.deadline)
         except TimeOverError:
