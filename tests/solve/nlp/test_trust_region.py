@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
-from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
+from tvimdesign.base.deadline import NEVER
+from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.solve.nlp import trust_region
 from tvimdesign.solve.nlp.cycle_model import Curvatures, CycleModel
+from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
+from tvimdesign.solve.nlp.problem_parts import Point
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study.reader import read_study
 
@@ -47,9 +52,9 @@ def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study: str, mon
     runs = [0]
     run = CycleEngine.run
 
-    def counted(self: CycleEngine, *given: object, **named: object) -> object:
+    def counted(self: CycleEngine, *given: Any, **named: Any) -> Supplied:
         runs[0] += 1
-        return run(self, *given, **named)  # type: ignore[arg-type]  # passes on whatever it was given
+        return run(self, *given, **named)
 
     monkeypatch.setattr(CycleEngine, "run", counted)
     optimizer = Optimizer(read_study(STUDIES / f"{study}.yaml"))
@@ -61,3 +66,18 @@ def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study: str, mon
     assert on_cycle.start.converged
     assert by_models.start.objective <= on_cycle.start.objective * (1.0 + 1e-6)
     assert count < runs[0]
+
+
+@pytest.mark.parametrize(
+    ("objective", "breach", "taken"),
+    [(0.9, 0.2, True), (1.1, 0.1, False), (5.0, 0.05, False), (1.5, 0.05, True), (2.0, 0.0, True), (2.1, 0.0, False)],
+)
+def test_a_step_is_taken_if_it_beats_each_point_in_one_way(objective: float, breach: float, *, taken: bool) -> None:
+    # Fletcher, Leyffer, Math. Program. 91, 2002: a filter of pairs of objective and breach.
+    model = SimpleNamespace(switch_names=())
+    problem = SimpleNamespace(model=model, unknown_count=1)
+    programme = cast(ExtendedProblem, SimpleNamespace(problem=problem))
+    ends = {"lbg": np.array([-np.inf]), "ubg": np.zeros(1)}
+    region = trust_region.TrustRegion(programme, lambda _: cast(Any, None), NEVER, ends)
+    region._filter = [(1.0, 0.1), (2.0, 0.0)]
+    assert region._better(cast(Point, SimpleNamespace(objective=objective, rows=np.array([breach])))) is taken
