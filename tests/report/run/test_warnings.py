@@ -36,7 +36,7 @@ def test_every_advice_has_a_cure_and_what_has_no_place_is_counted() -> None:
     warnings = [RunWarning(f"warning {i} of something", "write module: {cover: plate}") for i in range(5)]
     lines = warning_lines(warnings, 80, 2)
     assert lines[0] == "Warning: warning 0 of something; write module: {cover: plate}"
-    assert lines[1].endswith("write module: {cover: plate} · 3 more: --full")
+    assert lines[2].strip() == "3 more: summary.txt"
     assert warning_lines(warnings, 80, 5)[-1] == "Warning: warning 4 of something; write module: {cover: plate}"
 
 

@@ -129,7 +129,7 @@ def _fitting(cells: Sequence[Sequence[str]], width: int) -> list[str]:
 def warning_lines(warnings: Sequence[RunWarning], width: int, count: int) -> list[str]:
     """Return the first `count` warnings, each with the line to write, and how many more there are."""
     lines = [line for warning in warnings[:count] for line in _warning(warning, width)]
-    more = f"{len(warnings) - count} more: --full"
+    more = f"{len(warnings) - count} more: {FILE}"
     if len(warnings) <= count:
         return lines
     if len(lines[-1]) + len(DOT) + len(more) <= width:
@@ -181,4 +181,4 @@ def write_summary(answered: AnsweredStudy, folder: ResultsFolder) -> None:
 
 def look_first(folder: str, width: int) -> list[str]:
     """Return where to look first: the page of the folder, and the tables."""
-    return joined([f"Look first: {folder}/{PAGE}", f"every table: {FILE}, --full"], width)
+    return joined([f"Look first: {folder}/{PAGE}", f"all tables and warnings: {FILE}"], width)

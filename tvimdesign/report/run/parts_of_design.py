@@ -100,12 +100,13 @@ def refuse_failed(report: CadReport) -> None:
 
 
 def in_short(checks: Sequence[SolidCheck]) -> str:
-    """Return how many checks passed, how many did not, and the worst failure."""
+    """Return how many checks passed, how many did not, and the worst of those."""
     worst = worst_first(checks)
-    counts = (f"{sum(check.level == level for check in worst)} {level}s" for level in ("failure", "warning"))
     clauses = [f"{sum(check.level == 'pass' for check in checks)} of {len(checks)} checks on the solids passed"]
-    clauses += [count for count in counts if not count.startswith("0 ")]
-    clauses += [f"the worst: {check.text}" for check in worst[:1] if check.level == "failure"]
+    for level in ("failure", "warning"):
+        missed = [check.text for check in worst if check.level == level]
+        if missed:
+            clauses.append(f"{len(missed)} {level}{'s' if len(missed) > 1 else ''}, the worst: {missed[0]}")
     return "; ".join([*clauses, "cad/checks.json"] if worst else clauses)
 
 

@@ -77,11 +77,12 @@ class _Values:
         ends = range_text(self.intervals.get(name))
         return f" ({ends})" if ends else ""
 
-    def of(self, name: str, whole: float) -> str:
-        """Return one value of a whole, with the unit and the value's range."""
-        unit = self.table.unit(name)
-        amounts = " of ".join(in_unit(amount, unit, _DIGITS) for amount in (self.values[name], whole))
-        return f"{amounts} {pretty(unit)}{self.ends(name)}"
+    def in_percent(self, name: str, share: float) -> str:
+        """Return a value as `31 % (25 to 43)` of a whole of which it is this share."""
+        entry = self.intervals.get(name)
+        ends = {end: 100.0 * share * entry[end] / entry["value"] for end in ("low", "high")} if entry else {}
+        text = f"{100.0 * share:.0f} %"
+        return f"{text} ({ends['low']:.0f} to {ends['high']:.0f})" if ends else text
 
     def most(self, *names: str) -> str:
         """Return the name of the largest of some that happen."""
@@ -109,10 +110,12 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
 
 
 def heater_voltage(answer: StudyResult, uncertainty: Mapping[str, Any]) -> str:
-    """Return the heater's largest voltage with its range; of the supply's if a driver must step it down."""
+    """Return the heater's largest voltage with its range, and the supply's if a driver must step it down."""
     value, supplied = _Values(answer, uncertainty), answer.design.supply_voltage
     if supplied:
-        return f"{value.of('peak_voltage', supplied)} stepped down"
+        return (
+            f"{value('peak_voltage')} stepped down from {in_unit(supplied, value.table.unit('peak_voltage'), _DIGITS)}"
+        )
     return value(value.most("peak_voltage", "stiffening_peak_voltage"))
 
 
@@ -131,22 +134,23 @@ def _times(value: _Values) -> Iterator[str]:
 
 _LARGE = 0.1
 """Share of stroke or spring torque from which lost motion or friction stands on the first screen."""
-_LOST = (
-    ("lost_motion", "stroke", "", ("friction_play", "link_play", "bearing_play")),
-    ("friction_torque", "spring_torque_full_stroke", "friction ",
-     ("pin_friction_torque", "bearing_friction_torque", "preload_friction_torque")),
-)  # fmt: skip
-"""What counts as lost, of what, and by which sources."""
 
 
 def _lost_motion(value: _Values) -> list[Fact]:
-    """Return lost motion of the stroke and friction of the springs' torque where they are large, with main sources."""
-    parts, most = [], []
-    for name, whole, words, sources in _LOST:
-        if value.values[name] > _LARGE * value.values[whole]:
-            parts.append(f"{words}{value.of(name, value.values[whole])}")
-            most.append(label(max(sources, key=lambda source: value.values[source])))
+    """Return lost motion and friction as shares of the stroke and of the springs' torque, with what adds most."""
+    shares = {"lost_motion": value.values["lost_motion"] / value.values["stroke"]}
+    shares["friction_share"] = value.values["friction_share"]
+    texts = {"lost_motion": "{} of the stroke", "friction_share": "friction {} of the springs' torque"}
+    large = [name for name, share in shares.items() if share > _LARGE]
+    parts = [texts[name].format(value.in_percent(name, shares[name])) for name in large]
+    most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in large]
     return [Fact("Lost motion", parts, f"most by {' and '.join(dict.fromkeys(most))}")] if parts else []
+
+
+_LOSES = {
+    "lost_motion": ("friction_play", "link_play", "bearing_play"),
+    "friction_share": ("pin_friction_torque", "bearing_friction_torque", "preload_friction_torque"),
+}
 
 
 def _impedance(value: _Values) -> list[Fact]:
@@ -188,9 +192,8 @@ def _manufacturing(uncertainty: Mapping[str, Any]) -> list[Fact]:
         return [Fact("Manufacturing", [f"no limit depends on {tolerances}"])]
     whole = math.floor(100.0 * share["share"] + 1e-9)
     count = "fewer than 1" if whole == 0 and share["share"] > 0.0 else f"{whole}"
-    return [
-        Fact("Manufacturing", [f"{count} of 100 modules meet every limit if assumed values hold"], f"by {tolerances}")
-    ]
+    text = f"{count} of 100 modules meet every limit if assumed values hold"
+    return [Fact("Manufacturing", [text], f"by {tolerances}")]
 
 
 def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
@@ -201,7 +204,7 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     first = measure_first(name, uncertainty)
-    text = f"most in doubt is {label(name)}, met in {100.0 * share:.0f} % of assumed ranges"
+    text = f"if not, {label(name)} fails first, met in {100.0 * share:.0f} % of their ranges"
     return [Fact("Model", [text, *([f"measure {label(first)}"] if first else [])])]
 
 

@@ -13,7 +13,7 @@ from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, 
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, on_limit, value_text
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
-HEADS = ("", "asked", "got", "range", "margin")
+HEADS = ("", "asked", "got", "plausible range", "margin")
 _WIDE = (3, 5)
 """Columns that a narrow screen hides: the range, and the assumed input."""
 
