@@ -85,13 +85,19 @@ class _Condition:
 
 def refuse_unequal(cases: Sequence[Case]) -> None:
     """Raise StudyError with everything in which studies differ that must be the same, each with both places."""
-    problems = [*_given_twice(cases), *_evaluated_only(cases)]
-    first, others = cases[0], cases[1:]
-    for other in others:
-        problems += _unequal_conditions(first, other)
-        problems += _unequal_requirements(cases, other)
+    refuse_repeated(cases)
+    problems = differences(cases)
     if problems:
         raise StudyError(problems)
+
+
+def differences(cases: Sequence[Case]) -> list[Mistake]:
+    """Return everything in which studies differ that is the same in a fair comparison, each with both places."""
+    problems = [*_evaluated_only(cases)]
+    for other in cases[1:]:
+        problems += _unequal_conditions(cases[0], other)
+        problems += _unequal_requirements(cases, other)
+    return problems
 
 
 def _problem(of: Case, path: str, message: str, expected: str, hint: str = "") -> Mistake:
@@ -99,13 +105,12 @@ def _problem(of: Case, path: str, message: str, expected: str, hint: str = "") -
     return Mistake(of.places.file, at.line, at.column, path, message, expected, hint)
 
 
-def _given_twice(cases: Sequence[Case]) -> Iterator[Mistake]:
-    seen: set[Path] = set()
-    for case in cases:
-        real = case.path.resolve()
-        if real in seen:
-            yield Mistake(case.places.file, 0, 0, "", "given twice", "different studies")
-        seen.add(real)
+def refuse_repeated(cases: Sequence[Case]) -> None:
+    """Raise StudyError if a file is given twice."""
+    paths = [case.path.resolve() for case in cases]
+    repeated = [case for i, case in enumerate(cases) if paths[i] in paths[:i]]
+    if repeated:
+        raise StudyError([Mistake(case.places.file, 0, 0, "", "given twice", "different studies") for case in repeated])
 
 
 def _evaluated_only(cases: Sequence[Case]) -> Iterator[Mistake]:

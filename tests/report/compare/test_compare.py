@@ -184,17 +184,21 @@ def test_process_that_dies_leaves_the_other(tmp_path: Path, monkeypatch: pytest.
 def test_finished_runs_are_compared_without_computing(
     tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Two runs of modules that differ in their wire; nothing is simulated for their comparison."""
+    """Two runs of modules that differ in wire and current; nothing is simulated for their comparison."""
     fixed = COARSE[: COARSE.index("vary:")] + COARSE[COARSE.index("operating_points:") :]
-    for name, wire in (("thin", 2.4), ("thick", 2.8)):
-        (path,) = written(tmp_path, **{name: fixed.replace("module:\n", f"module:\n  wire_diameter: {wire} mm\n")})
+    for name, wire, current in (("thin", 2.4, 1.5), ("thick", 2.8, 1.4)):
+        text = fixed.replace("module:\n", f"module:\n  wire_diameter: {wire} mm\n")
+        (path,) = written(tmp_path, **{name: text.replace("current: 1.5 A", f"current: {current} A")})
         assert tvimdesign("run", path, "--no-cad", "--no-plots", "--out", tmp_path / name / "out").returncode == 0
     runs = [tmp_path / name / "out" for name in ("thin", "thick")]
     monkeypatch.setattr("tvimdesign.report.compare.compare_studies.answers", None)
     names = [runs[0] / "design.json", runs[1]]
     done = tvimdesign("compare", *names, "--json", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
-    rows = {row["name"]: row for row in json.loads(done.stdout)["comparisons"]["drawn"]}
+    compared = json.loads(done.stdout)
+    (difference,) = compared["differences"]
+    assert "module.current: 1.4 A here, 1.5 A in" in difference
+    rows = {row["name"]: row for row in compared["comparisons"]["drawn"]}
     designs = [json.loads((run / "design.json").read_text())["values"]["spring_stiffness"] for run in runs]
     assert [*rows["spring_stiffness"]["ratio"].values()] == [pytest.approx(designs[1] / designs[0])]
     assert (tmp_path / "out/report.html").exists()

@@ -228,9 +228,7 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     assert held.get("stiffness_over_stroke >=", 1.0) > 0.4
     text = first_screen(one, 100)
     name, share = next(iter(one.uncertainty["held"].items()))
-    assert (
-        "Manufacturing: 0 of 100 modules meet every limit if assumed values hold · by the usual tolerances" in text
-    )
+    assert "Manufacturing: 0 of 100 modules meet every limit if assumed values hold · by the usual tolerances" in text
     first = label(name.split()[0])
     begin = f"Model: if not, {first} fails first, met in {100.0 * share:.0f} % of their ranges"
     assert any(line.startswith(begin) for line in text)

@@ -32,7 +32,7 @@ from tvimdesign.report.output.command import Command, design_file, done_in_part
 from tvimdesign.report.output.page_sections import tone_of
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.study import Study, read_tree
-from tvimdesign.study.conditions import Case, refuse_unequal
+from tvimdesign.study.conditions import Case, differences, refuse_repeated, refuse_unequal
 from tvimdesign.study.design import Design, design_json, read_design
 from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.source import printable
@@ -55,23 +55,26 @@ def compare_studies(
         raise InputError("compare takes results of finished runs alone, without studies, --points and --set")
     cases = labelled(_results(paths) if all(finished) else _studies(paths, settings), paths)
     texts = {label: _study_text(case, settings) for label, case in cases.items()}
+    of_file = {case.places.file: label for label, case in cases.items()}
+    unequal = [f"{of_file[each.file]}, {each.path}: {each.message}" for each in differences([*cases.values()])]
     with Command(out, overwrite=overwrite, as_json=as_json) as command:
         answers_by_label = {label: nothing_found() for label in cases}
 
         def keep(label: str, answer: dict[str, Any]) -> None:
             answers_by_label[label] = answer
-            _write(command.folder, Outcome(cases, answers_by_label), texts)
+            _write(command.folder, Outcome(cases, answers_by_label, unequal), texts)
 
         if all(finished):
+            which = "optimised" if all(case.study.vary for case in cases.values()) else "drawn"
             for (label, case), path in zip(cases.items(), paths, strict=True):
-                answers_by_label[label] = finished_run(design_file(path), case.study.table)
+                answers_by_label[label] = finished_run(design_file(path), case.study.table, which)
         else:
             requests = [Asked(label, case.path) for label, case in cases.items()]
             start_plotter = command.start_plotter if plots else lambda: None
             answers_by_label |= answers(
                 requests, command.folder.path, points, command.progress, start_plotter, settings, keep
             )
-        outcome = Outcome(cases, answers_by_label)
+        outcome = Outcome(cases, answers_by_label, unequal)
         outcome.seconds["all answers"] = time.perf_counter() - began
         command.begin_plots(drawings(outcome), title_of(outcome))
         outcome.seconds["whole"] = time.perf_counter() - began
@@ -132,13 +135,13 @@ def _studies(paths: Sequence[Path], settings: Sequence[str]) -> list[Case]:
 
 
 def _results(paths: Sequence[Path]) -> list[Case]:
-    """Read the studies of finished runs. Raises InputError, and StudyError where they differ."""
+    """Read the studies of finished runs. Raises InputError, and StudyError if a run is given twice."""
     cases = []
     for path in map(design_file, paths):
         study = Study.model_validate(read_design(path).study)
         beside = path.with_name("study.yaml")
         cases.append(Case(beside if beside.exists() and path.name == "design.json" else path, study))
-    refuse_unequal(cases)
+    refuse_repeated(cases)
     return cases
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -30,9 +30,11 @@ _DEFAULT_OUTPUTS = ("envelope_diameter", "module_mass", "cycle_time", "response_
 class Outcome:
     """All studies' answers under their labels; the others are compared with the first study."""
 
-    def __init__(self, entrants: Mapping[str, Case], found: Mapping[str, dict[str, Any]]) -> None:
-        """Take what each child process wrote as `found`."""
-        self.entrants, self.found = dict(entrants), dict(found)
+    def __init__(
+        self, entrants: Mapping[str, Case], found: Mapping[str, dict[str, Any]], differences: Sequence[str] = ()
+    ) -> None:
+        """Take what each child process wrote as `found`, and the conditions in which finished runs differ."""
+        self.entrants, self.found, self.differences = dict(entrants), dict(found), list(differences)
         self.tables = {label: entrant.study.table for label, entrant in entrants.items()}
         self.seconds: dict[str, float] = {}
 
@@ -162,7 +164,9 @@ class Outcome:
         """The answer with its conditions: how the others stand against the first, and for what each of them wins."""
         reported = [*self._without_design(), *self._against(self.which)]
         reported += [wins(label, self.contests) for label in self.entrants] if self.contests else []
-        return f"With {', '.join(conditions(self.entrants))}, {COMPARISONS[self.which]}: {'; '.join(reported)}."
+        alike = ", ".join(conditions(self.entrants))
+        count = f"{len(self.differences)} different conditions (below)"
+        return f"With {count if self.differences else alike}, {COMPARISONS[self.which]}: {'; '.join(reported)}."
 
     def _without_design(self) -> list[str]:
         return [
@@ -188,6 +192,7 @@ class Outcome:
             **head(),
             "sentence": self.sentence,
             "conclusions": self.conclusions,
+            "differences": self.differences,
             "studies": {label: self._study(label) for label in self.entrants},
             "comparisons": {which: [plain(row) for row in rows] for which, rows in self.rows.items()},
             "leads": [contest.plain() for contest in self.contests],

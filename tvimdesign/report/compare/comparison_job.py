@@ -55,8 +55,8 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
     }  # fmt: skip
 
 
-def finished_run(source: Path, table: Table) -> dict[str, Any]:
-    """Return what a comparison needs of a finished run, by its design.json. Raises InputError."""
+def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:
+    """Return what a comparison of `which` designs needs of a finished run, by its design.json. Raises InputError."""
     design = read_design(source)
     path = source.parent / "results.json"
     try:
@@ -65,7 +65,6 @@ def finished_run(source: Path, table: Table) -> dict[str, Any]:
         results = {}
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from error
-    which = "optimised" if design.study["vary"] else "drawn"
     return {**nothing_found(), which: compared_design(design, results, table)}
 
 

@@ -55,6 +55,7 @@ def comparison_sections(outcome: Outcome, texts: Mapping[str, str]) -> list[Sect
         *([Section("follows", "What follows", [Points(follows)])] if follows else []),
         _side_by_side(outcome),
         *_figures(outcome),
+        *([Section("differ", "Different conditions", [Points(outcome.differences)])] if outcome.differences else []),
         Section("searches", "How they were found", [Points(list(_searches(outcome)))]),
         *([Section("not-done", "Not done", [Points(troubles)])] if troubles else []),
         _studies(texts),
