@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from tvimdesign.solve.infeasibility.feasibility_screen import (
     designs_all_over,
     least_broken,
 )
+from tvimdesign.solve.nlp.ipopt import TIME_OVER
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, NO_DESIGN, NO_MODULE, Array, Ends, Run
@@ -54,6 +56,8 @@ class Relaxation:
     """Whether no start came to an optimum, and only searches in boxes did."""
     ends: list[Run] = field(init=False, default_factory=list)
     """Where the starts came to instead, if none of them came to an optimum."""
+    _runs: dict[tuple[Any, ...], Run] = field(init=False, default_factory=dict)
+    """Runs by ends and beginning."""
 
     def __post_init__(self) -> None:
         """Start with nothing solved."""
@@ -356,9 +360,17 @@ class Relaxation:
         begin: Array | None = None,
         unknowns: Array | None = None,
     ) -> Run:
-        run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
-        self.work.count(run.start, warm=warm is not None)
-        return run
+        """Return a run within some ends; the same one again where it is asked again, by a box or by its halves."""
+        numbers = (None if warm is None else warm.unknowns, begin, unknowns)
+        kept = (*sorted(ends.items()), *sorted(self.optimizer.margins.items()))
+        key = (*kept, *(None if part is None else part.tobytes() for part in numbers))
+        if key not in self._runs:
+            run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
+            self.work.count(run.start, warm=warm is not None)
+            if run.start.status == TIME_OVER:
+                return run
+            self._runs[key] = run
+        return replace(self._runs[key])
 
 
 def order(run: Run) -> tuple[bool, bool, float]:

@@ -30,24 +30,32 @@ _SETTLED = 1e-3
 _STARTS, _SIGMA = 3, 2.5
 """Of a search for a least value, and the standard deviations that a dozen active limits need for a yield of 95 %."""
 MOST_TRIED = 3
-"""Designs that are tried, the best first, until one of them comes to the yield that is asked for."""
+"""Designs that are tried, the best first."""
+_GAIN = 1e-4
+"""Share of the objective by which another design must be better to be drawn."""
 
 Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
 """A design that is not robust: its problem, its run, and the sizes it is kept at."""
 
 
 def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
-    """Return the place of the first of some designs, the best first, that can be made robust, and its robust run.
+    """Return the place of the best of some designs with what the study asks for, and its robust run.
 
-    Where none reaches what the study asks for, the one that comes nearest is returned. Raises TimeOverError where the
-    time is over before any is known to come near.
+    Once one reaches it, the others are first solved with its margins: one that is no better there is left. Where none
+    reaches it, the one that comes nearest is returned. Raises TimeOverError where the time is over before any is known
+    to come near.
     """
     tried: list[tuple[int, Robust]] = []
     for place in _worth_trying(candidates):
         optimizer, run, within = candidates[place]
         if tried and optimizer.deadline.passed:
             break
+        _, best = min(tried, key=_rank, default=(0, None))
         optimizer.margins = {}
+        if best is not None and best.reached:
+            run = _with_margins(optimizer, run, within, best)
+            if not run.start.converged or run.start.objective > best.run.start.objective * (1.0 - _GAIN):
+                continue
         try:
             tried.append((place, _robust(optimizer, run, within, None)))
         except TimeOverError:
@@ -55,11 +63,23 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
                 raise
             optimizer.deadline.leave_out(MARGINS)
             break
-        if tried[-1][1].reached:
-            break
-    best, robust = max(tried, key=lambda pair: (pair[1].reached, pair[1].kept))
-    candidates[best][0].margins = robust.margins
-    return best, robust.run
+    place, robust = min(tried, key=_rank)
+    candidates[place][0].margins = robust.margins
+    return place, robust.run
+
+
+def _rank(tried: tuple[int, Robust]) -> tuple[bool, float]:
+    """Rank designs that reach what is asked by their objectives, then the others by how near they come."""
+    robust = tried[1]
+    return not robust.reached, robust.run.start.objective if robust.reached else -robust.kept
+
+
+def _with_margins(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], other: Robust) -> Run:
+    """Return the optimum of one design with the margins of another; the run itself where it cannot be better."""
+    if run.start.objective >= other.run.start.objective:
+        return run
+    optimizer.margins = dict(other.margins)
+    return optimizer.solve(within, begin=run.inputs, unknowns=run.unknowns, beginning="near")
 
 
 def _worth_trying(candidates: Sequence[Candidate]) -> list[int]:

@@ -69,7 +69,7 @@ def reach_yield(
         if number >= ROUNDS and candidates[-1].kept <= max(candidate.kept for candidate in candidates[:-1]):
             break
         try:
-            drawn = yields.at(run.inputs, deadline=optimizer.deadline)
+            drawn = yields.compared(run.inputs, share, optimizer.deadline)
         except TimeOverError:
             if not candidates:
                 raise
@@ -150,13 +150,11 @@ def _tightened(
 
 
 def _no_better(candidates: Sequence[Robust]) -> bool:
-    """Return whether the last two rounds reached the yield at the same objective."""
-    last = candidates[-2:]
-    return (
-        len(last) > 1
-        and all(candidate.reached for candidate in last)
-        and same_optimum(last[0].run.start, last[1].run.start)
-    )
+    """Return whether the last round but one reached the yield, and the last misses it or ends at the same objective."""
+    if len(candidates) < 2 or not candidates[-2].reached:
+        return False
+    before, last = candidates[-2:]
+    return not last.reached or same_optimum(before.run.start, last.run.start)
 
 
 def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], active: Collection[str]) -> dict[str, float]:

@@ -28,8 +28,8 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judge
 
 Array = NDArray[np.float64]
 
-MODULES = 1 << 12
-"""Modules drawn for one design."""
+MODULES, FEW_MODULES = 1 << 12, 1 << 10
+"""Modules drawn for one design, and how many of them tell a design that is far from a yield."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,11 @@ class Drawn:
     def together(self) -> spread.Yield:
         """Yield of all limits together."""
         return self.within(np.zeros(len(self.limits)))
+
+    def with_more(self, more: Drawn) -> Drawn:
+        """Add further modules of the same design."""
+        residuals = np.hstack([self.residuals, more.residuals])
+        return replace(self, residuals=residuals, columns=np.hstack([self.columns, more.columns]))
 
     def within(self, shifts: Array) -> spread.Yield:
         """Return the yield if each limit's residuals fell by a shift."""
@@ -105,15 +110,25 @@ class Yields:
         numbers = {name: float(values[name]) for name in self._model.names}
         return ResolvedModule(self._study, {**numbers, **self._model.words})
 
-    def at(self, inputs: Array, seed: int | None = None, deadline: Deadline = NEVER) -> Drawn:
-        """Draw modules of the design with these inputs, from the study's seed unless another is given.
+    def at(
+        self, inputs: Array, seed: int | None = None, deadline: Deadline = NEVER, count: int = MODULES
+    ) -> Drawn:  # fmt: skip
+        """Draw modules of the design with these inputs, `count` or more, from the study's seed unless another is given.
 
         What was drawn before is not drawn again. Raises TimeOverError at the deadline.
         """
         key = (inputs.tobytes(), seed)
-        if key not in self._drawn:
-            self._drawn[key] = self._draw(inputs, seed, deadline)
+        before = self._drawn.get(key)
+        first = 0 if before is None else before.residuals.shape[1]
+        if first < count:
+            more = self._draw(inputs, seed, deadline, range(first, count))
+            self._drawn[key] = more if before is None else before.with_more(more)
         return self._drawn[key]
+
+    def compared(self, inputs: Array, share: float, deadline: Deadline) -> Drawn:
+        """Draw modules until they tell whether a design reaches a share, few or all. Raises TimeOverError."""
+        few = self.at(inputs, deadline=deadline, count=FEW_MODULES)
+        return few if few.together.high < share else self.at(inputs, deadline=deadline)
 
     def beside(self, inputs: Array, other: Array, drawn: Drawn) -> Drawn:
         """Predict what modules of a design come to from those that were `drawn` of `other` inputs.
@@ -123,8 +138,9 @@ class Yields:
         """
         if not drawn.limits:
             return drawn
-        linear = self._linear(inputs)
-        moved = drawn.residuals + np.nan_to_num(linear - self._linear(other))
+        count = drawn.residuals.shape[1]
+        linear = self._linear(inputs)[:, :count]
+        moved = drawn.residuals + np.nan_to_num(linear - self._linear(other)[:, :count])
         return replace(drawn, residuals=np.where(np.isfinite(drawn.residuals), moved, linear))
 
     def _linear(self, inputs: Array) -> Array:
@@ -146,11 +162,11 @@ class Yields:
     def _derivatives(self) -> OutputDerivatives:
         return OutputDerivatives(self._model, self._outputs)
 
-    def _draw(self, inputs: Array, seed: int | None, deadline: Deadline) -> Drawn:
+    def _draw(self, inputs: Array, seed: int | None, deadline: Deadline, which: range) -> Drawn:
         model = self._model
         contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
         if self._many is None or not contributors:  # nothing moves any limit
-            return Drawn((), np.zeros((0, MODULES)))
+            return Drawn((), np.zeros((0, len(which))))
         places = [self._moving.index(contributor.name) for contributor in contributors]
         drawn = np.array([inputs[model.index[name]] for name in self._moving])
         many = self._many
@@ -164,7 +180,7 @@ class Yields:
             return many(every, pace=pace, deadline=deadline)
 
         seed = self._study.solver.seed if seed is None else seed
-        values = spread.monte_carlo(outputs, contributors, MODULES, seed).values
+        values = spread.drawn_values(outputs, contributors, len(which), seed, which.start)
         with np.errstate(invalid="ignore"):
             residuals = [limit.residual(values[self._outputs.index(limit.output)]) for limit in self.limits]
         names = tuple(contributor.name for contributor in contributors)
@@ -195,7 +211,7 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
     deadline = optimizer.deadline.late
     yields, seed = yields_of(optimizer), optimizer.study.solver.seed
     drawn = yields.at(run.inputs, seed + 1, deadline)
-    without = yields.at(nominal.inputs, deadline=deadline).together.share
+    without = yields.at(nominal.inputs, deadline=deadline, count=FEW_MODULES).together.share
     table, points = optimizer.table, tuple(optimizer.study.operating_points)
     cycle = optimizer.simulator.run_to_show(nominal.inputs, nominal.current_profiles)
     values = optimizer.model.values(nominal.inputs, cycle.values)
