@@ -230,7 +230,7 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     name, share = next(iter(one.uncertainty["held"].items()))
     assert "Manufacturing: 0 of 100 modules meet every limit if assumed values hold · by the usual tolerances" in text
     first = label(name.split()[0])
-    begin = f"Model: if not, {first} fails first, met in {100.0 * share:.0f} % of their ranges"
+    begin = f"Model: else {first} fails first, in {100.0 * (1.0 - share):.0f} % of their ranges"
     assert any(line.startswith(begin) for line in text)
     # The range of the limit most in doubt is there, so that the screen can name what to measure first.
     assert one.uncertainty["intervals"][name.split()[0]]["shares"]

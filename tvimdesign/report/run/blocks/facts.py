@@ -157,9 +157,12 @@ def _impedance(value: _Values) -> list[Fact]:
     """Return the stiffness when frozen, stiffness and damping when heating stops; none if heating never stops."""
     if math.isinf(value.values["softened_stiffness"]):
         return []
-    stiffness = in_unit(value.values["softened_stiffness"], value.table.unit("softened_stiffness"), _DIGITS)
-    soft = f"soft {stiffness}{value.ends('softened_stiffness')}, {value('softened_damping')}"
-    return [Fact("Impedance", [f"frozen {value('joint_stiffness@cold')}", soft])]
+    unit = value.table.unit("softened_stiffness")
+    frozen, soft = (
+        f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
+        for name in ("joint_stiffness@cold", "softened_stiffness")
+    )
+    return [Fact("Impedance", [f"frozen {frozen}, soft {soft} {pretty(unit)}", value("softened_damping")])]
 
 
 def _task(value: _Values, choices: Mapping[str, str]) -> list[Fact]:
@@ -204,7 +207,7 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     first = measure_first(name, uncertainty)
-    text = f"if not, {label(name)} fails first, met in {100.0 * share:.0f} % of their ranges"
+    text = f"else {label(name)} fails first, in {100.0 * (1.0 - share):.0f} % of their ranges"
     return [Fact("Model", [text, *([f"measure {label(first)}"] if first else [])])]
 
 
