@@ -1,5 +1,8 @@
 """Small studies that several tests begin from: their mode, what is given and what varies; each test asks its own."""
 
+from tvimdesign.solve.nlp.solution import ActiveConstraint
+from tvimdesign.study import Range, Study
+
 FOUR_SIZES_IN_SHEAR = """
 mode: shear
 vary:
@@ -22,3 +25,22 @@ accept: [peltier_temperature_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 """
 """What varies in a block of a compression module, and what is asked of it; begins within `vary`."""
+
+
+def with_limit_eased(study: Study, held: ActiveConstraint, share: float) -> Study:
+    """Return the study with one limit, or one end of a range, eased by a share of its size."""
+    name, sense = held.name.split(" ")[:2]
+    factor = 1.0 + share if sense == "<=" else 1.0 - share
+    if held.origin == "vary":
+        vary = study.vary[name]
+        assert isinstance(vary, Range)
+        end = {"upper": vary.upper * factor} if sense == "<=" else {"lower": vary.lower * factor}
+        return study.model_copy(update={"vary": {**study.vary, name: vary.model_copy(update=end)}})
+    require = tuple(
+        r.model_copy(update={"limit": r.limit * factor})
+        if name in (r.output, *study.table.output(r.output).also_limited)
+        else r
+        for r in study.require
+    )
+    assert require != study.require
+    return study.model_copy(update={"require": require})

@@ -8,7 +8,6 @@ from support import fine
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
@@ -60,15 +59,14 @@ def with_pieces(pieces: int, text: str = HEATING) -> str:
 def terminals(solution: Solution, phase: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Voltage, hot and cold side over a stage, by the Peltier equations from temperatures and currents."""
     line, model = solution.cycle.trajectories[phase], solution.model
-    seen = np.array([kelvins(solution, phase, line, i) for i in range(len(line.times))])
+    temperatures = model.phases[phase].temperatures
+    seen = np.array([
+        np.asarray(temperatures(line.states[:, i], line.currents[i], solution.inputs)).ravel()[:2]
+        for i in range(len(line.times))
+    ])  # fmt: skip
     share = solution.values["peltier_scale"]
     seebeck, ohms = (share * solution.inputs[model.index[f"peltier_{name}"]] for name in ("seebeck", "resistance"))
     return np.abs(seebeck * (seen[:, 1] - seen[:, 0]) + ohms * line.currents), seen[:, 1], seen[:, 0]
-
-
-def kelvins(solution: Solution, phase: str, line: Trajectory, i: int) -> np.ndarray:
-    compiled = solution.model.phases[phase]
-    return np.asarray(compiled.temperatures(line.states[:, i], line.currents[i], solution.inputs)).ravel()[:2]
 
 
 @pytest.mark.slow
@@ -134,8 +132,7 @@ def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
 
 @pytest.mark.slow
 def test_a_cycle_with_profiles_is_not_longer_than_with_constants() -> None:
-    # A constant current must be small from the beginning, as the pads come to their temperature in the end; one that
-    # falls takes all the power the supply has until they do.
+    # A constant current must be small from the start, for the pads' temperature at the end.
     constant, profile = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", "")), solve(CYCLE)
     for solution in (constant, profile):
         assert solution.values["peak_peltier_temperature"] == pytest.approx(393.15, abs=100.0 * TOLERANCE)
@@ -150,9 +147,7 @@ def test_a_slow_supply_costs_time_and_is_told() -> None:
     assert slow.status == "optimal"
     assert slow.values["cycle_time"] > solve(CYCLE).values["cycle_time"]
     assert max(profile.steepest for profile in slow.current_profiles.values()) == pytest.approx(0.08, rel=1e-4)
-    # Both studies start from the same module, so that their objectives are one measure. The solver's own are taken:
-    # what a hundredth saves is not far above the simulator's tolerance. (With a hundredth less, one start comes to the
-    # optimum whose ramp leads further, which is 0.06 % worse.)
+    # The solver's own objectives: what a hundredth saves is not far above the simulator's tolerance.
     ends = [solution.starts[0].objective for solution in (slow, eased)]
     prices = [one(solution, "current_slew <=").shadow_price for solution in (slow, eased)]
     assert min(prices) > 1e-3
@@ -178,8 +173,7 @@ def one(solution: Solution, name: str) -> ActiveConstraint:
 def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
     text: str, name: str, written: str, step: float, shares: float
 ) -> None:
-    # `shares` is the step in kelvins or hundredths, as prices are told: to either side, for another limit may take over
-    # nearby. (At 14.85 W one does, and a hundredth less costs a third more.)
+    # `shares` is the step in kelvins or hundredths. To either side, for another limit may take over nearby.
     number, unit = written.split()
     below, above = (
         solve(text.replace(f"<= {written}", f"<= {float(number) + moved} {unit}")) for moved in (-step, step)
@@ -188,16 +182,6 @@ def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
     assert shadow_price > 1e-2
     saved = 100.0 * (below.objective - above.objective) / (2.0 * shares * solve(text).objective)
     assert saved == pytest.approx(shadow_price, rel=0.1)
-
-
-@pytest.mark.slow
-def test_ten_random_starts_find_one_profile() -> None:
-    solution = solve(with_pieces(8).replace("starts: 1", "starts: 11"))
-    assert len(solution.starts) == 11
-    assert all(start.converged for start in solution.starts)
-    objectives = [start.objective for start in solution.starts]
-    assert max(objectives) - min(objectives) <= 1e-4 * min(objectives)
-    assert len(solution.distinct_optima()) == 1
 
 
 def test_a_profile_of_no_effect_or_beside_another_time_is_refused() -> None:

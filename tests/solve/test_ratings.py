@@ -16,7 +16,6 @@ from tvimdesign.report.run.reasons import above_rating
 from tvimdesign.solve.pareto.tradeoff import Point
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
-from tvimdesign.study.design import Design, design_json
 
 TABLE = table_for("shear")
 # PETG, rated for 60 degC, holds pads that take the far face of the layer to 100 degC.
@@ -80,16 +79,6 @@ def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
     assert verdict(answered(ACCEPTED, searched=False), {}, []).kind != "rating"
 
 
-def test_a_cooler_switch_is_within_every_rating() -> None:
-    cool = (
-        "module: {process: machine_6061, target_temperature: 90 degC, pcl_thickness: 3 mm, response_criterion: mean, "
-        "current: 1.1 A}\n"  # at 1.5 A the pads become hotter than they are rated for
-    )
-    points = "operating_points: {hot: {temperature: 90 degC}}\n"
-    found = answer(read_study_text(f"{SEARCHED}{cool}{points}"))
-    assert (found.design.status, found.design.accepting) == ("optimal", ())
-
-
 def test_check_says_it_beforehand_of_the_module_a_search_starts_from() -> None:
     said = foreseen_ratings(read_study_text(SEARCHED))
     assert [line.split(" is ")[1].split(": ")[1] for line in said if "starts from" in line] == [PADS, *BOTH]
@@ -97,14 +86,6 @@ def test_check_says_it_beforehand_of_the_module_a_search_starts_from() -> None:
     required = SEARCHED.replace("require: {", f'require: {{{PADS}: ">= 0 K", ')
     assert [PADS in line for line in foreseen_ratings(read_study_text(required))] == [False, False]
     assert foreseen_ratings(read_study_text(SEARCHED + ACCEPTED)) == []
-
-
-def test_a_design_says_it_wherever_it_is_used() -> None:
-    design = Design.model_validate_json(design_json(answered(f"accept: [{BOTH[0]}]\n").design))
-    refused, accepted = design.rating_notes
-    assert PADS in refused
-    assert "not accepted" in refused
-    assert accepted.endswith(f": {BOTH[0]}.")
 
 
 def test_a_point_of_a_front_has_its_own() -> None:

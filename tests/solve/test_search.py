@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR
+from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR, with_limit_eased
 from support import ROOT
 
 from tvimdesign.base.errors import InfeasibleError, InputError
@@ -15,11 +15,10 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve import search
 from tvimdesign.solve.infeasibility.inspection import row_names
 from tvimdesign.solve.nlp.problem_parts import Objective
-from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution
+from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
-from tvimdesign.study import Study, given, read_study, read_study_text
+from tvimdesign.study import given, read_study, read_study_text
 
 TABLE = table_for("shear")
 SMALL = (
@@ -33,6 +32,27 @@ minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 solver: {starts: 1}
 """
 )
+BLOCKS_SMALL = (
+    """
+mode: compression
+module:
+  response_criterion: mean
+  core_radius: 8 mm
+  link_dowel: iso_8734_2
+  rotor_rim: 8 mm
+  pcl_inner_radius: 13 mm
+  block_height: 11 mm
+  block_depth: 4 mm
+  vane_thickness: 4 mm
+  coil_diameter: 12 mm
+  coil_count: 6.7
+vary:
+  coil_diameter: [10 mm, 16 mm]
+  coil_count: [4, 9]
+"""
+    + COMPRESSION_BLOCKS
+    + "solver: {starts: 7, seed: 1}\n"
+)
 
 
 @pytest.fixture(scope="module")
@@ -43,15 +63,18 @@ def paper() -> Solution:
 
 
 @pytest.mark.slow
-def test_ten_random_starts_come_to_one_optimum() -> None:
-    solution = optimize(read_study_text(SMALL.replace("starts: 1", "starts: 11")))
+@pytest.mark.parametrize(
+    ("text", "apart"), [(SMALL.replace("starts: 1", "starts: 11"), 1e-4), (BLOCKS_SMALL, 1e-3)], ids=["shear", "blocks"]
+)
+def test_random_starts_come_to_one_optimum(text: str, apart: float) -> None:
+    solution = optimize(read_study_text(text, "test"))
+    assert solution.feasible
     assert all(start.converged for start in solution.starts)
     objectives = [start.objective for start in solution.starts]
     assert max(objectives) - min(objectives) <= 1e-4 * min(objectives)
     assert len(solution.distinct_optima()) == 1
     for name, value in solution.starts[0].end.items():
-        others = [start.end[name] for start in solution.starts]
-        assert np.allclose(others, value, rtol=1e-4), name
+        assert np.allclose([start.end[name] for start in solution.starts], value, rtol=apart), name
 
 
 @pytest.mark.slow
@@ -108,23 +131,6 @@ def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: S
     assert run.t_events[0][0] == pytest.approx(paper.values["response_time"], rel=0.01)
 
 
-def _eased(study: Study, held: ActiveConstraint) -> Study:
-    """Return the study with one limit, or one end of a range, moved by a hundredth."""
-    name, sense = held.name.split(" ")[:2]
-    if held.origin == "vary":
-        ends = study.vary[name].model_dump()
-        end = {"upper": ends["upper"] * 1.01} if sense == "<=" else {"lower": ends["lower"] * 0.99}
-        return study.model_copy(update={"vary": {**study.vary, name: study.vary[name].model_copy(update=end)}})
-    eased = [
-        r.model_copy(update={"limit": r.limit * (0.99 if r.sense == ">=" else 1.01)})
-        if name in (r.output, *TABLE.output(r.output).also_limited)
-        else r
-        for r in study.require
-    ]
-    assert eased != list(study.require)
-    return study.model_copy(update={"require": tuple(eased)})
-
-
 @pytest.mark.gate
 def test_a_price_is_what_relaxing_a_limit_or_a_range_saves() -> None:
     study = read_study_text(SMALL)
@@ -132,7 +138,7 @@ def test_a_price_is_what_relaxing_a_limit_or_a_range_saves() -> None:
     priced = [held for held in before.held if held.origin == "require" and held.shadow_price > 1e-2]
     assert len(priced) >= 2
     for held in (*priced, max((h for h in before.held if h.origin == "vary"), key=lambda h: h.shadow_price)):
-        after = optimize(_eased(study, held))
+        after = optimize(with_limit_eased(study, held, 0.01))
         saved = 100.0 * (before.objective - after.objective) / before.objective
         assert saved == pytest.approx(held.shadow_price, rel=0.1), held.text
 
@@ -147,34 +153,6 @@ def test_listed_records_are_compared_by_one_measure() -> None:
     assert solution.objective == pytest.approx(min(by_material.values()), rel=1e-3)
     assert len(solution.free_starts) == 1  # with the records mixed
     assert all(start.end.keys() <= solution.model.index.keys() for start in solution.starts)
-
-
-@pytest.mark.gate
-def test_a_limit_on_one_time_while_another_is_minimised_holds() -> None:
-    free = optimize(read_study_text(SMALL))
-    limit = 0.9 * free.values["near_face_time"]
-    bounded = SMALL.replace("require:", f'require:\n  near_face_time: "<= {limit:.3f} s"').replace("<= 9 W", "<= 20 W")
-    solution = optimize(read_study_text(bounded))
-    assert solution.status == "optimal"
-    assert solution.values["near_face_time"] <= limit * 1.002
-
-
-@pytest.mark.gate
-def test_energy_can_be_minimised_and_bounded() -> None:
-    small = SMALL.replace("[0.5 A, 2 A]", "[0.5 A, 2 A]\n  pcl_outer_radius: [30 mm, 40 mm]").replace(
-        "40 N.m", "20 N.m"
-    )
-    least = optimize(
-        read_study_text(small.replace("{envelope_volume: 1, module_mass: 1, response_time: 1}", "switch_energy"))
-    )
-    assert least.status == "optimal"
-    stiff = small.replace("{envelope_volume: 1, module_mass: 1, response_time: 1}", "{joint_stiffness@hot: 1}")
-    limit = 1.05 * least.values["switch_energy"]
-    free = optimize(read_study_text(stiff))
-    bounded = optimize(read_study_text(stiff.replace("require:", f'require:\n  switch_energy: "<= {limit:.3f} J"')))
-    assert bounded.status == "optimal"
-    assert free.values["switch_energy"] > limit
-    assert bounded.values["switch_energy"] == pytest.approx(limit, rel=2e-3)
 
 
 def test_a_peak_of_a_constant_current_can_have_a_least() -> None:
@@ -198,11 +176,6 @@ def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
         assert weak.values[name] == pytest.approx(reference.values[name], rel=1e-4)
     for name in ("pcl_thickness", "current"):
         assert weak.starts[0].end[name] == pytest.approx(reference.starts[0].end[name], rel=1e-3)
-
-
-def test_advice_that_is_not_followed_is_told() -> None:
-    found = answer(read_study_text("mode: shear\n"))
-    assert "structure_temperature_margin" in {warning.output for warning in found.warnings}
 
 
 @pytest.mark.gate
@@ -236,43 +209,6 @@ def test_where_no_switch_is_found_the_arithmetic_conflict_is_told(monkeypatch: p
     asked = "  spring_stiffness: '>= 9 N.m/rad'\n  spring_fatigue_safety: '>= 3'\nminimize: {peak_power: 1}\n"
     with pytest.raises(InfeasibleError, match=r"cannot hold together.*\n  spring_stiffness.*\n  spring_fatigue_safety"):
         optimize(read_study_text(f"{FOUR_SIZES_IN_SHEAR}require:\n{asked}solver: {{starts: 1}}\n"))
-
-
-BLOCKS_SMALL = (
-    """
-mode: compression
-module:
-  response_criterion: mean
-  core_radius: 8 mm
-  link_dowel: iso_8734_2
-  rotor_rim: 8 mm
-  pcl_inner_radius: 13 mm
-  block_height: 11 mm
-  block_depth: 4 mm
-  vane_thickness: 4 mm
-  coil_diameter: 12 mm
-  coil_count: 6.7
-vary:
-  coil_diameter: [10 mm, 16 mm]
-  coil_count: [4, 9]
-"""
-    + COMPRESSION_BLOCKS
-    + "solver: {starts: 7, seed: 1}\n"
-)
-
-
-@pytest.mark.slow
-def test_six_random_starts_come_to_one_optimum_that_keeps_every_limit() -> None:
-    solution = optimize(read_study_text(BLOCKS_SMALL, "test"), lambda _: None)
-    assert solution.status == "optimal"
-    assert solution.feasible
-    assert all(start.converged for start in solution.starts)
-    objectives = [start.objective for start in solution.starts]
-    assert max(objectives) - min(objectives) <= 1e-4 * min(objectives)
-    for name, value in solution.starts[0].end.items():
-        assert np.allclose([start.end[name] for start in solution.starts], value, rtol=1e-3), name
-    # The mode's own price: the stroke squeezes the block, so its depth cannot be less than twice the way of the vane.
-    assert 0.49 < solution.values["block_strain"] < 0.5005
 
 
 @pytest.mark.slow

@@ -78,8 +78,6 @@ def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps() -> None:
 
 def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None:
     # A coil of 12 mm at least with an index of 6 at most needs wire of 2 mm, with a gap between its coils.
-    #
-    # Each alone can hold; moved as far as told, or farther, both hold.
     text = HEAVY.replace(
         'spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"',
         'module_mass: "<= 400 g", spring_index: "<= 6", coil_pitch: "<= 2.05 mm"',
@@ -93,14 +91,6 @@ def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None
     refuse_infeasible(read_study_text(text.replace("<= 2.05 mm", f"<= {1.001 * float(figure):.6g} mm")))
     refuse_infeasible(read_study_text(text.replace(', coil_pitch: "<= 2.05 mm"', "")))
     refuse_infeasible(read_study_text(text.replace('spring_index: "<= 6", ', "")))
-
-
-def test_a_limit_that_nothing_varied_changes_is_reported_before_building() -> None:
-    said = _refusal(
-        "mode: shear\nvary: {pcl_thickness: [0.6 mm, 2 mm]}\n"
-        'require: {envelope_diameter: "<= 100 mm"}\nminimize: pcl_mass\n'
-    )
-    assert "nothing under `vary` can change it" in said
 
 
 def test_every_limit_that_the_fixed_inputs_break_is_told_at_once() -> None:

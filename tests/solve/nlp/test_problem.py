@@ -193,7 +193,6 @@ def test_a_study_with_nothing_free_is_evaluated_and_its_limits_checked(most: str
 
 
 def test_a_peak_of_a_profile_is_an_unknown_that_no_sample_exceeds() -> None:
-    """Many instants of a driven phase are as high as the highest: a maximum of them has kinks at every optimum."""
     optimizer = Optimizer(read_study_text(PROFILE, "a test"))
     problem = optimizer.problem
     run = optimizer.solve()
@@ -208,9 +207,7 @@ def test_a_peak_of_a_profile_is_an_unknown_that_no_sample_exceeds() -> None:
         assert np.max(samples) < 1e-6
         cycle = fine(optimizer.model).run(run.inputs, run.current_profiles)
         assert cycle.values[peak.row.name] <= peak.scale * unknown * (1.0 + 2e-3)
-
-
-def test_a_peak_of_a_profile_has_no_least() -> None:
+    # Such a peak has no least.
     text = PROFILE.replace('peak_power: "<= 9 W"', 'peak_power: ">= 5 W"')
     with pytest.raises(InputError, match="peak_power: a peak can be kept below a limit, not above one"):
         Optimizer(read_study_text(text, "a test"))
@@ -281,9 +278,7 @@ def test_what_binds_is_told_with_the_ends_of_ranges(built: ParametricOptimizer) 
     assert "peak_power <=" in bound.binding
     ended = built.solve(_with("vary.current=[0.8 A, 1.1 A]"))
     assert ended.ends["current"] == "upper"
-
-
-def test_what_is_built_in_does_not_fit(built: ParametricOptimizer) -> None:
+    # What is built in does not fit.
     assert not built.fits(_with("cover=plate"))
     assert not built.fits(_with("require.holding_torque=>= 1 N.m"))
     assert not built.fits(_with("solver.cells=10"))

@@ -14,29 +14,11 @@ from tvimdesign.study import read_study_text
 
 STUDY = """
 mode: compression
-module:
-  process: machine_6061
-  pcl_grade: pcl_50k
-  peltier_module: silicone_9ar_08_24v
-  target_temperature: 80 degC
-  running_clearance: 1 mm
-  link_dowel: iso_8734_2
-  link_dowel_count: 2
-  corner_radius: 1 mm
-  corner_depth_ratio: 10
-  slot_corner_offset: -0.5 mm
-  pocket_depth_ratio: 5
-  bearing: ball_6802
-  axial_preload: wave_22_2x23_8
-  hub_depth: 2 mm
-  foot_height: 8 mm
-  preload_adjuster: rotary
-  radial_clearance: 1.7 mm
-  cover: plate
-  stroke: 0.104 rad
-  moving_inertia: 415.6 kg*mm^2
-  vane_count: 6
-  response_criterion: softening
+module: {process: machine_6061, pcl_grade: pcl_50k, peltier_module: silicone_9ar_08_24v, target_temperature: 80 degC,
+  running_clearance: 1 mm, link_dowel: iso_8734_2, link_dowel_count: 2, corner_radius: 1 mm, corner_depth_ratio: 10,
+  slot_corner_offset: -0.5 mm, pocket_depth_ratio: 5, bearing: ball_6802, axial_preload: wave_22_2x23_8,
+  hub_depth: 2 mm, foot_height: 8 mm, preload_adjuster: rotary, radial_clearance: 1.7 mm, cover: plate,
+  stroke: 0.104 rad, moving_inertia: 415.6 kg*mm^2, vane_count: 6, response_criterion: softening}
 vary:
   pin_radius_ratio: {from: 0.3, to: 0.8, start: 0.65}
   preload_angle: {from: 0.12 rad, to: 0.5 rad, start: 0.3 rad}

@@ -1,16 +1,15 @@
 """Cost of a limit in each output: the implicit function theorem against optima with the limit moved."""
 
 import pytest
+from small_studies import with_limit_eased
 from support import ROOT
 
-from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Range, Study, read_study, read_study_text
 
-TABLE = table_for("shear")
 SMALL = """
 mode: shear
 vary:
@@ -51,25 +50,6 @@ def _active(study: Study) -> tuple[ActiveConstraint, ...]:
     return verify_optimum(optimizer, run, (run.start,), {}).held
 
 
-def _moved(study: Study, held: ActiveConstraint, share: float) -> Study:
-    """Return the study with one limit eased by a share of its size."""
-    output, sense = held.name.split(" ")
-    factor = 1.0 + share if sense == "<=" else 1.0 - share
-    if held.origin == "vary":
-        vary = study.vary[output]
-        assert isinstance(vary, Range)
-        end = {"upper": vary.upper * factor} if sense == "<=" else {"lower": vary.lower * factor}
-        return study.model_copy(update={"vary": {**study.vary, output: vary.model_copy(update=end)}})
-    require = [
-        r.model_copy(update={"limit": r.limit * factor})
-        if output in (r.output, *TABLE.output(r.output).also_limited)
-        else r
-        for r in study.require
-    ]
-    assert require != list(study.require)
-    return study.model_copy(update={"require": tuple(require)})
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("text", [SMALL, CURVED], ids=["at a corner", "on a slope"])
 def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
@@ -79,7 +59,7 @@ def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
     assert len(binding) >= 4
     assert {held.origin for held in binding} == {"require", "vary"}
     for held in binding:
-        eased, tightened = (_optimum(_moved(study, held, share)) for share in (STEP, -STEP))
+        eased, tightened = (_optimum(with_limit_eased(study, held, share)) for share in (STEP, -STEP))
         for name, saving in held.sensitivity.items():
             shown = (tightened[name] - eased[name]) / (2.0 * STEP * at_optimum[name])
             assert saving == pytest.approx(shown, rel=1e-3, abs=2e-4), (held.text, name)

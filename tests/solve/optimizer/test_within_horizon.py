@@ -34,14 +34,6 @@ def test_a_switch_that_nothing_limits_ends_within_the_horizon() -> None:
     assert holds[0].shadow_price > 0.0
 
 
-def test_a_time_that_is_limited_already_is_left_as_it_is() -> None:
-    said: list[str] = []
-    study = read_study_text(STUDY + "require: {response_time: <= 300 s}\n", "test")
-    found = optimize(study, said.append)
-    assert found.values["response_time"] == pytest.approx(300.0, rel=2e-3)
-    assert not any("horizon" in word for word in said)
-
-
 LISTED = STUDY.replace("}\nmin", ", pcl_thickness: {from: 0.8 mm, to: 1.2 mm, step: 0.4 mm}}\nmin")
 
 

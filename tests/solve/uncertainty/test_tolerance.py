@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from functools import cache
 from statistics import NormalDist
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +10,6 @@ import pytest
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
-from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.solve.nlp.spread import moments
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
@@ -96,18 +94,6 @@ def test_the_moments_are_those_of_differences_of_the_table(resolved: Callable[[s
     for output, shift, deviation in zip(OUTPUTS, shifts, deviations, strict=True):
         expected = _differences(module, output)
         assert (shift, deviation) == (pytest.approx(expected[0], rel=0.02), pytest.approx(expected[1], rel=0.01))
-
-
-def test_many_modules_are_what_each_is_by_itself(resolved: Callable[[str], ResolvedModule]) -> None:
-    module = resolved(f"tolerances:\n{SPRINGS}")
-    names = ["wire_diameter", "coil_diameter"]
-    many = BatchModel(module.functions, names, OUTPUTS)
-    columns = np.array([[module.values[name] * factor for factor in (0.99, 1.0, 1.02)] for name in names])
-    found = many(columns)
-    for i in range(3):
-        known: dict[str, Any] = {**module.values, **dict(zip(names, columns[:, i], strict=True))}
-        expected = module.table.evaluate(known, OUTPUTS)
-        assert found[:, i] == pytest.approx([expected[name] for name in OUTPUTS], rel=1e-12)
 
 
 def test_one_input_gives_a_yield_that_can_be_worked_out(resolved: Callable[[str], ResolvedModule]) -> None:
