@@ -10,7 +10,7 @@ from scipy.sparse.linalg import spsolve
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.physics.heat_flow import heat, lumps, peltier
+from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
@@ -60,21 +60,6 @@ def test_they_cover_weigh_and_take_depth_as_the_sheet_says() -> None:
     heavier = of_copper["spreader_mass"] - values["spreader_mass"]
     assert of_copper["module_mass"] - values["module_mass"] == pytest.approx(heavier)
     assert heavier > 0.0
-
-
-@pytest.mark.parametrize(("wiring", "strings"), [("series", 1), ("vanes_parallel", 4), ("all_parallel", 16)])
-def test_as_wired_they_are_sixteen_modules_that_share_current_and_voltage(wiring: str, strings: int) -> None:
-    values = values_of("pads heater_strings", VANE_TILE_ROWS, heater_wiring=wiring)
-    record = Catalog().record("peltiers", "qc_17")
-    one = peltier.PeltierModule(*(record.value(name) for name in ("seebeck", "resistance", "conductance")))
-    current, hot, cold = 2.4, 360.0, 320.0
-    assert values["heater_strings"] == strings
-    for heat_of in (peltier.hot_side_heat, peltier.cold_side_heat):
-        alone = 16 * heat_of(one, current / strings, hot, cold)
-        # The record's 130 mm^2 are 11.4 by 11.4 mm to three figures.
-        assert heat_of(values["pads"], current, hot, cold) == pytest.approx(alone, rel=1e-9)
-    in_series = 16 / strings * peltier.voltage(one, current / strings, hot, cold)
-    assert peltier.voltage(values["pads"], current, hot, cold) == pytest.approx(in_series)
 
 
 def test_the_stack_has_the_spreader_between_modules_and_blocks() -> None:

@@ -29,15 +29,9 @@ def rows(name: str = "results") -> list[dict[str, str]]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["paper_shear", "paper_compression", "wrist_compression"])
-def test_times_of_the_paper_s_sizes_are_those_of_the_plane(name: str) -> None:
+@pytest.mark.parametrize("name", ["paper_shear", "paper_compression", "wrist_compression", "compare_shear"])
+def test_times_are_those_of_the_plane(name: str) -> None:
     for time, one in compared(model_of(STUDIES / f"{name}.yaml")).items():
-        assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time
-
-
-@pytest.mark.slow
-def test_times_of_a_plastic_module_with_lips_are_those_of_the_plane() -> None:
-    for time, one in compared(model_of(STUDIES / "compare_shear.yaml")).items():
         assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time
 
 

@@ -54,14 +54,3 @@ def test_webs_and_tiles_beside_a_thermistor() -> None:
     found = TABLE.evaluate(known, ["thermistor_count", "thermistor_seat_diameter", "thermistor_volume"])
     assert (found["thermistor_count"], found["thermistor_seat_diameter"]) == (3.0, 0.0)
     assert found["thermistor_volume"] == pytest.approx(3.0 * 0.25 * pi * 1.8**2 * 4.0 * 1e-9)
-
-
-@pytest.mark.parametrize(
-    ("gap", "module"),
-    [
-        ("thermistor_window_gap", {"thermistor_diameter": 3.0 * MM}),
-        ("thermistor_arc_gap", {"thermistor_diameter": 1.5 * MM, "arc_span": 1.5}),
-    ],
-)
-def test_a_bead_too_large_for_the_floor_breaks_a_rule(gap: str, module: dict[str, float]) -> None:
-    assert TABLE.evaluate(inputs_of(**module), [gap])[gap] < 0.0

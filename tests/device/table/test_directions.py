@@ -36,14 +36,14 @@ FALLS = [
 @settings(max_examples=15, deadline=None)
 @given(factor=st.floats(1.005, 1.25), seed=st.integers(0, 2**20))
 def test_result_follows_its_input(
-    source: str, result: str, sign: float, factor: float, seed: int, base: dict[str, Any]
+    source: str, result: str, sign: float, factor: float, seed: int, inputs: dict[str, Any]
 ) -> None:
     random = np.random.default_rng(seed)
     # Not the geometry's own module but one near it; what does not depend on the source stays out of the way.
     module = {
-        row.name: base[row.name] * random.uniform(0.92, 1.08) for row in TABLE.inputs if row.variable
+        row.name: inputs[row.name] * random.uniform(0.92, 1.08) for row in TABLE.inputs if row.variable
     }  # fmt: skip
-    before = {**base, **module}
+    before = {**inputs, **module}
     after = {**before, source: _changed(source, before[source], factor)}
     low, high = (TABLE.evaluate(given, [result])[result] for given in (before, after))
     assert sign * (high - low) > 0.0
@@ -51,11 +51,6 @@ def test_result_follows_its_input(
 
 def _changed(name: str, value: float, factor: float) -> float:
     return value + 20.0 * (factor - 1.0) if name.startswith("temperature") else value * factor
-
-
-@pytest.fixture(scope="module")
-def base(inputs: dict[str, Any]) -> dict[str, Any]:
-    return inputs
 
 
 @pytest.mark.gate
@@ -82,7 +77,7 @@ def test_response_time_follows_its_input(
     span = 15.0 if name.endswith("temperature") else 0.6 * lowest
     times = []
     for share in sorted(shares):
-        inputs = unity.start.copy()
-        inputs[unity.index[name]] = lowest + share * span
-        times.append(simulator.run(inputs).values["far_face_time"])
+        place = unity.start.copy()
+        place[unity.index[name]] = lowest + share * span
+        times.append(simulator.run(place).values["far_face_time"])
     assert sign * (times[1] - times[0]) > 0.0

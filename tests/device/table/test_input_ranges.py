@@ -3,7 +3,7 @@
 from every import of_every
 
 from tvimdesign.catalog import CATEGORIES, Catalog
-from tvimdesign.device import Choice, Input, table_for
+from tvimdesign.device import Input, table_for
 from tvimdesign.device.table.quantity_group import _all_inputs
 
 ENTRIES = [(name, entry) for group in _all_inputs().values() for name, entry in group.items()]
@@ -16,11 +16,6 @@ def test_defaults_have_ranges_as_data_and_choices_a_reason() -> None:
         name, entry = item
         if entry.get("status") == "assumed":
             assert {"low", "high"} <= entry.keys() or "range_of" in entry, name
-
-    of_every(ENTRIES, check)
-
-    def check(item: tuple[str, dict[str, object]]) -> None:
-        name, entry = item
         if entry.get("status") == "chosen":
             assert len(str(entry["source"])) > 3, name
             assert "low" not in entry, name
@@ -47,17 +42,9 @@ def test_defaults_lie_within_ranges_that_are_read_in_their_unit() -> None:
         assert row.lower <= row.low <= row.default <= row.high <= row.upper, row.name
 
     of_every(list(INPUTS.values()), check)
-    air = INPUTS["ambient_temperature"]
-    assert (air.low, air.high) == (293.15, 298.15)
-    assert INPUTS["coil_gap"].high == 0.2e-3
 
 
 def test_a_viscosity_moves_by_the_record_s_range_alone() -> None:
     factor = INPUTS["melt_viscosity_factor"]
     assert (factor.low, factor.high, factor.range_of) == (None, None, None)
     assert INPUTS["pcl_zero_shear_viscosity"].record == ("pcl_grade", "zero_shear_viscosity")
-    choice = TABLES[0].quantity("pcl_grade")
-    assert isinstance(choice, Choice)
-    entry = Catalog().record(choice.category or "", choice.default).entry("zero_shear_viscosity")
-    assert None not in (entry.low, entry.high)
-    assert entry.low < entry.value < entry.high

@@ -76,7 +76,6 @@ def chosen(hottest: float, current: float, **bears: float) -> HeaterFuse:
 @pytest.mark.parametrize(
     ("hottest", "current", "bears", "designation", "opens", "holds", "above"),
     [  # rows of the sheet, in degC: Tf and Th
-        (84.0, 2.0, {"heater": 120.0, "structure": 170.0}, "5MA3SPF109019340", 113.0, 84.0, ()),
         (95.4, 2.0, {"heater": 120.0, "structure": 113.0}, "5MA3SPF109019340", 113.0, 84.0, ()),
         (95.9, 2.5, {"heater": 120.0, "structure": 105.0}, "5MA3SPF109019340", 113.0, 84.0, ("structure",)),
         (83.1, 12.0, {"heater": 160.0, "structure": 122.0}, "5MA3SPF121H19340", 122.0, 94.0, ()),
@@ -101,7 +100,6 @@ def test_the_cut_out_opens_before_the_least_rating(
     [  # in degC; what opens at 104 may open from 94, by IEC 60691
         (89.0, 105.0, "G4A01104C", ()),
         (88.0, 103.0, "G4A01104C", ("structure",)),  # what opens at 98 may open from 88
-        (83.0, 103.0, "G4A01098C", ()),
         (89.1, 105.0, "G4A01216C", ("structure",)),
     ],
 )

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 from scipy.special import erf
-from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 
@@ -115,15 +114,3 @@ def test_bought_springs_spread_as_din_2194_says(bent: dict[str, Any]) -> None:
     # 18.7 degrees so many are so near.
     assert bent["free_angle_margin"] == pytest.approx(bent["preload_margin"] - np.radians(1.0), rel=1e-9)
     assert bent["sorted_share"] == pytest.approx(erf(3.0 / 18.66 / np.sqrt(2.0)), rel=2e-3)
-
-
-@pytest.mark.parametrize("point", ["cold", "hot"])
-def test_impedance_is_the_magnitude_of_springs_layer_and_structure(inputs: dict[str, Any], point: str) -> None:
-    inputs = {**inputs, **STIFF_WHEN_WARM}
-    wanted = ["spring_stiffness", "structure_stiffness"]
-    wanted += [f"{name}@{point}" for name in ("pcl_stiffness", "pcl_damping", "joint_impedance")]
-    found = TABLE.evaluate(inputs, wanted)
-    omega = 2.0 * np.pi * inputs[f"frequency@{point}"]
-    layer = complex(found[f"pcl_stiffness@{point}"], omega * found[f"pcl_damping@{point}"])
-    joint = found["spring_stiffness"] + 1.0 / (1.0 / layer + 1.0 / (found["structure_stiffness"] * (1.0 + 0.04j)))
-    assert found[f"joint_impedance@{point}"] == pytest.approx(abs(joint), rel=1e-9)

@@ -26,12 +26,11 @@ def joint(inputs: dict[str, Any]) -> dict[str, Any]:
     algebraic = [
         f"{name}@{point}"
         for name in ("storage_modulus", "loss_modulus", "pcl_stiffness", "pcl_damping", "joint_stiffness",
-                     "joint_damping", "natural_frequency", "damping_ratio", "loss_factor")
+                     "joint_damping", "joint_impedance", "natural_frequency", "damping_ratio", "loss_factor")
         for point in ("cold", "hot")
     ]  # fmt: skip
     plain = ["structure_stiffness", "spring_stiffness", "impedance_range", "holding_torque",
              "layer_holding_torque", "link_holding_torque", "core_holding_torque",
-
              "layer_strain", "layer_strain_safety", "link_bottom_level", "rotor_top_level",
              "housing_inner_radius"]  # fmt: skip
     return {**given, **TABLE.evaluate(given, [*algebraic, *plain])}
@@ -51,6 +50,7 @@ def star(joint: dict[str, Any], point: str) -> complex:
 def test_joint_is_the_springs_parallel_to_layer_and_structure_in_series(joint: dict[str, Any], point: str) -> None:
     whole = star(joint, point)
     assert joint[f"joint_stiffness@{point}"] == pytest.approx(whole.real, rel=1e-9)
+    assert joint[f"joint_impedance@{point}"] == pytest.approx(abs(whole), rel=1e-9)
     assert joint[f"joint_damping@{point}"] == pytest.approx(whole.imag / (2.0 * np.pi * HERTZ), rel=1e-9)
 
 

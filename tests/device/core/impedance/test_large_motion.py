@@ -70,6 +70,7 @@ def test_damping_at_stroke_is_wagners_over_the_ring() -> None:
     # The structure in series is hundreds of times stiffer than the melt.
     damping = found["joint_damping@hot"] * loss / small[1]
     assert found["hot_damping_at_stroke"] == pytest.approx(damping, rel=0.03)
+    assert 0.0 < found["hot_damping_at_stroke_least"] < found["hot_damping_at_stroke"]
     stiffness = (found["joint_stiffness@hot"] - found["spring_stiffness"]) * storage / small[0]
     assert found["hot_stiffness_at_stroke"] - found["spring_stiffness"] == pytest.approx(stiffness, rel=0.1)
 
@@ -84,21 +85,11 @@ def test_at_a_small_stroke_it_is_the_joint_of_small_motions(mode: str, hertz: fl
     assert found["hot_damping_at_stroke_least"] == pytest.approx(found["joint_damping@hot"], rel=0.02)
 
 
-@pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_damping_at_stroke_is_between_least_and_small_motions(mode: str) -> None:
-    found = module(mode)
-    least, wagner, small = (
-        found[name] for name in ("hot_damping_at_stroke_least", "hot_damping_at_stroke", "joint_damping@hot")
-    )
-    assert 0.0 < least < wagner < small
-
-
 def test_stress_and_the_free_edge_follow_from_the_strain_at_the_rim() -> None:
     found = module()
     stress = 40.0 * 0.104 / 1.0 * np.hypot(found["storage_modulus@hot"], found["loss_modulus@hot"])
     assert found["melt_stress"] == pytest.approx(stress, rel=1e-9)
     assert found["melt_stress_safety"] == pytest.approx(0.2e6 / stress, rel=1e-9)
-    found = module()
     strain = found["edge_fracture_angle"] * 40e-3 / 1e-3
     assert 0.2 * found["storage_modulus@hot"] * strain**2 == pytest.approx(2.0 * 0.035 / (3.0 * 1e-3), rel=1e-9)
     assert found["edge_fracture_angle"] < 0.2 * found["stroke"]
