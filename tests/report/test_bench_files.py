@@ -101,8 +101,3 @@ def test_a_bench_has_protocols_blank_tables_and_fields_for_a_doi(tvimdesign: Com
 @pytest.mark.gate
 def test_filled_tables_become_records_that_hold_the_truth(tvimdesign: Command, design: Path) -> None:
     round_trip(tvimdesign, design, QUICK)
-
-
-@pytest.mark.slow
-def test_a_filled_log_becomes_a_record_of_heat_paths(tvimdesign: Command, design: Path) -> None:
-    round_trip(tvimdesign, design, ["log"])

@@ -3,15 +3,10 @@
 import json
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
 
 import layouts
-import numpy as np
 import pytest
 from support import Command
-
-from tvimdesign.report.fit.fit_files import figure_data
-from tvimdesign.simulation.measurement.fitting.problem import Channel
 
 WEIGHTS = "mass [g]; angle [deg]\n0; 0.9\n100; 5.1\n200; 9.3\n300; 13.4\n200; 9.8\n100; 5.6\n0; 1.4\n"
 
@@ -100,14 +95,3 @@ def test_what_is_wrong_is_said(tvimdesign: Command, weights: Path, words: list[s
     done = tvimdesign("fit", *words, "--no-plots", cwd=weights.parent)
     assert done.returncode == 2
     assert said in done.stderr
-
-
-def test_a_panel_is_titled_by_its_file_and_labelled_by_what_was_measured() -> None:
-    at, angle = np.array([0.0, 1.0]), np.array([0.1, 0.2])
-    one = Channel(
-        "angle of /home/me/lab of 2026/swing, cold.csv, run 2", "deg", angle, lambda _: angle, at, "time", "s"
-    )
-    fit = SimpleNamespace(problem=SimpleNamespace(channels=[one]), predicted=[angle], noise=[1.0], misfit="")
-    made = SimpleNamespace(kind=SimpleNamespace(name="release"), measurement=SimpleNamespace(fit=fit, notes=()))
-    (panel,) = figure_data(made)["panels"]
-    assert (panel["title"], panel["y_label"], panel["x_label"]) == ("swing, cold.csv, run 2", "angle / °", "time / s")

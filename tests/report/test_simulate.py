@@ -96,28 +96,3 @@ def test_an_unknown_test_leaves_no_folder(tvimdesign: Command, tmp_path: Path) -
     assert done.returncode == 2
     assert "did you mean frequency?" in done.stderr
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.slow
-def test_the_design_of_a_run_is_tested_in_place_of_the_start_of_its_study(tvimdesign: Command, tmp_path: Path) -> None:
-    study = tmp_path / "thin.yaml"
-    study.write_text(
-        "mode: shear\nvary: {pcl_thickness: [0.6 mm, 2 mm]}\nminimize: module_mass\nsolver: {starts: 1}\n"
-        "accept: [structure_temperature_margin, stiffening_structure_margin]\n"  # PETG at 100 degC
-    )
-    assert tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "run").returncode == 0
-    reported = {}
-    for name, source in (("start", study), ("design", tmp_path / "run")):
-        done = tvimdesign("simulate", source, "--test", "sine", "--json", "--out", tmp_path / name)
-        assert done.returncode == 0, done.stderr
-        reported[name] = json.loads(done.stdout)
-    assert "the start of" in reported["start"]["notes"][0]
-    assert "the design" in reported["design"]["notes"][0]
-    values = json.loads((tmp_path / "run/results.json").read_text())["values"]
-    stiffness = {
-        name: next(found["value"] for found in one["findings"] if found["name"] == "stiffness@hot")
-        for name, one in reported.items()
-    }
-    assert stiffness["design"] == pytest.approx(values["joint_stiffness@hot"]["value"], rel=1e-3)
-    assert stiffness["start"] != pytest.approx(stiffness["design"], rel=1e-3)
-    assert values["pcl_thickness"]["source"] == "found by the optimiser"

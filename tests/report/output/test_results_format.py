@@ -129,18 +129,6 @@ def test_values_have_status_range_and_source(rows: dict[str, dict[str, str]]) ->
         assert not row["source"].startswith("record: "), name
 
 
-def test_a_chosen_record_of_a_user_s_folder_is_the_one_that_is_shown(tmp_path: Path) -> None:
-    (tmp_path / "polymers").mkdir()
-    text = (ROOT / "tvimdesign/catalog/data/polymers/pcl_80k.yaml").read_text()
-    mine = text.replace("assumed: foot of a melting peak at 58-62 degC", "assumed: weighed by me", 1)
-    (tmp_path / "polymers/mine.yaml").write_text(mine)
-    study = read_study_text(f"mode: shear\ncatalog: {tmp_path}\nmodule: {{pcl_grade: mine}}\n", "a test")
-    values = results(answer(study), TABLE)["values"]
-    assert values["pcl_melting_start"]["source"] == (
-        "polymers/mine: assumed: weighed by me; test: calorimeter, the lot heated at 10 K/min"
-    )
-
-
 def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path: Path) -> None:
     with ResultsFolder(tmp_path / "out") as folder:
         folder.write("curves.csv", curves_csv({"stiffness": [1.0]}, {"stiffness": "N*m/rad"}, "1"))
@@ -158,8 +146,8 @@ STATED = "impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance
 @pytest.mark.parametrize(
     ("module", "soft", "stiff"),
     [
-        (STATED,
-         "|Z| <= 80 N·m/rad at 1 Hz, twice soft_impedance", "|Z| >= 150 N·m/rad at 1 Hz, half of stiff_impedance"),
+        (STATED, "|Z| <= 80 N·m/rad at 1 Hz, twice soft_impedance",
+         "|Z| >= 150 N·m/rad at 1 Hz, half of stiff_impedance"),
         (f"{STATED}, softening_band: 1.5, stiffening_band: 4",
          "|Z| <= 60 N·m/rad at 1 Hz, 1.5 times soft_impedance", "|Z| >= 75 N·m/rad at 1 Hz, 1/4 of stiff_impedance"),
     ],

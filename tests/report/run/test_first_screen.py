@@ -12,7 +12,7 @@ from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import pytest
-from comparable import COARSE, COMPRESSION, SHEAR
+from comparable import COARSE
 from support import ROOT, Command
 
 from tvimdesign.report.output.numbers import ends_text, label
@@ -46,12 +46,6 @@ require:
   spring_index: ">= 4"
   softening_time: "<= 300 s"
 """
-COOL = """mode: shear
-module:
-  {process: machine_6061, target_temperature: 75 degC, pcl_thickness: 3 mm, response_criterion: mean, current: 1.8 A,
-   link_screw_length: 9 mm}
-operating_points: {hot: {temperature: 75 degC}}
-"""
 
 
 class WholeRun(NamedTuple):
@@ -61,23 +55,13 @@ class WholeRun(NamedTuple):
     folder: Path
 
 
-@pytest.fixture(
-    scope="module",
-    params=[
-        (COARSE, []),
-        pytest.param((SHEAR, []), marks=pytest.mark.slow),
-        pytest.param((COMPRESSION, []), marks=pytest.mark.slow),
-    ],
-    ids=["quick", "shear", "compression"],
-)
-def whole_run(request: pytest.FixtureRequest, process: Command, tmp_path_factory: pytest.TempPathFactory) -> WholeRun:
+@pytest.fixture(scope="module")
+def whole_run(process: Command, tmp_path_factory: pytest.TempPathFactory) -> WholeRun:
     folder = tmp_path_factory.mktemp("whole")
-    text, more = request.param
-    (folder / "study.yaml").write_text(text)
+    (folder / "study.yaml").write_text(COARSE)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONWARNINGS", "always")
-        words = ("run", folder / "study.yaml", "--no-cad", *more, "--out", folder / "out")
-        done = process(*words, spread="on")
+        done = process("run", folder / "study.yaml", "--no-cad", "--out", folder / "out", spread="on")
     assert done.returncode == 0, done.stderr
     return WholeRun(done, folder / "out")
 
@@ -86,7 +70,7 @@ def whole_run(request: pytest.FixtureRequest, process: Command, tmp_path_factory
 def case(asked: str) -> AnsweredStudy:
     """A shipped study as it is drawn or optimised, or one of the texts above; `alone` without its uncertainty."""
     name = asked.removesuffix(" alone")
-    texts = {"choices": CHOICES, "many": MANY, "aluminum": COOL}
+    texts = {"choices": CHOICES, "many": MANY}
     study = read_study_text(texts[name], name) if name in texts else read_study(ROOT / f"studies/{name}.yaml")
     study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
     if name in ("wrist_joint", "paper_compression"):
@@ -170,7 +154,6 @@ def test_the_first_line_says_verdict_name_starts_and_seconds() -> None:
     agree = "one start: others may be better" if tried == 1 else agree
     line = first_screen(one, 140, 12.3)[0]
     assert line == f"Nominal optimum: add margins (yield 0 %) · {one.result.design.name} (shear) · {agree} · 12 s"
-    assert first_screen(case("aluminum alone"), 100)[0].startswith("Not yet: layer edge safety is 0.")
     assert first_screen(case("many alone"), 140)[0].startswith("Do not build it: ")
 
 
@@ -215,7 +198,6 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
         ends = [f"{intervals[output][end] / percent:.0f}" for end in ("low", "high")]
         assert f"% ({' to '.join(ends)}) of" in text, output
     # A limit on the stiffness holds at every angle; at rest it is stiffest, at full stroke softest.
-    intervals = one.uncertainty["intervals"]
     (row,) = [row for row in requirements(one.result, one.uncertainty) if row.name == "spring_stiffness"]
     low, high = (float(end) for end in row.range.split(" to "))
     angles = ("spring_stiffness", *one.study.table.output("spring_stiffness").also_limited)
@@ -223,17 +205,10 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     assert low == pytest.approx(min(intervals[angle]["low"] for angle in angles), rel=5e-3)
     assert high == pytest.approx(max(intervals[angle]["high"] for angle in angles), rel=5e-3)
     assert low < intervals["spring_stiffness"]["low"] - 0.01
-    # The stiffness at full stroke over that at rest is of the geometry alone; the optimum is on its limit.
-    held = case("paper_shear").uncertainty["held"]
-    assert held.get("stiffness_over_stroke >=", 1.0) > 0.4
-    text = first_screen(one, 100)
-    name, share = next(iter(one.uncertainty["held"].items()))
-    assert "Manufacturing: 0 of 100 modules meet every limit if assumed values hold · by the usual tolerances" in text
-    first = label(name.split()[0])
-    begin = f"Model: else {first} fails first, in {100.0 * (1.0 - share):.0f} % of their ranges"
-    assert any(line.startswith(begin) for line in text)
     # The range of the limit most in doubt is there, so that the screen can name what to measure first.
-    assert one.uncertainty["intervals"][name.split()[0]]["shares"]
+    name, share = next(iter(one.uncertainty["held"].items()))
+    assert f"Model: else {label(name.split()[0])} fails first, in {100.0 * (1.0 - share):.0f} % of" in text
+    assert intervals[name.split()[0]]["shares"]
 
 
 TABLES = ("At the operating points", "What the module is", "What depends on assumed values")
@@ -268,17 +243,6 @@ def test_every_table_is_printed_where_that_is_asked(tvimdesign: Command, tmp_pat
     assert len(full.splitlines()) > LINES
 
 
-@pytest.mark.slow
-def test_the_same_study_leaves_the_same_tables_whatever_is_printed(tvimdesign: Command, tmp_path: Path) -> None:
-    """What a run took is in its manifest alone."""
-    study = ROOT / "studies/paper_reconstructed.yaml"
-    done = {}
-    for name, more in (("short", []), ("full", ["--full"])):
-        done[name] = tvimdesign("run", study, "--no-cad", "--no-plots", *more, "--out", tmp_path / name, spread="on")
-    assert all(table in done["full"].stdout for table in TABLES)
-    assert (tmp_path / "short/summary.txt").read_bytes() == (tmp_path / "full/summary.txt").read_bytes()
-
-
 INFEASIBLE = (
     "mode: shear\nname: Too much asked\n"
     "vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], current: [0.5 A, 2 A]}\n"
@@ -301,14 +265,9 @@ def test_a_study_without_a_design_says_so_on_both_outputs(
     lines = done.stdout.splitlines()
     assert lines[0].startswith("Infeasible because ")
     assert "Too much asked (shear)" in " ".join(lines[:2])
-    assert "violated by" in done.stdout
-    progress = [line for line in done.stderr.splitlines() if line.startswith("... ")]
-    said = [line for line in done.stderr.splitlines() if not line.startswith("... ")]
-    assert progress
-    assert said[0].startswith("Too much asked: no feasible design found")
     assert len(lines) <= LINES
-    assert "Where the solver ended" in (tmp_path / "out/summary.txt").read_text()
-    assert "These cannot hold together" in done.stderr
+    said = [line for line in done.stderr.splitlines() if not line.startswith("... ")]
+    assert said[0].startswith("Too much asked: no feasible design found")
     assert re.search(r"peak_power <= 9 W: alone it would have to move to <= \d", done.stderr)
     reported = json.loads((tmp_path / "out/results.json").read_text())
     assert reported["status"].startswith("infeasible")

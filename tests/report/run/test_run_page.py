@@ -1,25 +1,20 @@
 """The page of a run says what summary.txt and results.json say, and what to do where there is nothing to show."""
 
-import json
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
 import html5lib
-import numpy as np
 import pytest
 import sample_pages
-from support import ROOT, Command
+from support import Command
 
-from tvimdesign.base.atomic_files import atomic_write
-from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Facts, Folded, Grid
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.sections import assumptions_section
 from tvimdesign.report.run.blocks.tables import moves
-from tvimdesign.report.run.run_page import glance, write_run_page
+from tvimdesign.report.run.run_page import glance
 
 
 def words(element: Element) -> str:
@@ -58,16 +53,6 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
     warnings = [words(one).removeprefix("Warning ").partition(";")[0] for one in first.findall(".//ul/li")]
     assert len(warnings) > 3  # the folded ones, too
     assert [one for one in warnings if one not in summary.replace("`", "")] == []
-
-
-def test_a_page_costs_a_run_less_than_a_second(answered: AnsweredStudy, tmp_path: Path) -> None:
-    with ResultsFolder(tmp_path / "run") as results:
-        sample_pages.write_parts(results.path / "cad")
-        atomic_write(results.path / "cad/print/housing.3mf", np.random.default_rng(1).bytes(4_000_000))
-        began = time.process_time()
-        write_run_page(results, answered)
-        assert time.process_time() - began < 1.0
-        results.finish("evaluated", {}, {})
 
 
 def test_a_run_without_parts_says_how_to_make_them(tmp_path: Path) -> None:
@@ -109,20 +94,3 @@ def test_a_page_tells_how_sure_it_is_and_what_a_measurement_bought(answered: Ans
     (facts,) = folded.blocks
     assert isinstance(facts, Facts)
     assert dict(facts.rows)["Measured"] == "peltier_seebeck: stiffening_rate 90 to 120 s, before 40 to 240"
-
-
-@pytest.mark.slow
-def test_requirements_and_reasons_are_those_of_the_results(tvimdesign: Command, tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    done = tvimdesign("run", ROOT / "studies/paper_shear.yaml", "--no-cad", "--no-plots", "--out", out)
-    assert done.returncode == 0, done.stderr
-    page, results = tree(out / "report.html"), json.loads((out / "results.json").read_text("utf-8"))
-    table = section(page, "first").find(".//table")
-    assert table is not None
-    rows = {words(row[0]): [words(cell) for cell in row] for row in table.findall("./tbody/tr")}
-    assert len(rows) == 9
-    assert rows["peak power"][1] == "<= 15 W"
-    assert float(rows["peak power"][2]) == pytest.approx(results["values"]["peak_power"]["value"], rel=1e-3)
-    assert rows["torque held when frozen"][4] == "at the limit"
-    reasons = words(section(page, "why"))
-    assert all(" ".join(sentence.split()) in reasons for sentence in results["why"]["sentences"])
