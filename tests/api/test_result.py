@@ -124,12 +124,6 @@ def test_the_command_line_gives_the_same_and_writes_the_same(
     assert tvim.read_design(str(saved / "design.json")) == result.design
 
 
-@pytest.mark.slow
-def test_the_figures_are_saved_too(result: tvim.Result[tvim.Study], tmp_path: Path) -> None:
-    result.save(tmp_path / "x")
-    assert {file.name for file in (tmp_path / "x/plots").iterdir()} >= {"cycle.png", "torque.png"}
-
-
 def test_results_in_use_and_changed_studies_are_saved_rightly(result: tvim.Result[tvim.Study], tmp_path: Path) -> None:
     result.save(tmp_path / "x", plots=False)
     with pytest.raises(tvim.InputError, match="holds results already"):

@@ -1,4 +1,4 @@
-"""Commands beside this process that none outlive, and one check of many items as one test."""
+"""Commands beside this process that none outlive."""
 
 import sys
 import time
@@ -6,7 +6,6 @@ from pathlib import Path
 from threading import Thread
 
 import pytest
-from every import of_every
 from support import are_gone
 
 from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
@@ -52,24 +51,3 @@ def test_a_command_that_takes_too_long_is_ended(tmp_path: Path) -> None:
 def _gone(reported: Path) -> None:
     numbers = [int(number) for number in reported.read_text().split()]
     assert are_gone(numbers)
-
-
-def _is_even(number: int) -> None:
-    assert number % 2 == 0, "odd"
-
-
-def test_all_that_fail_are_named_at_once() -> None:
-    with pytest.raises(AssertionError, match=r"2 of 4 fail:\n  1: AssertionError: odd\n  3: AssertionError: odd"):
-        of_every([1, 2, 3, 4], _is_even)
-    of_every([2, 4], _is_even)
-
-
-def test_what_is_raised_otherwise_counts_and_nothing_to_check_fails() -> None:
-    def check(name: str) -> None:
-        with pytest.raises(KeyError):
-            {"a": 1}[name]
-
-    with pytest.raises(AssertionError, match="a: Failed: DID NOT RAISE"):
-        of_every(["a", "b"], check)
-    with pytest.raises(AssertionError, match="nothing to check"):
-        of_every([], check)

@@ -232,18 +232,6 @@ def test_the_draft_in_3d_follows_a_slider_that_is_held(explorer: Explorer) -> No
 
 
 @pytest.mark.slow
-def test_an_infeasible_study_shows_the_nearest_design(explorer: Explorer) -> None:
-    page, number = explorer.page, explorer.number
-    field = explorer.knob("peak_power <=").get_by_role("textbox")
-    field.fill("0.5 W")
-    field.press("Enter")
-    explorer.answered(number, "exact")
-    assert "no feasible design found" in page.locator("#status").inner_text()
-    explorer.knob("peak_power <=").locator(".stands").filter(has_text="violated").wait_for()
-    assert page.locator("#limits tr.broken").count() >= 1
-
-
-@pytest.mark.slow
 def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browser: Browser, tmp_path: Path) -> None:
     study = small_study(tmp_path, SMALL.replace(WANTED, FRONT))
     run(study, tmp_path / "run")

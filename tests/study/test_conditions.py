@@ -33,13 +33,9 @@ def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
         ("  current: 1.5 A", "  current: 2 A", "4:3: module.current", "2 A here, 1.5 A in"),
         ("  current", "  ambient_temperature: 30 degC\n  current", "4:3: module.ambient_temperature",
          "30 °C here, 22 °C in"),
-        ("  current", "  target_temperature: 90 degC\n  current", "module.target_temperature", "100 °C in"),
         ("  current: 1.5 A", "  structure_material: aluminum_6061_t6\n  current: 1.5 A", "module.structure_material",
          "aluminum_6061_t6 here, petg in"),
-        ("  current", "  pcl_grade: pcl_50k\n  current", "module.pcl_grade", "pcl_50k here, pcl_80k in"),
         ("  current", "  peltier_seebeck: 0.04 V/K\n  current", "module.peltier_seebeck", "0.04 V/K here"),
-        ("  current", "  moving_inertia: 100 kg.mm^2\n  current", "module.moving_inertia", "415.6 kg·mm²"),
-        ("stroke: 0.104 rad", "stroke: 0.09 rad", "5:3: module.stroke", "0.09 rad here, 0.104 rad in"),
         ("response_criterion: softening", "response_criterion: mean", "module.response_criterion", "mean here"),
         ("{temperature: 100 degC", "{temperature: 90 degC", "operating_points.hot.temperature",
          "90 °C here, 100 °C in"),
@@ -53,7 +49,6 @@ def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
         ("solver: {starts: 1}", "solver: {starts: 1, cells: 20}", "solver.cells", "20 here, 28 in"),
         ("solver: {starts: 1}", "solver: {starts: 1}\ntolerances: standard\nrobust: {sigma: 2}", "robust",
          "limits are satisfied by 2 standard deviations here, limits are satisfied by 0 standard deviations in"),
-        ("  current: 1.5 A", "  cooling_current: 0.5 A\n  current: 1.5 A", "module.cooling_current", "0.5 A here"),
     ],
 )  # fmt: skip
 def test_a_different_task_or_condition_is_reported_with_both_places(
@@ -85,10 +80,6 @@ def test_ranges_and_limits_are_compared_with_their_places(tmp_path: Path) -> Non
 
 
 def test_another_record_or_an_evaluated_study_is_one_difference(tmp_path: Path) -> None:
-    reported = problems_of(
-        tmp_path, SHEAR, SHEAR.replace("  current", "  structure_material: aluminum_6061_t6\n  current")
-    )
-    assert len(reported) == 1
     start, end = COMPRESSION.index("vary:"), COMPRESSION.index("require:")
     drawn = (COMPRESSION[:start] + COMPRESSION[end:]).replace("minimize: {module_mass: 1, response_time: 1}\n", "")
     reported = problems_of(tmp_path, SHEAR, drawn)

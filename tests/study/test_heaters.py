@@ -17,9 +17,6 @@ def test_both_modes_take_rigid_modules_as_they_are() -> None:
     study = read_study_text("mode: shear\nmodule: {peltier_module: tm_31_14_85, tiles_per_arc: 1}\n", "a test")
     known = given(study)
     assert (known["heater_form"], known["peltier_length"]) == ("rigid", 20e-3)
-    study = read_study_text("mode: compression\nmodule: {peltier_module: tm_31_14_85}\n", "a test")
-    known = given(study)
-    assert (known["heater_form"], known["tiles_per_block"]) == ("rigid", 1.0)
     # The drawing PC-XXX-XX-XX of Laird: max mounting pressure 2.5 MPa.
     study = read_study_text("mode: compression\nmodule: {peltier_module: pc_072}\n", "a test")
     assert given(study)["heater_pressure_limit"] == 2.5e6

@@ -98,16 +98,6 @@ def test_json_round_trip(read: Read, text: str) -> None:
     assert Study.model_validate_json(study.model_dump_json()) == study
 
 
-def test_a_study_is_frozen_and_knows_its_keys(read: Read) -> None:
-    study = read(GOOD)
-    with pytest.raises(ValueError, match="frozen"):
-        study.name = "other"
-    with pytest.raises(ValueError, match="Extra inputs"):
-        Study.model_validate(study.model_dump() | {"speed": 1})
-    with pytest.raises(ValueError, match="finite"):
-        Range(lower=0.0, upper=float("inf"))
-
-
 def test_problems_are_data_and_capped_in_print(read: Read) -> None:
     with pytest.raises(StudyError) as caught:
         read("mode: shear\nmodule: {wire_diamter: 2 mm}")

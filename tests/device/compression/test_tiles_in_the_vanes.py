@@ -60,6 +60,8 @@ def test_they_cover_weigh_and_take_depth_as_the_sheet_says() -> None:
     heavier = of_copper["spreader_mass"] - values["spreader_mass"]
     assert of_copper["module_mass"] - values["module_mass"] == pytest.approx(heavier)
     assert heavier > 0.0
+    for wiring, strings in (("series", 1), ("vanes_parallel", 4), ("all_parallel", 16)):
+        assert values_of("heater_strings", VANE_TILE_ROWS, heater_wiring=wiring)["heater_strings"] == strings
 
 
 def test_the_stack_has_the_spreader_between_modules_and_blocks() -> None:

@@ -52,18 +52,6 @@ def test_forms(read: Read, name: str, form: str, expected: Vary) -> None:
         assert found_value == (value if isinstance(value, str | None) else pytest.approx(value))
 
 
-def test_the_modules_value_is_the_start(read: Read) -> None:
-    def start(module: str, form: str = "[1 mm, 2 mm]") -> float | None:
-        result = read(_study("wire_diameter", form, module)).vary["wire_diameter"]
-        assert isinstance(result, Range)
-        return result.start
-
-    assert start("") is None
-    assert start("wire_diameter: 1.5 mm") == pytest.approx(1.5e-3)
-    assert start("wire_diameter: 2 mm") == pytest.approx(2e-3)
-    assert start("wire_diameter: 1.5 mm", "{from: 1 mm, to: 2 mm, start: 1.2 mm}") == pytest.approx(1.2e-3)
-
-
 @pytest.mark.parametrize(
     ("name", "form", "value"),
     [
