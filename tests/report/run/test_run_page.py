@@ -55,11 +55,14 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
     assert [one for one in warnings if one not in summary.replace("`", "")] == []
 
 
-def test_a_run_without_parts_says_how_to_make_them(tmp_path: Path) -> None:
+def test_a_run_shows_its_parts_or_says_how_to_make_them(tmp_path: Path) -> None:
     page = tree(sample_pages.run_page(tmp_path / "run", parts=False))
     assert "`" not in words(section(page, "assembly"))
     assert "tvimdesign run paper_reconstructed.yaml --overwrite makes them" in words(section(page, "assembly"))
     assert page.find(".//section[@id='checks']") is None
+    with_parts = tree(sample_pages.run_page(tmp_path / "with_parts"))
+    assert "housing" in words(section(with_parts, "materials"))
+    assert with_parts.find(".//section[@id='checks']") is not None
 
 
 def test_an_input_is_named_with_the_outputs_it_moves(answered: AnsweredStudy) -> None:
