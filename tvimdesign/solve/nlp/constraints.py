@@ -105,11 +105,21 @@ def unchangeable(limit: Constraint, table: Table, value: float, study: Study) ->
     is_now = format_quantity(value, table.output(limit.output).unit)
     behind = [row for row in table.inputs if row.name in table.ancestors(limit.output)]
     brought = brought_along_by(study)
-    variable = [row.name for row in behind if row.variable and row.name not in brought]
-    ways = f"vary one of: {', '.join(variable)}"
+    variable = [row for row in behind if row.variable and row.name not in brought and not row.per_point]
+    start = given(study)
+
+    def satisfies(values: Mapping[str, Any]) -> bool:
+        return bool(limit.residual(float(table.evaluate(values, [limit.output])[limit.output])) <= ALGEBRAIC_TOLERANCE)
+
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cures = _cures(study, start, variable, satisfies)
+    enough = f"one of these is enough: {', '.join(cures)}" if cures else ""
     if bought := sorted({brought[row.name] for row in behind if row.name in brought}):
-        ways = f"choose another `{'`, `'.join(bought)}`" + (f", or {ways}" if variable else "")
-    elif not variable:
+        ways = " or ".join(filter(None, [f"choose another `{'`, `'.join(bought)}`", enough]))
+    elif variable:
+        names = ", ".join(row.name for row in variable[:_INPUTS_NAMED])
+        ways = enough or f"no single input cures it: change several of {names}"
+    else:
         fixed = [row.name for row in behind if row.record is None] or [row.name for row in behind]
         ways = f"change under `module`: {', '.join(fixed[:_INPUTS_NAMED])}"
     return f"{in_words(limit, table)} does not hold (it is {is_now}), and nothing under `vary` can change it; {ways}"
@@ -123,7 +133,7 @@ def refuse_impossible(study: Study) -> None:
         with np.errstate(invalid="ignore", divide="ignore"):
             reasons = impossible({**dict.fromkeys(table.by_name, math.inf), **table.evaluate(start, bad)}, table)
         behind = _behind(study, bad)
-        cures = _cures(study, start, behind)
+        cures = _cures(study, start, behind, lambda values: not missing_geometry(values, table))
         ways = f"One of these is enough: {', '.join(cures)}." if cures else "No single input cures it: change several."
         listed = "".join(f"\n  {reason}" for reason in reasons)
         raise InputError(f"there is no such module:{listed}\n{_clashing(study, start, behind)}{ways}")
@@ -147,16 +157,19 @@ def _clashing(study: Study, start: Mapping[str, Any], behind: Sequence[Input]) -
     return f"It follows from {', '.join(shown)}.\n" if shown else ""
 
 
-def _cures(study: Study, start: Mapping[str, Any], behind: Sequence[Input]) -> list[str]:
-    """Return changes of one input each after which the module exists; each was tried."""
+def _cures(
+    study: Study, start: Mapping[str, Any], behind: Sequence[Input], satisfied: Callable[[Mapping[str, Any]], bool]
+) -> list[str]:  # fmt: skip
+    """Return changes of one input each after which values are as they must be; each was tried."""
     cures = []
     for row in behind:
         value = float(start[row.name])
         allowed = study.vary.get(row.name)
         low, high = (allowed.lower, allowed.upper) if isinstance(allowed, Range) else (row.lower, row.upper)
-        tries = [factor * value for factor in _FACTORS if row.lower <= factor * value <= row.upper]
+        tries = [factor * (value or _SMALL * row.upper) for factor in _FACTORS]
+        tries = [tried for tried in tries if row.lower <= tried <= row.upper]
         for tried in sorted(tries, key=lambda number: (not low <= number <= high, abs(number - value))):
-            if not missing_geometry({**start, row.name: tried}, study.table):
+            if satisfied({**start, row.name: tried}):
                 beyond = "" if low <= tried <= high else " (beyond its range)"
                 cures.append(f"{row.name} {format_quantity(tried, row.unit, 3)}{beyond}")
                 break
@@ -259,6 +272,8 @@ _CLASHING = 8
 """Inputs that are named where a module is no geometry."""
 _FACTORS = (0.9, 1.1, 0.75, 1.35, 0.5, 2.0, 0.3, 3.0)
 """Factors on an input that are tried as a cure."""
+_SMALL = 0.05
+"""Share of its largest value that those factors apply to where an input is zero."""
 _STEPS = {"mm": 0.1, "K": 1.0, "degC": 1.0, "s": 1.0}
 """What people relax a limit by that has no size of its own, in its unit; a hundredth of the unit elsewhere."""
 
