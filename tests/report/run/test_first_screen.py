@@ -121,12 +121,12 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
     assert not raw & set(re.findall(r"[a-z]\w*_\w*", " ".join(texts)))
     lines = first_screen(case(name), width)
     labels = (
-        "Size and mass", "Times", "Energy", "Lost motion", "Active constraints", "Manufacturing", "Model", "Chosen",
+        "Size and mass", "Times", "Heating", "Lost motion", "Active constraints", "Manufacturing", "Model", "Chosen",
         "Warning",
     )  # fmt: skip
     places = [(i, label) for label in labels for i, line in enumerate(lines) if line.startswith(f"{label}: ")]
     assert places == sorted(places)
-    assert {"Size and mass", "Times", "Energy"} <= {label for _, label in places}
+    assert {"Size and mass", "Times", "Heating"} <= {label for _, label in places}
     assert {"Manufacturing", "Model"} <= {label for _, label in places} or not case(name).uncertainty
     value, text = case(name).result.design.value, " ".join(line.strip() for line in first_screen(case(name), width))
     lost = value("lost_motion") / value("stroke")

@@ -46,7 +46,7 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
     summary = " ".join((tmp_path / "out/summary.txt").read_text("utf-8").split())
     first = section(tree(tmp_path / "out/report.html"), "first")
     facts = [(words(one[0]), words(one[1])) for one in first.findall(".//dl/div")]
-    assert {"Size and mass", "Times", "Energy", "Soft", "Stiff", "Idealized ~"} <= {label for label, _ in facts}
+    assert {"Size and mass", "Times", "Heating", "Soft", "Stiff", "Idealized ~"} <= {label for label, _ in facts}
     of_the_width = {"Starts", "Lost motion"}  # their notes stand in a line that has room for them
     parts = [part for label, text in facts if label not in of_the_width for part in text.split(" · ")]
     assert [part for part in parts if part not in summary] == []

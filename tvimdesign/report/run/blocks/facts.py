@@ -97,13 +97,13 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     value = _Values(answer, uncertainty)
     size = f"{value('envelope_diameter')} diameter x {value('envelope_height')} high"
     current = value.most("peak_current", "stiffening_peak_current")
-    peaks = f"at most {value('peak_power')}, {heater_voltage(answer, uncertainty)}, {value(current)}"
+    peaks = f"at most {value('peak_power')}, {value(current)}, {heater_voltage(answer, uncertainty)}"
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
         *_impedance(value),
         *_task(value, answer.design.choices),
-        Fact("Energy", [f"{value('switch_energy')} to soften", peaks]),
+        Fact("Heating", [value("switch_energy"), peaks]),
     ]
     doubts = (*_manufacturing(uncertainty), *_model(uncertainty))
     return [*facts, *_lost_motion(value), *_active_constraints(answer), *doubts]
@@ -113,9 +113,7 @@ def heater_voltage(answer: StudyResult, uncertainty: Mapping[str, Any]) -> str:
     """Return the heater's largest voltage with its range, and the supply's if a driver must step it down."""
     value, supplied = _Values(answer, uncertainty), answer.design.supply_voltage
     if supplied:
-        return (
-            f"{value('peak_voltage')} stepped down from {in_unit(supplied, value.table.unit('peak_voltage'), _DIGITS)}"
-        )
+        return f"{value('peak_voltage')} from {number(supplied, _DIGITS)}"
     return value(value.most("peak_voltage", "stiffening_peak_voltage"))
 
 
@@ -207,7 +205,7 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     first = measure_first(name, uncertainty)
-    text = f"else {label(name)} fails first, in {100.0 * (1.0 - share):.0f} % of their ranges"
+    text = f"else {label(name)} fails first, in {100.0 * (1.0 - share):.0f} % of ranges"
     return [Fact("Model", [text, *([f"measure {label(first)}"] if first else [])])]
 
 
