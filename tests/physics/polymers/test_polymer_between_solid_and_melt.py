@@ -77,21 +77,6 @@ def test_heats_between_temperatures_by_hand() -> None:
         assert rise == pytest.approx(specific_heat, rel=1e-9)
 
 
-@pytest.mark.parametrize("grade", GRADES)
-@pytest.mark.parametrize(
-    ("celsius", "low", "high"),
-    [
-        (23.0, 410.9, 411.1),  # Capa data sheets, flexural modulus in MPa
-        (37.0, 300.0, 380.0),  # published tensile moduli of polycaprolactone
-        (50.0, 120.0, 220.0),
-    ],
-)
-def test_frozen_modulus_stays_in_the_published_ranges(grade: str, celsius: float, low: float, high: float) -> None:
-    solid = solid_of(Catalog().record("polymers", grade))
-    youngs = 2.0 * (1.0 + solid.poissons_ratio) * polymer.solid_shear_modulus(CELSIUS + celsius, solid)
-    assert low <= youngs / 1e6 <= high
-
-
 @pytest.mark.parametrize("frequency", [0.3, 3.0, 30.0, 300.0])
 def test_maxwell_moduli_are_the_fourier_integral_of_the_relaxation_modulus(frequency: float) -> None:
     # Ferry, ch. 3: G' = w int G(t) sin(wt) dt, G'' = w int G(t) cos(wt) dt for a fluid.

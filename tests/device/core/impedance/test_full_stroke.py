@@ -37,25 +37,6 @@ def direction(module: dict[str, Any], angle: float) -> float:
     return float(brentq(miss, np.pi, 1.5 * np.pi, xtol=1e-14))
 
 
-def energy(module: dict[str, Any], angle: float) -> float:
-    """Energy [J] of the springs: right-hand ones wind as their leg turns on, left-hand ones are their mirror image."""
-    rest = direction(module, 0.0)
-    pair = sum((module["preload_angle"] + direction(module, sign * angle) - rest) ** 2 for sign in (1.0, -1.0))
-    return float(module["spring_pairs"] * 0.5 * module["held_spring_rate"] * pair)
-
-
-def test_torque_and_stiffness_are_the_slopes_of_the_energy(bent: dict[str, Any]) -> None:
-    end, step = bent["stroke"], 1e-3
-    torque = (energy(bent, end + step) - energy(bent, end - step)) / (2.0 * step)
-    at_end, at_rest = (
-        (energy(bent, a + step) - 2.0 * energy(bent, a) + energy(bent, a - step)) / step**2 for a in (end, 0.0)
-    )
-    assert bent["spring_torque_full_stroke"] == pytest.approx(torque, rel=1e-4)
-    assert bent["spring_stiffness_full_stroke"] == pytest.approx(at_end, rel=1e-4)
-    assert bent["spring_stiffness"] == pytest.approx(at_rest, rel=1e-4)
-    assert bent["stiffness_over_stroke"] == pytest.approx(at_end / at_rest, rel=2e-4)
-
-
 def test_springs_are_linear_by_unity_and_follow_either_standard(inputs: dict[str, Any]) -> None:
     found = TABLE.evaluate({**inputs, "transmission": "unity"}, ROWS)
     assert found["spring_torque_full_stroke"] == pytest.approx(4 * found["held_spring_rate"] * 0.104, rel=1e-12)
