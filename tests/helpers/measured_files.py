@@ -6,6 +6,8 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from tvimdesign.simulation.measurement.measure_files import Measured, kind_sheet, kind_sheets, measure_files, measure_of
 from tvimdesign.simulation.measurement.measurement import Measurement
 from tvimdesign.simulation.measurement.reading.data_file import read_data_file
@@ -31,6 +33,44 @@ def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Meas
     sheet = kind_sheet(kind) if kind else next(one for one in kind_sheets().values() if one.fits(blocks[0]))
     result: Measurement = measure_of(sheet)(blocks, sheet.values(settings), profiles=False)
     return result
+
+
+def holds(estimate: Any, truth: float) -> bool:
+    """Whether an interval has both ends, and the truth between them."""
+    return estimate.low is not None and estimate.high is not None and estimate.low < truth < estimate.high
+
+
+def moduli(omega: Any, modes: Sequence[tuple[float, float]]) -> tuple[Any, Any]:
+    """Storage and loss modulus of Maxwell elements side by side (Ferry, eqs. 3-24 and 3-25)."""
+    reduced = [(modulus, omega * tau) for tau, modulus in modes]
+    return sum(g * x**2 / (1 + x**2) for g, x in reduced), sum(g * x / (1 + x**2) for g, x in reduced)
+
+
+def oscillated(path: Path, omega: Any, storage: Any, loss: Any, celsius: Any = 100.0) -> Path:
+    """A file of moduli over frequency, or over temperature."""
+    return csv(path, angular_frequency__rad_per_s=omega, **{"G'__Pa": storage, "G''__Pa": loss},
+               temperature__degC=np.broadcast_to(celsius, len(omega)))  # fmt: skip
+
+
+def turned(
+    path: Path, hertz: float, seed: int, joint: tuple[float, float, float, float], size: float,
+    errors: tuple[float, float],
+) -> Path:  # fmt: skip
+    """Four periods of I theta'' + b theta' + K theta + T_f sgn theta' = T, of a joint's I, K, b and T_f.
+
+    The angle has the first of the errors, the torque the second as a share of its range.
+    """
+    (inertia, stiffness, damping, friction), noise = joint, np.random.default_rng(seed)
+    omega, time = 2.0 * np.pi * hertz, np.linspace(0.0, 4.0 / hertz, 200)
+    angle, quarter = size * np.cos(omega * time + 0.3), -np.sin(omega * time + 0.3)
+    torque = (stiffness - inertia * omega**2) * angle + damping * omega * size * quarter + friction * np.sign(quarter)
+    return csv(path, time__s=time, angle__rad=angle + noise.normal(0.0, errors[0], 200),
+               torque__Nm=torque + noise.normal(0.0, errors[1] * np.ptp(torque), 200))  # fmt: skip
+
+
+def arrhenius(celsius: Any, energy: float, reference: float) -> Any:
+    """By how much slower a melt is than at a reference, both in degrees Celsius."""
+    return np.exp(energy / 8.314462618 * (1.0 / (celsius + 273.15) - 1.0 / (reference + 273.15)))
 
 
 def workbook(rows: list[list[object]]) -> bytes:

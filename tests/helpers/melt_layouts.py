@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from layouts import noise_of, rows_of, table_of
-from measured_files import workbook
+from measured_files import arrhenius, moduli, workbook
 
 from tvimdesign.physics.polymers.viscoelasticity import retardation
 
@@ -35,10 +35,8 @@ class Layout(NamedTuple):
 def sweep(seed: int, degrees: float = 100.0) -> tuple[Any, Any, Any]:
     """Angular frequencies and moduli."""
     omega = np.geomspace(100.0, 0.1, 16)
-    shift = np.exp(ENERGY / 8.314462618 * (1.0 / (degrees + 273.15) - 1.0 / REFERENCE))
-    reduced = [(modulus, omega * shift * tau) for tau, modulus in MODES]
-    storage = sum(g * x**2 / (1 + x**2) for g, x in reduced) * noise_of(16, 0.02, seed)
-    return omega, storage, sum(g * x / (1 + x**2) for g, x in reduced) * noise_of(16, 0.02, seed + 1)
+    storage, loss = moduli(omega * arrhenius(degrees, ENERGY, REFERENCE - 273.15), MODES)
+    return omega, storage * noise_of(16, 0.02, seed), loss * noise_of(16, 0.02, seed + 1)
 
 
 def relaxed() -> tuple[Any, Any]:
@@ -110,12 +108,10 @@ def trios_creep() -> bytes:
 
 def trios_ramp() -> bytes:
     degrees = np.linspace(75.0, 180.0, 40)
-    shift = np.exp(ENERGY / 8.314462618 * (1.0 / (degrees + 273.15) - 1.0 / REFERENCE))
     text = ""
     for seed, omega in enumerate((1.0, 10.0, 100.0)):
-        reduced = [(modulus, omega * shift * tau) for tau, modulus in MODES]
-        storage = sum(g * x**2 / (1 + x**2) for g, x in reduced) * noise_of(40, 0.02, 40 + seed)
-        loss = sum(g * x / (1 + x**2) for g, x in reduced) * noise_of(40, 0.02, 50 + seed)
+        storage, loss = moduli(omega * arrhenius(degrees, ENERGY, REFERENCE - 273.15), MODES)
+        storage, loss = storage * noise_of(40, 0.02, 40 + seed), loss * noise_of(40, 0.02, 50 + seed)
         head = (
             f"[step]\nTemperature ramp - {seed}\nTime\tTemperature\tStorage modulus\tLoss modulus\tAngular frequency\n"
             "s\t°C\tPa\tPa\trad/s"

@@ -175,12 +175,11 @@ def test_module_heated_under_load_lets_go_before_the_switch_ends() -> None:
     assert carried.unloaded_angle > 0.09
 
 
-@pytest.mark.parametrize("times", [[0.0], [0.0, 1.0, 1.0], [0.0, 2.0, 1.0]])
-def test_history_whose_times_do_not_rise_is_refused(times: list[float]) -> None:
-    with pytest.raises(InputError, match="must rise"):
-        SliceHistory(np.array(times), np.zeros((2, len(times))), np.zeros((2, len(times))))
-
-
-def test_history_of_other_lengths_is_refused() -> None:
-    with pytest.raises(InputError, match="one row"):
-        SliceHistory(np.array([0.0, 1.0]), np.zeros((2, 2)), np.zeros((3, 2)))
+@pytest.mark.parametrize(
+    ("times", "slices", "said"),
+    [([0.0], 2, "must rise"), ([0.0, 1.0, 1.0], 2, "must rise"), ([0.0, 2.0, 1.0], 2, "must rise"),
+     ([0.0, 1.0], 3, "one row")],
+)  # fmt: skip
+def test_history_that_does_not_go_together_is_refused(times: list[float], slices: int, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        SliceHistory(np.array(times), np.zeros((2, len(times))), np.zeros((slices, len(times))))

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from measured_files import csv, holds, moduli, oscillated
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import CatalogError, InputError
@@ -26,12 +27,7 @@ def pad_file(place: Path) -> Path:
     cold = (conductance * hot + 0.5 * current**2 * resistance) / (conductance + seebeck * current)
     voltage = seebeck * (hot - cold) + resistance * current + noise.normal(0.0, 2e-3, 21)
     hot, cold = (face - 273.15 + noise.normal(0.0, 0.05, 21) for face in (hot, cold))
-    rows = "\n".join(
-        "{:.2f};{:.4f};{:.2f};{:.2f}".format(*row) for row in zip(current, voltage, hot, cold, strict=True)
-    )
-    path = place / "pad.csv"
-    path.write_text(f"current [A];voltage [V];hot side [degC];cold side [degC]\n{rows}\n")
-    return path
+    return csv(place / "pad.csv", current__A=current, voltage__V=voltage, hot_side__degC=hot, cold_side__degC=cold)
 
 
 def joint(place: Path, **module: str) -> tvim.Study:
@@ -52,10 +48,8 @@ def test_a_record_says_value_interval_and_file(tmp_path: Path) -> None:
     for name, value in (("seebeck", 21e-3), ("resistance", 3.4), ("conductance", 0.15)):
         entry = record.entry(name)
         assert entry.status == "measured"
-        assert entry.low is not None
-        assert entry.high is not None
-        assert entry.low < value < entry.high
-        assert entry.high - entry.low < 0.1 * value
+        assert holds(entry, value)
+        assert np.ptp([entry.low, entry.high]) < 0.1 * value
         assert f"pad.csv (sha256 {hashlib.sha256(path.read_bytes()).hexdigest()})" in entry.source
     assert record.value("area") == Catalog().record("peltiers", "flexible_1600").value("area")
 
@@ -81,19 +75,9 @@ def test_the_interval_of_a_headline_shrinks(tmp_path: Path) -> None:
 
 
 def test_a_spectrum_is_a_table_that_the_catalogue_takes(tmp_path: Path) -> None:
-    omega = np.geomspace(0.1, 300.0, 20)
-    modes = [(0.05, 4e3), (0.004, 6e4)]
-    storage, loss = (
-        sum(modulus * (omega * tau) ** power / (1.0 + (omega * tau) ** 2) for tau, modulus in modes) for power in (2, 1)
-    )
-    noise = np.random.default_rng(6)
-    rows = "\n".join(
-        f"100\t{w:.6g}\t{a * np.exp(noise.normal(0, 0.01)):.6g}\t{b * np.exp(noise.normal(0, 0.01)):.6g}"
-        for w, a, b in zip(omega, storage, loss, strict=True)
-    )
-    path = tmp_path / "melt.txt"
-    path.write_text(f"temperature\tangular frequency\tG'\tG''\ndegC\trad/s\tPa\tPa\n{rows}\n")
-    fitted = tvim.fit(path)
+    omega, modes, noise = np.geomspace(0.1, 300.0, 20), [(0.05, 4e3), (0.004, 6e4)], np.random.default_rng(6)
+    both = (one * np.exp(noise.normal(0.0, 0.01, 20)) for one in moduli(omega, modes))
+    fitted = tvim.fit(oscillated(tmp_path / "melt.csv", omega, *both))
     fitted.record("my_melt", catalog=tmp_path / "my_records")
     record = Catalog(tmp_path / "my_records").record("polymers", "my_melt")
     spectrum = record.table("melt_spectrum")
@@ -127,9 +111,7 @@ def test_what_contradicts_the_base_leaves_no_record(tmp_path: Path) -> None:
 def test_data_that_the_equations_do_not_describe_write_no_record(tmp_path: Path) -> None:
     # A spring that stiffens as its coils touch: no one modulus is its wire's.
     angle = np.linspace(0.02, 1.0, 40)
-    rows = "\n".join(f"{5.0 * x + 4.0 * x**3:.6g};{x:.6g}" for x in angle)
-    path = tmp_path / "stiff.csv"
-    path.write_text(f"torque [N.m];angle [rad]\n{rows}\n")
+    path = csv(tmp_path / "stiff.csv", torque__Nm=5.0 * angle + 4.0 * angle**3, angle__rad=angle)
     fitted = tvim.fit(path, wire_diameter="2 mm", coil_diameter="20 mm", coil_count="5")
     assert "The equations do not describe angle of" in fitted.data["misfit"]
     with pytest.raises(InputError, match=r"No record is written\. The figure and residuals\.csv show"):

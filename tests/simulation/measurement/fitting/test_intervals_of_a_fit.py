@@ -56,8 +56,6 @@ def test_a_line_has_the_intervals_of_the_textbook() -> None:
     ):
         one = found[name]
         assert one.value == pytest.approx(value, abs=0.1 * deviation)
-        assert one.low is not None
-        assert one.high is not None
         assert 0.5 * (one.high - one.low) == pytest.approx(quantile * deviation, rel=0.05)
     assert found.noise[0] == pytest.approx(float(np.std(measured - book.intercept - book.slope * X, ddof=2)), rel=0.05)
 

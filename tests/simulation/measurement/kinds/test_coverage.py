@@ -12,9 +12,12 @@ from scipy.stats import chi2, norm
 from tvimdesign.simulation.measurement.measure_files import kind_sheet, kind_sheets, measure_of
 
 QUICK = ["torque_angle", "pad", "frozen_torque", "amplitude_sweep", "relaxation", "flow_curve"]
-LONGER = ["release", "sine", "frequency_sweep", "temperature_ramp", "creep", "melt", "dsc", "heating_log"]
-SLOW = ["heating_log"]
 RARE = 1e-3
+
+
+def kinds(*quick: str) -> list[object]:
+    """All kinds, of which only some are quick."""
+    return [pytest.param(kind, marks=[] if kind in quick else pytest.mark.slow) for kind in MADE]
 
 
 def pull(one: Found) -> float:
@@ -24,8 +27,14 @@ def pull(one: Found) -> float:
     return float(norm.ppf(0.975)) * (one.truth - one.value) / abs(end - one.value)
 
 
-def hold_errors_as_wide_as_the_intervals_say(kind: str, seeds: int) -> None:
+def test_every_kind_has_data_made_for_it() -> None:
+    assert set(MADE) == set(kind_sheets())
+
+
+@pytest.mark.parametrize("kind", kinds(*QUICK))
+def test_intervals_are_as_wide_as_the_errors(kind: str) -> None:
     """Mean squares of each parameter's pulls against chi-squared: intervals of half or twice the width are outside."""
+    seeds = 20 if kind in QUICK else 10
     fits = [fit_of(kind, seed) for seed in range(seeds)]
     low, high = chi2.ppf([RARE, 1.0 - RARE], seeds) / seeds
     assert high < 4.0  # of intervals of half the width
@@ -34,36 +43,11 @@ def hold_errors_as_wide_as_the_intervals_say(kind: str, seeds: int) -> None:
         assert low < square < high, f"{name}: errors are {square**0.5:.2f} of what its interval says"
 
 
-def reported_of(kind: str) -> set[str]:
-    blocks, given, _ = MADE[kind](np.random.default_rng(0))
-    fit = measure_of(kind_sheet(kind))(blocks, kind_sheet(kind).values(given), profiles=False).fit
-    return {one.name for one in (*fit.parameters, *fit.derived)}
-
-
-def test_every_kind_has_data_made_for_it() -> None:
-    assert set(MADE) == set(kind_sheets())
-
-
-@pytest.mark.parametrize("kind", QUICK)
-def test_intervals_are_as_wide_as_the_errors(kind: str) -> None:
-    hold_errors_as_wide_as_the_intervals_say(kind, 20)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", LONGER)
-def test_intervals_of_longer_fits_are_as_wide_as_the_errors(kind: str) -> None:
-    hold_errors_as_wide_as_the_intervals_say(kind, 10)
-
-
-@pytest.mark.parametrize("kind", [kind for kind in MADE if kind not in SLOW])
+@pytest.mark.parametrize("kind", kinds(*MADE.keys() - {"heating_log"}))
 def test_all_that_is_reported_is_counted(kind: str) -> None:
-    assert reported_of(kind) == set(MADE[kind](np.random.default_rng(0))[2])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", SLOW)
-def test_all_that_slow_fits_report_is_counted(kind: str) -> None:
-    assert reported_of(kind) == set(MADE[kind](np.random.default_rng(0))[2])
+    blocks, given, truth = MADE[kind](np.random.default_rng(0))
+    fit = measure_of(kind_sheet(kind))(blocks, kind_sheet(kind).values(given), profiles=False).fit
+    assert {one.name for one in (*fit.parameters, *fit.derived)} == set(truth)
 
 
 def test_a_count_goes_on_where_it_was_left(tmp_path: Path) -> None:

@@ -1,11 +1,10 @@
 """What sines of a module's joint tell of it, against closed forms: springs of E, a thin melt, friction on pins."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from measured_files import csv, found, measured
+from measured_files import csv, found, measured, turned
 from support import ROOT
 
 from tvimdesign.base.errors import CatalogError, InputError
@@ -21,19 +20,9 @@ INERTIA = 4.3e-4
 SIZE = 0.05
 
 
-def turned(folder: Path, stiffness: float, damping: float, friction: float, hertz: tuple[float, ...]) -> list[Path]:
-    """Records of I theta'' + b theta' + K theta + T_f sgn theta' = T, a little noise in both."""
-    paths = []
-    for seed, one in enumerate(hertz):
-        omega, noise = 2.0 * np.pi * one, np.random.default_rng(seed)
-        time = np.linspace(0.0, 4.0 / one, 200)
-        angle, quarter = SIZE * np.cos(omega * time), -np.sin(omega * time)
-        torque = (stiffness - INERTIA * omega**2) * angle + damping * omega * SIZE * quarter
-        torque = torque + friction * np.sign(quarter)
-        noisy: Any = noise.normal(0.0, 1e-4 * np.ptp(torque), 200)
-        paths.append(csv(folder / f"{one}.csv", time__s=time, torque__Nm=torque + noisy,
-                         angle__rad=angle + noise.normal(0.0, 1e-5, 200)))  # fmt: skip
-    return paths
+def joints(folder: Path, stiffness: float, damping: float, friction: float, hertz: tuple[float, ...]) -> list[Path]:
+    joint = INERTIA, stiffness, damping, friction
+    return [turned(folder / f"{one}.csv", one, seed, joint, SIZE, (1e-5, 1e-4)) for seed, one in enumerate(hertz)]
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +37,7 @@ def test_a_molten_joint_tells_its_springs_its_melt_and_its_pins(tmp_path: Path, 
     damping = viscosity * moment / float(module.values["pcl_thickness"])
     stiffness = springs * modulus / float(module.values["spring_youngs_modulus"])
     friction = coefficient / 0.25 * float(module.quantity("pin_friction_torque"))
-    paths = turned(tmp_path, stiffness, damping, friction, (0.01, 0.03))
+    paths = joints(tmp_path, stiffness, damping, friction, (0.01, 0.03))
     result = found(paths, "sine", study=str(STUDY), state="molten", inertia="4.3e-4 kg.m^2")
     assert module.values["pin_friction"] == 0.25
     assert result.fit.value("spring_youngs_modulus") == pytest.approx(modulus, rel=5e-3)
@@ -74,7 +63,7 @@ def test_a_frozen_joint_tells_its_pads_and_a_run_counts_them_as_measured(
     names = ["joint_stiffness@cold", "joint_damping@cold"]
     softer = {**module.values, "peltier_shear_modulus": 3e6, "clamped_loss_factor": 0.04, "frequency@cold": 1.0}
     stiffness, damping = map(float, module.table.evaluate(softer, names).values())
-    paths = turned(tmp_path, stiffness, damping, 0.0, (1.0, 8.0))
+    paths = joints(tmp_path, stiffness, damping, 0.0, (1.0, 8.0))
     result = measured(paths, "sine", study=str(STUDY), state="frozen")
     written = write_records(result, tmp_path / "mine", "bench")
     assert list(written) == ["joint", "peltier_module"]
@@ -94,7 +83,7 @@ def test_a_frozen_joint_tells_its_pads_and_a_run_counts_them_as_measured(
 
 def test_what_no_value_of_the_module_explains_goes_to_no_record(tmp_path: Path) -> None:
     # Stiffer than the structure is behind rigid pads.
-    paths = turned(tmp_path, 2e4, 3.0, 0.0, (1.0, 8.0))
+    paths = joints(tmp_path, 2e4, 3.0, 0.0, (1.0, 8.0))
     result = measured(paths, "sine", study=str(STUDY), state="frozen", inertia="4.3e-4 kg.m^2")
     assert not result.measurement.more_records
     with pytest.raises(InputError, match="neither is written to a record"):
@@ -120,7 +109,7 @@ def test_a_release_with_a_known_inertia_writes_records_too(tmp_path: Path, modul
 def test_no_record_of_several_stays_where_one_cannot(tmp_path: Path, module: ResolvedModule) -> None:
     names = ["joint_stiffness@cold", "joint_damping@cold"]
     stiffness, damping = (float(module.quantity(name)) for name in names)
-    result = measured(turned(tmp_path, stiffness, damping, 0.0, (1.0, 8.0)), "sine", study=str(STUDY), state="frozen")
+    result = measured(joints(tmp_path, stiffness, damping, 0.0, (1.0, 8.0)), "sine", study=str(STUDY), state="frozen")
     folder = tmp_path / "mine"
     (folder / "peltiers").mkdir(parents=True)
     (folder / "peltiers" / "flexible_1600.yaml").write_text("title: broken\n")
@@ -131,4 +120,4 @@ def test_no_record_of_several_stays_where_one_cannot(tmp_path: Path, module: Res
 
 def test_the_state_is_asked_for(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="--set state"):
-        found(turned(tmp_path, 5.0, 0.1, 0.0, (1.0, 8.0)), "sine", study=str(STUDY))
+        found(joints(tmp_path, 5.0, 0.1, 0.0, (1.0, 8.0)), "sine", study=str(STUDY))

@@ -1,12 +1,12 @@
 """Each kind on data from closed solutions or another integrator, none of it made by the equations that are fitted."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from measured_files import csv, found, measured
+from measured_files import arrhenius, csv, found, measured, moduli, oscillated
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
@@ -123,24 +123,17 @@ def test_without_an_inertia_a_release_says_what_it_does_not_know(tmp_path: Path)
     )
 
 
-def maxwell(omega: Any, modes: Sequence[tuple[float, float]]) -> tuple[Any, Any]:
-    x = np.array([[w * tau for tau, _ in modes] for w in omega])
-    moduli = np.array([modulus for _, modulus in modes])
-    return (moduli * x**2 / (1 + x**2)).sum(axis=1), (moduli * x / (1 + x**2)).sum(axis=1)
+MODES = [(1.0, 500.0), (0.05, 1.2e4), (0.004, 9.0e4)]
 
 
-def sweep(path: Path, modes: Sequence[tuple[float, float]], celsius: float, seed: int, energy: float = 35e3) -> Path:
-    omega = np.geomspace(0.05, 200.0, 18)
-    shift = np.exp(energy / 8.314462618 * (1.0 / (celsius + CELSIUS) - 1.0 / (100.0 + CELSIUS)))
-    noise = np.random.default_rng(seed)
-    storage, loss = (one * np.exp(noise.normal(0.0, 0.01, 18)) for one in maxwell(omega * shift, modes))
-    return csv(path, angular_frequency__rad_per_s=omega, **{"G'__Pa": storage, "G''__Pa": loss},
-               temperature__degC=np.full(18, celsius))  # fmt: skip
+def sweep(path: Path, celsius: float, seed: int, energy: float = 35e3) -> Path:
+    omega, noise = np.geomspace(0.05, 200.0, 18), np.random.default_rng(seed)
+    made = moduli(omega * arrhenius(celsius, energy, 100.0), MODES)
+    return oscillated(path, omega, *(one * np.exp(noise.normal(0.0, 0.01, 18)) for one in made), celsius)
 
 
 def test_a_spectrum_has_as_many_modes_as_made_the_data(tmp_path: Path) -> None:
-    modes = [(1.0, 500.0), (0.05, 1.2e4), (0.004, 9.0e4)]
-    paths = [sweep(tmp_path / f"{t}.csv", modes, t, seed) for seed, t in enumerate((80, 100, 120))]
+    paths = [sweep(tmp_path / f"{t}.csv", t, seed) for seed, t in enumerate((80, 100, 120))]
     fit = found(paths).fit
     times = sorted(fit.value(one.name) for one in fit.parameters if one.name.startswith("time"))
     assert times == pytest.approx([0.004, 0.05, 1.0], rel=0.1)
@@ -149,8 +142,7 @@ def test_a_spectrum_has_as_many_modes_as_made_the_data(tmp_path: Path) -> None:
 
 
 def test_a_shift_that_is_not_arrhenius_gives_no_energy(tmp_path: Path) -> None:
-    modes = [(1.0, 500.0), (0.05, 1.2e4), (0.004, 9.0e4)]
-    paths = [sweep(tmp_path / f"{t}.csv", modes, t, t, energy) for t, energy in ((60, 90e3), (100, 35e3), (140, 20e3))]
+    paths = [sweep(tmp_path / f"{t}.csv", t, t, energy) for t, energy in ((60, 90e3), (100, 35e3), (140, 20e3))]
     result = found(paths)
     assert "flow_activation_energy" not in result.record_values
     assert any("Arrhenius' law misses one by" in note for note in result.notes)

@@ -7,11 +7,10 @@ from pathlib import Path
 
 import layouts
 import pytest
-from measured_files import measured
+from measured_files import holds, measured
 from melt_layouts import LAYOUTS, Layout
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.measurement.fitting.fit import Estimate
 from tvimdesign.simulation.measurement.measure_files import Measured
 from tvimdesign.simulation.measurement.record_file import as_recorded
 
@@ -20,10 +19,6 @@ def through(place: Path, made: Callable[[], bytes]) -> Measured:
     path = place / f"{made.__name__}.txt"
     path.write_bytes(made())
     return measured(path)
-
-
-def holds(estimate: Estimate, truth: float) -> bool:
-    return estimate.low is not None and estimate.high is not None and estimate.low < truth < estimate.high
 
 
 @pytest.mark.parametrize("made", layouts.FLOW, ids=lambda made: made.__name__)

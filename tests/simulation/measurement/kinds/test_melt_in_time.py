@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from measured_files import csv, found, measured
+from measured_files import arrhenius, csv, found, measured, moduli, oscillated
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
@@ -84,12 +84,9 @@ def test_relaxation_after_a_step_and_after_a_ramp(tmp_path: Path, rise: float) -
 
 def test_a_ramp_has_the_energy_that_made_it_and_leaves_out_what_is_frozen(tmp_path: Path) -> None:
     celsius = np.linspace(40.0, 170.0, 90)
-    x = 10.0 * np.exp(30e3 / 8.314462618 * (1.0 / (celsius + CELSIUS) - 1.0 / 373.15))
-    moduli = [sum(modulus * (x * tau) ** power / (1.0 + (x * tau) ** 2) for tau, modulus in MODES) for power in (2, 1)]
-    noise = np.random.default_rng(3)
-    storage, loss = (np.where(celsius < 62.0, 1e8, one) * np.exp(noise.normal(0.0, 0.01, 90)) for one in moduli)
-    path = csv(tmp_path / "t.csv", temperature__degC=celsius, angular_frequency__rad_per_s=np.full(90, 10.0),
-               **{"G'__Pa": storage, "G''__Pa": loss})  # fmt: skip
+    noise, melt = np.random.default_rng(3), moduli(10.0 * arrhenius(celsius, 30e3, 100.0), MODES)
+    both = (np.where(celsius < 62.0, 1e8, one) * np.exp(noise.normal(0.0, 0.01, 90)) for one in melt)
+    path = oscillated(tmp_path / "t.csv", np.full(90, 10.0), *both, celsius)
     result = measured(path, reference_temperature="100 degC")
     assert result.kind.name == "temperature_ramp"
     fit = result.measurement.fit
@@ -144,36 +141,23 @@ def test_a_known_energy_is_not_fitted(tmp_path: Path) -> None:
     omega = np.geomspace(0.1, 100.0, 20)
     paths = []
     for celsius in (90.0, 110.0):
-        x = omega * np.exp(30e3 / 8.314462618 * (1.0 / (celsius + CELSIUS) - 1.0 / 363.15))
-        storage, loss = (
-            sum(modulus * (x * tau) ** power / (1.0 + (x * tau) ** 2) for tau, modulus in MODES) for power in (2, 1)
-        )
+        storage, loss = moduli(omega * arrhenius(celsius, 30e3, 90.0), MODES)
         noise = np.exp(np.random.default_rng(int(celsius)).normal(0.0, 0.01, 20))
-        paths.append(csv(tmp_path / f"{celsius:.0f}.csv", angular_frequency__rad_per_s=omega,
-                         **{"G'__Pa": storage * noise, "G''__Pa": loss * noise},
-                         temperature__degC=np.full(20, celsius)))  # fmt: skip
+        paths.append(oscillated(tmp_path / f"{celsius:.0f}.csv", omega, storage * noise, loss * noise, celsius))
     result = found(paths, flow_activation_energy="30 kJ/mol", reference_temperature="90 degC")
     assert "flow_activation_energy" not in result.record_values
     assert result.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)
 
 
-def oscillated(path: Path, omega: Any, storage: Any, loss: Any, **more: Any) -> Path:
-    return csv(path, angular_frequency__rad_per_s=omega, **{"G'__Pa": storage, "G''__Pa": loss},
-               temperature__degC=np.full(len(omega), 90.0), **more)  # fmt: skip
-
-
 def test_a_modulus_that_the_instrument_cuts_off_is_left_out(tmp_path: Path) -> None:
     omega = np.geomspace(1e-3, 100.0, 24)
-    storage, loss = (
-        sum(modulus * (omega * tau) ** power / (1.0 + (omega * tau) ** 2) for tau, modulus in MODES) for power in (2, 1)
-    )
+    storage, loss = moduli(omega, MODES)
     cut = storage < loss / 100.0
-    result = found(oscillated(tmp_path / "s.csv", omega, np.where(cut, loss / 100.0, storage), loss))
+    result = found(oscillated(tmp_path / "s.csv", omega, np.where(cut, loss / 100.0, storage), loss, 90.0))
     assert result.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=1e-3)
     assert any(f"G''/G' stays at 100 in {np.sum(cut)} of 24 rows" in note for note in result.notes)
-    oil = oscillated(tmp_path / "o.csv", omega, 8e-3 * omega, 0.8 * omega)
     with pytest.raises(InputError, match=r"Too few rows remain\. G''/omega is 0\.8 Pa\.s there"):
-        measured(oil)
+        measured(oscillated(tmp_path / "o.csv", omega, 8e-3 * omega, 0.8 * omega))
 
 
 @pytest.mark.parametrize("end", [0.02, 0.5, 5.0])

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from measured_files import csv, found
+from measured_files import csv, found, oscillated
 
 
 def test_a_pad_at_one_current(tmp_path: Path) -> None:
@@ -47,9 +47,7 @@ def test_slow_flow_alone_gives_a_viscosity_and_no_time(tmp_path: Path) -> None:
     omega = np.geomspace(0.01, 0.1, 12)
     noise = np.random.default_rng(2)
     storage, loss = (1e-4 * np.exp(noise.normal(0.0, 1.0, 12)), 500.0 * omega * np.exp(noise.normal(0.0, 0.01, 12)))
-    path = csv(tmp_path / "s.csv", angular_frequency__rad_per_s=omega, **{"G'__Pa": storage, "G''__Pa": loss},
-               temperature__degC=np.full(12, 100.0))  # fmt: skip
-    result = found(path, "frequency_sweep")
+    result = found(oscillated(tmp_path / "s.csv", omega, storage, loss), "frequency_sweep")
     fit = result.fit
     assert not result.record_tables
     assert list(result.record_values) == ["zero_shear_viscosity"]

@@ -100,22 +100,17 @@ DSC = ["20.0 0.0 1.5", "21.0 6.0 1.6", "22.0 12.0 1.7"]
         ("T_sample [°C];time_s;Q [mW]", ";"),
         ("Temperature (°C),Time (s),HeatFlow(mW)", ","),
         ("Tr t Heatflow\n[°C] [s] [mW]", " "),
+        ("Index Tr t Heatflow\n [°C] [s] [mW]", " "),  # a count of rows needs no unit
         ("Sample Temperature\tTime\tHeat Flow\n°C\ts\tmW", "\t"),
     ],
 )
 def test_layouts_of_calorimeters_are_read(tmp_path: Path, head: str, separator: str) -> None:
-    rows = "\n".join(row.replace(" ", separator) for row in DSC)
+    number = "{} " if head.startswith("Index") else ""
+    rows = "\n".join((number.format(i) + row).replace(" ", separator) for i, row in enumerate(DSC))
     (block,) = read(tmp_path, f"{head}\n{rows}\n").blocks
     assert block.values("temperature") == pytest.approx([293.15, 294.15, 295.15])
     assert block.values("time") == pytest.approx([0.0, 6.0, 12.0])
     assert block.values("heat_flow") == pytest.approx([1.5e-3, 1.6e-3, 1.7e-3])
-
-
-def test_a_count_of_rows_needs_no_unit_under_it(tmp_path: Path) -> None:
-    rows = "0 0.0 1.5 20.0\n1 6.0 1.6 21.0\n2 12.0 1.7 22.0\n"
-    (block,) = read(tmp_path, f"Index t Heatflow Tr\n [s] [mW] [°C]\n{rows}").blocks
-    assert block.values("temperature") == pytest.approx([293.15, 294.15, 295.15])
-    assert block.values("time") == pytest.approx([0.0, 6.0, 12.0])
 
 
 def test_every_table_of_a_file_is_a_block_with_its_lines(tmp_path: Path) -> None:
@@ -138,21 +133,16 @@ def test_one_text_is_split_by_blanks(tmp_path: Path) -> None:
         ("time [s];angle [deg]\n0;1\n1;15e308\n2;3\n", r"data.csv:3: column 2: '15e308' is no number"),
         ("time [s];angle\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle', has no unit"),
         ("time [s];angle [mm]\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle \[mm\]': 'mm' is no unit of angle"),
-        (
-            "time [s];angle [deg];temperature [K]\n0;1;0\n1;2;300\n2;3;300\n",
-            r"column 3, .*: 0 K is at absolute zero, or below",
-        ),
-        (
-            "time [s];angle [deg];temperature [K]\n0;1;1e-300\n1;2;300\n2;3;300\n",
-            r"column 3, .*: 1e-300 K is at absolute zero, or below",
-        ),
+        ("time [s];angle [deg];temperature [K]\n0;1;0\n1;2;3\n2;3;3\n", "column 3, .*: 0 K is at absolute zero"),
+        ("time [s];angle [deg];temperature [K]\n0;1;1e-300\n1;2;3\n2;3;3\n", "3, .*: 1e-300 K is at absolute zero"),
+        ("time [s];angle [deg];torque [kN.m]\n0;1;1\n1;2;1e307\n2;3;1\n", r"'torque \[kN.m\]': a value is too large"),
     ],
 )
 def test_a_wrong_column_stops_only_a_fit_that_needs_it(tmp_path: Path, text: str, said: str) -> None:
     block = read(tmp_path, text).blocks[0]
     assert block.complete(["time"]) == 3
     with pytest.raises(InputError, match=said):
-        block.complete(["time", "angle", "temperature"])
+        block.complete(["time", "angle", "temperature", "torque"])
 
 
 @pytest.mark.parametrize(
@@ -172,12 +162,6 @@ def test_a_file_that_does_not_go_together_is_refused_with_its_line(
         read(tmp_path, text)
 
 
-def test_a_value_that_is_too_large_in_si_stops_its_column(tmp_path: Path) -> None:
-    block = read(tmp_path, "time [s];torque [kN.m]\n0;1\n1;1e307\n2;3\n").blocks[0]
-    with pytest.raises(InputError, match=r"'torque \[kN.m\]': a value is too large"):
-        block.complete(["torque"])
-
-
 def test_digits_without_end_take_no_longer_than_others(tmp_path: Path) -> None:
     begin = time.process_time()
     found = read(tmp_path, f"{'9' * 20_000}x;y\n" * 3 + "time [s];angle [deg]\n0;1\n1;2\n2;3\n")
@@ -186,21 +170,15 @@ def test_digits_without_end_take_no_longer_than_others(tmp_path: Path) -> None:
 
 
 def test_a_column_map_says_what_a_file_does_not(tmp_path: Path) -> None:
-    text = "a;b;c\n0;1;7\n1;2;8\n2;3;9\n"
-    assert degrees(read(tmp_path, text, time={"column": 1, "unit": "s"}, angle={"heading": "b", "unit": "deg"})) == [
-        1.0, 2.0, 3.0,
-    ]  # fmt: skip
+    rows, seconds = "0;1;7\n1;2;8\n2;3;9\n", {"column": 1, "unit": "s"}
+    with pytest.raises(InputError, match=r"time: \{column: 1, unit: s\}"):
+        read(tmp_path, rows)
+    assert degrees(read(tmp_path, rows, time=seconds, angle={"column": 2, "unit": "deg"})) == [1.0, 2.0, 3.0]
+    named = {"heading": "b", "unit": "deg"}
+    assert degrees(read(tmp_path, f"a;b;c\n{rows}", time=seconds, angle=named)) == [1.0, 2.0, 3.0]
     path = tmp_path / "map.yaml"
     path.write_text("angle: {column: 3, unit: deg}\nseparator: semicolon\n")
     assert degrees(read_data_file(tmp_path / "data.csv", read_column_map(path))) == [7.0, 8.0, 9.0]
-
-
-def test_a_map_by_place_reads_a_file_without_headings(tmp_path: Path) -> None:
-    text = "0;1;7\n1;2;8\n2;3;9\n"
-    with pytest.raises(InputError, match=r"time: \{column: 1, unit: s\}"):
-        read(tmp_path, text)
-    mapped = {"time": {"column": 1, "unit": "s"}, "angle": {"column": 3, "unit": "deg"}}
-    assert degrees(read(tmp_path, text, **mapped)) == [7.0, 8.0, 9.0]
 
 
 @pytest.mark.parametrize("gap", ["OPEN", "OL", "---", "#N/A", ""])
@@ -239,10 +217,7 @@ def test_a_date_beside_its_time_of_day(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("cells", "said"),
     [
-        (
-            ["0:58", "1:03"],
-            r"data.csv:2: column 'Time': '0:58' may be hh:mm or mm:ss; name the column 'time ",
-        ),
+        (["0:58", "1:03"], r"data.csv:2: column 'Time': '0:58' may be hh:mm or mm:ss; name the column 'time "),
         (["00:00:58", "noon"], r"data.csv:3: column 'Time': 'noon' is no clock time"),
         (["31.02.2026 10:00:00", "31.02.2026 10:00:05"], "a day that is none"),
     ],
