@@ -59,39 +59,28 @@ def test_imports_leave_libraries_to_those_who_need_them() -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_an_interrupt_at_shutdown_keeps_the_exit_code(tmp_path: Path) -> None:
-    text = """
-import atexit, os, signal
-from tvimdesign.cli import main
+SHUTDOWN = """
 atexit.register(os.kill, os.getpid(), signal.SIGINT)
 atexit.register(os.kill, os.getpid(), signal.SIGTERM)
 main._command = lambda: 3
-main.main()
 """
-    (tmp_path / "ends.py").write_text(text)
-    paths = os.pathsep.join([str(ROOT), str(tmp_path)])
-    done = subprocess.run(
-        [sys.executable, "-m", "ends"], env={**os.environ, "PYTHONPATH": paths}, capture_output=True, text=True,
-        check=False,
-    )  # fmt: skip
-    assert (done.returncode, done.stderr) == (3, "")
+IN_A_STRING = """
+main._command = lambda: exec("import os, signal; os.kill(os.getpid(), signal.SIGTERM)")
+"""
 
 
-def test_an_interrupt_of_a_string_ends_with_its_signal_s_code(tmp_path: Path) -> None:
-    text = """
-from tvimdesign.cli import main
-def command():
-    exec("import os, signal; os.kill(os.getpid(), signal.SIGTERM)")
-main._command = command
-main.main()
-"""
-    (tmp_path / "interrupted.py").write_text(text)
-    paths = os.pathsep.join([str(ROOT), str(tmp_path)])
-    done = subprocess.run(
-        [sys.executable, "-m", "interrupted"], env={**os.environ, "PYTHONPATH": paths}, capture_output=True, check=False
-    )
-    assert done.returncode == 128 + signal.SIGTERM
-    assert done.stderr.startswith(b"interrupted; ")
+@pytest.mark.parametrize(
+    ("text", "code", "said"), [(SHUTDOWN, 3, ""), (IN_A_STRING, 128 + signal.SIGTERM, "interrupted; ")]
+)
+def test_an_interrupt_ends_with_its_code_even_where_it_is_at_a_place_of_its_own(
+    tmp_path: Path, text: str, code: int, said: str
+) -> None:
+    (tmp_path / "ends.py").write_text(f"import atexit, os, signal\nfrom tvimdesign.cli import main\n{text}main.main()")
+    around = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(tmp_path)])}
+    done = subprocess.run([sys.executable, "-m", "ends"], env=around, capture_output=True, text=True, check=False)
+    assert done.returncode == code
+    assert done.stderr.startswith(said)
+    assert bool(done.stderr) == bool(said)
 
 
 @pytest.mark.parametrize(
@@ -148,11 +137,8 @@ def test_bad_input_is_a_message_and_exit_code_2(tvimdesign: Command, arguments: 
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("arguments", [["check", "README.md"]])
-def test_a_process_says_and_ends_with_what_the_command_does(
-    tvimdesign: Command, process: Command, arguments: list[str]
-) -> None:
-    done, here = process(*arguments), tvimdesign(*arguments)
+def test_a_process_says_and_ends_with_what_the_command_does(tvimdesign: Command, process: Command) -> None:
+    done, here = process("check", "README.md"), tvimdesign("check", "README.md")
     assert (done.returncode, done.stdout, done.stderr) == (here.returncode, here.stdout, here.stderr)
     assert done.returncode == 2
 
@@ -242,13 +228,9 @@ def test_an_interrupt_ends_with_its_code_and_a_reusable_folder(
 ) -> None:
     out = tmp_path / "out"
     process = subprocess.Popen(
-        [sys.executable, "-m", "tvimdesign", "run", "studies/wrist_joint.yaml", "--out", str(out)],
-        cwd=ROOT,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+        [sys.executable, "-m", "tvimdesign", "run", "studies/wrist_joint.yaml", "--out", str(out)], cwd=ROOT,
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
+    )  # fmt: skip
     assert wait_until((out / "unfinished/.run.json").exists)
     time.sleep(after)
     os.killpg(process.pid, number)

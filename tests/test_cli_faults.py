@@ -32,9 +32,8 @@ def test_a_study_whose_name_looks_like_markup_runs_on_any_terminal(tmp_path: Pat
     done = run("run", tmp_path / "nasty.yaml", *words, PYTHONIOENCODING="ascii", TVIMDESIGN_SPREAD="")
     assert done.returncode == 0, done.stderr
     assert b"[/bold] [red] N.m ? :key: (shear)" in done.stdout
-    assert "Manufacturing: " in (tmp_path / "[/bold]/summary.txt").read_text(
-        encoding="utf-8"
-    )  # the child read those letters
+    summary = (tmp_path / "[/bold]/summary.txt").read_text(encoding="utf-8")
+    assert "Manufacturing: " in summary  # the child read those letters
 
 
 @pytest.mark.parametrize(("words", "unbuffered"), [(["rows"], ""), (["--help"], "1")])

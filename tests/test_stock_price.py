@@ -1,36 +1,21 @@
 """What parts from stock cost: the page is made from its figures, and these are those of runs."""
 
-import sys
-from pathlib import Path
-from typing import Any
-
 import pytest
+import stock_price
 import yaml
+from support import ROOT
 
 from tvimdesign.study import read_study_text
 
-ROOT = Path(__file__).resolve().parents[1]
 
-
-@pytest.fixture(scope="module")
-def stock_price() -> Any:
-    """The script that makes the page."""
-    sys.path.insert(0, str(ROOT / "docs" / "make"))
-    try:
-        import stock_price
-    finally:
-        sys.path.pop(0)
-    return stock_price
-
-
-def test_the_page_holds_the_tables_of_the_figures(stock_price: Any) -> None:
+def test_the_page_holds_the_tables_of_the_figures() -> None:
     page = stock_price.PAGE.read_text(encoding="utf-8")
     tables = list(stock_price.tables(stock_price.read_figures()))
     assert tables
     assert all(table in page for table in tables)
 
 
-def test_each_step_is_a_study_and_the_last_is_the_shipped_one(stock_price: Any) -> None:
+def test_each_step_is_a_study_and_the_last_is_the_shipped_one() -> None:
     for case, about in stock_price.cases().items():
         for index in range(len(about["steps"])):
             read_study_text(yaml.safe_dump(stock_price.study_of(case, index), allow_unicode=True), case)
@@ -39,7 +24,7 @@ def test_each_step_is_a_study_and_the_last_is_the_shipped_one(stock_price: Any) 
 
 
 @pytest.mark.slow
-def test_the_figures_are_those_of_runs(stock_price: Any) -> None:
+def test_the_figures_are_those_of_runs() -> None:
     figures = stock_price.read_figures()
     for case, about in stock_price.cases().items():
         for index in (0, len(about["steps"]) - 1):

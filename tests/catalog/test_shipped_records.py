@@ -248,8 +248,7 @@ def test_what_is_assumed_is_reported_with_its_range() -> None:
 
 
 @pytest.mark.parametrize(
-    ("category", "name"),
-    [("polymers", "pcl_80k"), ("adhesives", "scotch_weld_dp760"), ("heat_paths", "handbook")],
+    ("category", "name"), [("polymers", "pcl_80k"), ("adhesives", "scotch_weld_dp760"), ("heat_paths", "handbook")]
 )
 def test_each_assumed_value_names_its_least_test(category: str, name: str) -> None:
     ranges = {key: entry for key, entry in CATALOG.record(category, name).entries.items() if entry.status == "assumed"}

@@ -42,12 +42,8 @@ def test_only_the_token_opens_the_folder_and_nothing_outside(tmp_path: Path) -> 
         f"/{TOKEN}/parts//etc/passwd", f"/{TOKEN}/static/page/..%2fpage_file.py", f"/{TOKEN}/static/other/x",
         f"/{TOKEN}/explore.json", "/", "/wrong/", f"/{TOKEN}x/", "/wrong/socket",
     ]  # fmt: skip
-    given = [
-        f"/{TOKEN}/",
-        f"/{TOKEN}/static/page/theme.css",
-        f"/{TOKEN}/static/explore/main.js",
-        f"/{TOKEN}/parts/bom.csv",
-    ]
+    files = ("", "static/page/theme.css", "static/explore/main.js", "parts/bom.csv")
+    given = [f"/{TOKEN}/{file}" for file in files]
     requests: list[tuple[str, dict[str, str]]] = [(path, {}) for path in given + outside]
     requests += [(given[0], {"Host": "example.com"}), (given[0], {"Origin": "http://example.com"})]
     result = awaited(_statuses(small_study(tmp_path), tmp_path / "out", requests))
@@ -55,13 +51,9 @@ def test_only_the_token_opens_the_folder_and_nothing_outside(tmp_path: Path) -> 
     assert HOST == "127.0.0.1"
 
 
-REFUSED: list[dict[str, Any]] = [
-    {"kind": "set", "name": "pcl_thickness", "text": "1,5 mm"},
-    {"kind": "set", "name": "pcl_thickness", "text": "5 kg"},
-    {"kind": "set", "name": "pcl_thickness", "text": "-1 mm"},
-    {"kind": "set", "name": "core_radius", "text": "ten"},
-    {"kind": "set", "name": "cover", "text": "plat"},
-]
+REFUSED = [
+    *(("pcl_thickness", text) for text in ("1,5 mm", "5 kg", "-1 mm")), ("core_radius", "ten"), ("cover", "plat"),
+]  # fmt: skip
 
 
 def test_what_is_typed_is_refused_in_the_words_of_a_study(tmp_path: Path) -> None:
@@ -70,20 +62,20 @@ def test_what_is_typed_is_refused_in_the_words_of_a_study(tmp_path: Path) -> Non
     async def talk() -> list[dict[str, Any]]:
         async with talking(study, tmp_path / "out") as page:
             result = []
-            for message in REFUSED:
-                await page.send(**message)
+            for name, text in REFUSED:
+                await page.send(kind="set", name=name, text=text)
                 result.append(await page.kind("refused"))
             return result
 
-    for message, refused in zip(REFUSED, awaited(talk()), strict=True):
-        written = SMALL.replace("{cover: none}", "{" + f'{message["name"]}: "{message["text"]}"' + "}")
+    for (name, text), refused in zip(REFUSED, awaited(talk()), strict=True):
+        written = SMALL.replace("{cover: none}", "{" + f'{name}: "{text}"' + "}")
         written = "\n".join(line for line in written.splitlines() if not line.startswith("  pcl_thickness: ["))
         (tmp_path / "other.yaml").write_text(written)
         with pytest.raises(StudyError) as error:
             read_study(tmp_path / "other.yaml")
         (problem,) = error.value.problems
         assert refused["words"].removeprefix("explore: ") == str(problem).partition(": ")[2]
-        assert refused["name"] == message["name"]
+        assert refused["name"] == name
 
 
 _LONG = '{"kind": "pin", "name": "' + "x" * 200_000 + '"}'
@@ -130,27 +122,17 @@ def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_pa
 
     async def change() -> list[dict[str, Any]]:
         async with talking(study, folder) as page:
-            await page.send(kind="require", name="peak_power", texts=["<= 10 W"])
-            first = await page.kind("state")
+            first = await page.change(kind="require", name="peak_power", texts=["<= 10 W"])
             await page.send(kind="set", name="core_radius", text="9 mm", final=False)
-            await page.send(kind="set", name="core_radius", text="9.5 mm")
-            second = await page.kind("state")
-            await page.send(kind="undo")
-            third = await page.kind("state")
-            await page.send(kind="redo")
-            await page.kind("state")
-            await page.send(kind="range", name="current", low="1 A", high="2 A")
-            await page.kind("state")
-            await page.send(kind="weight", name="module_mass", text="3")
-            await page.kind("state")
-            await page.send(kind="save", file="kept.yaml")
-            await page.kind("saved")
-            await page.send(kind="way", way="evaluate")
-            await page.kind("state")
-            await page.send(kind="set", name="pcl_thickness", text="0.9 mm")
-            await page.kind("state")
-            await page.send(kind="save", file="fixed.yaml")
-            await page.kind("saved")
+            second = await page.change(kind="set", name="core_radius", text="9.5 mm")
+            third = await page.change(kind="undo")
+            await page.change(kind="redo")
+            await page.change(kind="range", name="current", low="1 A", high="2 A")
+            await page.change(kind="weight", name="module_mass", text="3")
+            await page.save("kept.yaml")
+            await page.change(kind="way", way="evaluate")
+            await page.change(kind="set", name="pcl_thickness", text="0.9 mm")
+            await page.save("fixed.yaml")
             return [first, second, third]
 
     async def again() -> dict[str, Any]:
@@ -199,8 +181,7 @@ def test_overwriting_loses_no_history_where_the_explorer_is_refused(tmp_path: Pa
 
     async def change() -> None:
         async with talking(study, folder) as page:
-            await page.send(kind="require", name="peak_power", texts=["<= 10 W"])
-            await page.kind("state")
+            await page.change(kind="require", name="peak_power", texts=["<= 10 W"])
 
     awaited(change())
     before = (folder / FILE).read_bytes()
@@ -326,15 +307,8 @@ def test_malformed_requests_are_refused_in_silence(tmp_path: Path, caplog: pytes
 def test_pages_that_vanish_leave_no_word(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     key = b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ=="
     opened = _request(f"/{TOKEN}/socket", *UPGRADE, key)
-    started = (
-        _request(),
-        _request()[:20],
-        b"",
-        opened,
-        opened + 40 * b"\xff",
-        opened + b"\x81\xfe",
-        opened + b"\x88\x00",
-    )
+    frames = (b"", 40 * b"\xff", b"\x81\xfe", b"\x88\x00")
+    started = (_request(), _request()[:20], b"", *(opened + frame for frame in frames))
 
     async def vanish() -> None:
         async with served(small_study(tmp_path), tmp_path / "out") as (_, client):

@@ -72,8 +72,7 @@ def test_the_exact_answer_is_the_one_of_run_and_comes_with_the_report(tmp_path: 
             await page.answer("quick")
             await page.send(kind="require", name="peak_power", texts=["<= 9 W"])
             exact = await page.answer("exact")
-            await page.send(kind="save", file="saved.yaml")
-            await page.kind("saved")
+            await page.save("saved.yaml")
             return exact
 
     exact = awaited(settled())

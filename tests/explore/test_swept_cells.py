@@ -133,8 +133,7 @@ def test_a_page_gets_the_cells_once_and_shows_the_one_it_chooses(swept: Path, tm
         async with talking(swept, tmp_path / "out") as page:
             points = await page.kind("points")
             page.heard.clear()
-            await page.send(kind="point", number=2)
-            state = await page.kind("state")
+            state = await page.change(kind="point", number=2)
             answer = await page.until(lambda item: item["kind"] == "answer" and item["number"] == 2)
             await page.send(kind="point", number=9)
             await page.kind("refused")

@@ -69,6 +69,16 @@ class Talk:
         """The next answer of a stage."""
         return await self.until(lambda one: one["kind"] == "answer" and one["shown"]["stage"] == stage)
 
+    async def change(self, **message: Any) -> dict[str, Any]:
+        """Send a message and return the state that follows."""
+        await self.send(**message)
+        return await self.kind("state")
+
+    async def save(self, file: str) -> None:
+        """Save the study."""
+        await self.send(kind="save", file=file)
+        await self.kind("saved")
+
     async def send(self, **message: Any) -> None:
         """Send a message."""
         await self.socket.send_json(message)

@@ -12,6 +12,18 @@ vary:
   current: [0.5 A, 2 A]
 """
 
+ALGEBRAIC = """
+mode: shear
+module: {transmission: unity, placement_radius: 60 mm, pin_diameter: 6 mm}
+vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
+require: {spring_stiffness: ">= 5 N.m/rad"}
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+minimize: springs_mass
+tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
+solver: {starts: 1}
+"""
+"""Springs with tolerances, of which nothing waits for a working cycle."""
+
 COMPRESSION_BLOCKS = """  pcl_outer_radius: [18 mm, 30 mm]
   block_height: [4 mm, 14 mm]
   block_depth: [2 mm, 8 mm]

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from small_studies import ALGEBRAIC
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
@@ -103,17 +104,7 @@ def test_the_search_for_the_conflict_ends_with_the_time() -> None:
     assert "looking for the smallest set of limits that conflict" not in clock.said
 
 
-ROBUST = """
-mode: shear
-module: {transmission: unity, placement_radius: 60 mm, pin_diameter: 6 mm}
-vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
-require: {spring_stiffness: ">= 5 N.m/rad"}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
-minimize: springs_mass
-tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
-robust: {yield: 95 %}
-solver: {starts: 1, time_limit: 5 min}
-"""
+ROBUST = ALGEBRAIC.replace("{starts: 1}", "{starts: 1, time_limit: 5 min}") + "robust: {yield: 95 %}\n"
 
 
 @pytest.mark.parametrize(

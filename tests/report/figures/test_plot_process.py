@@ -43,8 +43,7 @@ def _draws_by(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(name, marks=[pytest.mark.gate] if name in {"run", "sweep"} else []) for name in COMMANDS],
+    "name", [pytest.param(name, marks=[pytest.mark.gate] if name in {"run", "sweep"} else []) for name in COMMANDS]
 )
 def test_plots_that_take_too_long_cost_no_number(
     name: str, tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

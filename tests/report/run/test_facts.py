@@ -99,8 +99,7 @@ def test_a_layer_that_stalls_cools_again_or_never_softens() -> None:
 
 
 @pytest.mark.parametrize(
-    ("volts", "words"),
-    [(7.151, "7.15 V (7 to 8) from 24"), (22.0, "22 V (7 to 8)"), (24.0, "24 V (7 to 8)")],
+    ("volts", "words"), [(7.151, "7.15 V (7 to 8) from 24"), (22.0, "22 V (7 to 8)"), (24.0, "24 V (7 to 8)")]
 )
 def test_a_heater_that_needs_far_less_than_the_supply_is_stepped_down(volts: float, words: str) -> None:
     limits = [{"output": "peak_voltage", "sense": "<=", "limit": 24.0}]

@@ -4,6 +4,7 @@ import csv
 import io
 
 import pytest
+from small_studies import FOUR_SIZES_IN_SHEAR
 
 from tvimdesign.device import table_for
 from tvimdesign.report.run.reasons import binding, sentences, slack, slack_in_words, why_csv, why_rows
@@ -11,18 +12,10 @@ from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")
-STUDY = """
-mode: shear
-vary:
-  wire_diameter: [1.5 mm, 3 mm]
-  coil_diameter: [12 mm, 30 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.5 A, 2 A]
-require:
-  spring_stiffness: [">= 5 N.m/rad", "<= 8 N.m/rad"]
-  peak_power: "<= 9 W"
-minimize: {module_mass: 1, response_time: 1}
-solver: {starts: 1}
+STUDY = f"""{FOUR_SIZES_IN_SHEAR}
+require: {{spring_stiffness: [">= 5 N.m/rad", "<= 8 N.m/rad"], peak_power: "<= 9 W"}}
+minimize: {{module_mass: 1, response_time: 1}}
+solver: {{starts: 1}}
 """
 
 

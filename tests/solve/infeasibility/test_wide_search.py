@@ -9,12 +9,7 @@ import pytest
 from support import ROOT
 
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.infeasibility.feasibility_screen import (
-    FeasibilityScreen,
-    _broken,
-    _one_design,
-    designs_all_over,
-)
+from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen, _broken, _one_design, designs_all_over
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.search import optimize

@@ -5,6 +5,7 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from small_studies import ALGEBRAIC
 
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
@@ -23,16 +24,6 @@ from tvimdesign.solve.uncertainty.yield_search import _moves
 from tvimdesign.solve.uncertainty.yields import MODULES, Drawn, yields_of
 from tvimdesign.study import read_study_text
 
-ALGEBRAIC = """
-mode: shear
-module: {transmission: unity, placement_radius: 60 mm, pin_diameter: 6 mm}
-vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
-require: {spring_stiffness: ">= 5 N.m/rad"}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
-minimize: springs_mass
-tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
-solver: {starts: 1}
-"""
 TIMED = """
 mode: shear
 module: {transmission: unity}

@@ -50,10 +50,7 @@ def test_a_line_has_the_intervals_of_the_textbook() -> None:
     book = linregress(X, measured)
     quantile = student.ppf(0.975, len(X) - 2)
     # Few residuals of normal noise lie where the loss is no square: within a twentieth of the interval.
-    for name, value, deviation in (
-        ("slope", book.slope, book.stderr),
-        ("zero", book.intercept, book.intercept_stderr),
-    ):
+    for name, value, deviation in (("slope", book.slope, book.stderr), ("zero", book.intercept, book.intercept_stderr)):
         one = found[name]
         assert one.value == pytest.approx(value, abs=0.1 * deviation)
         assert 0.5 * (one.high - one.low) == pytest.approx(quantile * deviation, rel=0.05)

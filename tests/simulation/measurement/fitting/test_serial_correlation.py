@@ -6,12 +6,7 @@ from scipy.integrate import quad
 from scipy.stats import t as student
 
 from tvimdesign.simulation.measurement.fitting.fit import Fit, fitted
-from tvimdesign.simulation.measurement.fitting.intervals import (
-    INDEPENDENT,
-    Series,
-    following,
-    moved_by_noise,
-)
+from tvimdesign.simulation.measurement.fitting.intervals import INDEPENDENT, Series, following, moved_by_noise
 from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Parameter, Problem
 
 ALONE = np.zeros((2, 2))
