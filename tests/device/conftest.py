@@ -4,21 +4,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from device_values import inputs_of
 from support import tight
 
 from tvimdesign.device import Supplied, Table, table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
-from tvimdesign.study import given, read_study_text
 
 POINTS = ("cold", "hot")
-
-
-def inputs_of(mode: str = "shear", **module: float | str) -> dict[str, Any]:
-    """Inputs and choices of a module that is the default one but for what is said (SI)."""
-    found = given(read_study_text(f"mode: {mode}\n", "a test"))
-    return {**found, **module}
 
 
 @pytest.fixture(scope="session")
@@ -63,13 +57,8 @@ def squeezed_model(squeezed: dict[str, Any]) -> DeviceFunctions:
 
 
 @pytest.fixture(scope="session")
-def squeezed_simulator(squeezed_model: DeviceFunctions) -> Simulator:
-    return tight(squeezed_model)
-
-
-@pytest.fixture(scope="session")
-def squeezed_switch(squeezed_simulator: Simulator, squeezed_model: DeviceFunctions) -> Cycle:
-    return squeezed_simulator.run(squeezed_model.start)
+def squeezed_switch(squeezed_model: DeviceFunctions) -> Cycle:
+    return tight(squeezed_model).run(squeezed_model.start)
 
 
 @pytest.fixture(scope="session")

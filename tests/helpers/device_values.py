@@ -17,8 +17,20 @@ def inputs_of(mode: str = "shear", /, **module: Any) -> dict[str, Any]:
     return given(study.model_copy(update={"module": {**study.module, **numbers}}))
 
 
+def all_of(names: str | Iterable[str], mode: str = "shear", /, **module: Any) -> dict[str, Any]:
+    """Return inputs of a module and quantities of it, as they are."""
+    inputs = inputs_of(mode, **module)
+    return {**inputs, **table_for(mode).evaluate(inputs, names.split() if isinstance(names, str) else list(names))}
+
+
 def values_of(names: str | Iterable[str], mode: str = "shear", /, **module: Any) -> dict[str, Any]:
     """Return quantities of a module by name; `names` is a list, or one text with spaces between them."""
     wanted = names.split() if isinstance(names, str) else list(names)
     values = table_for(mode).evaluate(inputs_of(mode, **module), wanted)
-    return {name: float(value) if np.ndim(value) == 0 and np.isreal(value) else value for name, value in values.items()}
+
+    def is_number(value: Any) -> bool:
+        return (
+            isinstance(value, (int, float, np.generic, np.ndarray)) and np.ndim(value) == 0 and bool(np.isreal(value))
+        )
+
+    return {name: float(value) if is_number(value) else value for name, value in values.items()}

@@ -4,12 +4,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from device_values import values_of
 from scipy.integrate import quad
 from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 from tvimdesign.physics.solids import wedge
-from tvimdesign.study import given, read_study_text
 
 TABLE = table_for("compression")
 HERTZ = 3.0
@@ -142,15 +142,13 @@ def test_each_gap_of_the_chamber_is_what_its_drawing_gives(squeezed: dict[str, A
 
 
 def test_blocks_shrink_from_their_vanes_and_creep_at_their_sides() -> None:
-    study = read_study_text("mode: compression\nmodule:\n  block_depth: 7 mm\n  axial_preload: wave_21x25\n", "a test")
-    rows = ["freezing_gap", "freezing_travel", "stop_play", "axial_play"]
-    found = TABLE.evaluate(given(study), rows)
+    rows = "freezing_gap freezing_travel stop_play axial_play"
+    found = values_of(rows, "compression", block_depth="7 mm", axial_preload="wave_21x25")
     assert found["freezing_gap"] == pytest.approx(7e-3 * (1.0 - (1070.0 / 1145.0) ** (1.0 / 3.0)), rel=1e-9)
     assert found["freezing_gap"] == pytest.approx(0.156e-3, rel=0.01)
     # Blocks have room above and below: the rotor stands still and its stop touches.
     assert found["freezing_travel"] == found["stop_play"] == found["axial_play"] == 0.0
-    study = read_study_text("mode: compression\nmodule:\n  block_depth: 4 mm\n", "a test")
-    found = TABLE.evaluate(given(study), ["melt_creep", "pcl_viscosity@hot"])
+    found = values_of("melt_creep pcl_viscosity@hot", "compression", block_depth="4 mm")
     # Between two vanes 4 mm apart, upright: h^2 rho g/(12 eta), by hand. A thin layer creeps a twentieth of that.
     speed = 4e-3**2 * 1070.0 * 9.80665 / (12.0 * found["pcl_viscosity@hot"])
     assert found["melt_creep"] == pytest.approx(3600.0 * speed, rel=1e-6)

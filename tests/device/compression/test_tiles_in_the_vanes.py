@@ -5,26 +5,21 @@ from typing import Any
 import numpy as np
 import pytest
 from cad_designs import VANE_TILE_ROWS, VANE_TILES
+from device_values import inputs_of
+from device_values import values_of as of_default
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.physics.heat_flow import heat, lumps
-from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 TABLE = table_for("compression")
 
 
-def inputs_of(of: dict[str, Any] = VANE_TILES, **module: Any) -> dict[str, Any]:
-    """Inputs of that compression module but for what is said (SI, records by name)."""
-    study = read_study_text("mode: compression\n", "a test").model_copy(update={"module": {**of, **module}})
-    return given(study)
-
-
 def values_of(rows: str, of: dict[str, Any] = VANE_TILES, **module: Any) -> dict[str, Any]:
-    return TABLE.evaluate(inputs_of(of, **module), rows.split())
+    return of_default(rows, "compression", **{**of, **module})
 
 
 @pytest.mark.parametrize(
@@ -85,7 +80,7 @@ def test_spreaders_lose_heat_at_their_edges_and_backs() -> None:
     # What a spreader of twice the thickness passes more to floor and plate, through the air of 0.3 mm clearances.
     one, two = (values_of("stack ring_places", spreader_thickness=t)["stack"] for t in (1 * MM, 2 * MM))
     floor, above, walls, housing = values_of("ring_places")["ring_places"]
-    known = inputs_of()
+    known = inputs_of("compression", **VANE_TILES)
     gap = known["air_conductivity"] * 8 * 16 * 1.0 * MM**2 / known["running_clearance"]
     for face in (floor, above):
         assert link_between(two, ("hot", 0), face) - link_between(one, ("hot", 0), face) == pytest.approx(gap)
@@ -99,7 +94,7 @@ def test_heat_of_closed_modules_is_stored() -> None:
     # First law: along the rates the stored energy grows by the electrical power, whatever the links pass within.
     surfaces = ("rotor_coefficient", "housing_coefficient", "cold_side_coefficient", "surface_emissivity")
     closed = dict.fromkeys(surfaces, 1e-12)
-    known = {**inputs_of(), **closed}
+    known = {**inputs_of("compression", **VANE_TILES), **closed}
     stack: heat.Stack = TABLE.evaluate(known, ["stack"])["stack"]
     begin = heat.initial_state(stack, 8, 295.15)
     state = begin + 0.05 * np.random.default_rng(3).random(len(begin))
@@ -183,7 +178,7 @@ def test_tiles_and_spreaders_bear_the_block_in_series() -> None:
 
 
 def test_a_pad_is_as_it_was() -> None:
-    flat = given(read_study_text("mode: compression\n", "a test"))
+    flat = inputs_of("compression")
     rows = "heater_count heater_coverage spreader_mass pad_depth pad_seat slot_width slot_web heater_holding_torque"
     values = TABLE.evaluate(flat, rows.split())
     # The corner's arc ends half a tenth of a millimetre beside the slot above, at the mean radius of 33 mm.

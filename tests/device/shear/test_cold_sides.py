@@ -4,13 +4,12 @@ from typing import Any
 
 import pytest
 from cad_designs import TILES, design_of
+from device_values import all_of, inputs_of
 
 from tvimdesign.cad.assembly.bill_of_materials import beside
-from tvimdesign.device import table_for
 from tvimdesign.device.shear import floor_heat
 from tvimdesign.device.table.module import Module
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE, PeltierModule
-from tvimdesign.study import given, read_study_text
 
 THICKNESS, CONDUCTIVITY = 3.9e-3, 25.0  # m, W/m K, a rigid module's sides
 AREA, EDGES = 3200e-6, 0.2  # m^2, m: a pad's half width is 16 mm
@@ -50,29 +49,23 @@ def test_sinks_and_poor_legs_leave_a_fin_s_way() -> None:
     assert found == pytest.approx(0.6**2 / 3.0 / along, rel=0.02)
 
 
-ROWS = ["ledge_tension", "freezing_traction", "pcl_area", "pcl_bond_strength"]
-
-
-def found(**module: Any) -> dict[str, float]:
-    inputs = given(read_study_text("mode: shear\n", "a test").model_copy(update={"module": module}))
-    values = table_for("shear").evaluate(inputs, ROWS)
-    return {name: float(value) for name, value in values.items()} | {"bond": inputs["pcl_bond_strength"]}
+ROWS = "ledge_tension freezing_traction pcl_area"
 
 
 def test_the_pull_of_the_layer_comes_to_the_ledges() -> None:
     # Four arcs of 0.3 to ...: the ledge is 2 mm wide around each, its corners left out of the count.
-    free = found(axial_preload="wave_21x25")
-    inputs = given(read_study_text("mode: shear\n", "a test"))
+    free = all_of(ROWS, axial_preload="wave_21x25")
+    inputs = inputs_of()
     inner, outer, span, ledge = (
         inputs[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span", "window_ledge")
     )
     whole = 0.5 * span * (outer**2 - inner**2)
     window = 0.5 * (span - 2.0 * ledge / inner) * ((outer - ledge) ** 2 - (inner + ledge) ** 2)
     share = whole / (whole - window)
-    pull = min(free["freezing_traction"], free["bond"])
+    pull = min(free["freezing_traction"], free["pcl_bond_strength"])
     assert free["ledge_tension"] == pytest.approx(pull * share, rel=0.01)
-    held = found(pcl_thickness=2e-3)
-    assert held["ledge_tension"] <= held["bond"] * share * 1.01
+    held = all_of(ROWS, pcl_thickness=2e-3)
+    assert held["ledge_tension"] <= held["pcl_bond_strength"] * share * 1.01
 
 
 def test_the_bill_has_adhesive_or_grease_for_pads() -> None:

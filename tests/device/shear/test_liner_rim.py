@@ -4,19 +4,15 @@ from math import log, pi, tan
 from typing import Any
 
 import pytest
-
-from tvimdesign.device import table_for
-from tvimdesign.study import given, read_study_text
+from device_values import all_of
 
 MM = 1e-3
-TABLE = table_for("shear")
 
 
 def found(*names: str, **module: Any) -> dict[str, Any]:
     """Values of a milled module with a liner, but for what is said (SI, records by name), beside its inputs."""
     milled = {"process": "machine_6061", "key_count": 0.0, "liner_material": "pei_1010"}
-    inputs = given(read_study_text("mode: shear\n", "a test").model_copy(update={"module": {**milled, **module}}))
-    return {**inputs, **TABLE.evaluate(inputs, list(names))}
+    return all_of(names, **{**milled, **module})
 
 
 def rim_of(one: dict[str, Any]) -> float:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from device_values import all_of
 from support import ROOT
 
 from tvimdesign.device import table_for
@@ -14,7 +15,7 @@ from tvimdesign.physics.heat_flow.conduction import Conductivities, mean_conduct
 from tvimdesign.physics.heat_flow.layer_end import warm_lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, Place
 from tvimdesign.physics.polymers.polymer import fraction_at
-from tvimdesign.study import given, read_study, read_study_text
+from tvimdesign.study import given, read_study
 
 MM = 1e-3
 CELLS = 12
@@ -25,8 +26,7 @@ STUDIES = ROOT / "studies"
 def found(*names: str, **module: Any) -> dict[str, Any]:
     """Values of a milled module with lips, but for what is said (SI, records by name), beside its inputs."""
     milled = {"process": "machine_6061", "melt_lip": "rings", "pcl_thickness": 1.5 * MM, "running_clearance": 0.1 * MM}
-    inputs = given(read_study_text("mode: shear\n", "a test").model_copy(update={"module": {**milled, **module}}))
-    return {**inputs, **TABLE.evaluate(inputs, list(names))}
+    return all_of(names, **{**milled, **module})
 
 
 def test_a_metal_lip_takes_what_a_cold_wall_takes() -> None:

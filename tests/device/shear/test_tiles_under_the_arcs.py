@@ -6,30 +6,22 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cad_designs import TILES
+from device_values import inputs_of
+from device_values import values_of as of_default
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.physics.heat_flow import heat, peltier
-from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 TABLE = table_for("shear")
-TILES = {
-    "peltier_module": "ma10_063_05_1", "tiles_per_arc": 2.0, "arc_count": 3.0, "arc_span": 1.95,
-    "floor_thickness": 6.5 * MM,
-}  # fmt: skip
-
-
-def inputs_of(**module: Any) -> dict[str, Any]:
-    """Inputs of the shear module of that many tiles but for what is said (SI, records by name)."""
-    study = read_study_text("mode: shear\n", "a test").model_copy(update={"module": {**TILES, **module}})
-    return given(study)
 
 
 def values_of(rows: str, **module: Any) -> dict[str, Any]:
-    return TABLE.evaluate(inputs_of(**module), rows.split())
+    return of_default(rows, **{**TILES, **module})
 
 
 def corners(values: dict[str, Any], known: dict[str, Any], index: int) -> np.ndarray:
@@ -56,7 +48,7 @@ def apart(one: np.ndarray, other: np.ndarray) -> float:
 
 @pytest.mark.parametrize("tiles", [1.0, 2.0, 3.0])
 def test_margins_are_the_gaps_of_the_rectangles_beyond_the_clearance(tiles: float) -> None:
-    known = inputs_of(tiles_per_arc=tiles, arc_span=0.9 * tiles)
+    known = inputs_of(**TILES | {"tiles_per_arc": tiles, "arc_span": 0.9 * tiles})
     values = TABLE.evaluate(known, ["tile_pitch", "tile_radius", "tile_radial_margin", "tile_side_margin"])
     drawn = [corners(values, known, index) for index in range(int(tiles))]
     inner = min(min(hypot(*(0.5 * (a + b))) for a, b in combinations(points, 2)) for points in drawn)
@@ -137,12 +129,12 @@ def foil(resistance: float = 5.0) -> Record:
 
 
 def test_foils_and_shared_currents_go_through_the_same_equations() -> None:
-    known = {**inputs_of(), "peltier_module": foil(), "peltier_seebeck": 0.0, "peltier_resistance": 5.0}
+    known = {**inputs_of(**TILES), "peltier_module": foil(), "peltier_seebeck": 0.0, "peltier_resistance": 5.0}
     pads = TABLE.evaluate(known, ["pads"])["pads"]
     both = [heat_of(pads, current, 350.0, 350.0) for current in (1.0, -1.0) for heat_of in (peltier.hot_side_heat,)]
     assert both == pytest.approx([15.0, 15.0])  # half of I^2 R to either side, whichever way the current flows
     assert peltier.cold_side_heat(pads, 1.0, 350.0, 350.0) == pytest.approx(-15.0)
-    known = {**inputs_of(heater_wiring="arcs_parallel"), "peak_current": 9.0, "stiffening_peak_current": 6.0}
+    known = {**inputs_of(**TILES, heater_wiring="arcs_parallel"), "peak_current": 9.0, "stiffening_peak_current": 6.0}
     values = TABLE.evaluate(known, ["current_margin", "cooling_current_margin"])
     assert values["current_margin"] == pytest.approx(8.6 - 3.0)
     assert values["cooling_current_margin"] == pytest.approx(8.6 - 2.0)
@@ -152,11 +144,8 @@ def test_modules_are_not_cut_and_sheets_are_as_they_were() -> None:
     with pytest.raises(InputError, match="ma10_063_05_1 is rigid"):
         values_of("module_mass", heater_form="flexible")
     # The cut pad has no spreader, no tiles and no holes, and its numbers are those of the area it has.
-    flat = given(read_study_text("mode: shear\n", "a test"))
-    values = TABLE.evaluate(
-        flat, ["heater_count", "heater_coverage", "spreader_mass", "spreader_depth", "tile_side_margin", "pad_depth"]
-    )
-    assert list(values.values()) == [4.0, 1.0, 0.0, 0.0, 0.0, flat["peltier_thickness"]]
+    rows = "heater_count heater_coverage spreader_mass spreader_depth tile_side_margin pad_depth"
+    assert list(of_default(rows).values()) == [4.0, 1.0, 0.0, 0.0, 0.0, inputs_of()["peltier_thickness"]]
     # They lie in grease: neither stiffness nor strength of the joint depends on how they bear shear or tension.
     names = "holding_torque structure_stiffness layer_edge_rise freezing_traction"
     soft, stiff = values_of(names, peltier_shear_modulus=1e5), values_of(names, peltier_shear_modulus=1e10)
@@ -165,7 +154,7 @@ def test_modules_are_not_cut_and_sheets_are_as_they_were() -> None:
 
 def test_spreaders_face_ledges_and_meet_walls_at_edges() -> None:
     rows = "stack pcl_area heated_area cold_area edge_length floor_web beside_area"
-    known = inputs_of(tiles_per_arc=1.0, arc_span=1.36)
+    known = inputs_of(**TILES | {"tiles_per_arc": 1.0, "arc_span": 1.36})
     values = TABLE.evaluate(known, rows.split())
     links = {(link.first, link.second): link for link in values["stack"].links}
     spreader, cold, ledges, below_walls = ("spreader", 0), ("cold", 0), ("around", 6), ("around", 3)

@@ -4,29 +4,24 @@ from typing import Any
 
 import numpy as np
 import pytest
+from device_values import inputs_of
 from scipy.integrate import quad
 from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 from tvimdesign.physics.polymers import melt, polymer
-from tvimdesign.study import given, read_study_text
 
 ROWS = ["hot_stiffness_at_stroke", "hot_damping_at_stroke", "hot_damping_at_stroke_least", "melt_stress",
         "melt_stress_safety", "edge_fracture_angle", "joint_stiffness@hot", "joint_damping@hot",
         "spring_stiffness", "storage_modulus@hot", "loss_modulus@hot", "structure_stiffness"]  # fmt: skip
 # The optimum of paper_shear as it stood at 2.8 kPa s: 413 % of strain at the rim at its stroke.
-OPTIMUM = {
-    "pcl_outer_radius": 23.8434e-3,
-    "pcl_inner_radius": 11.9293e-3,
-    "pcl_thickness": 0.600000e-3,
-    "stroke": 0.104,
-}
+OPTIMUM = {"pcl_outer_radius": 23.8434e-3, "pcl_inner_radius": 11.9293e-3, "pcl_thickness": 0.6e-3, "stroke": 0.104}
 SMOOTH = {"pin_friction": 0.0, "bore_friction": 0.0}
 INNER = OPTIMUM["pcl_inner_radius"] / OPTIMUM["pcl_outer_radius"]
 
 
 def module(mode: str = "shear", **changes: Any) -> dict[str, Any]:
-    found = {**given(read_study_text(f"mode: {mode}\n", "a test")), **STIFF_WHEN_WARM, **SMOOTH, **changes}
+    found = {**inputs_of(mode), **STIFF_WHEN_WARM, **SMOOTH, **changes}
     return {**found, **table_for(mode).evaluate(found, ROWS)}
 
 

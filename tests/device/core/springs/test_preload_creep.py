@@ -4,9 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-from tvimdesign.device import table_for
-from tvimdesign.study import given, read_study_text
+from device_values import all_of
 
 ROWS = ["preload_loss", "preload_margin", "crept_preload_margin", "preload_angle", "spring_rate",
         "coil_end_level", "helix_slope", "leg_arm", "rotor_top_level", "tang_length", "tang_lever", "wire_diameter",
@@ -14,8 +12,7 @@ ROWS = ["preload_loss", "preload_margin", "crept_preload_margin", "preload_angle
 
 
 def module(mode: str = "shear", process: str = "print_petg", **changes: Any) -> dict[str, Any]:
-    found = {**given(read_study_text(f"mode: {mode}\nmodule: {{process: {process}}}\n", "a test")), **changes}
-    return {**found, **table_for(mode).evaluate(found, ROWS)}
+    return all_of(ROWS, mode, process=process, **changes)
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
