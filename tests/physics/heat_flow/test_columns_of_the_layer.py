@@ -4,9 +4,8 @@ dimensions and boundary value problems."""
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from plane_conduction import along_a_row, in_rectangle
 from scipy.integrate import solve_bvp
-from scipy.sparse import eye, kron
-from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.heat_flow import columns, lumps, shape_factors
 from tvimdesign.physics.heat_flow.lumps import Link, Slope
@@ -14,22 +13,11 @@ from tvimdesign.physics.heat_flow.lumps import Link, Slope
 Array = NDArray[np.float64]
 
 
-def conduction(count: int, length: float, first: float, last: float) -> Array:
-    """Conduction along a row of cells; at either end 2 where it is held at 0, 0 where nothing passes."""
-    diagonal = np.full(count, 2.0)
-    diagonal[0], diagonal[-1] = 1.0 + first, 1.0 + last
-    return (np.diag(diagonal) - np.eye(count, k=1) - np.eye(count, k=-1)) * (count / length) ** 2
-
-
 def layer_that_loses(flux: Array, width: float, across: int) -> Array:
     """Temperatures of a layer of depth and conductivity one, faces at 0, that loses a flux over its end, by column."""
-    deep = len(flux)
-    inside = kron(conduction(across, 1.0, 0.0, 0.0) / width**2, eye(deep)) + kron(
-        eye(across), conduction(deep, 1.0, 2.0, 2.0)
-    )
-    source = np.zeros((across, deep))
+    source = np.zeros((across, len(flux)))
     source[-1] = -flux * across / width
-    return np.asarray(spsolve(inside.tocsc(), source.ravel())).reshape(across, deep)
+    return in_rectangle(source, (width, 0.0, 0.0), (1.0, 2.0, 2.0))
 
 
 @pytest.mark.parametrize("width", [0.7, 1.5, 5.0])
@@ -54,7 +42,7 @@ def test_evenly_falling_heat_cools_the_mean_as_the_end_does() -> None:
     mean = np.mean(layer_that_loses(flux, width, across))
     share = shape_factors.FALLING * shape_factors.gap_end_depth(0.0)
     sink = 2.0 * (1.0 - heights) * share / width
-    column = np.linalg.solve(conduction(deep, 1.0, 2.0, 2.0), -sink)
+    column = np.linalg.solve(along_a_row(deep, 1.0, 2.0, 2.0), -sink)
     assert np.mean(column) == pytest.approx(mean, rel=0.01)
 
 
@@ -136,10 +124,9 @@ def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat() -> Non
 def test_a_row_is_below_the_mean_by_what_conduction_in_two_dimensions_says(slenderness: float) -> None:
     # Half the height and the conductivity are one; both ends are held, the faces lose 1.5 and 0.6.
     deep, high, lost = 120, 120, (1.5, 0.6)
-    inside = kron(conduction(deep, slenderness, 2.0, 2.0), eye(high)) + kron(eye(deep), conduction(high, 2.0, 0.0, 0.0))
     source = np.zeros((deep, high))
     source[:, 0], source[:, -1] = -lost[0] * high / 2.0, -lost[1] * high / 2.0
-    found = np.asarray(spsolve(inside.tocsc(), source.ravel())).reshape(deep, high)
+    found = in_rectangle(source, (slenderness, 2.0, 2.0), (2.0, 0.0, 0.0))
     below = np.mean(found, axis=1)[:, None] - found
     depths = (np.arange(deep) + 0.5) / deep
     for row, place in enumerate((np.arange(high) + 0.5) / high * 2.0 - 1.0):
@@ -153,16 +140,12 @@ def test_uneven_heat_passes_an_edge_as_in_two_dimensions(slenderness: float) -> 
     # Height and conductivity one; the edge is held at a cosine over the height, whose end nothing passes.
     along, high = 400, 80
     edge = np.cos(np.pi * (np.arange(high) + 0.5) / high)
-    inside = kron(conduction(along, slenderness, 2.0, 0.0), eye(high)) + kron(
-        eye(along), conduction(high, 1.0, 0.0, 0.0)
-    )
     source = np.zeros((along, high))
     source[0] = 2.0 * (along / slenderness) ** 2 * edge
-    found = np.asarray(spsolve(inside.tocsc(), source.ravel())).reshape(along, high)
+    found = in_rectangle(source, (slenderness, 2.0, 0.0), (1.0, 0.0, 0.0))
     passed = 2.0 * along / slenderness * (edge - found[0])
-    assert passed == pytest.approx(
-        edge / shape_factors.uneven_way(slenderness), abs=0.01 / shape_factors.uneven_way(slenderness)
-    )
+    way = shape_factors.uneven_way(slenderness)
+    assert passed == pytest.approx(edge / way, abs=0.01 / way)
 
 
 def test_a_layer_gives_each_place_of_what_falls_before_it_its_own_heat() -> None:

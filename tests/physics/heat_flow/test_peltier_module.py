@@ -5,9 +5,8 @@ import pytest
 import textbook
 from hypothesis import given
 from hypothesis import strategies as st
+from plane_conduction import conducted
 from scipy.optimize import brentq, minimize_scalar
-from scipy.sparse import coo_matrix
-from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import polymer
@@ -144,18 +143,11 @@ def in_two_dimensions(fed: float, beside: float, thickness: float, k: float, acr
     """
     step = thickness / across
     columns, fed_columns = round((fed + beside) / step), round(fed / step)
-    count = columns * across
-    index = np.arange(count).reshape(columns, across)
-    pairs = [(index[:-1].ravel(), index[1:].ravel()), (index[:, :-1].ravel(), index[:, 1:].ravel())]
-    a, b = (np.concatenate(side) for side in zip(*pairs, strict=True))
-    diagonal = np.zeros(count)
-    np.add.at(diagonal, np.concatenate((a, b)), k)
-    diagonal[index[:fed_columns, 0]] += 2.0 * k
-    flux = np.zeros(count)
-    flux[index[:, -1]] = step
-    rows, cols = np.concatenate((a, b, np.arange(count))), np.concatenate((b, a, np.arange(count)))
-    matrix = coo_matrix((np.concatenate((-k * np.ones(2 * len(a)), diagonal)), (rows, cols))).tocsr()
-    return float(np.mean(spsolve(matrix, flux)[index[:, -1]]) + 0.5 * step / k)
+    inside = np.ones((columns, across + 1), dtype=bool)
+    inside[:, 0] = False
+    held, into = np.full(inside.shape, np.nan), np.zeros(inside.shape)
+    held[:fed_columns, 0], into[:, -1] = 0.0, step / k
+    return float(np.mean(conducted(inside, held, into)[:, -1]) + 0.5 * step / k)
 
 
 @pytest.mark.parametrize("beside", [8e-3, 4e-3, 2e-3])

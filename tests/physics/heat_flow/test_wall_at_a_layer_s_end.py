@@ -7,10 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from plane_conduction import conducted
 from scipy.integrate import quad
 from scipy.optimize import brentq, root
-from scipy.sparse import csr_matrix, diags
-from scipy.sparse.linalg import spsolve
 
 from tvimdesign.device.shear.layer_end import AT_CORNER
 from tvimdesign.physics.heat_flow.conduction import Conductivities, shared
@@ -37,20 +36,14 @@ def walled_layer(free: float, contact: float = 0.0, lost: float = 0.0) -> NDArra
     Each behind a contact as thick as so much of the layer. With `lost` both faces are at 0, and that heat leaves the
     free end, as cos(pi y) falls over it.
     """
-    face = 1.0 / (0.5 + contact * ACROSS)
-    number = np.arange(int(LONG * ACROSS) * ACROSS).reshape(-1, ACROSS)
-    pairs = [(number[:-1].ravel(), number[1:].ravel()), (number[:, :-1].ravel(), number[:, 1:].ravel())]
-    first, second = (np.concatenate(ends) for ends in zip(*pairs, strict=True))
-    diagonal = np.bincount(first, minlength=number.size) + np.bincount(second, minlength=number.size).astype(float)
-    diagonal[number[:, 0]] += face
-    diagonal[number[:, -1]] += face
-    diagonal[number[0, heights() > free]] += face
-    right = np.zeros(number.size)
-    right[number[:, 0]] = 0.0 if lost else face
+    inside = np.zeros((int(LONG * ACROSS) + 1, ACROSS + 2), dtype=bool)
+    inside[1:, 1:-1] = True
+    held, source = np.full(inside.shape, np.nan), np.zeros(inside.shape)
+    held[1:, 0], held[1:, -1] = 0.0 if lost else 1.0, 0.0
+    held[0, 1:-1][heights() > free] = 0.0
     passed = 1.0 - np.cos(np.pi * np.minimum(np.arange(ACROSS + 1) / ACROSS, free))
-    right[number[0]] -= lost * np.diff(passed) / passed[-1]
-    off = csr_matrix((np.ones(len(first)), (first, second)), shape=(number.size, number.size))
-    return np.asarray(spsolve((diags(diagonal) - off - off.T).tocsc(), right)).reshape(number.shape)
+    source[1, 1:-1] = -lost * np.diff(passed) / passed[-1]
+    return conducted(inside, held, source, contact * ACROSS)[1:, 1:-1]
 
 
 def heights() -> NDArray[np.float64]:

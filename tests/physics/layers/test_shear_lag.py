@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from plane_conduction import in_rectangle
 from scipy import sparse
 from scipy.integrate import solve_bvp
-from scipy.sparse import diags_array, eye_array, kron
 from scipy.sparse.linalg import spsolve
 from support import ROOT
 
@@ -121,16 +121,10 @@ def traction(held: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """
     across, along = FINE, round(LONG * FINE)
 
-    def chain(count: int, first: float, last: float) -> object:
-        middle = np.full(count, 2.0)
-        middle[0], middle[-1] = 1.0 + first, 1.0 + last
-        return diags_array([np.full(count - 1, -1.0), middle, np.full(count - 1, -1.0)], offsets=[-1, 0, 1])
-
     by_layer = 1.0 / (0.5 + FINE / held)
-    whole = kron(eye_array(along), chain(across, by_layer, 2.0)) + kron(chain(along, 2.0, 0.0), eye_array(across))
     pulled = np.zeros((along, across))
     pulled[:, 0] = by_layer
-    moved = spsolve(whole.tocsr(), pulled.ravel()).reshape(along, across)[:, 0]
+    moved = in_rectangle(pulled, (along, 2.0, 0.0), (across, by_layer, 2.0))[:, 0]
     tau = by_layer * (1.0 - moved)
     return (np.arange(along) + 0.5) / FINE, tau / tau[-1]
 
