@@ -36,16 +36,8 @@ class Installed:
         self.folder = folder
         source = folder / "source"
         shutil.copytree(ROOT / "tvimdesign", source / "tvimdesign", ignore=shutil.ignore_patterns("__pycache__"))
-        for name in (
-            "pyproject.toml",
-            "README.md",
-            "setup.py",
-            "LICENSE",
-            "MANIFEST.in",
-            "studies",
-            "docs",
-            "validation",
-        ):
+        files = ["pyproject.toml", "README.md", "setup.py", "LICENSE", "MANIFEST.in"]
+        for name in [*files, "studies", "docs", "validation"]:
             path = ROOT / name
             if path.exists():
                 (shutil.copytree if path.is_dir() else shutil.copy)(path, source / name)

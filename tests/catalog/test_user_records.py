@@ -6,7 +6,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
-from support import Command
+from support import ROOT, Command
 
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.catalog import Catalog, check_records
@@ -35,6 +35,16 @@ def put(folder: Path, text: str | bytes, category: str = "peltiers", name: str =
     (folder / category).mkdir(exist_ok=True)
     (folder / category / f"{name}.yaml").write_bytes(text.encode() if isinstance(text, str) else text)
     return Catalog(folder)
+
+
+def refusal(folder: Path, text: str | bytes, category: str = "peltiers") -> str:
+    """What is said of a record that is no good: it names the file, and `check_records` names it as well."""
+    catalog = put(folder, text, category)
+    with pytest.raises(CatalogError) as caught:
+        catalog.record(category, "mine")
+    assert str(folder / category / "mine.yaml") in str(caught.value)
+    assert any("mine.yaml" in problem for problem in check_records(catalog))
+    return str(caught.value)
 
 
 def test_a_user_record_adds_to_the_shelf_or_replaces(tmp_path: Path) -> None:
@@ -83,12 +93,7 @@ def test_a_user_record_adds_to_the_shelf_or_replaces(tmp_path: Path) -> None:
 )
 def test_a_broken_record_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
     assert good in GOOD
-    catalog = put(tmp_path, GOOD.replace(good, bad, 1))
-    with pytest.raises(CatalogError) as caught:
-        catalog.record("peltiers", "mine")
-    assert message in str(caught.value)
-    assert str(tmp_path / "peltiers" / "mine.yaml") in str(caught.value)
-    assert any("mine.yaml" in problem for problem in check_records(catalog))
+    assert message in refusal(tmp_path, GOOD.replace(good, bad, 1))
 
 
 def test_all_problems_are_named_at_once(tmp_path: Path) -> None:
@@ -115,33 +120,26 @@ WIRE = "title: w\ntables:\n  sizes: {{columns: {columns}, rows: {rows}, source: 
     ],
 )
 def test_a_broken_table_is_named(tmp_path: Path, columns: str, rows: str, status: str, message: str) -> None:
-    catalog = put(tmp_path, WIRE.format(columns=columns, rows=rows, status=status), category="wires")
-    with pytest.raises(CatalogError) as caught:
-        catalog.record("wires", "mine")
-    assert message in str(caught.value)
+    assert message in refusal(tmp_path, WIRE.format(columns=columns, rows=rows, status=status), "wires")
 
 
-PCL = Path(__file__).parents[2] / "tvimdesign/catalog/data/polymers/pcl_80k.yaml"
+DATA = ROOT / "tvimdesign/catalog/data"
+PCL = (DATA / "polymers/pcl_80k.yaml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
     ("good", "bad", "message"),
     [
-        ("[0.1, 0.07545]", "[0, 0.07545]",
-         "tables.solid_spectrum.rows[4].relaxation_time: 0 does not do: it must be greater than zero"),
-        ("[10, 0.07414]", "[0.5, 0.07414]",
-         "tables.solid_spectrum.rows[3].relaxation_time: 1 does not do: it must be below the row's before"),
-        ("[10, 0.07414]", "[1, 0.07414]",
-         "tables.solid_spectrum.rows[3].relaxation_time: 1 does not do: it must be below the row's before"),
+        ("[0.1, 0.07545]", "[0, 0.07545]", "[4].relaxation_time: 0 does not do: it must be greater than zero"),
+        ("[10, 0.07414]", "[0.5, 0.07414]", "[3].relaxation_time: 1 does not do: it must be below the row's before"),
+        ("[10, 0.07414]", "[1, 0.07414]", "[3].relaxation_time: 1 does not do: it must be below the row's before"),
     ],
-)  # fmt: skip
+)
 def test_a_solid_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
-    text = PCL.read_text(encoding="utf-8")
-    assert good in text
-    with pytest.raises(CatalogError) as caught:
-        put(tmp_path, text.replace(good, bad, 1), category="polymers").record("polymers", "mine")
-    assert message in str(caught.value)
-    assert len(str(caught.value).splitlines()) == 1
+    assert good in PCL
+    said = refusal(tmp_path, PCL.replace(good, bad, 1), "polymers")
+    assert f"tables.solid_spectrum.rows{message}" in said
+    assert len(said.splitlines()) == 1
 
 
 OWN_SPECTRUM = """
@@ -175,9 +173,8 @@ def test_spectra_agree_with_viscosity_and_plateau(tmp_path: Path) -> None:
     for (slow, modulus), (own_slow, own_modulus) in zip(shipped, thin, strict=True):
         assert own_slow == pytest.approx(slow)
         assert own_modulus == pytest.approx(0.01 * modulus)
-    text = PCL.read_text(encoding="utf-8").replace("plateau_modulus:", "plateau:")
-    with pytest.raises(CatalogError, match=r"values\.plateau_modulus: missing; expected MPa"):
-        put(tmp_path, text, category="polymers").record("polymers", "mine")
+    text = PCL.replace("plateau_modulus:", "plateau:")
+    assert "values.plateau_modulus: missing; expected MPa" in refusal(tmp_path, text, "polymers")
 
 
 @pytest.mark.parametrize(
@@ -193,9 +190,7 @@ def test_spectra_agree_with_viscosity_and_plateau(tmp_path: Path) -> None:
 )
 def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
     assert good in OWN_SPECTRUM
-    with pytest.raises(CatalogError) as caught:
-        put(tmp_path, OWN_SPECTRUM.replace(good, bad, 1), category="polymers").record("polymers", "mine")
-    assert message in str(caught.value)
+    assert message in refusal(tmp_path, OWN_SPECTRUM.replace(good, bad, 1), "polymers")
 
 
 def test_a_based_record_keeps_what_its_base_has(tmp_path: Path) -> None:
@@ -238,10 +233,9 @@ def test_what_a_record_cannot_be_based_on_is_named(tmp_path: Path, bases: dict[s
 
 
 def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
-    shipped = Path(__file__).parents[2] / "tvimdesign" / "catalog" / "data" / "spring_materials" / "music_wire.yaml"
-    text = shipped.read_text(encoding="utf-8").replace("wire_diameter_to: mm", "wire_diameter_to: in", 1)
-    with pytest.raises(CatalogError, match="wire_diameter_to: must be in mm"):
-        put(tmp_path, text, category="spring_materials").record("spring_materials", "mine")
+    shipped = (DATA / "spring_materials/music_wire.yaml").read_text(encoding="utf-8")
+    text = shipped.replace("wire_diameter_to: mm", "wire_diameter_to: in", 1)
+    assert "wire_diameter_to: must be in mm" in refusal(tmp_path, text, "spring_materials")
 
 
 @pytest.mark.parametrize(
@@ -265,13 +259,10 @@ def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
     ids=lambda text: repr(text[:20]),
 )
 def test_rubbish_is_a_short_error_within_a_second(tmp_path: Path, text: bytes) -> None:
-    catalog = put(tmp_path, text)
     start = time.process_time()
-    with pytest.raises(CatalogError) as caught:
-        catalog.record("peltiers", "mine")
-    assert time.process_time() - start < 1.0
-    assert str(tmp_path) in str(caught.value)
-    assert len(str(caught.value)) < 20_000
+    said = refusal(tmp_path, text)
+    assert time.process_time() - start < 1.0  # though it is read twice
+    assert len(said) < 20_000
 
 
 def test_pipes_folders_and_wrong_shelves_are_named(tmp_path: Path) -> None:
@@ -288,35 +279,25 @@ def test_pipes_folders_and_wrong_shelves_are_named(tmp_path: Path) -> None:
         Catalog(tmp_path)
 
 
+OURS = "title: ours\nbased_on: pcl_80k\nvalues:\n  %s\n"
+
+
 @pytest.mark.parametrize(("molar_mass", "viscosity"), [(50, 660.0), (80, 4200.0), (120, 20750.0)])
 def test_viscosity_of_a_melt_follows_from_its_molar_mass(tmp_path: Path, molar_mass: int, viscosity: float) -> None:
     # Published for melts at 100 degC: up to 660 Pa s at 50, 4.2 kPa s at 80 and 21 kPa s at 120 kg/mol.
-    text = (
-        "title: ours\nbased_on: pcl_80k\nvalues:\n"
-        f"  molar_mass: {{value: {molar_mass}, unit: kg/mol, source: our GPC, status: measured}}\n"
-    )
+    text = OURS % f"molar_mass: {{value: {molar_mass}, unit: kg/mol, source: our GPC, status: measured}}"
     entry = put(tmp_path, text, category="polymers").record("polymers", "mine").entry("zero_shear_viscosity")
     assert entry.value == pytest.approx(viscosity, rel=2e-3)
-    assert entry.low is not None
-    assert entry.high is not None
     assert entry.low < 0.7 * entry.value < 1.1 * entry.value < entry.high
     assert "molar_mass" in entry.source
 
 
 def test_molar_masses_give_viscosities_where_none_was_measured(tmp_path: Path) -> None:
-    text = (
-        "title: ours\nbased_on: pcl_80k\nvalues:\n"
-        "  molar_mass: {value: 60, unit: kg/mol, source: our GPC, status: measured}\n"
-        "  zero_shear_viscosity: {value: 1, unit: kPa*s, source: our rheometer, status: measured}\n"
-    )
+    mass = "molar_mass: {value: 60, unit: kg/mol, source: our GPC, status: measured}"
+    text = OURS % f"{mass}\n  zero_shear_viscosity: {{value: 1, unit: kPa*s, source: ours, status: measured}}"
     entry = put(tmp_path, text, category="polymers").record("polymers", "mine").entry("zero_shear_viscosity")
     assert (entry.value, entry.status) == (1000.0, "measured")
-    text = (
-        "title: ours\nbased_on: pcl_80k\nvalues:\n"
-        "  molar_mass: {value: 60, unit: kg, source: our GPC, status: measured}\n"
-    )
-    with pytest.raises(CatalogError, match=r"values\.molar_mass"):
-        put(tmp_path, text, category="polymers").record("polymers", "mine")
+    assert "values.molar_mass" in refusal(tmp_path, OURS % mass.replace("kg/mol", "kg"), "polymers")
 
 
 def test_a_folder_that_is_a_link_is_reported_with_its_target(tmp_path: Path) -> None:

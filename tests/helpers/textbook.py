@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.base.record import Record
 from tvimdesign.physics.heat_flow.peltier import PeltierModule
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import transitions
@@ -13,6 +14,13 @@ from tvimdesign.physics.polymers import transitions
 def half_time(temperature_kelvin: Any, kinetics: transitions.Kinetics) -> Any:
     """Time in which half of a melt freezes at a constant temperature [s]: (ln 2)^(1/n)/K (Avrami)."""
     return np.log(2.0) ** (1.0 / kinetics.avrami_exponent) / transitions.rate_constant(temperature_kelvin, kinetics)
+
+
+def kinetics_of(record: Record) -> transitions.Kinetics:
+    """Freezing of a polymer of the catalogue."""
+    names = ("avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
+             "equilibrium_melting_temperature", "glass_transition", "transport_energy")  # fmt: skip
+    return transitions.Kinetics(*(record.value(name) for name in names), 0.5)
 
 
 def dissipation(angle: Any, internal: Sequence[Any], joint: motion.Joint, modes: motion.Modes) -> Any:

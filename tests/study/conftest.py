@@ -20,6 +20,10 @@ def _input(name: str, unit: str, lower: float, upper: float, **more: Any) -> Inp
     return Input(name=name, unit=unit, group="module", lower=lower, upper=upper, **more)
 
 
+def _choice(name: str, **more: Any) -> Choice:
+    return Choice(name=name, description=name.replace("_", " ").capitalize(), group="module", **more)
+
+
 def _output(name: str, unit: str, function: Callable[..., Any], kind: type[Output] = Output, **more: Any) -> Output:
     return kind(name=name, unit=unit, description=name.replace("_", " "), group="results", function=function, **more)
 
@@ -28,15 +32,9 @@ def _output(name: str, unit: str, function: Callable[..., Any], kind: type[Outpu
 def table() -> Table:
     return Table(
         (
-            Choice(
-                name="spring_material",
-                description="Steel",
-                group="m",
-                default="music_wire",
-                category="spring_materials",
-            ),
-            Choice(name="peltier", description="Heater", group="m", default="flexible_1600", category="peltiers"),
-            Choice(name="rate_model", description="Formula", group="m", default="bending", options=("bending", "smi")),
+            _choice("spring_material", default="music_wire", category="spring_materials"),
+            _choice("peltier", default="flexible_1600", category="peltiers"),
+            _choice("rate_model", default="bending", options=("bending", "smi")),
             _input("wire_diameter", "mm", 0.5e-3, 5e-3, default=2.413e-3),
             _input("coil_diameter", "mm", 5e-3, 60e-3, default=24e-3),
             _input("coil_count", "1", 1.0, 20.0, default=3.25),

@@ -107,16 +107,11 @@ ureg: Any = pint.UnitRegistry()
 @pytest.mark.parametrize(
     "value",
     [
-        "1.2 mm",
-        (1.2, "mm"),
-        (np.float64(1.2), "mm"),
-        (0.12, "cm"),
-        ureg.Quantity(1.2, "mm"),
-        ureg.Quantity(1.2e-3, "m"),
-        ureg.Quantity(1200, "um"),
+        "1.2 mm", (1.2, "mm"), (np.float64(1.2), "mm"), (0.12, "cm"),
+        *(ureg.Quantity(size, unit) for size, unit in ((1.2, "mm"), (1.2e-3, "m"), (1200, "um"))),
     ],
     ids=str,
-)
+)  # fmt: skip
 def test_a_number_with_its_unit_may_be_given_in_many_ways(value: Any) -> None:
     tree = tree_of_values({"mode": "shear", "module": {"pcl_thickness": value}}, "Study(...)", Path())
     assert read_tree(tree).module["pcl_thickness"] == pytest.approx(1.2e-3, rel=1e-12)
@@ -125,16 +120,11 @@ def test_a_number_with_its_unit_may_be_given_in_many_ways(value: Any) -> None:
 @pytest.mark.parametrize(
     ("value", "unit"),
     [
-        ("15 N.m", "N*m"),
-        ("5.6 N.m/rad", "newton*meter/radian"),
-        ("100 degC", "degC"),
-        ("1 Hz", "hertz"),
-        ("5 K", "delta_degC"),
-        ("0.5 1", "dimensionless"),
-        ("3 kg.mm^2", "kg * mm ** 2"),
+        ("15 N.m", "N*m"), ("5.6 N.m/rad", "newton*meter/radian"), ("100 degC", "degC"), ("1 Hz", "hertz"),
+        ("5 K", "delta_degC"), ("0.5 1", "dimensionless"), ("3 kg.mm^2", "kg * mm ** 2"),
         ("3 J/kg/K", "J/kg/delta_degC"),
     ],
-)
+)  # fmt: skip
 def test_pints_own_words_for_units_are_read(value: str, unit: str) -> None:
     from tvimdesign.base.units import parse_quantity
 

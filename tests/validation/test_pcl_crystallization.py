@@ -20,10 +20,8 @@ DATA: dict[str, Any] = yaml.safe_load(
     (Path(__file__).parents[2] / "validation" / "pcl_crystallization" / "data.yaml").read_text(encoding="utf-8")
 )
 MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
-NAMES = ("avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
-         "equilibrium_melting_temperature", "glass_transition", "transport_energy")  # fmt: skip
 RECORD = Catalog().record("polymers", "pcl_80k")
-PCL = transitions.Kinetics(*(RECORD.value(name) for name in NAMES), 0.5)
+PCL = textbook.kinetics_of(RECORD)
 
 
 def cooled(rate: float, kinetics: transitions.Kinetics) -> tuple[Array, Array]:
@@ -95,8 +93,6 @@ def test_half_time_and_nucleation_constant_are_the_joint_fit() -> None:
 def test_interval_of_the_nucleation_constant_spans_the_sources() -> None:
     entry = RECORD.entry("nucleation_constant")
     assert entry.status in ("assumed", "calibrated")
-    assert entry.low is not None
-    assert entry.high is not None
     assert entry.high >= slope_of_half_times() == pytest.approx(1.51e5, rel=0.01)
     exponent = RECORD.entry("avrami_exponent").low
     widest = from_onset(PCL._replace(nucleation_constant=entry.low, avrami_exponent=exponent))

@@ -20,11 +20,8 @@ GRADES = ("pcl_50k", "pcl_80k")
 MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
 
 
-def kinetics_of(grade: str, **changes: float) -> transitions.Kinetics:
-    names = ("avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
-             "equilibrium_melting_temperature", "glass_transition", "transport_energy")  # fmt: skip
-    record = Catalog().record("polymers", grade)
-    return transitions.Kinetics(*(record.value(name) for name in names), 0.5)._replace(**changes)
+def kinetics_of(grade: str) -> transitions.Kinetics:
+    return textbook.kinetics_of(Catalog().record("polymers", grade))
 
 
 PCL = kinetics_of("pcl_80k")
