@@ -60,7 +60,6 @@ def started(name: str, text: str, folder: Path) -> subprocess.Popen[str]:
 
 def test_a_child_that_is_still_imported_ends_with_its_parent(tmp_path: Path) -> None:
     parent = started("slow_child", SLOW, tmp_path)
-    assert parent.stdout is not None
     child = int(parent.stdout.readline())
     assert is_at_work(child)
     parent.kill()
@@ -71,7 +70,6 @@ def test_a_child_that_is_still_imported_ends_with_its_parent(tmp_path: Path) -> 
 
 def test_children_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     parent = started("sleeping_child", CHILD, tmp_path)
-    assert parent.stdout is not None
     first, other, encoding = parent.stdout.readline().split()
     assert encoding == "utf-8"
     assert is_at_work(int(first))
@@ -98,7 +96,6 @@ time.sleep(600)
 def test_a_pipe_ends_a_child_if_the_kernel_cannot(tmp_path: Path) -> None:
     (tmp_path / "sitecustomize.py").write_text(ELSEWHERE)  # every interpreter begins with it, the child's too
     parent = started("told_child", NAMES_ITS_PIPE, tmp_path)
-    assert parent.stdout is not None
     child, pipe = map(int, parent.stdout.readline().split())
     assert pipe > 2
     assert is_at_work(child)
@@ -122,7 +119,6 @@ time.sleep(600)
 
 def test_descendants_end_with_their_process_and_a_gone_one_is_none() -> None:
     process = subprocess.Popen([sys.executable, "-c", TREE_PARENT], stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None
     others = [psutil.Process(int(number)) for number in process.stdout.readline().split()]
     assert [is_at_work(other.pid) for other in others] == [True, True]
     end_process_tree(process.pid)

@@ -137,7 +137,6 @@ def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_pa
 
     async def again() -> dict[str, Any]:
         async with served(study, folder) as (server, _):
-            assert server.session is not None
             return server.session.state_shown()
 
     first, second, third = awaited(change())

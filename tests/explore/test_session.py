@@ -90,7 +90,6 @@ def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) ->
             served(small_study(tmp_path), tmp_path / "out") as (server, client),
             client.ws_connect(f"/{TOKEN}/socket") as socket,
         ):
-            assert server.session is not None
             page, process = Talk(socket), server.session.solver.process
             await page.answer("quick")
             while (job := server.session.solver.under_way) is None or job.stage != "exact":
@@ -158,14 +157,15 @@ def _current(state: dict[str, Any]) -> str:
 @pytest.mark.slow
 def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path: Path) -> None:
     async def killed() -> dict[str, Any]:
-        async with served(small_study(tmp_path), tmp_path / "out") as (server, client):
-            assert server.session is not None
-            async with client.ws_connect(f"/{TOKEN}/socket") as socket:
-                page = Talk(socket)
-                await page.answer("quick")
-                os.kill(server.session.solver.process, signal.SIGKILL)
-                await page.send(kind="require", name="peak_power", texts=["<= 9 W"])
-                return await page.until(lambda item: item["kind"] == "answer" and item["number"] == 2)
+        async with (
+            served(small_study(tmp_path), tmp_path / "out") as (server, client),
+            client.ws_connect(f"/{TOKEN}/socket") as socket,
+        ):
+            page = Talk(socket)
+            await page.answer("quick")
+            os.kill(server.session.solver.process, signal.SIGKILL)
+            await page.send(kind="require", name="peak_power", texts=["<= 9 W"])
+            return await page.until(lambda item: item["kind"] == "answer" and item["number"] == 2)
 
     shown = awaited(killed())["shown"]
     assert any(item["text"] == "peak_power <= 9 W" for item in shown["limits"])

@@ -73,7 +73,6 @@ def test_the_page_begins_at_the_best_cell_and_opens_each(swept: Path) -> None:
     assert source.first.changes == {"pcl_thickness": "2 mm", "require.peak_power": "<= 11 W"}  # the faster of the two
     assert source.first.at == {"current": f"{rows[2]['current']} A"}
     shown = source.points_shown()
-    assert shown is not None
     assert [point["number"] for point in shown["points"]] == [2, 3]
     place = shown["names"].index("response_time")
     reported = [point["values"][place] for point in shown["points"]]
@@ -123,7 +122,6 @@ def test_a_sweep_of_words_with_records_of_its_own_is_opened(tmp_path: Path, monk
     monkeypatch.chdir(tmp_path)
     source = open_source(out)
     shown = source.points_shown()
-    assert shown is not None
     assert shown["names"][0] == "cell"
     assert source.at_point(2, source.first).changes == {"spring_material": "own"}
 

@@ -30,14 +30,12 @@ class Served:
         command = [sys.executable, "-m", "tvimdesign", "explore", str(self.study), "--out", str(self.folder)]
         more = ["--no-open", "--port", str(self.port), *(["--token", self.token] if self.token else [])]
         self.process = subprocess.Popen([*command, *more], stdout=subprocess.PIPE, text=True, env=environment())
-        assert self.process.stdout is not None
         self.address = self.process.stdout.readline().split()[-1]
         self.port = int(self.address.split(":")[2].split("/")[0])
         self.token = self.address.split("/")[3]
 
     def end(self) -> None:
         """Kill it, as a power cut does."""
-        assert self.process is not None
         self.process.kill()
         self.process.communicate()
 

@@ -70,8 +70,6 @@ def round_trip(tvimdesign: Command, design: Path, tests: list[str]) -> None:
     for name, (test, category, value) in RECORDED.items():
         if test in tests:
             entry = Catalog(place / "compared/my_records").record(category, f"bench_{test}").entry(value)
-            assert entry.low is not None
-            assert entry.high is not None
             assert entry.low < truth[name] < entry.high, name
 
 

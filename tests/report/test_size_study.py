@@ -36,7 +36,6 @@ def test_a_joint_of_each_size_has_hardware_that_fits(diameter: float, torque: fl
     refuse_what_cannot_be(study)
     vary = study.vary["placement_radius"]
     assert isinstance(vary, Range)
-    assert vary.start is not None
     assert vary.lower < vary.start < 0.5 * diameter / 1000.0
     limits = {(limit.output, limit.sense): limit.limit for limit in study.require}
     assert limits["holding_torque", ">="] == torque
@@ -50,7 +49,6 @@ def test_a_stroke_moves_the_preload_and_is_named_as_assumed_if_not_given() -> No
     preload = read_study_text(wide, "joint.yaml").vary["preload_angle"]
     assert isinstance(preload, Range)
     assert preload.lower == pytest.approx(1.15 * task.stroke, rel=5e-3)
-    assert preload.start is not None
     assert task.stroke < preload.start < preload.upper
     assert "assumed, as --stroke was not given" in study_text(JointTask.read(**WRIST), "middle")
 

@@ -65,7 +65,6 @@ def test_starts_that_are_left_are_told_and_the_best_design_is_kept() -> None:
     clock = Clock("start 3 of 6")
     answered = clock.answer(read_study_text(SEARCHED))
     solution = answered.solution
-    assert solution is not None
     assert (answered.design.status, answered.feasible) == (OPTIMAL, True)
     assert solution.out_of_time == 300.0
     assert len(solution.starts) == 3
@@ -77,7 +76,6 @@ def test_combinations_that_are_left_are_counted_as_such() -> None:
     clock = Clock("^[1-9][0-9]* combinations solved")
     solution = clock.optimize(read_study_text(LISTED))
     choosing = solution.choosing
-    assert choosing is not None
     assert solution.status == OPTIMAL
     assert choosing.not_searched > 0
     assert choosing.without_design == 0
@@ -115,7 +113,6 @@ ROBUST = ALGEBRAIC.replace("{starts: 1}", "{starts: 1, time_limit: 5 min}") + "r
 def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word: str, then: float) -> None:
     clock = Clock(word, then)
     answered = clock.answer(read_study_text(ROBUST))
-    assert answered.solution is not None
     assert (answered.design.status, answered.feasible, answered.found) == (BELOW_YIELD, True, True)
     assert answered.solution.out_of_time == LIMIT
     assert MARGINS in clock.deadline.left_out
@@ -133,7 +130,6 @@ def test_alternatives_that_are_left_out_are_named() -> None:
     clock = Clock("simulating the next-best choice", 1e6)
     solution = clock.optimize(read_study_text(LISTED))
     assert solution.status == OPTIMAL
-    assert solution.choosing is not None
     assert len(solution.choosing.best) < 5
     assert ALTERNATIVES in solution.left_out
 

@@ -19,8 +19,6 @@ MOVED = 0.10
 
 def _load(name: str) -> ModuleType:
     spec = importlib.util.spec_from_file_location(f"fe_{name}", FOLDER / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

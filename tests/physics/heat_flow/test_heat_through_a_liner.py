@@ -91,7 +91,6 @@ def test_what_a_liner_gives_sideways_leaves_its_cells_as_each_is_warm(bare_stack
     state[-3:] += [0.3, 0.2, 0.1]
     seen, given = heat.profile(state, stack), heat.rates(state, stack, 0.0)
     less = given - heat.rates(state, stack._replace(links=(side,)), 0.0)
-    assert stack.liner is not None
     each = stack.liner.capacity / 3.0 * 100.0 * less[-3:]
     assert each == pytest.approx(0.1 * (seen.liner - COLD), rel=1e-9)
     assert less[:-3] == pytest.approx(0.0, abs=1e-12)

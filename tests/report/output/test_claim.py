@@ -81,7 +81,6 @@ def test_of_two_processes_one_claims_a_folder(tmp_path: Path) -> None:
     for _ in range(len(outs) + 1):
         said.append(sorted(str(process.stdout and process.stdout.readline()).strip() for process in pair))
         for process in pair:
-            assert process.stdin is not None
             process.stdin.write("\n")
             process.stdin.flush()
     for process in pair:

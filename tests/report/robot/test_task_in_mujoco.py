@@ -38,7 +38,6 @@ def _arm(mode: str, point: str, step: float, extra: float = 0.0, *, ball: bool =
     for joint in root.iter("joint"):
         joint.attrib.pop("frictionloss", None)  # the table's task has no friction
     option, length = root.find("option"), values["arm_length"]
-    assert option is not None
     option.set("gravity", f"0 {-values['gravity']} 0")
     moving = next(body for body in root.iter("body") if body.get("name") == "moving")
     load = moving.find("body")

@@ -146,7 +146,6 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
 def test_the_first_line_says_verdict_name_starts_and_seconds() -> None:
     one = case("paper_shear")
     solution = one.result.solution
-    assert solution is not None
     same = sum(start.converged and start.objective == pytest.approx(solution.objective, rel=1e-4)
                for start in solution.starts)  # fmt: skip
     tried = len(solution.starts)

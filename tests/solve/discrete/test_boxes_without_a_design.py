@@ -69,7 +69,6 @@ def test_no_combination_in_them_has_one(name: str, monkeypatch: pytest.MonkeyPat
     study = shelf(name)
     solution = optimize(study)
     choosing = solution.choosing
-    assert choosing is not None
     alone = with_each_record(study, solution.reference, SEVERAL)
     assert 0 < len(alone) < choosing.combinations
     assert any(not is_one(box) for _, box in left)
@@ -151,7 +150,6 @@ def test_if_no_run_can_start_differential_evolution_finds_a_module(
     endings = beginning_nowhere(relaxation, monkeypatch, near)
     found, certain = relaxation.best_within(((1, 1),), None)
     assert certain
-    assert found is not None
     assert found.start.converged
     assert found.start.end["coil_count"] == pytest.approx(4.0)
     assert len(endings) == 2

@@ -47,7 +47,6 @@ def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], flo
     assert choosing.solved + choosing.pruned >= len(expected)
     assert choosing.without_design >= choosing.combinations - len(expected) - choosing.pruned
     assert choosing.inside <= SETTLED  # each run places its own steps in time
-    assert choosing.between is not None
     assert choosing.between.objective <= choosing.best[0].objective * (1.0 + SETTLED)
 
 
@@ -137,8 +136,6 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
     choosing = _chosen(found)
     standard = 1e3 * min(alone, key=lambda sizes: alone[sizes])[0]
     said, data = price_in_words(choosing, TABLE), choosing_data(choosing, TABLE)
-    assert choosing.between is not None
-    assert data is not None
     for name, value in choosing.best[0].values.items():
         assert value == pytest.approx(found.values[name], rel=1e-5), "simulated at other samples"
         share = value / choosing.between.values[name] - 1.0
@@ -156,7 +153,6 @@ def test_records_that_differ_in_numbers_share_a_problem_and_optimum() -> None:
     petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))
     first = Optimizer(petg)
     shared, own = first.with_records(metal), Optimizer(metal, first.reference)
-    assert shared is not None
     assert shared.problem is first.problem
     runs = [optimizer.solve(begin=own.model.start) for optimizer in (shared, own)]
     assert all(run.start.converged for run in runs)

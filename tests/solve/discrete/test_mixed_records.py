@@ -68,8 +68,6 @@ solver: {starts: 2, cells: 6, fineness: 0.67, max_iterations: 100, alternatives:
 def _as_enumerated(study: Study, solution: Solution) -> None:
     """Compare the best combinations with each solved alone, cold, from as many starts as the search has."""
     choosing = solution.choosing
-    assert choosing is not None
-    assert choosing.bound is not None
     alone = sorted(with_each_record(study, solution.reference, study.solver.starts).items(), key=lambda one: one[1])
     assert solution.status == "optimal"
     assert len(solution.free_starts) >= study.solver.starts

@@ -96,7 +96,6 @@ def test_what_a_yield_costs_is_told() -> None:
     asked, _ = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
     plain, _ = _solved(ALGEBRAIC)
     reached = yield_of(asked)
-    assert reached is not None
     assert reached.nominal["springs_mass"] == pytest.approx(plain.design.values["springs_mass"], rel=1e-6)
     assert reached.nominal_together == pytest.approx(0.5, abs=0.02)
     assert 0.9 <= reached.together <= min(reached.shares.values())

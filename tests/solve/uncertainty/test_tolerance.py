@@ -43,7 +43,6 @@ def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(
     angle = next(one for one in contributors_of(module) if one.name == "preload_angle")
     assert np.degrees(angle.plus_minus) == pytest.approx(18.7, abs=0.05)  # +-18.7 deg of grade 2 against +-5.96 deg
     preload = Tolerancing(module, _silent).preload(1 << 12, 1)
-    assert preload is not None
     assert preload.over_stroke == pytest.approx(3.14, abs=0.01)
     assert preload.adjusted == pytest.approx(np.radians(1.0))
     # A pin 28.5 mm from the middle, a spring at 57 mm, and a leg that passes its axis at (24.41 + 2.413 + 4) / 2 mm:

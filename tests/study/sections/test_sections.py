@@ -130,7 +130,6 @@ def test_goals_and_fronts_are_read(read: Read) -> None:
     assert study.minimize == {"response_time": 1.0}
     assert study.require[0].limit == 400.0
     front = read(FREE + "front: {of: [response_time, joint_stiffness@hot, module_mass], points: 30}\n").front
-    assert front is not None
     assert front.of == ("response_time", "joint_stiffness@hot", "module_mass")
     assert front.points == 30
     assert read(FREE + "front: {of: [response_time, module_mass]}\n").front is not None

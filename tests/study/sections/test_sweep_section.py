@@ -10,8 +10,6 @@ from tvimdesign.study.reader import read_swept
 from tvimdesign.study.sections.sweep_block import SweepBlock, SweptRange
 from tvimdesign.study.tree import tree_of_values
 
-Refuse = Callable[..., list[str]]
-
 
 def block(tmp_path: Path, **sweep: object) -> SweepBlock:
     result = read_swept(tree_of_values({"mode": "shear", "sweep": sweep}, "study", tmp_path))[1]
@@ -44,7 +42,6 @@ def test_a_sample_and_a_list(tmp_path: Path) -> None:
         over={"coil_count": {"from": 3, "to": 8, "spacing": "logarithmic"}},
     )  # fmt: skip
     assert (drawn.count, drawn.seed, drawn.task) == (64, 7, "evaluate")
-    assert drawn.axes[0].range is not None
     assert drawn.axes[0].range.logarithmic
     assert drawn.outputs == ("module_mass", "joint_stiffness@hot")
     listed = block(

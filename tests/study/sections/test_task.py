@@ -47,7 +47,6 @@ def test_a_task_is_read_written_and_evaluated() -> None:
 def test_a_csv_is_a_trajectory_and_what_is_none_is_refused(tmp_path: Path) -> None:
     (tmp_path / "gait.csv").write_text("time,angle\n0,0\n0.5,0.3\n1,0\n")
     study = read_study_text(_text({**TASK, "trajectory": "gait.csv"}), folder=tmp_path)
-    assert study.trajectory is not None
     assert study.trajectory.angles == (0.0, 0.3, 0.0)
     (tmp_path / "gait.csv").write_text("time,angle\n0,0\n0.5\n")
     for trajectory, words in (

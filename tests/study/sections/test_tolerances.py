@@ -56,7 +56,6 @@ def test_robust_is_a_count_of_deviations_or_a_yield() -> None:
     request = f"{SEARCH}tolerances: standard\nrobust: "
     assert _read(request + "{sigma: 2.5}").robust == Robust(sigma=2.5)
     robust = _read(request + "{yield: 95 %}").robust
-    assert robust is not None
     assert robust.share == pytest.approx(0.95)
     assert _read(request).robust is None
     study = _read(f"{SEARCH}tolerances: standard\nrobust: {{sigma: 2}}")

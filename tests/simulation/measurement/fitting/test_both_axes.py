@@ -40,6 +40,5 @@ def test_a_pad_is_that_of_orthogonal_distance_regression(tmp_path: Path) -> None
         mine = fit[name]
         # Noise is read off the residuals here and given there; an outlier pulls less here.
         assert mine.value == pytest.approx(value, abs=0.5 * deviation), name
-        assert mine.low is not None
         assert mine.low < value < (mine.high or 0.0), name
         assert (mine.high - mine.low) / (2.0 * 2.05 * deviation) == pytest.approx(1.0, abs=0.2), name

@@ -23,7 +23,6 @@ def kinds(*quick: str) -> list[object]:
 def pull(one: Found) -> float:
     """Error over the deviation that the interval's end on its side stands for: normal, of deviation one."""
     end = one.high if one.truth > one.value else one.low
-    assert end is not None
     return float(norm.ppf(0.975)) * (one.truth - one.value) / abs(end - one.value)
 
 

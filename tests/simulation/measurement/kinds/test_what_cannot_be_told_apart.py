@@ -54,7 +54,6 @@ def test_slow_flow_alone_gives_a_viscosity_and_no_time(tmp_path: Path) -> None:
     assert {parameter.name for parameter in fit.parameters} == {"fast_viscosity"}
     assert any("The record has the viscosity alone" in note for note in result.notes)
     viscosity = fit["zero_shear_viscosity"]
-    assert viscosity.low is not None
     assert viscosity.low < 500.0 < (viscosity.high or 0.0) < 1.1 * viscosity.low
 
 
