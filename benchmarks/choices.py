@@ -1,6 +1,6 @@
 """The best combination of listed sizes by branch and bound, by Bonmin, and by solving each, for several goals.
 
-Of the reference problem with wire, coils, springs and arcs listed, and of `studies/standard_parts.yaml`, a larger one.
+Of the reference problem with wire, coils, springs and arcs listed, and of `standard_parts`, a larger one.
 
 `--each` solves every combination, `--bonmin` runs Bonmin; `--sizes N` keeps every so many sizes of each list that N are
 left at most. All begin from the same starts, in one process; times are of the processor.
@@ -26,7 +26,7 @@ from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Options, Study, read_study
 
-STUDIES = Path(__file__).resolve().parents[1] / "studies"
+LARGER = Path(__file__).resolve().parents[1] / "validation/fe_structure/studies/standard_parts.yaml"
 WEIGHTS = (
     {"envelope_volume": 1.0, "module_mass": 1.0, "response_time": 1.0},
     {"module_mass": 1.0},
@@ -121,7 +121,7 @@ def main() -> None:
     parser.add_argument("--each", action="store_true", help="solve each combination as well")
     parser.add_argument("--out", type=Path, help="text file to write the lines to")
     chosen = parser.parse_args()
-    larger = read_study(chosen.study or STUDIES / "standard_parts.yaml")
+    larger = read_study(chosen.study or LARGER)
     studies = [larger] if chosen.study else [study_of_sizes(), larger]
     reported = []
     ways = ["1", *(["bonmin"] if chosen.bonmin else []), *(["5", "each"] if chosen.each else [])]

@@ -23,7 +23,7 @@ PAPER = "paper_"
 ORDERED = [path for path in STUDIES if not path.stem.startswith(PAPER)]
 PAIRS = [
     ("compare_shear", "compare_compression"), ("wrist_joint", "wrist_compression"),
-    ("machined_shear", "machined_compression"), ("rigid_modules", "rigid_modules_compression"),
+    ("machined_shear", "machined_compression"),
 ]  # fmt: skip
 """Studies of the two modes that are asked the same."""
 to_order = pytest.mark.parametrize("path", ORDERED, ids=lambda path: str(path.stem))

@@ -11,9 +11,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 from fuzzing.kind import Kind
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.user_cache import FOLDER_VARIABLE
 
 HANG = 3.0
 """Times the seconds a kind may take, after which an input is ended."""
@@ -60,7 +62,7 @@ class _Watch:
 
     @contextmanager
     def within(self, folder: Path | None) -> Iterator[list[str]]:
-        """What is changed outside a folder meanwhile; anywhere where there is none.
+        """What is changed outside a folder meanwhile; anywhere where there is none. The user's cache is off.
 
         A module imported meanwhile for the first time leaves no bytecode: that is the interpreter's, not the input's.
         """
@@ -68,7 +70,8 @@ class _Watch:
         sys.dont_write_bytecode = True
         self.folder, self.found, self.on = folder, [], True
         try:
-            yield self.found
+            with mock.patch.dict(os.environ, {FOLDER_VARIABLE: ""}):
+                yield self.found
         finally:
             self.on = False
             sys.dont_write_bytecode = bytecode

@@ -174,7 +174,7 @@ def test_a_notebook_and_show_print_what_a_run_prints(
 
 @pytest.mark.gate
 def test_a_front_is_sought_without_a_folder(tmp_path: Path) -> None:
-    study = tvim.example("paper_shear").set(  # `front_shear` asks for a yield at every point: a minute of the processor
+    study = tvim.example("paper_shear").set(
         {"front.points": 3, "front.of": ["response_time", "module_mass"], "solver.starts": 1}
     )
     result = study.run(progress=False)

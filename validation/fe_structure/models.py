@@ -55,9 +55,7 @@ class Row(NamedTuple):
 
 BEYOND = {("elbow_printed", "edge_traction"), ("elbow_machined", "edge_traction")}
 """Studies and quantities beyond the tenth, each with the figure in README.md."""
-LEFT_OUT = {
-    "ankle", "driven_joint", "fast_switch", "front_shear", "machined_shear", "rigid_modules",
-}  # fmt: skip
+LEFT_OUT = {"ankle", "driven_joint", "fast_switch", "machined_shear"}
 """Shipped studies not in the table, with the reason in README.md."""
 PAST = Path(__file__).with_name("studies")
 """Studies that are no longer shipped, whose parts FE has solved."""

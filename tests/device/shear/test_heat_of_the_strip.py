@@ -62,10 +62,13 @@ def beyond(name: str) -> list[dict[str, str]]:
 @pytest.mark.parametrize(
     ("study", "length", "within"),
     # The arcs' corners, rounded as the spreaders are, take less than a hundredth of their volume.
-    [("elbow_printed", "edge_length", 0.01), ("rigid_modules_compression", "ring_width", 1e-9)],
+    [
+        ("studies/elbow_printed", "edge_length", 0.01),
+        ("validation/fe_structure/studies/rigid_modules_compression", "ring_width", 1e-9),
+    ],
 )
 def test_rigid_modules_are_drawn_as_large_as_they_are(study: str, length: str, within: float) -> None:
-    model = model_of(STUDIES / f"{study}.yaml")
+    model = model_of(STUDIES.parent / f"{study}.yaml")
     found, known = plane_of(model), inputs_of(model)
     sizes = model.table.evaluate(known, ["pcl_area", length, "spreader_volume", "heater_count"])
     drawn = {name: np.sum(found.volume[found.cells(name)]) for name in found.materials}

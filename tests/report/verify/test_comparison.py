@@ -129,6 +129,7 @@ def test_liners_and_rigid_modules_in_a_vane_are_refused_by_name() -> None:
     lined = study.model_copy(update={"module": {**study.module, "liner_material": "peek"}})
     with pytest.raises(InputError, match="liner_material is peek"):
         verify_design.refuse_other_parts(resolve_study(lined))
-    verify_design.refuse_other_parts(resolve_study(read_study(ROOT / "studies/rigid_modules.yaml")))
+    verify_design.refuse_other_parts(resolve_study(read_study(ROOT / "studies/elbow_printed.yaml")))
+    vanes = ROOT / "validation/fe_structure/studies/rigid_modules_compression.yaml"
     with pytest.raises(InputError, match="heater_form is rigid"):
-        verify_design.refuse_other_parts(resolve_study(read_study(ROOT / "studies/rigid_modules_compression.yaml")))
+        verify_design.refuse_other_parts(resolve_study(read_study(vanes)))
