@@ -70,17 +70,17 @@ main._command = lambda: exec("import os, signal; os.kill(os.getpid(), signal.SIG
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "said"), [(SHUTDOWN, 3, ""), (IN_A_STRING, 128 + signal.SIGTERM, "interrupted; ")]
+    ("text", "code", "message"), [(SHUTDOWN, 3, ""), (IN_A_STRING, 128 + signal.SIGTERM, "interrupted; ")]
 )
-def test_an_interrupt_ends_with_its_code_even_where_it_is_at_a_place_of_its_own(
-    tmp_path: Path, text: str, code: int, said: str
+def test_an_interrupt_at_shutdown_or_in_a_string_ends_with_its_code(
+    tmp_path: Path, text: str, code: int, message: str
 ) -> None:
     (tmp_path / "ends.py").write_text(f"import atexit, os, signal\nfrom tvimdesign.cli import main\n{text}main.main()")
     around = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(tmp_path)])}
     done = subprocess.run([sys.executable, "-m", "ends"], env=around, capture_output=True, text=True, check=False)
     assert done.returncode == code
-    assert done.stderr.startswith(said)
-    assert bool(done.stderr) == bool(said)
+    assert done.stderr.startswith(message)
+    assert bool(done.stderr) == bool(message)
 
 
 @pytest.mark.parametrize(

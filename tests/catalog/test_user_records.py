@@ -38,7 +38,7 @@ def put(folder: Path, text: str | bytes, category: str = "peltiers", name: str =
 
 
 def refusal(folder: Path, text: str | bytes, category: str = "peltiers") -> str:
-    """What is said of a record that is no good: it names the file, and `check_records` names it as well."""
+    """Return the error of a record that is no good; it names the file, and `check_records` names it as well."""
     catalog = put(folder, text, category)
     with pytest.raises(CatalogError) as caught:
         catalog.record(category, "mine")
@@ -137,9 +137,9 @@ PCL = (DATA / "polymers/pcl_80k.yaml").read_text(encoding="utf-8")
 )
 def test_a_solid_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
     assert good in PCL
-    said = refusal(tmp_path, PCL.replace(good, bad, 1), "polymers")
-    assert f"tables.solid_spectrum.rows{message}" in said
-    assert len(said.splitlines()) == 1
+    refused = refusal(tmp_path, PCL.replace(good, bad, 1), "polymers")
+    assert f"tables.solid_spectrum.rows{message}" in refused
+    assert len(refused.splitlines()) == 1
 
 
 OWN_SPECTRUM = """
@@ -260,9 +260,9 @@ def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
 )
 def test_rubbish_is_a_short_error_within_a_second(tmp_path: Path, text: bytes) -> None:
     start = time.process_time()
-    said = refusal(tmp_path, text)
+    refused = refusal(tmp_path, text)
     assert time.process_time() - start < 1.0  # though it is read twice
-    assert len(said) < 20_000
+    assert len(refused) < 20_000
 
 
 def test_pipes_folders_and_wrong_shelves_are_named(tmp_path: Path) -> None:

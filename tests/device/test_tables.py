@@ -1,4 +1,4 @@
-"""Every quantity of both tables is said in words and units, every input is used, and symbols give what floats give."""
+"""Each quantity has words, unit, and range or reason; limits have their rules; symbols give what floats give."""
 
 import numpy as np
 import pint
@@ -13,9 +13,10 @@ from support import digits
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import to_si
-from tvimdesign.catalog import Catalog
+from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Supplied, Table, table_for
 from tvimdesign.device.table.quantity import Feature
+from tvimdesign.device.table.quantity_group import _all_inputs
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
@@ -233,3 +234,71 @@ def test_arrays_and_symbols_give_the_same_outputs(seed: int, small_model: Device
         for name in wanted:
             value = np.broadcast_to(np.asarray(arrays[name], dtype=float), (3,))[j]
             assert value == pytest.approx(symbols[name], rel=digits(name, 1e-11), abs=1e-300), name
+
+
+ENTRIES = [(name, entry) for group in _all_inputs().values() for name, entry in group.items()]
+TABLES = [table_for(mode) for mode in ("shear", "compression")]
+INPUTS = {row.name: row for table in TABLES for row in table.inputs}
+
+
+def test_defaults_have_ranges_as_data_and_choices_a_reason() -> None:
+    def check(item: tuple[str, dict[str, object]]) -> None:
+        name, entry = item
+        if entry.get("status") == "assumed":
+            assert {"low", "high"} <= entry.keys() or "range_of" in entry, name
+        if entry.get("status") == "chosen":
+            assert len(str(entry["source"])) > 3, name
+            assert "low" not in entry, name
+
+    of_every(ENTRIES, check)
+
+
+def test_what_surrounds_a_module_is_not_chosen() -> None:
+    # Air, contacts, friction and a supply are not drawn: their ranges are what a result rests on.
+    for name in ("ambient_temperature", "surface_emissivity", "adjuster_friction"):
+        row = INPUTS[name]
+        assert None not in (row.low, row.high), name
+        assert row.low < row.high, name
+    handbook = Catalog().record("heat_paths", "handbook")
+    for name in CATEGORIES["heat_paths"].values:
+        assert INPUTS[name].record == ("heat_paths", name)
+        assert handbook.entry(name).low < handbook.entry(name).value < handbook.entry(name).high, name
+
+
+def test_defaults_lie_within_ranges_that_are_read_in_their_unit() -> None:
+    def check(row: Input) -> None:
+        if row.low is None or row.high is None:
+            return
+        assert row.lower <= row.low <= row.default <= row.high <= row.upper, row.name
+
+    of_every(list(INPUTS.values()), check)
+
+
+def test_a_viscosity_moves_by_the_record_s_range_alone() -> None:
+    factor = INPUTS["melt_viscosity_factor"]
+    assert (factor.low, factor.high, factor.range_of) == (None, None, None)
+    assert INPUTS["pcl_zero_shear_viscosity"].record == ("pcl_grade", "zero_shear_viscosity")
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_rules_and_headlines_are_those_of_the_table(mode: str) -> None:
+    for found in table_for(mode).outputs:
+        for rule in found.rules:
+            if rule.exists_above is not None:
+                assert rule.sense == ">=", found.name
+                # A coil of a little more than its wire is one, all else begins at nothing.
+                assert rule.exists_above == (1.2 if found.name == "spring_index" else 0.0), found.name
+                assert rule.exists_above <= rule.value, found.name
+    headlines = {found.name for found in table_for(mode).outputs if found.headline}
+    assert {"envelope_diameter", "module_mass", "joint_stiffness", "holding_torque", "response_time"} <= headlines
+    # A tenth of the table at most: no gap, and nothing that is one of several screwed joints' alike.
+    assert len(headlines) < 0.1 * len(table_for(mode).outputs)
+    for found in table_for(mode).outputs:
+        assert not (found.headline and (found.group == "Gaps" or found.hidden or "screw" in found.name)), found.name
+    numbers = {found.name: found for found in table_for(mode).inputs}
+    free = {name for name, found in numbers.items() if found.variable}
+    assert {"wire_diameter", "coil_diameter", "coil_count", "placement_radius", "preload_angle"} <= free
+    # A property of a material or of what is bought, the air, or what the user asks for is nobody's to choose.
+    of_records = {name for name, found in numbers.items() if found.record is not None and not found.falls_back}
+    assert not free & of_records
+    assert not free & {"stroke", "ambient_temperature", "temperature", "frequency", "pcl_density", "target_temperature"}

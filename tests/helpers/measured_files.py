@@ -36,7 +36,7 @@ def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Meas
 
 
 def holds(estimate: Any, truth: float) -> bool:
-    """Whether an interval has both ends, and the truth between them."""
+    """Return whether an interval has both ends, and the truth between them."""
     return estimate.low is not None and estimate.high is not None and estimate.low < truth < estimate.high
 
 
@@ -47,7 +47,7 @@ def moduli(omega: Any, modes: Sequence[tuple[float, float]]) -> tuple[Any, Any]:
 
 
 def oscillated(path: Path, omega: Any, storage: Any, loss: Any, celsius: Any = 100.0) -> Path:
-    """A file of moduli over frequency, or over temperature."""
+    """Write a file of moduli over frequency, or over temperature."""
     return csv(path, angular_frequency__rad_per_s=omega, **{"G'__Pa": storage, "G''__Pa": loss},
                temperature__degC=np.broadcast_to(celsius, len(omega)))  # fmt: skip
 
@@ -56,7 +56,7 @@ def turned(
     path: Path, hertz: float, seed: int, joint: tuple[float, float, float, float], size: float,
     errors: tuple[float, float],
 ) -> Path:  # fmt: skip
-    """Four periods of I theta'' + b theta' + K theta + T_f sgn theta' = T, of a joint's I, K, b and T_f.
+    """Write four periods of I theta'' + b theta' + K theta + T_f sgn theta' = T, of a joint's I, K, b and T_f.
 
     The angle has the first of the errors, the torque the second as a share of its range.
     """
@@ -69,7 +69,7 @@ def turned(
 
 
 def arrhenius(celsius: Any, energy: float, reference: float) -> Any:
-    """By how much slower a melt is than at a reference, both in degrees Celsius."""
+    """Return how much slower a melt is than at a reference, both in degrees Celsius."""
     return np.exp(energy / 8.314462618 * (1.0 / (celsius + 273.15) - 1.0 / (reference + 273.15)))
 
 

@@ -22,7 +22,7 @@ minimize: springs_mass
 tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
 solver: {starts: 1}
 """
-"""Springs with tolerances, of which nothing waits for a working cycle."""
+"""Springs with tolerances; nothing here waits for a working cycle."""
 
 COMPRESSION_BLOCKS = """  pcl_outer_radius: [18 mm, 30 mm]
   block_height: [4 mm, 14 mm]

@@ -188,7 +188,7 @@ def test_switch_at_the_usual_cells_is_within_the_promised_percent(
 
 
 @pytest.mark.parametrize("design", ["as it is", "sink"])
-def test_energy_is_the_integral_of_the_power_and_the_last_state_fulfils_the_event(
+def test_energy_is_the_integral_and_the_last_state_fulfils_the_event(
     design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
 ) -> None:
     model, cycle = build(design), switch_of(design)
