@@ -4,28 +4,36 @@ from __future__ import annotations
 
 import io
 import random
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
 from functools import cache
 from hashlib import sha256
-from importlib.util import find_spec
 from itertools import pairwise
 from math import inf
 from pathlib import Path
+from typing import Any
 
 import ezdxf
+import matplotlib
+from ezdxf.addons.drawing.backend import BkPath2d, BkPoints2d
 from ezdxf.addons.drawing.config import BackgroundPolicy, ColorPolicy, Configuration, LineweightPolicy
 from ezdxf.addons.drawing.frontend import Frontend
-from ezdxf.addons.drawing.properties import RenderContext
+from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
+from ezdxf.addons.drawing.properties import BackendProperties, RenderContext
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.fonts import fonts
-
-from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.drawing.pdf_page import PdfPage
+from ezdxf.math import Vec2
+from ezdxf.npshapes import to_matplotlib_path
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path as Outline
 
 _HUNDREDTH = Decimal("0.01")
+_POINTS = 72.0 / 25.4
+"""In a millimetre."""
 _LISTED = 4
 """Azimuths that are listed; of more that are evenly apart the ends are listed."""
 
@@ -215,12 +223,60 @@ class DrawingSheet:
         """Return the sheet as PDF in its true size."""
         look = Configuration(
             background_policy=BackgroundPolicy.WHITE, color_policy=ColorPolicy.BLACK,
-            lineweight_policy=LineweightPolicy.ABSOLUTE, lineweight_scaling=1.0,
+            lineweight_policy=LineweightPolicy.ABSOLUTE, lineweight_scaling=_POINTS, min_lineweight=0.0,
         )  # fmt: skip
-        page = PdfPage(self.size, self.scale)
+        paper = Figure((self.size[0] / 25.4, self.size[1] / 25.4))
+        axes = paper.add_axes((0.0, 0.0, 1.0, 1.0))
+        page = _Strokes(axes, adjust_figure=False)
         with _fixed_chance():
             Frontend(RenderContext(self.document), page, config=look).draw_layout(self.space, finalize=True)
-        return page.bytes()
+        axes.set(xlim=(0.0, self.size[0] / self.scale), ylim=(0.0, self.size[1] / self.scale))
+        stream = io.BytesIO()
+        paper.savefig(stream, format="pdf", metadata={"Creator": "tvimdesign", "CreationDate": None})
+        return stream.getvalue()
+
+
+class _Strokes(MatplotlibBackend):
+    """Draw all lines of one width as one outline: ten times as fast as an artist for each."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self._lines: dict[float, list[Outline]] = defaultdict(list)
+        self._filled: list[Outline] = []
+
+    def draw_line(self, start: Vec2, end: Vec2, properties: BackendProperties) -> None:
+        """Draw one line."""
+        self.draw_solid_lines([(start, end)], properties)
+
+    def draw_solid_lines(self, lines: Iterable[tuple[Vec2, Vec2]], properties: BackendProperties) -> None:
+        """Draw lines of one kind, such as the dashes of a hidden edge."""
+        for start, end in lines:
+            if start.isclose(end):
+                self.draw_point(start, properties)
+            else:
+                self._lines[self.get_lineweight(properties)].append(Outline([(start.x, start.y), (end.x, end.y)]))
+
+    def draw_path(self, path: BkPath2d, properties: BackendProperties) -> None:
+        """Draw a line with bends and curves."""
+        if len(path):
+            self._lines[self.get_lineweight(properties)].append(to_matplotlib_path([path]))
+
+    def draw_filled_paths(self, paths: Iterable[BkPath2d], properties: BackendProperties) -> None:  # noqa: ARG002
+        """Draw a letter: the sense in which an outline runs says whether it is filled, as fonts mean it."""
+        self._filled += [to_matplotlib_path([path]) for path in paths if len(path)]
+
+    def draw_filled_polygon(self, points: BkPoints2d, properties: BackendProperties) -> None:  # noqa: ARG002
+        """Draw an arrowhead, or what else has straight sides."""
+        self._filled.append(Outline([(point.x, point.y) for point in points.vertices()]))
+
+    def finalize(self) -> None:
+        """Put the outlines on the page."""
+        looks = [(paths, {"fill": False, "linewidth": width}) for width, paths in self._lines.items()]
+        for paths, look in [*looks, (self._filled, {"linewidth": 0.0})]:
+            if paths:
+                outline = Outline.make_compound_path(*paths)
+                outline.should_simplify = False
+                self.ax.add_artist(PathPatch(outline, color="black", joinstyle="round", **look))
 
 
 def ratio(scale: float) -> str:
@@ -253,9 +309,6 @@ def _fixed_chance() -> Iterator[None]:
 @cache
 def _use_own_font() -> None:
     """Let drawings use the one font that is there on every machine, whatever else is installed."""
-    matplotlib = find_spec("matplotlib")  # found, not loaded, which takes as long as a drawing
-    if not matplotlib or not matplotlib.origin:
-        raise GeometryError(f"{_FONT}: matplotlib, which it comes with, is not installed")
-    folder = Path(matplotlib.origin).parent / "mpl-data" / "fonts" / "ttf"
+    folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
     fonts.font_manager.clear()
     fonts.font_manager.scan_folder(folder)
