@@ -16,7 +16,7 @@ import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cad.cad_report import CadReport
-from tvimdesign.cad.jobs.bodies_main import BASE, BODIES, MESHES, MOVING
+from tvimdesign.cad.jobs.rigid_bodies import BASE, BODIES, MESHES, MOVING
 from tvimdesign.cad.make import make_cad
 from tvimdesign.device.core.motor_choice import WITHOUT
 from tvimdesign.physics.motions.motion import Modes
@@ -124,7 +124,7 @@ def make_bodies(
     design: Path, folder: Path, progress: Callable[[str], None] | None = None
 ) -> tuple[RigidBody, RigidBody, CadReport]:
     """Make what stands and what turns of a design.json, with their meshes in the folder. Raises GeometryError."""
-    report = make_cad(design, folder, progress, job="tvimdesign.cad.jobs.bodies_main")
+    report = make_cad(design, folder, progress, job="tvimdesign.cad.jobs.rigid_bodies")
     data = json.loads((folder / BODIES).read_text())
     base, moving = (
         RigidBody(

@@ -9,8 +9,6 @@ import cadquery as cq
 
 from tvimdesign import __version__
 from tvimdesign.cad import cad_report
-from tvimdesign.cad.drawing.details import HEIGHT as DETAIL_HEIGHT
-from tvimdesign.cad.drawing.details import draw_details, small_steps
 from tvimdesign.cad.drawing.drawing_requirements import DATUM, GROUND, DrawingRequirements
 from tvimdesign.cad.drawing.drawing_sheet import (
     MARGIN,
@@ -66,26 +64,19 @@ def part_sheet(
     beside = _beside(rows)
     half = half_section(solid, beside) if beside else None
     heights, table = levels(solid), table_height(rows, asked)
-    # A detail is wanted by the scale, which the sheet takes by the room that is left for it.
     place = layout(plan, front, half, len(central), table)
-    sections = [front, *([half] if half else [])]
-    if small_steps(sections, heights, place.scale):
-        place = layout(plan, front, half, len(central), table + DETAIL_HEIGHT)
     sheet = DrawingSheet(place.scale, place.form)
     placed_plan, placed_front = PlacedView(sheet, plan, place.plan), PlacedView(sheet, front, place.front)
     marks = _draw_plan(placed_plan, found, asked, half, beside)
     _draw_section(placed_front, "A – A", solid, found, asked, 0.0)
-    placed = [placed_front]
     if half:
-        placed.append(PlacedView(sheet, half, place.half))
-        _draw_section(placed[-1], "D – D", solid, found, asked, beside)
+        _draw_section(PlacedView(sheet, half, place.half), "D – D", solid, found, asked, beside)
     if asked.general:
         placed_front.ground(GROUND)
     _dimension_diameters(placed_front, [central[diameter] for diameter in sorted(central)], asked)
     _dimension_extent(placed_front, sorted(central))
     _dimension_levels(placed_front, heights)
     draw_tables(sheet, rows, asked)
-    draw_details(placed, small_steps(sections, heights, place.scale), table)
     draw_balloons(placed_plan, rows, place.room, marks)
     _words(sheet, kind, solid, what, module, asked, material or what.material, rows)
     return sheet

@@ -20,7 +20,7 @@ from tvimdesign.cad.drawing.iso_1101 import draw_frames
 from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView
 from tvimdesign.cad.drawing.projection import Chain, View
 
-OVER_TITLE = 65.0
+_OVER_TITLE = 65.0
 """Height on the sheet above which there is room over the title block [mm]."""
 _LINE, _FRAME = 4.6, 5.2
 """Height of its lines, and of those with tolerance frames [mm]."""
@@ -44,7 +44,7 @@ def table_height(rows: Sequence[FeatureRow], asked: DrawingRequirements) -> floa
 def draw_tables(sheet: DrawingSheet, rows: Sequence[FeatureRow], asked: DrawingRequirements) -> None:
     """Draw seats over the title block and features over them, the first number on top."""
     left = sheet.size[0] - MARGIN - TITLE_WIDTH
-    level = OVER_TITLE
+    level = _OVER_TITLE
     for seat in reversed(asked.seats):
         _draw_seat(sheet, seat, (left, level))
         level += _FRAME + 0.8
@@ -155,7 +155,7 @@ def _scale_on(
 ) -> float:
     """Return the largest scale at which a sheet has room for views and table; 0 where it has none."""
     width, height = size[0] - 2.0 * MARGIN - TITLE_WIDTH - 6.0, size[1] - 2.0 * MARGIN
-    if OVER_TITLE - MARGIN + table + _NOTES > height:
+    if _OVER_TITLE - MARGIN + table + _NOTES > height:
         return 0.0
     for scale in _SCALES:
         wide, high = _needed(plan, front, half, over, scale)

@@ -1,23 +1,83 @@
-"""The module as two rigid bodies, what stands and what turns: mass properties and a coarse mesh of each."""
+"""The module as two rigid bodies, what stands and what turns: mass properties and a coarse mesh of each.
+
+The child process that makes them: `python -m tvimdesign.cad.jobs.rigid_bodies DESIGN OUT SECONDS`.
+"""
 
 from __future__ import annotations
 
+import json
+import sys
+import time
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TextIO
 
-import cadquery as cq
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
-from OCP.BRepGProp import BRepGProp
-from OCP.GProp import GProp_GProps
 
-from tvimdesign.cad.assembly.assembly import installed_coils
-from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh, spring_mesh
-from tvimdesign.cad.export.print_files import stl_bytes
-from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.exact_kernel import placement
-from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.cad.jobs import main as build_main
+from tvimdesign.study.design import Design, read_design
+
+if TYPE_CHECKING:
+    import cadquery as cq
+
+    from tvimdesign.cad.export.mesh import Mesh
+    from tvimdesign.cad.geometry.dimensions import Dimensions
+
+BODIES = "bodies.json"
+"""Mass properties of both bodies, in SI."""
+MESHES = "meshes"
+BASE, MOVING = "base", "moving"
+"""What stands with the housing, and what turns with the rotor."""
+
+
+def run(design_path: Path, out: Path, _part_limit: float, lines: TextIO) -> None:
+    """Write mass properties and meshes of both bodies; tells `lines` each step, then what the checks found."""
+
+    def say(**message: Any) -> None:
+        lines.write(json.dumps(message) + "\n")
+        lines.flush()
+
+    started = time.perf_counter()
+    design = read_design(design_path)
+    say(progress="loading the CAD kernel")
+    from tvimdesign.cad.assembly.assembly import drawn_parts, place
+    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.inspection.size_checks import size_checks
+
+    dims = dimensions(design)
+    drawn = drawn_parts(dims, lambda part: say(progress=part))
+    placed = place(dims, drawn)
+    checks = [asdict(check) for check in size_checks(design, placed)]
+    say(progress="meshes")
+    meshes, bodies = coarse_meshes(dims, drawn), names_of_bodies(placed)
+    (out / MESHES).mkdir(exist_ok=True)
+    for body, names in bodies.items():
+        atomic_write(out / MESHES / f"{body}.stl", body_stl(meshes, placed, names))
+    atomic_write(out / BODIES, (json.dumps(_weighed(design, placed, bodies), indent=2) + "\n").encode())
+    files = [BODIES, *(f"{MESHES}/{body}.stl" for body in bodies)]
+    say(checks=checks, files=files, notes=[], reused=[], seconds=time.perf_counter() - started)
+
+
+def names_of_bodies(placed: Mapping[str, Any]) -> dict[str, list[str]]:
+    """Return the names of the placed parts of each body: springs, pads and PCL stand with the housing."""
+    from tvimdesign.cad.geometry.kinds import TURNING, kind_of
+
+    turning = [name for name in placed if kind_of(name) in TURNING]
+    return {BASE: [name for name in placed if name not in turning], MOVING: turning}
+
+
+def _weighed(design: Design, placed: Mapping[str, Any], bodies: Mapping[str, list[str]]) -> dict[str, Any]:
+    """Return mass properties of each body as plain data."""
+    from tvimdesign.cad.geometry.kinds import KINDS, kind_of
+
+    return {
+        body: together(of_solid(placed[name], design.value(KINDS[kind_of(name)].density)) for name in names).plain()
+        for body, names in bodies.items()
+    }
+
 
 Array = NDArray[np.float64]
 _MM, _MM3, _MM5 = 1e-3, 1e-9, 1e-15
@@ -41,6 +101,9 @@ class MassProperties:
 
 def of_solid(solid: cq.Solid, density: float) -> MassProperties:
     """Return mass properties of a solid drawn in mm, of a density [kg/m^3]; the kernel integrates over its faces."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
     properties = GProp_GProps()
     BRepGProp.VolumeProperties_s(solid.wrapped, properties)
     centre, tensor = properties.CentreOfMass(), properties.MatrixOfInertia()
@@ -74,6 +137,9 @@ AROUND = 6
 
 def coarse_meshes(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> dict[str, Mesh]:
     """Return a coarse mesh of each kind of part, in its own coordinates [mm]."""
+    from tvimdesign.cad.assembly.assembly import installed_coils
+    from tvimdesign.cad.export.mesh import solid_mesh, spring_mesh
+
     coils = installed_coils(dims)
     meshes = {kind: solid_mesh(solid, CHORD, TURN) for kind, solid in drawn.items()}
     meshes["spring_right"] = spring_mesh(coils["spring_right"], AROUND)
@@ -83,8 +149,19 @@ def coarse_meshes(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> dict[str, 
 
 def body_stl(meshes: Mapping[str, Mesh], placed: Mapping[str, cq.Solid], names: Sequence[str]) -> bytes:
     """Return the named parts where they stand as one binary STL in metres."""
+    import trimesh
+
+    from tvimdesign.cad.export.mesh import Instance
+    from tvimdesign.cad.export.print_files import stl_bytes
+    from tvimdesign.cad.geometry.exact_kernel import placement
+    from tvimdesign.cad.geometry.kinds import kind_of
+
     parts = [Instance(meshes[kind_of(name)], placement(placed[name].location())) for name in names]
     first = np.cumsum([0] + [len(part.mesh.vertices) for part in parts])
     faces = np.concatenate([part.mesh.faces + start for part, start in zip(parts, first, strict=False)])
     points = np.concatenate([part.points() for part in parts]) * _MM
     return stl_bytes(trimesh.Trimesh(points, faces, process=False))
+
+
+if __name__ == "__main__":
+    sys.exit(build_main.main(sys.argv[1:], run))
