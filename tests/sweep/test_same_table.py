@@ -160,7 +160,7 @@ def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(
 
 KILLED_BY_TWO_MILLIMETRES = """
 import os, signal, sys
-if sys.argv[0] == "-m" and "tvimdesign.sweep.worker" in sys.orig_argv:
+if sys.argv[0] == "-m" and "tvimdesign.sweep.pool" in sys.orig_argv:
     from tvimdesign.sweep.answers import CellAnswers
     answer = CellAnswers.answer
     def deadly(self, cell):

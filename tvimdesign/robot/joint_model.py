@@ -98,9 +98,6 @@ def usual_step(states: Sequence[JointState]) -> float:
     return float(max(digit * decade for digit in (1.0, 2.0, 5.0) if digit * decade <= least))
 
 
-"""Seconds after which the CAD process is given up."""
-
-
 @dataclass(frozen=True)
 class RigidBody:
     """Rigid body for a simulator, in the module's coordinates: the rotor's axis is z."""

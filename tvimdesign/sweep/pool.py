@@ -1,24 +1,34 @@
-"""Worker processes here: each answers chunk after chunk; one that dies is replaced, its cells tried again."""
+"""Worker processes here: each answers chunk after chunk; one that dies is replaced, its cells tried again.
+
+Run as a program, this is a worker: it reads on standard input a line with the job, then a line of JSON with cells,
+again and again, and answers each with one: how many cells are done and what they took, or the error that ends it.
+"""
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import json
+import os
+import pickle
 import queue
+import signal
 import subprocess
+import sys
 import tempfile
+import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
 
-from tvimdesign.base.child_process import read_lines, start_child
+from tvimdesign.base.child_process import follow_parent, read_lines, start_child
+from tvimdesign.base.environment import NAMES
 from tvimdesign.base.errors import OutputError, TvimError
-from tvimdesign.sweep.chunks import CellQueue
+from tvimdesign.sweep.chunks import CellQueue, ChunkAnswers
 from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy
 from tvimdesign.sweep.shards import Shards, ShardWriter
-from tvimdesign.sweep.worker import packed
 
 Heard = Callable[["Usage"], None]
 MOST_DEATHS = 2
@@ -102,12 +112,13 @@ class Pool:
         self._started += 1
         number = self._started
         process = start_child(
-            "tvimdesign.sweep.worker", stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True,
+            "tvimdesign.sweep.pool", stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True,
             encoding="utf-8",
         )  # fmt: skip
         read_lines(process, lambda line: self._lines.put((number, line)))
         worker = self._workers[number] = _Worker(number, process)
-        self._tell(worker, packed(self._job, self._folder))
+        job = pickle.dumps((self._job, str(self._folder)))
+        self._tell(worker, base64.b64encode(job).decode())
         self._feed(worker, left)
 
     def _feed(self, worker: _Worker, left: CellQueue) -> None:
@@ -168,3 +179,36 @@ class Pool:
 def _tail(errors: IO[bytes]) -> str:
     errors.seek(0)
     return " ".join(errors.read().decode(errors="replace").strip().splitlines()[-1:])
+
+
+def main() -> int:
+    """Answer cells until there are no more."""
+    follow_parent()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
+    os.environ.update(dict.fromkeys(NAMES, "1"))  # there is a process for each core
+    job, folder = pickle.loads(base64.b64decode(sys.stdin.readline()))
+    answers = ChunkAnswers(job)
+    with ShardWriter(Path(folder), job.columns) as shard:
+        for line in sys.stdin:
+            began, spent = time.perf_counter(), time.process_time()
+            try:
+                reply = answers.answer(json.loads(line))
+                shard.append(reply)
+            except TvimError as error:
+                _say({"error": str(error)})
+                return error.exit_code
+            cells = sum(seconds for _, _, seconds in reply)
+            _say({
+                "done": len(reply), "cells_s": cells, "chunk_s": time.perf_counter() - began,
+                "cpu_s": time.process_time() - spent, "warm": sum(answer.warm for _, answer, _ in reply),
+            })  # fmt: skip
+    return 0
+
+
+def _say(what: dict[str, Any]) -> None:
+    sys.stdout.write(json.dumps(what) + "\n")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -12,7 +12,7 @@ from tvimdesign.cad.geometry.features import Cylinder, holes
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.cad.inspection.inspect import casting_checks, casting_gap
 from tvimdesign.cad.inspection.size_checks import size_checks
-from tvimdesign.cad.parts import casting_jig
+from tvimdesign.cad.parts import jigs
 
 
 def cones(solid: cq.Solid) -> list[cq.Face]:
@@ -80,7 +80,7 @@ def jig(name: str) -> tuple[Dimensions, str, dict[str, cq.Solid]]:
     dims = dimensions(design_of(name, changes, mode))
     kind = "pcl_arc" if mode == "shear" else "pcl_block"
     part = drawn_part(dims, kind)
-    return dims, kind, {kind: part} | {piece: draw(dims, part).Solids()[0] for piece, draw in casting_jig.DRAWN.items()}
+    return dims, kind, {kind: part} | {piece: draw(dims, part).Solids()[0] for piece, draw in jigs.DRAWN.items()}
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -88,12 +88,12 @@ def test_the_jig_s_gap_and_room_are_the_part_s(name: str) -> None:
     dims, kind, solids = jig(name)
     checks = {check.name: check for check in casting_checks(dims, kind, solids)}
     assert [check.text for check in checks.values() if not check.ok] == []
-    assert all(solids[piece].isValid() for piece in casting_jig.DRAWN)
+    assert all(solids[piece].isValid() for piece in jigs.DRAWN)
     # 1 mm of the default layer; 3.5 mm of the default block above a clearance of 0.4.
     wanted = dims.pcl_thickness if kind == "pcl_arc" else dims.vane_height - dims.running_clearance
     assert casting_gap(dims, solids["casting_mould"], solids["casting_lid"]) == pytest.approx(wanted, abs=1e-9)
     _, kind, solids = jig(name)
-    pieces = [solids[piece] for piece in casting_jig.DRAWN]
+    pieces = [solids[piece] for piece in jigs.DRAWN]
     around = cq.Compound.makeCompound(pieces).BoundingBox()
     block = cq.Solid.makeBox(around.xlen, around.ylen, around.zlen, cq.Vector(around.xmin, around.ymin, around.zmin))
     rooms = [room.Volume() for room in block.cut(*pieces).Solids()]

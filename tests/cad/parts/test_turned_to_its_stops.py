@@ -10,7 +10,7 @@ from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.geometry.spring_solids import installed_coil, spring_solid
 from tvimdesign.cad.inspection.inspect import setting_checks
 from tvimdesign.cad.inspection.size_checks import bearing_checks, stop_checks
-from tvimdesign.cad.parts import setting_jig
+from tvimdesign.cad.parts import jigs
 
 
 @pytest.mark.parametrize(
@@ -38,8 +38,8 @@ def test_a_fork_holds_the_rotor_at_rest(case: str) -> None:
     mode, overrides = CASES[case]
     dims = dimensions(design_of(case, overrides, mode))
     solids = {kind: drawn_part(dims, kind) for kind in ("housing", "rotor")}
-    solids[setting_jig.FORK] = setting_jig.fork(dims).Solids()[0]
-    assert solids[setting_jig.FORK].isValid()
+    solids[jigs.FORK] = jigs.fork(dims).Solids()[0]
+    assert solids[jigs.FORK].isValid()
     assert [check.text for check in setting_checks(dims, solids) if not check.ok] == []
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import trimesh
 
 from tvimdesign.cad.assembly.assembly import installed_coils, lifts
-from tvimdesign.cad.assembly.assembly_note import WrittenStep, written_steps
+from tvimdesign.cad.assembly.assembly_note import WrittenStep, coming, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.export.mesh import RING, Instance, Mesh, coil_points, part_meshes, wire_centre
 from tvimdesign.cad.geometry.dimensions import Dimensions
@@ -95,8 +95,8 @@ def _part(item: Item) -> dict[str, Any]:
 def brought(step: WrittenStep, names: Collection[str]) -> dict[str, Any]:
     """Return a step's text, the parts among `names` that it brings into their place, and the side the first comes
     from."""
-    found = [(name, one["from"]) for one in step.place for name in names if one["part"] in (name, kind_of(name))]
-    return {"text": step.text, "parts": [name for name, _ in found], "from": found[0][1] if found else ""}
+    parts = coming(step.place, list(names))
+    return {"text": step.text, "parts": [part.name for part in parts], "from": parts[0].side if parts else ""}
 
 
 def _moved(dims: Dimensions, kind: str) -> list[list[float]]:

@@ -17,7 +17,7 @@ from tvimdesign.cad.assembly.heater_leads import lead_in_words, pad_count, therm
 from tvimdesign.cad.assembly.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, kind_of
-from tvimdesign.cad.parts import casting_jig, setting_jig
+from tvimdesign.cad.parts import jigs
 from tvimdesign.device.components.tang import BONDED
 from tvimdesign.study.design import Design
 
@@ -185,11 +185,11 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
     jig = [
         Item(kind, 1, True, record, f"Fixture, {bears}", 0.0, (cad_report.step(kind), cad_report.print_3mf(kind)),
              fixture=True)
-        for kind in casting_jig.MAKING
+        for kind in jigs.MAKING
     ]  # fmt: skip
     holds = "Fixture: holds the rotor at rest while its springs are set"
-    fork = (cad_report.step(setting_jig.FORK), cad_report.print_3mf(setting_jig.FORK))
-    jig.append(Item(setting_jig.FORK, setting_jig.COUNT, True, record, holds, 0.0, fork, fixture=True))
+    fork = (cad_report.step(jigs.FORK), cad_report.print_3mf(jigs.FORK))
+    jig.append(Item(jigs.FORK, jigs.FORK_COUNT, True, record, holds, 0.0, fork, fixture=True))
     release = "Mould release for thermoplastics at 80 °C, wiped thinly on mould and lid"
     return [*jig, Item("mould_release", 1, False, "", release, 0.0, ())]
 

@@ -182,9 +182,7 @@ class PlacedView:
         )
         box, middle = self.paper(2.2), bottom - self.paper(6.2)
         self.line((x, bottom - tall), (x, middle + box), "FINE")
-        corners = [(x + right * box, middle + up * box) for right, up in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))]
-        self.sheet.space.add_lwpolyline([self.at(*corner) for corner in corners], dxfattribs={"layer": "FINE"})
-        self.sheet.text(letter, self.on_paper(x, middle), 2.8, "MIDDLE_CENTER")
+        self._boxed(letter, x, middle)
 
     def datum(self, letter: str, end: tuple[float, float], x: float) -> None:
         """Mark what is dimensioned with an arrow at `end` as a datum by ISO 5459: its letter in a box at `x`."""
@@ -195,11 +193,13 @@ class PlacedView:
             dxfattribs={"layer": "FINE"},
         )
         self.line(foot, (x + beside, end[1]), "FINE")
-        corners = [
-            (x + right * beside, end[1] + up * beside) for right, up in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
-        ]
+        self._boxed(letter, x, end[1])
+
+    def _boxed(self, letter: str, x: float, y: float) -> None:
+        half = self.paper(2.2)
+        corners = [(x + right * half, y + up * half) for right, up in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))]
         self.sheet.space.add_lwpolyline([self.at(*corner) for corner in corners], dxfattribs={"layer": "FINE"})
-        self.sheet.text(letter, self.on_paper(x, end[1]), 2.8, "MIDDLE_CENTER")
+        self.sheet.text(letter, self.on_paper(x, y), 2.8, "MIDDLE_CENTER")
 
 
 def apart(wanted: Sequence[float], least: float) -> list[float]:

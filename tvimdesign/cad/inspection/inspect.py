@@ -24,7 +24,7 @@ from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles, slot_check, wall_checks
 from tvimdesign.cad.inspection.size_checks import TOUCHING, interference_checks
-from tvimdesign.cad.parts import casting_jig, setting_jig
+from tvimdesign.cad.parts import jigs
 from tvimdesign.cad.parts.common_parts import between_springs, link_dowels, link_screws, mounts, stop_azimuths
 from tvimdesign.cad.parts.fasteners import insert_length, insert_places
 from tvimdesign.device import table_for
@@ -45,26 +45,24 @@ def casting_checks(dims: Dimensions, kind: str, solids: Mapping[str, cq.Solid]) 
     off = abs(measured - wanted)
     text = f"the gap between mould and lid is {measured:.4g} mm, the part's thickness {wanted:.4g} mm"
     yield finding(_JIG, "gap", off, _EXACT, "mm", at_most(off, _EXACT), text)
-    room = casting_jig.dam(dims, part).cut(mould, part).Volume()
+    room = jigs.dam(dims, part).cut(mould, part).Volume()
     text = f"{room:.3g} mm3 of the dam are open beside the part"
     yield finding(_JIG, "melt", room, TOUCHING, "mm^3", at_most(room, TOUCHING), text)
 
 
 def setting_checks(dims: Dimensions, solids: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """Compare the fork with rotor and housing: free at rest, in the way as soon as the rotor turns by a slip."""
-    placed = turned(solids[setting_jig.FORK], stop_azimuths(dims)[0])
+    placed = turned(solids[jigs.FORK], stop_azimuths(dims)[0])
     for kind in ("housing", "rotor"):
         shared = placed.intersect(solids[kind]).Volume()
         text = f"the fork and the {kind} share {shared:.3g} mm3 at rest"
-        yield finding(
-            setting_jig.FORK, f"free of the {kind}", shared, TOUCHING, "mm^3", at_most(shared, TOUCHING), text
-        )
+        yield finding(jigs.FORK, f"free of the {kind}", shared, TOUCHING, "mm^3", at_most(shared, TOUCHING), text)
     slip = 2.0 * dims.slip_clearance / dims.stop_contact_radius
     for side in (1.0, -1.0):
         stopped = placed.intersect(turned(solids["rotor"], side * slip)).Volume()
         text = f"turned by {side * slip:+.3g} rad the rotor meets the fork"
         yield finding(
-            setting_jig.FORK, f"holds at {side * slip:+.3g} rad", -stopped, 0.0, "mm^3", at_most(-stopped, -1e-6), text
+            jigs.FORK, f"holds at {side * slip:+.3g} rad", -stopped, 0.0, "mm^3", at_most(-stopped, -1e-6), text
         )
 
 

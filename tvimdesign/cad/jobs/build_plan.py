@@ -8,6 +8,7 @@ from math import dist
 from pathlib import Path
 
 import cadquery as cq
+import trimesh
 from OCP.BinTools import BinTools
 from OCP.TopoDS import TopoDS_Shape
 
@@ -33,7 +34,7 @@ from tvimdesign.cad.geometry.spring_solids import free_coil
 from tvimdesign.cad.inspection.inspect import casting_checks, module_checks, part_checks, setting_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.jobs.worker import Job, Turn, Work
-from tvimdesign.cad.parts import casting_jig, setting_jig
+from tvimdesign.cad.parts import jigs
 from tvimdesign.cad.parts.common_parts import link_dowels
 from tvimdesign.study.design import Design
 
@@ -84,10 +85,10 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name="sizes", do=_sizes, needs=kinds, words="volumes and inertias"),
         *clearances,
         *inspections,
-        *(Work(name=kind, do=partial(_casting_jig, kind)) for kind in casting_jig.DRAWN),
-        Work(name=setting_jig.FORK, do=_setting_fork),
-        Work(name="inspect_setting", do=_inspect_setting, needs=("housing", "rotor", setting_jig.FORK)),
-        Work(name="inspect_casting", do=_inspect_casting, needs=(casting_jig.part_of(kinds), *casting_jig.DRAWN)),
+        *(Work(name=kind, do=partial(_casting_jig, kind)) for kind in jigs.DRAWN),
+        Work(name=jigs.FORK, do=_setting_fork),
+        Work(name="inspect_setting", do=_inspect_setting, needs=("housing", "rotor", jigs.FORK)),
+        Work(name="inspect_casting", do=_inspect_casting, needs=(jigs.part_of(kinds), *jigs.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True, words="assembly files"),
         Work(name="spring_sheet", do=_spring_sheet, named=True),
@@ -123,21 +124,21 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
         _write(job.folder, cad_report.drawing_dxf(kind), sheet.dxf())
         _write(job.folder, cad_report.drawing_pdf(kind), sheet.pdf())
     if PRODUCTION[kind].down == "bought":
-        return [_bought_mesh(job.folder, solid, kind)]
+        return [_stl(job.folder, cad_report.mesh_stl(kind), kind, *printed_mesh(kind, solid))]
     return [_print(job, kind, solid, what, PRODUCTION[kind])]
 
 
 def _casting_jig(kind: str, job: Job) -> list[SolidCheck]:
     """Make one piece of the jig that the PCL is cast in."""
-    cast = casting_jig.part_of(tuple(MODULES[job.dims.mode].drawn(job.dims)))
-    solid = one_solid(kind, lambda: casting_jig.DRAWN[kind](job.dims, drawn_part(job.dims, cast)))
-    return _fixture(job, kind, solid, casting_jig.MAKING[kind])
+    cast = jigs.part_of(tuple(MODULES[job.dims.mode].drawn(job.dims)))
+    solid = one_solid(kind, lambda: jigs.DRAWN[kind](job.dims, drawn_part(job.dims, cast)))
+    return _fixture(job, kind, solid, jigs.MAKING[kind])
 
 
 def _setting_fork(job: Job) -> list[SolidCheck]:
     """Make the fork that holds the rotor while its springs are set."""
-    solid = one_solid(setting_jig.FORK, lambda: setting_jig.fork(job.dims))
-    return _fixture(job, setting_jig.FORK, solid, setting_jig.MAKING)
+    solid = one_solid(jigs.FORK, lambda: jigs.fork(job.dims))
+    return _fixture(job, jigs.FORK, solid, jigs.FORK_MAKING)
 
 
 def _fixture(job: Job, kind: str, solid: cq.Solid, making: Production) -> list[SolidCheck]:
@@ -145,7 +146,7 @@ def _fixture(job: Job, kind: str, solid: cq.Solid, making: Production) -> list[S
     _keep(job.folder / "kept" / _SOLID, solid)
     of = str(job.design.choices["structure_material"])
     density = job.design.value("structure_density")
-    what = Product(name=kind, colour=casting_jig.COLOUR, material=of, density=density)
+    what = Product(name=kind, colour=jigs.COLOUR, material=of, density=density)
     return [*_step(job.folder, solid, what), _print(job, kind, solid, what, making)]
 
 
@@ -182,17 +183,14 @@ def _print(job: Job, kind: str, solid: cq.Solid, what: Product, making: Producti
         body, distance = printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))
-    _write(job.folder, name, stl_bytes(body))
     _write(job.folder, cad_report.print_3mf(kind), threemf_bytes(body, what))
-    text = f"{kind}: its print mesh is watertight and nowhere further than stated from the part [mm]"
-    return SolidCheck(name, distance, CHORD, distance <= CHORD, text)
+    return _stl(job.folder, name, kind, body, distance)
 
 
-def _bought_mesh(folder: Path, solid: cq.Solid, kind: str) -> SolidCheck:
-    body, distance = printed_mesh(kind, solid)
-    _write(folder, cad_report.mesh_stl(kind), stl_bytes(body))
+def _stl(folder: Path, name: str, kind: str, body: trimesh.Trimesh, distance: float) -> SolidCheck:
+    _write(folder, name, stl_bytes(body))
     text = f"{kind}: its mesh is watertight and nowhere further than stated from the part [mm]"
-    return SolidCheck(cad_report.mesh_stl(kind), distance, CHORD, distance <= CHORD, text)
+    return SolidCheck(name, distance, CHORD, distance <= CHORD, text)
 
 
 def _sizes(job: Job) -> list[SolidCheck]:
@@ -212,7 +210,7 @@ def _inspect_setting(job: Job) -> list[SolidCheck]:
 
 
 def _inspect_casting(job: Job) -> list[SolidCheck]:
-    return list(casting_checks(job.dims, casting_jig.part_of(tuple(job.needs)), _solids(job.needs)))
+    return list(casting_checks(job.dims, jigs.part_of(tuple(job.needs)), _solids(job.needs)))
 
 
 def _inspect_module(job: Job) -> list[SolidCheck]:

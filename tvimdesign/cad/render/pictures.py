@@ -147,11 +147,7 @@ def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str
                 for actor in actors(instance.mesh, instance.matrix, _PALE if pale else KINDS[kind_of(name)].colour):
                     renderer.AddActor(actor)
         seen = _FROM_BELOW if all(part.side == "below" for part in parts) else VIEWED_FROM
-        kinds = list(dict.fromkeys(kind_of(name) for name in coming))
-        below = legend_height(kinds, _STEP_SIZE)
-        renderer.SetViewport(0.0, below, 1.0, 1.0)
-        look(renderer, standing | coming, seen, _STEP_SIZE[1] * (1.0 - below) / _STEP_SIZE[0])
-        write_png(folder / file, _STEP_SIZE, [renderer, legend(kinds, _STEP_SIZE)])
+        write_view(folder / file, renderer, standing | coming, seen, _STEP_SIZE, coming)
         standing |= {part.name: placed[part.name] for part in parts}
 
 

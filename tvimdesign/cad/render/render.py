@@ -215,10 +215,11 @@ def renderer_on_white() -> vtkRenderer:
 
 
 def write_view(
-    path: Path, renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, size: tuple[int, int]
-) -> None:
-    """Write what is seen of placed parts from a direction, with the legend of their kinds, whole or not at all."""
-    kinds = list(dict.fromkeys(kind_of(name) for name in placed))
+    path: Path, renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, size: tuple[int, int],
+    named: Iterable[str] = (),
+) -> None:  # fmt: skip
+    """Write what is seen of placed parts from a direction, with the legend of their kinds, or of those `named`."""
+    kinds = list(dict.fromkeys(kind_of(name) for name in named or placed))
     below = legend_height(kinds, size)
     renderer.SetViewport(0.0, below, 1.0, 1.0)
     look(renderer, placed, from_here, size[1] * (1.0 - below) / size[0])

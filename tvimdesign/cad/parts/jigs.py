@@ -1,8 +1,8 @@
-"""The jig that a PCL arc or block is cast in: a mould with a dam as high as the part, and a lid that lies on the dam.
+"""Fixtures: the fork that holds the rotor, and the jig that a PCL arc or block is cast in.
 
-It is drawn around the part where this stands in the module, so that it is closed by construction: the dam's height is
-the layer's thickness, pockets of the lid are the part's keys. What is too much flows over the dam. A fixture: it has no
-place in the module, and no part in its mass.
+The jig is a mould with a dam as high as the part, and a lid that lies on the dam. Both are drawn around the part where
+it stands in the module, so that the jig is closed by construction: the dam's height is the layer's thickness, pockets
+of the lid are the part's keys. Surplus flows over the dam. Fixtures have no place in the module and its mass.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
 from tvimdesign.cad.geometry.kinds import Production
-from tvimdesign.cad.geometry.solids import cylinder, join
+from tvimdesign.cad.geometry.solids import cylinder, join, sector, turned
+from tvimdesign.device.components.hard_stops import STOPS
 
 LAND = 2.0
 """Width of the dam around the part [mm]; assumed, 1 to 4: the lid lies on it, and what runs over it breaks off."""
@@ -87,3 +88,24 @@ def _plate(dims: Dimensions, part: cq.Solid, bottom: float, top: float) -> cq.So
     low, high = start - first - WALL, end + last + WALL
     half = max(abs(box.ymin), abs(box.ymax)) + WALL
     return cq.Solid.makeBox(high - low, 2.0 * half, top - bottom, cq.Vector(low, -half, bottom))
+
+
+FORK = "setting_fork"
+FORK_COUNT = STOPS
+BRIDGE = 3.0
+"""Thickness of the bridge [mm], by which fingers lift it; assumed, 2 to 6."""
+FORK_MAKING = Production(down="top", why="the bridge on the bed: legs grow upwards, no support")
+
+
+def fork(dims: Dimensions) -> cq.Shape:
+    """Draw what holds the rotor at rest while its springs are set, over a tooth on the x axis; a module needs two.
+
+    Its legs fill the ways between a tooth of the rotor and its two stops, and a bridge over the tooth joins them. It
+    goes in from above, so that both hands and the lower side are free for the springs' screws.
+    """
+    inner, outer, top = dims.stop_inner_radius, dims.stop_outer_radius, dims.rotor_top_level
+    play = dims.slip_clearance / dims.stop_contact_radius
+    leg = sector(inner, outer, dims.stop_angle - play, dims.slip_clearance, top)
+    beside = 0.5 * (dims.stop_tooth_span + dims.stop_angle)
+    bridge = sector(inner, outer, dims.stop_tooth_span + 2.0 * dims.stop_angle - play, top, top + BRIDGE)
+    return join(bridge, [turned(leg, side * beside) for side in (1.0, -1.0)])
