@@ -1,7 +1,7 @@
 """Designs to make parts of, in either mode: the paper's size, a wrist's, and one whose coils end at an odd angle."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from math import radians
 from typing import Any, NamedTuple
 
@@ -201,3 +201,15 @@ def random_blocks(seed: int) -> Design:
             found = design_of(f"random {seed}", overrides, "compression")
         if broken_rules(found) == [] and all(np.isfinite(value) for value in found.values.values()):
             return found
+
+
+def all_checks(design: Design, drawn: Mapping[str, Any], say: Callable[[str], None] = lambda _: None) -> list[Any]:
+    """Run every check of sizes at rest, and of clearances from stop to stop."""
+    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
+
+    dims = dimensions(design)
+    found = rest_checks(design, dims, drawn)
+    for share in POSITIONS:
+        found += clearance_checks(dims, drawn, share, say)
+    return found

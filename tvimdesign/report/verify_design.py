@@ -14,7 +14,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.cad.fe.model_comparison import HEAT, SOLVERS, TIMES, Compared, compared
-from tvimdesign.cad.fe.run_solvers import Solved, require_fe, run_solvers
+from tvimdesign.cad.fe.run_solvers import Solved, export_parts, require_fe, run_solvers
 from tvimdesign.cad.fe.warm_joint import WarmJoint, softening_time
 from tvimdesign.page.blocks import Block, Page, Points
 from tvimdesign.report.output.command import Command, design_file
@@ -118,8 +118,6 @@ def _export(design: Design, folder: Path) -> None:
     from tvimdesign.cad.jobs.main import load_kernel
 
     load_kernel()
-    from tvimdesign.cad.fe.exported_parts import export_parts
-
     export_parts(design, folder)
 
 

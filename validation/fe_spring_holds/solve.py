@@ -1,6 +1,6 @@
 """FE of what holds a spring: the rotor's pin under the leg, and the hole in the floor that the bonded tang twists.
 
-python solve.py PARTS [...]: each a folder that `tvimdesign.cad.fe.exported_parts` wrote. Prints as YAML the way of the
+python solve.py PARTS [...]: each a folder that `tvimdesign.cad.fe.run_solvers` wrote. Prints as YAML the way of the
 pin per force and the hole's turn per moment, by FE of the exported rotor and housing and by the closed forms.
 """
 

@@ -32,8 +32,7 @@ from typing import Any
 import yaml
 from models import DESIGN, LEFT_OUT, Row, case_of, design_rows, designed, fe_values, model_values, study_file
 
-from tvimdesign.cad.fe.exported_parts import export_parts
-from tvimdesign.cad.fe.run_solvers import SOLVERS
+from tvimdesign.cad.fe.run_solvers import SOLVERS, export_parts
 from tvimdesign.study.design import read_design
 
 HERE = Path(__file__).resolve().parent

@@ -11,9 +11,8 @@ from pathlib import Path
 import pytest
 from support import ROOT
 
-from tvimdesign.cad.fe.exported_parts import export_parts
 from tvimdesign.cad.fe.model_comparison import joint_rows, model_values
-from tvimdesign.cad.fe.run_solvers import run_solvers
+from tvimdesign.cad.fe.run_solvers import export_parts, run_solvers
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study

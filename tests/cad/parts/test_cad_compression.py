@@ -5,7 +5,7 @@ from math import pi
 import cadquery as cq
 import numpy as np
 import pytest
-from cad_designs import design_of, random_blocks
+from cad_designs import all_checks, design_of, random_blocks
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import build, drawn_parts
@@ -13,7 +13,7 @@ from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.export.print_files import closed
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
-from tvimdesign.cad.inspection.size_checks import all_checks, interference_checks, size_checks
+from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.device.core.clearances import POCKET_WIDTH
 from tvimdesign.study.design import Design
 
@@ -159,7 +159,7 @@ def test_a_random_module_that_keeps_the_rules_passes_every_check(seed: int) -> N
     design = random_blocks(seed)
     dims = dimensions(design)
     drawn = drawn_parts(dims)
-    checks = all_checks(design, dims, drawn)
+    checks = all_checks(design, drawn)
     assert [check.text for check in checks if not check.ok] == []
     # The housing's inertia, which only a motor feels, takes holes and corners at one radius.
     exact = [check for check in checks if check.name.endswith(("_volume", "_inertia", "_mass"))]

@@ -4,7 +4,7 @@ from math import radians
 
 import cadquery as cq
 import pytest
-from cad_designs import broken_rules, design_of
+from cad_designs import all_checks, broken_rules, design_of
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, build, drawn_parts
@@ -12,7 +12,7 @@ from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.export.print_files import closed
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
-from tvimdesign.cad.inspection.size_checks import all_checks, interference_checks, size_checks
+from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.study.design import Design
 
 
@@ -29,7 +29,7 @@ def test_the_cases_keep_the_rules_in_valid_solids(design: Design) -> None:
 def test_every_check_holds_at_rest_and_through_the_stroke(design: Design) -> None:
     dims = dimensions(design)
     steps: list[str] = []
-    checks = all_checks(design, dims, drawn_parts(dims), steps.append)
+    checks = all_checks(design, drawn_parts(dims), steps.append)
     assert [check.text for check in checks if not check.ok] == []
     assert len([step for step in steps if step.startswith("interference")]) == 5
     sizes = {check.name: check.value for check in checks}

@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 import cadquery as cq
 import pytest
-from cad_designs import CASES, broken_rules, design_of
+from cad_designs import CASES, all_checks, broken_rules, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_part, drawn_parts, place
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.inspection.order import sequence
-from tvimdesign.cad.inspection.size_checks import all_checks, interference_checks, size_checks
+from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.study.design import Design
 
 SPRUNG = ("sprung", "sprung bearings", "sprung blocks")
@@ -60,7 +60,7 @@ def test_parts_around_a_wave_spring_fit_their_quantities(sprung: Sprung) -> None
 
 @pytest.mark.slow
 def test_every_check_holds_through_the_stroke(sprung: Sprung) -> None:
-    assert [check.text for check in all_checks(sprung.design, sprung.dims, sprung.drawn) if not check.ok] == []
+    assert [check.text for check in all_checks(sprung.design, sprung.drawn) if not check.ok] == []
 
 
 def test_parts_stand_frozen_with_room_to_rise_and_come_in_once(sprung: Sprung) -> None:

@@ -91,18 +91,6 @@ _MM3, _MM5 = 1e-9, 1e-15
 Place = tuple[float, float, float]
 
 
-def all_checks(
-    design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], progress: Callable[[str], None] | None = None
-) -> list[SolidCheck]:
-    """Run every check at rest and from stop to stop."""
-    say = progress or (lambda _: None)
-    say("sizes")
-    found = rest_checks(design, dims, drawn)
-    for share in POSITIONS:
-        found += clearance_checks(dims, drawn, share, say)
-    return found
-
-
 POSITIONS = (0.0, -1.0, -0.5, 0.5, 1.0)
 """Of the rotor at which parts are compared, as shares of its way to a stop."""
 
