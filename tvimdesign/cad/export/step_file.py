@@ -55,7 +55,8 @@ def in_fixed_order(text: str) -> str:
     if len(starts) < 2:
         return text
     end = text.index("ENDSEC;", starts[-1])
-    blocks = [_unwrapped(text[first:last]) for first, last in pairwise([*starts, end])]
+    # One entity a line: where the kernel breaks lines depends on the numbers.
+    blocks = [re.sub(r"\n +", "", text[first:last]) for first, last in pairwise([*starts, end])]
     first_number = min(int(number[1]) for block in blocks if (number := _NUMBER.match(block)))
     blocks.sort(key=_context)
     blocks = _colours_where_first_used(blocks)
@@ -85,11 +86,6 @@ def plain_text(text: str) -> bytes:
         return "\\X2\\" + letters[0].encode("utf-16-be").hex().upper() + "\\X0\\"
 
     return re.sub(r"[^\x00-\x7f]+", escaped, text).encode("ascii")
-
-
-def _unwrapped(block: str) -> str:
-    """Return one entity a line; where the kernel breaks lines depends on the numbers."""
-    return re.sub(r"\n +", "", block)
 
 
 def _context(block: str) -> int:

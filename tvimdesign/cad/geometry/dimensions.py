@@ -88,7 +88,7 @@ def dimensions_of(mode: str, given: Mapping[str, float], choices: Mapping[str, s
     rows: list[Input | Output] = [*table.inputs, *table.outputs]
     units = {row.name: row.unit for row in rows if row.unit in _SCALE}
     known = {**given, **choices}
-    values = {**given, **table.evaluate(known, [row.name for row in table.outputs if _unprinted(row)])}
+    values = {**given, **table.evaluate(known, [row.name for row in table.outputs if row.hidden and row.unit == "mm"])}
     lengths = {name: value * _SCALE[units[name]] for name, value in values.items() if name in units}
     for row in table.outputs:
         if row.name.endswith(HOLES):
@@ -103,8 +103,3 @@ def _circles(name: str, circles: Iterable[Any]) -> dict[str, float]:
         numbers[f"{name}.length"] = index + 1
         numbers |= {f"{name}.{index}.{of}": scale * getattr(circle, of) for of, scale in _OF_A_CIRCLE.items()}
     return numbers
-
-
-def _unprinted(row: Output) -> bool:
-    """Return whether a row is a dimension that no report shows."""
-    return row.hidden and row.unit == "mm"

@@ -212,3 +212,12 @@ def levels(solid: cq.Solid) -> list[float]:
         if face.geomType() == "PLANE" and abs(abs(face.normalAt().z) - 1.0) < 1e-9:
             found.add(_round(face.Center().z))
     return sorted(found)
+
+
+def boxes_meet(first: cq.BoundBox, second: cq.BoundBox, room: float = 0.0) -> bool:
+    """Return whether two boxes share more than a face, or come nearer to each other than `room` [mm]."""
+    return all(
+        getattr(first, f"{axis}min") < getattr(second, f"{axis}max") + room
+        and getattr(second, f"{axis}min") < getattr(first, f"{axis}max") + room
+        for axis in "xyz"
+    )

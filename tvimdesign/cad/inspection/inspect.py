@@ -15,7 +15,7 @@ from tvimdesign.cad.cad_report import SolidCheck, at_least, at_most, finding
 from tvimdesign.cad.export.mesh import Mesh, solid_mesh
 from tvimdesign.cad.export.print_files import with_wider_holes
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.features import holes, tight_box
+from tvimdesign.cad.geometry.features import boxes_meet, holes, tight_box
 from tvimdesign.cad.geometry.kinds import PRODUCTION, kind_of, supported_levels
 from tvimdesign.cad.geometry.solids import cylinder, polar, turned
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil
@@ -157,7 +157,7 @@ def bought_checks(placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
             (placed[name].distance(placed[other]), name, other)
             for name in names
             for other in placed
-            if other != name and kind_of(other) not in touched and _near(boxes[name], boxes[other])
+            if other != name and kind_of(other) not in touched and boxes_meet(boxes[name], boxes[other], _INSULATED)
         ]
         if not names:
             continue
@@ -165,15 +165,6 @@ def bought_checks(placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
         text = f"{gap:.3g} mm between {name} and {other}, wires as they are bought; {_INSULATED:g} are wanted"
         level = at_least(gap, _INSULATED - _ROUNDING)
         yield finding(kind, "fits_as_bought", gap, _INSULATED, "mm", level, text, place=placed[name].Center().toTuple())
-
-
-def _near(first: cq.BoundBox, second: cq.BoundBox) -> bool:
-    """Return whether two boxes are within the least gap of each other."""
-    return all(
-        getattr(first, f"{axis}min") < getattr(second, f"{axis}max") + _INSULATED
-        and getattr(second, f"{axis}min") < getattr(first, f"{axis}max") + _INSULATED
-        for axis in "xyz"
-    )
 
 
 def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:

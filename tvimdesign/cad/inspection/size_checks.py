@@ -22,7 +22,7 @@ from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import CHORD, Instance, Mesh
 from tvimdesign.cad.export.print_files import body_of
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.features import tight_box
+from tvimdesign.cad.geometry.features import boxes_meet, tight_box
 from tvimdesign.cad.geometry.kinds import CHANGING, KINDS, SPRINGS, TURNING, is_of_structure, kind_of
 from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.geometry.spring_solids import installed_coil
@@ -194,7 +194,7 @@ def interference_checks(
     """
     boxes = {name: tight_box(solid) for name, solid in placed.items()}
     pairs = [pair for pair in combinations(placed, 2) if wanted(*pair)]
-    near = [pair for pair in pairs if _overlap(*(boxes[name] for name in pair))]
+    near = [pair for pair in pairs if boxes_meet(*(boxes[name] for name in pair))]
     shared = _shared(placed, [pair for pair in near if not apart(*pair)])
     for pair in near:
         (first, second), (common, place) = pair, shared.get(pair, (0.0, None))
@@ -274,11 +274,3 @@ def _polar_moment(solid: cq.Solid) -> float:
     properties = GProp_GProps()
     BRepGProp.VolumeProperties_s(solid.wrapped, properties)
     return float(properties.MomentOfInertia(gp.OZ_s()))
-
-
-def _overlap(a: cq.BoundBox, b: cq.BoundBox) -> bool:
-    """Return whether two boxes share more than a face."""
-    return all(
-        getattr(a, f"{axis}min") < getattr(b, f"{axis}max") and getattr(b, f"{axis}min") < getattr(a, f"{axis}max")
-        for axis in "xyz"
-    )
