@@ -18,7 +18,7 @@ from contextlib import ExitStack
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent
@@ -83,13 +83,8 @@ def warm_up(mode: str = "") -> None:
     import_module("tvimdesign.cad.render.pictures")
 
 
-def run(design_path: Path, out: Path, part_limit: float, lines: TextIO) -> None:
-    """Make what is not kept from before, put all files into `out`; tells `lines` each step, then what came of it."""
-
-    def say(**message: Any) -> None:
-        lines.write(json.dumps(message) + "\n")
-        lines.flush()
-
+def run(design_path: Path, out: Path, part_limit: float, say: Callable[..., None]) -> None:
+    """Make what is not kept from before, put all files into `out`; `say` gets each step, then what came of it."""
     started = time.perf_counter()
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
@@ -160,7 +155,7 @@ def _hand_out(result: Result, out: Path) -> None:
         atomic_write(out / name, (result.folder / "out" / name).read_bytes())
 
 
-def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] = run) -> int:
+def main(arguments: list[str], job: Callable[[Path, Path, float, Callable[..., None]], None] = run) -> int:
     """Run a job, by default that of all parts; return the exit code. An error is a line of JSON too.
 
     Told to wait, it loads the CAD kernel, and reads a line of JSON with the other arguments from standard input.
@@ -170,6 +165,11 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] 
     # The kernel prints to standard output from C++; the parent reads only what is written to this copy of it.
     lines = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
+
+    def say(**message: Any) -> None:
+        lines.write(json.dumps(message) + "\n")
+        lines.flush()
+
     try:
         if arguments[0] == WAITING:
             load_kernel()
@@ -179,12 +179,10 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] 
                 return 0
             arguments = json.loads(line)
         design_path, out = (Path(argument) for argument in arguments[:2])
-        job(design_path, out, float(arguments[2]), lines)
+        job(design_path, out, float(arguments[2]), say)
     except TvimError as error:
-        lines.write(json.dumps({"error": str(error), "code": error.exit_code}) + "\n")
+        say(error=str(error), code=error.exit_code)
         return error.exit_code
-    finally:
-        lines.flush()
     return 0
 
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 import json
 import sys
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,13 +33,8 @@ BASE, MOVING = "base", "moving"
 """What stands with the housing, and what turns with the rotor."""
 
 
-def run(design_path: Path, out: Path, _part_limit: float, lines: TextIO) -> None:
-    """Write mass properties and meshes of both bodies; tells `lines` each step, then what the checks found."""
-
-    def say(**message: Any) -> None:
-        lines.write(json.dumps(message) + "\n")
-        lines.flush()
-
+def run(design_path: Path, out: Path, _part_limit: float, say: Callable[..., None]) -> None:
+    """Write mass properties and meshes of both bodies; `say` gets each step, then what the checks found."""
     started = time.perf_counter()
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
