@@ -70,7 +70,10 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE, [GRAVE], "Not yet: pin fillet safety is 0.93"),
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.2}}, [],
          "Measure the structure layer strength first: it decides on the retainer thread"),
-        (answer(), SURE, [RunWarning("a spring may rattle")], "Build it"),
+        (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
+         "Build it"),
+        (answer(), SURE, [],
+         "Build it; on the first module measure the structure layer strength"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip

@@ -225,7 +225,7 @@ def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float
 
 def lost_in_words(lost: LostTo) -> str:
     """Return a limit that too many modules break, and the tolerances that carry its spread."""
-    named = [f"{name} {percent(share, 2)}" for name, share in lost.carriers.items() if share >= _CARRIED]
+    named = [f"{name} {share:.0%}" for name, share in lost.carriers.items() if share >= _CARRIED]
     return f"{lost.text}, which {percent(lost.share)} keep{'; its spread is of ' if named else ''}{', '.join(named)}"
 
 

@@ -121,7 +121,9 @@ def _times(value: _Values) -> Iterator[str]:
     soft, stiff = (value.values[name] for name in ("softening_time", "stiffening_time"))
     reached = from_si(value.values["softened_temperature"], "degC")
     coldest = (
-        f" at {reached:.0f} {pretty('degC')}{value.ends('softened_temperature')}" if math.isfinite(reached) else ""
+        f", coldest PCL {reached:.0f} {pretty('degC')}{value.ends('softened_temperature')}"
+        if math.isfinite(reached)
+        else ""
     )
     yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}{coldest}"
     if math.isfinite(stiff):
@@ -138,7 +140,8 @@ def _lost_motion(value: _Values) -> list[Fact]:
     """Return lost motion and friction as shares of the stroke and of the springs' torque, with what adds most."""
     shares = {"lost_motion": value.values["lost_motion"] / value.values["stroke"]}
     shares["friction_share"] = value.values["friction_share"]
-    texts = {"lost_motion": "{} of the stroke", "friction_share": "friction {} of the springs' torque"}
+    stroke = f"the stroke, ±{from_si(value.values['stroke'], 'deg'):.3g}°"
+    texts = {"lost_motion": f"{{}} of {stroke}", "friction_share": "friction {} of the springs' torque"}
     large = [name for name, share in shares.items() if share > _LARGE]
     parts = [texts[name].format(value.in_percent(name, shares[name])) for name in large]
     most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in large]
@@ -205,7 +208,7 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     first = measure_first(name, uncertainty)
-    text = f"else {label(name)} fails first, in {100.0 * (1.0 - share):.0f} % of ranges"
+    text = f"if not, {label(name)} fails first, in {100.0 * (1.0 - share):.0f} % of cases"
     return [Fact("Model", [text, *([f"measure {label(first)}"] if first else [])])]
 
 

@@ -10,7 +10,8 @@
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
-9. *Build it*. Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
+9. *Build it*; with what to measure on the first module where that limit is met in less than `SURE` of the cases.
+   Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ TARGET = 0.95
 """Yield below which a design without margins is only a nominal one."""
 DOUBT = 0.25
 """Share of the plausible cases in which the limit most in doubt must be met."""
+SURE = 0.75
+"""Share below which the first module is to be measured."""
 
 Kind = Literal[
     "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build",
@@ -194,7 +197,9 @@ def measure_first(output: str, uncertainty: Mapping[str, Any]) -> str:
 
 def _fit(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict:
     if uncertainty:
-        return Verdict("build", "Build it")
+        name, share = most_in_doubt(uncertainty)
+        first = measure_first(name, uncertainty) if name and share < SURE else ""
+        return Verdict("build", f"Build it; on the first module measure the {label(first)}" if first else "Build it")
     return Verdict("unassessed", "Every limit is met" if answer.solution is None else "Optimum found")
 
 
