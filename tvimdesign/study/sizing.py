@@ -147,10 +147,8 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
     soft = f"softening_band: {band:.3g}   # soft within the stiffness that is asked, not only near it\n"
     about = "to either side of rest" + ("; assumed, as --stroke was not given" if task.assumes_stroke else "")
     stroke = f"stroke: {task.stroke:.4g} rad  # {about}\n"
-    cut_out = _CUT_OUT if task.diameter > _ROOMY * diameters()[hardware] else ("", "")
-    module = _indented(
-        f"{stroke}{shared['common']}{cut_out[0]}{soft}{heater}{shared[entry['springs']]}{entry['module']}"
-    )
+    cut_out = _CUT_OUT if task.diameter > _ROOMY * diameters()[hardware] else ""
+    module = _indented(f"{stroke}{shared['common']}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}")
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
 #   tvimdesign run FILE        optimises it again after a change
@@ -174,7 +172,7 @@ require:
   current_margin: ">= 0 A"             # of the heater
   peltier_temperature_margin: ">= 5 K"
   structure_temperature_margin: ">= 0 K"
-{cut_out[1]}  friction_share: "<= {task.friction:.1f}"             # over the springs' torque at full stroke
+  friction_share: "<= {task.friction:.1f}"             # over the springs' torque at full stroke
   spring_fatigue_safety: ">= 1.2"      # for 1e6 full strokes
   layer_edge_safety: ">= 1"            # the bond at the layer's edges
   pin_foot_safety: ">= 1"              # the pins' fillets
@@ -197,11 +195,7 @@ solver: {{starts: 1, seed: 1}}
 
 _ROOMY = 0.93
 """Share of the diameter that hardware suits from which the longer cut-out, of a fitting temperature, has room."""
-_CUT_OUT = (
-    "heater_fuse: microtemp_g4a         # a cut-out of 104 degC, below what the structure bears\n",
-    '  cutout_margin: ">= 0 K"              # it opens before the structure softens, and not in work\n',
-)
-"""Line of the module, and of the requirements."""
+_CUT_OUT = "heater_fuse: microtemp_g4a         # a cut-out of 104 degC, below what the structure bears\n"
 
 
 def _inputs() -> dict[str, Input]:

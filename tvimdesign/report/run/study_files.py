@@ -94,7 +94,10 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
         raise InputError(f"{file}: exists already; name another file, or say --overwrite")
     atomic_write(file, study_text(task, hardware_by_fit(task)[0], file.stem).encode())
     with progress_output() as progress:
-        text = sized_text(task, file.stem, progress)
+        try:
+            text = sized_text(task, file.stem, progress)
+        except InfeasibleError as error:
+            raise InfeasibleError(f"{error}\n{file} has the study as it was asked; --overwrite replaces it.") from error
     atomic_write(file, text.encode())
     if task.assumes_stroke:
         print(f"stroke of {STROKE} to either side of rest assumed; --stroke changes it", file=sys.stderr)

@@ -362,8 +362,8 @@ class Relaxation:
     ) -> Run:
         """Return a run within some ends; the same one again where it is asked again, by a box or by its halves."""
         numbers = (None if warm is None else warm.unknowns, begin, unknowns)
-        kept = (*sorted(ends.items()), *sorted(self.optimizer.margins.items()))
-        key = (*kept, *(None if part is None else part.tobytes() for part in numbers))
+        margined = (*sorted(ends.items()), *sorted(self.optimizer.margins.items()))
+        key = (*margined, *(None if part is None else part.tobytes() for part in numbers))
         if key not in self._runs:
             run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
             self.work.count(run.start, warm=warm is not None)

@@ -25,7 +25,7 @@ from tvimdesign.report.output.numbers import (
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.run.blocks.tables import torque_path
-from tvimdesign.report.run.blocks.verdict import measure_first, most_in_doubt
+from tvimdesign.report.run.blocks.verdict import SURE, measure_first, most_in_doubt
 from tvimdesign.report.run.reasons import binding
 from tvimdesign.report.run.uncertainty_data import cost_of_margins, gain_without_margins, reached_in_words, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
@@ -78,7 +78,7 @@ class _Values:
         return f" ({ends})" if ends else ""
 
     def in_percent(self, name: str, share: float) -> str:
-        """Return a value as `31 % (25 to 43)` of a whole of which it is this share."""
+        """Return a share of a whole, with its range, as `31 % (25 to 43)`."""
         entry = self.intervals.get(name)
         ends = {end: 100.0 * share * entry[end] / entry["value"] for end in ("low", "high")} if entry else {}
         text = f"{100.0 * share:.0f} %"
@@ -207,7 +207,7 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     name, share = most_in_doubt(uncertainty)
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
-    first = measure_first(name, uncertainty)
+    first = measure_first(name, uncertainty) if share >= SURE else ""  # the verdict names it
     text = f"if not, {label(name)} fails first, in {100.0 * (1.0 - share):.0f} % of cases"
     return [Fact("Model", [text, *([f"measure {label(first)}"] if first else [])])]
 

@@ -137,9 +137,9 @@ def assumptions_section(answered: AnsweredStudy) -> Section:
         words = "How sure the design is was not computed in this run."
         return Section("assumptions", "Assumptions", [Words([words])])
     more = [
-        tables.unmeasured_grid(uncertainty, answered.reported["values"]),
-        tables.assumptions_grid(uncertainty.get("assumptions", {})),
         tables.held_grid(uncertainty),
+        tables.assumptions_grid(uncertainty.get("assumptions", {})),
+        tables.unmeasured_grid(uncertainty, answered.reported["values"]),
     ]
     folded = [Folded(grid.caption, [grid]) for grid in more if grid.rows]
     return Section("assumptions", "Assumptions", [tables.intervals_grid(uncertainty["intervals"]), *folded])
