@@ -193,6 +193,7 @@ def test_finished_runs_are_compared_without_computing(
     compared = json.loads(done.stdout)
     (difference,) = compared["differences"]
     assert "module.current: 1.4 A here, 1.5 A in" in difference
+    assert sum(text.startswith("Verdict on ") for text in compared["conclusions"]) == 2
     rows = {row["name"]: row for row in compared["comparisons"]["drawn"]}
     designs = [json.loads((run / "design.json").read_text())["values"]["spring_stiffness"] for run in runs]
     assert [*rows["spring_stiffness"]["ratio"].values()] == [pytest.approx(designs[1] / designs[0])]

@@ -149,7 +149,7 @@ class Outcome:
     @cached_property
     def conclusions(self) -> list[str]:
         """The sentences that follow, the conditions first."""
-        sentences = [self.sentence]
+        sentences = [self.sentence, *self._verdicts()]
         for which in self.rows:
             texts = self._against(which) if which != self.which else []
             broken = [
@@ -158,6 +158,12 @@ class Outcome:
             ]  # fmt: skip
             sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in (*texts, *broken)]
         return [*sentences, *(standing(contest) for contest in self.contests)]
+
+    def _verdicts(self) -> list[str]:
+        """Return the verdicts of finished runs."""
+        designs = {label: answer.get(self.which, {}) for label, answer in self.found.items()}
+        texts = [f"{label}: {design['verdict']}." for label, design in designs.items() if design.get("verdict")]
+        return [f"Verdict on {text}" for text in texts]
 
     @property
     def sentence(self) -> str:

@@ -46,6 +46,7 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
             {"output": check["output"], "value": check["si"]["value"], "because": check["origin"]}
             for check in results.get("warnings", ())
         ],
+        "verdict": results.get("verdict", ""),
         "above_rating": list(design.above_rating),
         "accepting": list(design.accepting),
         "soft": soft_in_words(design, table),

@@ -363,6 +363,7 @@ class Answered(Head):
 class RunResults(Answered):
     """The result of a run: results.json, and with `folder` and `not_done` the output of `run --json`."""
 
+    verdict: NotRequired[str]
     why: NotRequired[Why]
     starts: NotRequired[Starts]
     conflict_set: NotRequired[Conflict | None]

@@ -74,7 +74,7 @@ def run_study(
         if plots and study.write.plots:
             command.start_plotter(gives_way=True)
         from tvimdesign.report.run.answered_study import answer_study, drawings
-        from tvimdesign.report.run.first_screen import write_summary
+        from tvimdesign.report.run.first_screen import verdict_of, write_summary
         from tvimdesign.report.run.run_page import (
             finish,
             summary_sheet,
@@ -106,6 +106,7 @@ def run_study(
             command.missing = [f"parts: {without}"] if without else []
         write_answer(folder, answered)  # before this run waits for other processes
         _wait_for_uncertainty(answered, uncertainty, progress)
+        answered.reported["verdict"] = verdict_of(answered).text
         write_results(folder, answered)
         write_summary(answered, folder)
         progress("")
