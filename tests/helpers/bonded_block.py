@@ -15,8 +15,8 @@ CORNERS = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)
 
 def strains(point: Array, size: Array) -> Array:
     """Strains (xx, yy, zz, xy, yz, zx) at a point of a brick from the displacements of its corners."""
-    one = 1.0 + CORNERS * point
-    slopes = CORNERS / 8.0 * one[:, [1, 0, 0]] * one[:, [2, 2, 1]] * 2.0 / size
+    sides = 1.0 + CORNERS * point
+    slopes = CORNERS / 8.0 * sides[:, [1, 0, 0]] * sides[:, [2, 2, 1]] * 2.0 / size
     rows = np.zeros((6, 24))
     for axis in range(3):
         rows[axis, axis::3] = slopes[:, axis]
@@ -56,6 +56,6 @@ def apparent_modulus(
     moved = np.zeros((len(grid), 3))
     moved[pressed, 2] = -half[2]
     given, free = np.flatnonzero(fixed.ravel()), np.flatnonzero(~fixed.ravel())
-    found = moved.ravel()
-    found[free] = spsolve(matrix[free][:, free].tocsc(), -(matrix[free][:, given] @ found[given]))
-    return float(found @ (matrix @ found) / np.prod(half))
+    ways = moved.ravel()
+    ways[free] = spsolve(matrix[free][:, free].tocsc(), -(matrix[free][:, given] @ ways[given]))
+    return float(ways @ (matrix @ ways) / np.prod(half))

@@ -67,7 +67,7 @@ class Talk:
 
     async def answer(self, stage: str) -> dict[str, Any]:
         """The next answer of a stage."""
-        return await self.until(lambda one: one["kind"] == "answer" and one["shown"]["stage"] == stage)
+        return await self.until(lambda sent: sent["kind"] == "answer" and sent["shown"]["stage"] == stage)
 
     async def change(self, **message: Any) -> dict[str, Any]:
         """Send a message and return the state that follows."""
