@@ -234,7 +234,7 @@ def test_arrays_and_symbols_give_the_same_outputs(seed: int, small_model: Device
         for name in wanted:
             value = np.broadcast_to(np.asarray(arrays[name], dtype=float), (3,))[j]
             # A difference of angles of about one is as good as they are, to a rounding each.
-            rounded = 4.0 * np.finfo(float).eps if TABLE.unit(name) == "rad" else 1e-300
+            rounded = 4.0 * np.finfo(float).eps if TABLE.unit(name) in ("rad", "deg") else 1e-300
             assert value == pytest.approx(symbols[name], rel=digits(name, 1e-11), abs=rounded), name
 
 
