@@ -27,13 +27,17 @@ def _linear(columns: np.ndarray) -> np.ndarray:
     return SLOPES @ columns
 
 
+def _drawn(function: spread.Columns, parts: list[Contributor], samples: int, seed: int) -> spread.MonteCarlo:
+    return spread.moments_of(spread.drawn_values(function, parts, samples, seed))
+
+
 def test_of_a_linear_function_all_three_agree_with_algebra() -> None:
     deviations = [0.1, 0.3 / math.sqrt(3.0), 0.1]
     expected = [math.hypot(2.0 * deviations[0], 3.0 * deviations[1], deviations[2]), 5.0 * deviations[2]]
     deviation, shares = spread.shares(PARTS, SLOPES)
     assert deviation == pytest.approx(expected, rel=1e-12)
     assert np.sum(shares, axis=1) == pytest.approx(1.0)
-    drawn = spread.monte_carlo(_linear, PARTS, 1 << 16, seed=1)
+    drawn = _drawn(_linear, PARTS, 1 << 16, seed=1)
     assert drawn.mean == pytest.approx([-5.0, -5.0], abs=1e-4)
     assert drawn.deviation == pytest.approx(expected, rel=1e-3)
     worst = spread.worst_case(_linear, PARTS, SLOPES)
@@ -44,10 +48,10 @@ def test_of_a_linear_function_all_three_agree_with_algebra() -> None:
 
 
 def test_a_normal_part_has_the_quantiles_and_yield_of_its_distribution() -> None:
-    drawn = spread.monte_carlo(lambda x: x, PARTS[:1], 1 << 16, seed=1)
+    drawn = _drawn(lambda x: x, PARTS[:1], 1 << 16, seed=1)
     assert drawn.low[0] == pytest.approx(1.0 - 3.0 * 0.1, abs=2e-3)
     assert drawn.high[0] == pytest.approx(1.0 + 3.0 * 0.1, abs=2e-3)
-    drawn = spread.monte_carlo(lambda x: x, PARTS[:1], 1 << 16, seed=2)
+    drawn = _drawn(lambda x: x, PARTS[:1], 1 << 16, seed=2)
     found = spread.share_kept(drawn.values[0] <= 1.1)  # one standard deviation above the mean
     assert found.share == pytest.approx(0.841345, abs=1e-4)
     assert found.low < 0.841345 < found.high
@@ -63,7 +67,7 @@ def test_the_worst_case_bounds_every_module_within_tolerance() -> None:
 
     slopes = np.array([[1.0, 1.0, -1.0], [math.e, -1.0, -1.0]])
     worst = spread.worst_case(bent, parts, slopes)
-    drawn = spread.monte_carlo(bent, parts, 1 << 12, seed=3)
+    drawn = _drawn(bent, parts, 1 << 12, seed=3)
     assert np.all(drawn.values.min(axis=1) >= worst.low)
     assert np.all(drawn.values.max(axis=1) <= worst.high)
 
@@ -96,7 +100,7 @@ def test_the_interval_of_a_yield_is_wilsons(good: int, count: int) -> None:
 
 def test_what_never_happens_is_counted_and_left_out_of_the_mean() -> None:
     parts = [Contributor("a", 0.0, 1.0, "uniform")]
-    drawn = spread.monte_carlo(lambda x: np.where(x > 0.5, np.inf, x), parts, 1 << 12, seed=1)
+    drawn = _drawn(lambda x: np.where(x > 0.5, np.inf, x), parts, 1 << 12, seed=1)
     assert drawn.never[0] == pytest.approx(0.25, abs=1e-3)
     assert drawn.mean[0] == pytest.approx(-0.25, abs=1e-3)
     assert spread.share_kept(drawn.values[0] <= 9.0).share == pytest.approx(0.75, abs=1e-3)
@@ -110,7 +114,7 @@ def test_draws_stay_within_limits_and_samples_are_a_power_of_two() -> None:
 
 
 def test_the_last_of_several_chunks_has_what_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
-    whole = spread.monte_carlo(_linear, PARTS, 8, seed=1).values
+    whole = _drawn(_linear, PARTS, 8, seed=1).values
     monkeypatch.setattr(spread, "CHUNK", 8)
     chunks: list[int] = []
 
@@ -118,7 +122,7 @@ def test_the_last_of_several_chunks_has_what_is_left(monkeypatch: pytest.MonkeyP
         chunks.append(columns.shape[1])
         return _linear(columns)
 
-    drawn = spread.monte_carlo(counted, PARTS, 20, seed=1)
+    drawn = _drawn(counted, PARTS, 20, seed=1)
     assert chunks == [8, 8, 4]
     assert drawn.values.shape == (2, 20)
     assert np.array_equal(drawn.values[:, :8], whole)

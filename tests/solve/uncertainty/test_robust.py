@@ -1,12 +1,15 @@
 """A robust optimum keeps its limits by margins of one quantile, and Monte Carlo finds that yield."""
 
 from statistics import NormalDist
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from small_studies import ALGEBRAIC
 
+from tvimdesign.base.deadline import NEVER
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.reasons import complaint
@@ -19,9 +22,10 @@ from tvimdesign.solve.pareto.front import Front, trace_front
 from tvimdesign.solve.pareto.tradeoff import Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import optimize
+from tvimdesign.solve.uncertainty import robust
 from tvimdesign.solve.uncertainty.tolerance import Spread, Tolerancing
 from tvimdesign.solve.uncertainty.yield_search import _moves
-from tvimdesign.solve.uncertainty.yields import MODULES, Drawn, yields_of
+from tvimdesign.solve.uncertainty.yields import FEW_MODULES, MODULES, Drawn, Yields, yields_of
 from tvimdesign.study import read_study_text
 
 TIMED = """
@@ -163,6 +167,41 @@ def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
     found = answer(study)
     assert not found.found
     assert "(`robust`): ask for fewer, or spread less" in complaint(found, study.table)
+
+
+def test_few_modules_reveal_a_low_yield_and_more_continue_them() -> None:
+    optimizer = Optimizer(read_study_text(ALGEBRAIC, "a test"))
+    inputs, yields = optimizer.model.start, Yields(optimizer)
+    few = yields.compared(inputs, 1.1, NEVER)
+    assert few.residuals.shape[1] == FEW_MODULES
+    whole = yields.compared(inputs, 0.0, NEVER)
+    assert whole.residuals.shape[1] == MODULES
+    at_once = Yields(optimizer).at(inputs)
+    assert np.array_equal(whole.residuals, at_once.residuals)
+    assert np.array_equal(whole.columns, at_once.columns)
+
+
+def test_the_best_design_with_margins_wins(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rank three designs: the second is best with margins, and the third is worse without than that with them."""
+    nominal, margined = {"first": 1.0, "second": 1.05, "third": 1.3}, {"first": 1.2, "second": 1.1, "third": 1.4}
+    drawn: list[str] = []
+
+    def run(objective: float) -> Any:
+        return SimpleNamespace(start=SimpleNamespace(objective=objective, converged=True), inputs=None, unknowns=None)
+
+    def found(optimizer: Any, *_: object) -> robust.Robust:
+        drawn.append(optimizer.name)
+        return robust.Robust(run(margined[optimizer.name]), {}, 0.96, reached=True)
+
+    monkeypatch.setattr(robust, "_robust", found)
+    monkeypatch.setattr(robust, "same_optimum", lambda *_: False)
+    candidates: Any = [
+        (SimpleNamespace(name=name, margins={}, deadline=NEVER, solve=lambda *_, n=name, **__: run(margined[n])),
+         run(nominal[name]), {})
+        for name in nominal
+    ]  # fmt: skip
+    place, best = robust.most_robust(candidates)
+    assert (place, best.start.objective, drawn) == (1, 1.1, ["first", "second"])
 
 
 A, B = Constraint("a", "<=", 1.0, 1.0, "require"), Constraint("b", ">=", 1.0, 1.0, "require")

@@ -261,11 +261,11 @@ class _Strokes(MatplotlibBackend):
         if len(path):
             self._lines[self.get_lineweight(properties)].append(to_matplotlib_path([path]))
 
-    def draw_filled_paths(self, paths: Iterable[BkPath2d], properties: BackendProperties) -> None:  # noqa: ARG002
+    def draw_filled_paths(self, paths: Iterable[BkPath2d], properties: BackendProperties) -> None:  # noqa: ARG002 - the backend passes it
         """Draw a letter: the sense in which an outline runs says whether it is filled, as fonts mean it."""
         self._filled += [to_matplotlib_path([path]) for path in paths if len(path)]
 
-    def draw_filled_polygon(self, points: BkPoints2d, properties: BackendProperties) -> None:  # noqa: ARG002
+    def draw_filled_polygon(self, points: BkPoints2d, properties: BackendProperties) -> None:  # noqa: ARG002 - the backend passes it
         """Draw an arrowhead, or what else has straight sides."""
         self._filled.append(Outline([(point.x, point.y) for point in points.vertices()]))
 

@@ -152,11 +152,6 @@ def shares(contributors: Sequence[Contributor], derivatives: Array) -> tuple[Arr
     return np.sqrt(variance[:, 0]), np.divide(parts, variance, out=np.zeros_like(parts), where=variance > 0.0)
 
 
-def monte_carlo(function: Columns, contributors: Sequence[Contributor], samples: int, seed: int) -> MonteCarlo:
-    """Return the outputs of modules drawn by scrambled Sobol points; their number is a power of two."""
-    return moments_of(drawn_values(function, contributors, samples, seed))
-
-
 def drawn_values(
     function: Columns, contributors: Sequence[Contributor], samples: int, seed: int, first: int = 0
 ) -> Array:

@@ -79,10 +79,11 @@ class _Values:
 
     def in_percent(self, name: str, share: float) -> str:
         """Return a share of a whole, with its range, as `31 % (25 to 43)`."""
-        entry = self.intervals.get(name)
-        ends = {end: 100.0 * share * entry[end] / entry["value"] for end in ("low", "high")} if entry else {}
-        text = f"{100.0 * share:.0f} %"
-        return f"{text} ({ends['low']:.0f} to {ends['high']:.0f})" if ends else text
+        entry, text = self.intervals.get(name), f"{100.0 * share:.0f} %"
+        if entry is None or None in (entry["low"], entry["high"]):
+            return text
+        low, high = (100.0 * share * entry[end] / entry["value"] for end in ("low", "high"))
+        return f"{text} ({low:.0f} to {high:.0f})"
 
     def most(self, *names: str) -> str:
         """Return the name of the largest of some that happen."""
