@@ -46,10 +46,9 @@ def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer
     optimizer.solve()
     seconds = optimizer.seconds["solve"] - before
     signaling = threading.Timer(share * seconds, os.kill, (os.getpid(), signal.SIGTERM))
-    with interrupt_handler():
+    with interrupt_handler(), pytest.raises(KeyboardInterrupt):
         signaling.start()
-        with pytest.raises(KeyboardInterrupt):
-            _solve_until_interrupted(optimizer)
+        _solve_until_interrupted(optimizer)
 
 
 def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optimizer) -> None:
