@@ -15,7 +15,9 @@ sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
 from compare import STUDIES, Judge, model_of, plane_of, studies
 from fe_drawings import DRAWINGS, SHEET, Drawing, graded
 from outside_judge import CASES, PADS, case_of
+from warm_joint import WarmJoint
 
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 
 with (ROOT / "validation/heat_sector/outside_judge.csv").open(newline="", encoding="utf-8") as file:
@@ -105,3 +107,41 @@ def test_lines_of_a_grid_keep_to_their_places_and_widen_between_them() -> None:
     assert np.all(widths > 0.0)
     assert widths[np.searchsorted(lines, 1.0)] < 0.015
     assert len(graded([(0.0, 0.1), (1.0, 0.01)], 2.0)) == pytest.approx(2 * len(lines[lines <= 1.0]), abs=2)
+
+
+NAMES = ("paper_reconstructed", "paper_compression")
+
+
+def joint_of(name: str) -> WarmJoint:
+    module = resolve_study(read_study(ROOT / f"studies/{name}.yaml"))
+    return WarmJoint(module.table, module.values)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_alike_columns_are_one_and_molten_ones_are_soft(name: str) -> None:
+    joint = joint_of(name)
+    parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 100.0, 23.0)
+    column = joint.stiffness(np.full((1, 4), 100.0), np.ones(1), np.full(4, 0.25), parts)
+    many = joint.stiffness(np.full((3, 8), 100.0), np.array([0.2, 0.3, 0.5]), np.full(8, 0.125), parts)
+    assert many == pytest.approx(column, rel=1e-12)
+    parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
+    alone = float(joint.quantity["spring_stiffness"])
+    frozen, molten = (joint.stiffness(np.full((1, 4), at), np.ones(1), np.full(4, 0.25), parts) for at in (23.0, 120.0))
+    held = 1.0 / sum(joint.quantity["structure_compliances"]) if name == NAMES[0] else frozen
+    assert frozen == pytest.approx(alone + held, rel=0.05)
+    assert alone < molten < 0.2 * frozen
+
+
+def test_a_molten_film_is_in_series_and_uneven_blocks_are_refused() -> None:
+    joint = joint_of(NAMES[0])
+    parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
+    shares, slices = np.ones(1), np.array([0.1, 0.9])
+    alone = float(joint.quantity["spring_stiffness"])
+    whole, film = (joint.stiffness(np.array([[120.0, other]]), shares, slices, parts) for other in (120.0, 23.0))
+    # Ten times as stiff as the whole layer molten, but for what structure and frozen rest give.
+    assert film - alone == pytest.approx(10.0 * (whole - alone), rel=0.15)
+    # `block.soft_share` counts slices: thin ones in the melt would make more of it than there is.
+    joint = joint_of(NAMES[1])
+    parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
+    with pytest.raises(ValueError, match="alike"):
+        joint.stiffness(np.full((1, 2), 100.0), np.ones(1), np.array([0.1, 0.9]), parts)

@@ -18,8 +18,7 @@ FAR = 0.10
 """Share by which model and FE may differ before the row is marked."""
 SOLVED = (
     "Solved with netgen and NGSolve from the exported parts. Stresses and stiffness: quadratic tetrahedra, tied where "
-    "parts are bonded; the core's top turns as one, the feet are held. Screws: link and core touch without friction. "
-    "Heat: half an arc or half a vane in cells, each of the part drawn in its middle, implicit steps in time."
+    "parts are bonded; the core's top turns as one, the feet are held. Screws: link and core touch without friction."
 )
 FILES = {"verify.csv": "the rows", DATA: "rows and what each solver found"}
 _SHOWS = {
@@ -27,7 +26,6 @@ _SHOWS = {
     "spring": "Stress in one spring under the pin's force on its leg",
     "screws": "Stress in link and core under the tightened link screws",
     "link": "Stress in the link under a force in its tool hole",
-    "heat": "Temperature of half an arc or half a vane when the polymer's mean is as warm as asked",
 }
 
 

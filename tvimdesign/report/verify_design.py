@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -13,9 +12,8 @@ import numpy as np
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.cad.fe.model_comparison import HEAT, SOLVERS, TIMES, Compared, compared
+from tvimdesign.cad.fe.model_comparison import SOLVERS, Compared, compared
 from tvimdesign.cad.fe.run_solvers import Solved, export_parts, require_fe, run_solvers
-from tvimdesign.cad.fe.warm_joint import WarmJoint, softening_time
 from tvimdesign.page.blocks import Block, Page, Points
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.terminal import Progress
@@ -27,7 +25,7 @@ _WORK = ".verify-"
 """What the name of the folder begins with in which the parts stand while they are solved."""
 TITLES = {
     "joint": "von Mises\nMPa at 1 N m", "spring": "von Mises\nMPa at 1 N m", "link": "von Mises\nMPa at 1 N",
-    "screws": "von Mises\nMPa at 1 N", "heat": "degC at the\npolymer's\ntarget",
+    "screws": "von Mises\nMPa at 1 N",
 }  # fmt: skip
 
 
@@ -62,22 +60,6 @@ def verify_page(command: Command, name: str, data: dict[str, Any], rows: list[Co
     return command.page(name, "verification", status, first, sections, tone="warn" if beyond else "good", files=FILES)
 
 
-def solvers_of(design: Design) -> tuple[str, ...]:
-    """Return what is solved: heat where pads heat the polymer and the model gets it warm, the slowest first."""
-    warmed = any(np.isfinite(design.values.get(name, np.inf)) for name in TIMES)
-    in_pads = design.choices.get("heat_source", "pads") == "pads"
-    return (SOLVERS[0], HEAT, *SOLVERS[1:]) if warmed and in_pads else SOLVERS
-
-
-def _with_softening(module: ResolvedModule, heat: Solved, parts: Path) -> Solved:
-    """Return the heat with the times at which the joint is soft."""
-    joint, times = WarmJoint(module.table, module.values), {}
-    for mesh in ("fine", "coarse"):
-        with np.load(parts / f"heat_{mesh}.npz") as course:
-            times[mesh] = {TIMES[0]: softening_time(joint, dict(course))}
-    return replace(heat, found={**heat.found, **times["fine"]}, coarse={**heat.coarse, **times["coarse"]})
-
-
 def refuse_other_parts(module: ResolvedModule) -> None:
     """Raise InputError for parts that the solvers do not draw."""
     form = module.values.get("heater_form", "flexible")
@@ -96,11 +78,8 @@ def _solved(
     """Export the parts and solve in a folder of work; return the rows and what each solver found."""
     progress("verify: drawing the parts")
     _export(design, work / "parts")
-    names = solvers_of(design)
-    solved = run_solvers(names, work / "parts", work, python, lambda text: progress(f"verify: {text}"))
-    if HEAT in solved:
-        solved[HEAT] = _with_softening(module, solved[HEAT], work / "parts")
-    return compared(module, solved, design.values), solved
+    solved = run_solvers(SOLVERS, work / "parts", work, python, lambda text: progress(f"verify: {text}"))
+    return compared(module, solved), solved
 
 
 def _write(

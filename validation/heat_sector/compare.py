@@ -22,8 +22,8 @@ import compression
 import numpy as np
 import shear
 from plane import Array, Plane, passed
+from warm_joint import WarmJoint
 
-from tvimdesign.cad.fe.warm_joint import WarmJoint
 from tvimdesign.device.core.impedance.warm_structure import PartTemperatures
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions

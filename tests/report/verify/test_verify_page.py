@@ -23,23 +23,23 @@ PIXEL = bytes.fromhex(
 
 def test_rows_pictures_and_solvers_are_on_the_page_worst_first(tmp_path: Path) -> None:
     rows = [
-        Compared("mean_time", "s", "until warm", model=87.0, fe=100.0, coarse=102.0),
+        Compared("core", "N*m/rad", "core of the rotor", model=87.0, fe=100.0, coarse=102.0),
         Compared("hub", "N*m/rad", "frozen joint", model=500.0, fe=505.0, coarse=505.0),
     ]
     solved = {
-        name: Solved({"unknowns": 2e4, "seconds": 33.0, "gigabytes": 0.7}, {}, tmp_path) for name in ("joint", "heat")
+        name: Solved({"unknowns": 2e4, "seconds": 33.0, "gigabytes": 0.7}, {}, tmp_path) for name in ("joint", "link")
     }
     with OutputCommand(tmp_path / "out") as command:
-        command.folder.write("heat.png", PIXEL)
+        command.folder.write("joint.png", PIXEL)
         page = verify_page(command, "Wrist", verified(rows, solved), rows)
         text = page_html(page).decode()
     assert page.status == "1 OF 2 BEYOND 10 %"
     assert page.tone == "warn"
-    assert text.index("mean_time") < text.index("hub</")
+    assert text.index("core</") < text.index("hub</")
     assert "0.870" in text
     assert "-2.0" in text
     assert text.count("data:image/png") == 1
-    assert "Temperature of half an arc" in text
+    assert "Stress in the frozen joint" in text
     assert "20000" in text
     rows = [
         Compared(f"of_{model:g}", "s", "", model=model, fe=100.0, coarse=100.0) for model in (89.0, 91.0, 109.0, 110.5)

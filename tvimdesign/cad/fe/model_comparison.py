@@ -24,9 +24,6 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}
 """Idealizations that the drawn parts do not have."""
 SOLVERS = ("joint", "spring", "screws", "link")
-HEAT = "heat"
-"""The solver of designs whose pads heat the polymer."""
-TIMES = ("softening_time", "mean_time", "far_face_time")
 
 
 @dataclass(frozen=True)
@@ -52,17 +49,12 @@ class Compared:
         return self.fe / self.coarse - 1.0
 
 
-def compared(module: ResolvedModule, solved: Mapping[str, Solved], times: Mapping[str, float]) -> list[Compared]:
-    """Return all rows, the largest difference first; `times` are the design's [s]. Times that one of the two lacks are
-    left out."""
-    model = at_loads(module, model_values(module)) | {name: times[name] for name in TIMES if name in times}
+def compared(module: ResolvedModule, solved: Mapping[str, Solved]) -> list[Compared]:
+    """Return all rows, the largest difference first; a row that one of the two lacks is left out."""
+    model = at_loads(module, model_values(module))
     fine = at_loads(module, fe_values(module, {name: fe_solution.found for name, fe_solution in solved.items()}))
     coarse = at_loads(module, fe_values(module, {name: fe_solution.coarse for name, fe_solution in solved.items()}))
-    both = [
-        name
-        for name in fine
-        if all(math.isfinite(fe_solution.get(name, math.inf)) for fe_solution in (model, fine, coarse))
-    ]
+    both = [name for name in fine if name in model and name in coarse]
     rows = [Compared(name, *WORDS[name], model[name], fine[name], coarse[name]) for name in both]
     return sorted(rows, key=lambda row: -abs(math.log(row.ratio)))
 
@@ -89,9 +81,6 @@ WORDS = {
     "link": ("N*m/rad", "link from the core to its tool hole"),
     "link_friction_torque": ("N*m", "torque that friction under the tightened link screws holds, by where they press"),
     "foot_force": ("N", "across the screw of a foot at the holding torque, the foot that takes most"),
-    "softening_time": ("s", "until the joint is soft; of the drawn parts, half an arc or half a vane"),
-    "mean_time": ("s", "until the polymer's mean is as warm as asked"),
-    "far_face_time": ("s", "until its face away from the pads is"),
     "core": ("N*m/rad", "core of the rotor"),
     "plate": ("N*m/rad", "rotor plate"),
     "floor": ("N*m/rad", "floor on its feet"),
@@ -191,7 +180,7 @@ def fe_values(module: ResolvedModule, fe_results: Mapping[str, Mapping[str, floa
     """Return what FE finds, by the same rows."""
     names = ("link_friction_torque", "link_bolt_circle_radius")
     friction, circle = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
-    joint, heat = fe_results["joint"], fe_results.get(HEAT, {})
+    joint = fe_results["joint"]
     held = float(module.table.evaluate(_drawn(module), ("holding_torque",))["holding_torque"])
     slip = friction * fe_results["screws"]["friction_radius"] * 1e-3 / circle
     across = joint["foot_across"] * held if "foot_across" in joint else None
@@ -200,7 +189,6 @@ def fe_values(module: ResolvedModule, fe_results: Mapping[str, Mapping[str, floa
         **joint_rows(joint), **spring_rows(fe_results["spring"]), "natural_frequency": joint["frequency"],
         "link": fe_results["link"]["link"], **({"foot_force": joint["foot_across"]} if "foot_across" in joint else {}),
         "link_friction_torque": slip,
-        **{name: heat[name] for name in TIMES if name in heat},
     }  # fmt: skip
 
 

@@ -5,20 +5,14 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
 from tvimdesign.study.design import Design
-
-if TYPE_CHECKING:
-    import cadquery as cq
 
 SOLVERS = Path(__file__).with_name("solvers")
 COARSER = 1.6
@@ -91,15 +85,8 @@ def _run(commands: CommandGroup, command: list[str], about: str) -> None:
         raise SimulationError(f"verify: {about}: {last}")
 
 
-_FINE, _FINE_ANGLE = 0.02, 0.1
-"""How far triangles may lie from the surface [mm], and turn from it [rad]."""
-
-
 def export_parts(design: Design, folder: Path) -> None:
-    """Write housing, rotor, link, all pads and PCL, one spring, and `inputs.json`: sizes in mm, values in SI.
-
-    `surfaces.npz` has the surfaces of the parts that heat passes, as triangles.
-    """
+    """Write housing, rotor, link, all pads and PCL, one spring, and `inputs.json`: sizes in mm, values in SI."""
     import cadquery as cq
 
     from tvimdesign.cad.assembly.assembly import MODULES
@@ -115,21 +102,8 @@ def export_parts(design: Design, folder: Path) -> None:
     shapes["spring"] = spring_solid(installed_coil(dims))
     for name, shape in shapes.items():
         cq.exporters.export(cq.Workplane(shape), str(folder / f"{name}.step"))
-    heated = {name: shape for name, shape in shapes.items() if name not in ("link", "spring")}
-    np.savez_compressed(folder / "surfaces.npz", **_triangles(heated))
     coil = installed_coil(dims)
     numbers = {"mode": design.mode, "name": design.name, "values": design.values, "mm": dict(dims.by_name),
-               "choices": design.choices, "current_profiles": design.current_profiles,
                "coil": {"turns": coil.turns, "diameter": coil.diameter, "leg_azimuth": coil.leg_azimuth,
                         "end_level": coil.end_level, "start_level": coil.start_level}}  # fmt: skip
     (folder / "inputs.json").write_text(json.dumps(numbers, indent=1))
-
-
-def _triangles(shapes: Mapping[str, cq.Shape]) -> dict[str, Any]:
-    """Return points and triangles of each shape, by its name."""
-    found = {}
-    for name, shape in shapes.items():
-        points, triangles = shape.tessellate(_FINE, _FINE_ANGLE)
-        found[f"{name}.points"] = np.array([point.toTuple() for point in points])
-        found[f"{name}.triangles"] = np.array(triangles)
-    return found

@@ -1,7 +1,7 @@
 """Stiffness of a joint by the temperatures of polymer and structure where each of them is.
 
-The product's own stack has one column of polymer; here every column has its own temperatures, as finite elements in
-space find them. What the polymer and the structure are at a temperature is the product's.
+The product's own stack has one column of polymer; here every column has its own temperatures, as a plane
+finds them. What the polymer and the structure are at a temperature is the product's.
 """
 
 from __future__ import annotations
@@ -68,24 +68,3 @@ class WarmJoint:
         law = (q["structure_softening"], self.values["clamped_loss_factor"], q["lossless_compliance"])
         support = complex(*in_series(q["structure_compliances"], parts, *law))
         return float(abs(q["spring_stiffness"] + 1.0 / (1.0 / layer + 1.0 / support)))
-
-
-def softening_time(joint: WarmJoint, course: Mapping[str, Array]) -> float:
-    """Return when the joint is soft [s], by the heat solver's course of temperatures; infinite where it is not.
-
-    Between two moments the stiffness falls as an exponential.
-    """
-    stiffness = np.array([
-        joint.stiffness(
-            columns, course["shares"], course["slices"], joint.parts(*(course[name][at] for name in _PARTS))
-        )
-        for at, columns in enumerate(course["columns"])
-    ])  # fmt: skip
-    below = np.flatnonzero(stiffness <= joint.soft)
-    if not len(below) or below[0] == 0:
-        return float("inf")
-    pair = slice(below[0] - 1, below[0] + 1)
-    return float(np.interp(-np.log(joint.soft), -np.log(stiffness[pair]), course["times"][pair]))
-
-
-_PARTS = ("core", "edge", "plate", "hot", "cold")
