@@ -84,7 +84,7 @@ kills: $(STAMP)  ## end every command at random moments, and look at what is lef
 folders: $(STAMP)  ## 10,000 random folders with a user's files under every command: no byte of theirs is changed (minutes)
 	OMP_NUM_THREADS=1 $(BIN)/python campaigns/folders.py
 
-sweep-kills: $(STAMP)  ## end jobs of an array, workers and scheduler of a cluster, and compare the tables (minutes)
+sweep-kills: $(STAMP)  ## end jobs of an array of a sweep, and compare the tables (minutes)
 	$(BIN)/python campaigns/sweep_kills.py
 
 random-studies: $(STAMP)  ## whole searches of random studies, each answer attacked by random search, evolution and COBYLA (minutes)

@@ -93,19 +93,6 @@ def robot(env: Environment) -> None:
     env.run("python", "-c", f"import mujoco; mujoco.MjModel.from_xml_path('results/{STUDY}-robot/joint_cold.xml')")
 
 
-def cluster(env: Environment) -> None:
-    """A sweep on a scheduler with one worker."""
-    _write_sweep(env)
-    (env.folder / "on_cluster.py").write_text(
-        "import subprocess, sys\nfrom distributed import LocalCluster\nif __name__ == '__main__':\n"
-        "    with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:\n"
-        "        command = [sys.argv[1], 'sweep', sys.argv[2], '--scheduler', cluster.scheduler_address]\n"
-        "        sys.exit(subprocess.run(command).returncode)\n"
-    )
-    env.run("python", "on_cluster.py", str(env.bin / "tvimdesign"), f"{STUDY}.yaml")
-    env.has(f"results/{STUDY}-sweep/cells.csv")
-
-
 def fe(env: Environment) -> None:
     """Finite elements on the exported parts."""
     env.run("tvimdesign", "new", "--example", FE_STUDY)
@@ -131,7 +118,7 @@ def _write_sweep(env: Environment) -> None:
 
 
 CHECKS: dict[str, Callable[[Environment], None]] = {
-    LIGHT: light, VALIDATION: validation, "cad": cad, "cluster": cluster, "robot": robot, "fe": fe,
+    LIGHT: light, VALIDATION: validation, "cad": cad, "robot": robot, "fe": fe,
 }  # fmt: skip
 
 

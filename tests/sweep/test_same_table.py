@@ -111,30 +111,18 @@ def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file: Path, one_p
     [
         (["--shard", "4/3"], "--shard 4/3: expected part/parts, such as 1/3"),
         (["--shard", "1/3", "--overwrite"], "--overwrite and --shard"),
-        (["--scheduler", "tcp://127.0.0.1:1"], "--scheduler tcp://127.0.0.1:1: the scheduler does not answer"),
         (["--set", "sweep.over.pcl_thicknes=[1 mm]"], "did you mean 'pcl_thickness'?"),
         (["--set", "sweep.over.current={from: 1 A, to: 2 A, count: 1000000}"], "6000000 cells; the limit is 100000"),
         (["--resume", "--overwrite"], "--overwrite and --resume: choose one"),
     ],
 )
 def test_what_cannot_be_done_is_said_in_a_line(
-    tvimdesign: Command, study_file: Path, tmp_path: Path, words: list[str], said: str,
-    monkeypatch: pytest.MonkeyPatch,
+    tvimdesign: Command, study_file: Path, tmp_path: Path, words: list[str], said: str
 ) -> None:  # fmt: skip
-    monkeypatch.setattr("tvimdesign.sweep.cluster.CONNECT", 0.5)
     done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", *words)
     assert done.returncode == 2, done.stderr
     assert said in done.stderr
     assert "Traceback" not in done.stderr
-
-
-def test_an_extra_that_is_missing_is_named(
-    tvimdesign: Command, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:1")
-    assert done.returncode == 2, done.stderr
-    assert "pip install 'tvimdesign[cluster]'" in done.stderr
 
 
 def test_a_folder_of_results_is_not_written_over(tvimdesign: Command, study_file: Path, one_process: Path) -> None:
@@ -172,11 +160,11 @@ if sys.argv[0] == "-m" and "tvimdesign.sweep.pool" in sys.orig_argv:
 
 
 def test_outputs_and_executors_are_read_from_words(study_file: Path) -> None:
-    assert Executor.of(2, "", "").part == (1, 1)
-    assert Executor.of(0, "", "3/8").part == (3, 8)
+    assert Executor.of(2, "").part == (1, 1)
+    assert Executor.of(0, "3/8").part == (3, 8)
     for wrong in ("0/3", "4/3", "a/3", "3", "1/"):
         with pytest.raises(InputError, match="expected part/parts"):
-            Executor.of(0, "", wrong)
+            Executor.of(0, wrong)
     asked = plan(study_file)
     assert asked.columns == ("module_mass", "envelope_diameter", "response_time", "spring_stiffness")
     assert asked.count == 6

@@ -242,7 +242,6 @@ class Study:
         outputs: Sequence[str] | str | None = None,
         out: str | os.PathLike[str] | None = None,
         workers: int = 0,
-        scheduler: str = "",
         overwrite: bool = False,
         progress: bool = True,
         **more: Any,
@@ -256,14 +255,14 @@ class Study:
         be done. A cell without a design is a row with its reason.
 
         Cells are answered in this process and nothing is written, unless `out` names a folder: then `workers` processes
-        (as many as processors unless given), or the cluster of a dask `scheduler`, keep them there, and cells that are
-        there are not computed again. A folder has the `outputs` the study asks about, and those named; here all are
-        kept. Raises StudyError for a value that cannot be set.
+        (as many as processors unless given) keep them there, and cells that are there are not computed again. A folder
+        has the `outputs` the study asks about, and those named; here all are kept. Raises StudyError for a value that
+        cannot be set.
         """
         from tvimdesign.api.sweep import swept
         from tvimdesign.sweep.run_sweep import Executor
 
-        if out is None and (workers or scheduler or overwrite):
+        if out is None and (workers or overwrite):
             raise InputError("sweep: workers keep their cells in a folder; name it with out=")
         section = {"over": {**(axes or {}), **more} or None, "method": method, "count": count, "seed": seed,
                    "task": task, "cells": cells, "outputs": outputs or ("all" if out is None else None)}  # fmt: skip
@@ -272,7 +271,7 @@ class Study:
             tree = self._changed("sweep", "", {"sweep": given})._tree
         else:
             tree = self._changed("sweep", "sweep.", given)._tree if self._tree.section("sweep") else self._tree
-        return swept(tree, Study._of, progress, out, Executor(workers, scheduler), overwrite=overwrite)
+        return swept(tree, Study._of, progress, out, Executor(workers), overwrite=overwrite)
 
     # --- what it looks like ---
 

@@ -23,7 +23,6 @@ def ask_for_one_thread() -> None:
 
 MODULES = {
     "cad": ("cadquery", "ezdxf", "trimesh", "vtkmodules"),
-    "cluster": ("distributed",),
 }
 """What each extra brings, by the modules that are imported."""
 

@@ -130,7 +130,6 @@ def sweep(
     resume: options.Resume = False,
     workers: options.Workers = 0,
     shard: options.Shard = "",
-    scheduler: options.Scheduler = "",
     plots: options.Plots = True,
     time_limit: options.TimeLimit = "",
     settings: options.Settings = None,
@@ -141,7 +140,7 @@ def sweep(
     from tvimdesign.sweep.run_sweep import Executor
 
     sweep_study(
-        study, out or options.results(study, "sweep"), Executor.of(workers, scheduler, shard),
+        study, out or options.results(study, "sweep"), Executor.of(workers, shard),
         overwrite=overwrite, resume=resume, plots=plots, as_json=json,
         settings=options.changes(settings, time_limit),
     )  # fmt: skip

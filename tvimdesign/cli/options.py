@@ -99,9 +99,6 @@ Shard = Annotated[
         "--shard", metavar="I/N", help="Compute part I of N: a job of a batch system's array; all share the folder."
     ),
 ]
-Scheduler = Annotated[
-    str, typer.Option("--scheduler", metavar="ADDRESS", help="Compute on a dask cluster, such as tcp://host:8786.")
-]
 Resume = Annotated[
     bool, typer.Option("--resume", help="Go on in that folder: cells that are there are not computed again.")
 ]

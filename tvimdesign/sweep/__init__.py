@@ -1,1 +1,1 @@
-"""Many cells of a study, evaluated or optimised by processes, batch jobs or a cluster, and gathered to a table."""
+"""Many cells of a study, evaluated or optimised by processes or batch jobs, and gathered to a table."""

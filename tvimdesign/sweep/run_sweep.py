@@ -1,4 +1,4 @@
-"""Cells from their keys to the store, by processes here, a batch job or a cluster: what is there is not done again.
+"""Cells from their keys to the store, by processes here or a batch job: what is there is not done again.
 
 The key of a cell: a hash of the study, of what the cell sets, of the records it stands on, and of the version.
 """
@@ -26,12 +26,10 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Executor:
-    """Place of computing the cells: processes here, a scheduler's workers, or this job of a batch system's array."""
+    """Place of computing the cells: processes here, or this job of a batch system's array."""
 
     workers: int = 0
     """Processes; as many as there are processors where it is 0."""
-    scheduler: str = ""
-    """Address of a dask scheduler; empty for processes here."""
     part: tuple[int, int] = (1, 1)
     """Which part of how many this is, both from 1."""
 
@@ -40,20 +38,15 @@ class Executor:
         """Return whether no other job has a part of it."""
         return self.part == (1, 1)
 
-    @property
-    def said(self) -> bool:
-        """Return whether the user chose another place than here."""
-        return bool(self.scheduler) or not self.alone
-
     @classmethod
-    def of(cls, workers: int, scheduler: str, shard: str) -> Executor:
+    def of(cls, workers: int, shard: str) -> Executor:
         """Read the words of the command line; raises InputError for a shard that is none."""
         first, slash, last = shard.partition("/")
         if not shard:
-            return cls(workers, scheduler)
+            return cls(workers)
         if not (slash and first.isdecimal() and last.isdecimal() and 1 <= int(first) <= int(last)):
             raise InputError(f"--shard {shard}: expected part/parts, such as 1/3, 2/3 and 3/3")
-        return cls(workers, scheduler, (int(first), int(last)))
+        return cls(workers, (int(first), int(last)))
 
 
 @dataclass(frozen=True)
@@ -99,10 +92,6 @@ def _answered(work: SweptStudy, cells: list[Cell], folder: Path, executor: Execu
         say(f"cell {min(spent.cells + 1, len(cells))} of {len(cells)}")
 
     heard(Usage())
-    if executor.scheduler:
-        from tvimdesign.sweep.cluster import Cluster
-
-        return Cluster(executor.scheduler, work, folder).answer(cells, heard)
     return Pool(work, folder, executor.workers or os.cpu_count() or 1).answer(cells, heard)
 
 

@@ -42,7 +42,7 @@ def sweep_study(
     path: Path, out: Path, executor: Executor, *, overwrite: bool, resume: bool, plots: bool, as_json: bool,
     settings: Sequence[str] = (),
 ) -> None:  # fmt: skip
-    """Sweep a study and write its folder. Raises InputError, OutputError, and TvimError for a cluster that is gone."""
+    """Sweep a study and write its folder. Raises InputError, OutputError."""
     plan = plan_of(tree_of_file(path, settings))
     if executor.alone:
         command = Command(out, overwrite=overwrite, as_json=as_json, resume=resume, keep=SHARDS)
