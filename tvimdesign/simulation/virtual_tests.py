@@ -50,10 +50,6 @@ TESTS: dict[str, VirtualTest] = {
         "tvimdesign.simulation.joint_tests.sine:sine",
         "the link turned to and fro: torque against angle, stiffness and damping of the joint in motion",
     ),
-    "step": VirtualTest(
-        "tvimdesign.simulation.joint_tests.step_test:step",
-        "a step of the angle, and the joint softened and stiffened under a load: how far the link moves",
-    ),
 }
 
 

@@ -1,4 +1,4 @@
-"""The three motion tests on the paper's module: what their findings say, against rows and hand calculation."""
+"""The motion tests on the paper's module: what their findings say, against rows and hand calculation."""
 
 from pathlib import Path
 
@@ -9,9 +9,7 @@ from stiff_when_warm import LOSSLESS
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.joint_tests import sine as sine_test
-from tvimdesign.simulation.joint_tests import step_test
 from tvimdesign.simulation.joint_tests.case import with_paper_points
-from tvimdesign.simulation.joint_tests.load_through_cycle import SliceHistory
 from tvimdesign.simulation.trial import Trial
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
@@ -38,15 +36,6 @@ def release(resolved: ResolvedModule) -> Trial:
 @pytest.fixture(scope="module")
 def sine(resolved: ResolvedModule) -> Trial:
     return sine_test.sine(resolved)
-
-
-@pytest.fixture(scope="module")
-def step(resolved: ResolvedModule) -> Trial:
-    times = np.linspace(0.0, 40.0, 81)
-    heat = np.clip(times / 20.0, 0.0, 1.0)
-    temperatures = np.array([303.15 + 70.0 * heat, 303.15 + 65.0 * heat])
-    fractions = np.array([1.0 - np.clip((heat - 0.4) / 0.3, 0.0, 1.0)] * 2)
-    return step_test.step(resolved, history=SliceHistory(times, temperatures, fractions))
 
 
 def value(trial: Trial, name: str) -> float:
@@ -132,30 +121,6 @@ def test_sine_in_time_agrees_with_the_rows_within_one_percent(
     # A cycle's heat is pi b omega theta^2.
     heat = np.pi * damping * 2.0 * np.pi * resolved.quantity(f"frequency@{point}") * resolved.quantity("stroke") ** 2
     assert value(sine, f"cycle_energy@{point}") == pytest.approx(heat, rel=1e-2)
-
-
-def test_step_of_angle_relaxes_to_the_springs_when_hot(resolved: ResolvedModule, step: Trial) -> None:
-    springs = resolved.quantity("spring_stiffness") * resolved.quantity("stroke")
-    assert value(step, "step_final_torque@hot") == pytest.approx(springs, rel=1e-3)
-    assert value(step, "step_final_torque@cold") > 0.95 * value(step, "step_peak_torque@cold")
-    assert value(step, "step_peak_torque@hot") > 10.0 * springs
-
-
-def test_loaded_link_starts_on_the_frozen_layer_and_ends_on_its_springs(resolved: ResolvedModule, step: Trial) -> None:
-    load = resolved.quantity("spring_stiffness") * resolved.quantity("stroke")
-    assert value(step, "loaded_angle_start") == pytest.approx(
-        load / resolved.quantity("joint_stiffness@cold"), rel=0.01
-    )
-    assert value(step, "loaded_angle_end") == pytest.approx(resolved.quantity("stroke"), rel=1e-3)
-    assert abs(value(step, "loaded_layer_share")) < 1e-3
-    # The load did load times way of work; half of it stays in the springs.
-    assert value(step, "loaded_energy_dissipated") == pytest.approx(0.5 * load * resolved.quantity("stroke"), rel=0.02)
-    # It melts from 8 to 14 s, and creeps as it does.
-    assert 8.0 < value(step, "loaded_half_way_time") < 16.0
-    loaded = next(sheet for sheet in step.sheets if sheet.name == "step_of_impedance")
-    angle = loaded.column("angle").values
-    half = np.interp(value(step, "loaded_half_way_time"), loaded.column("time").values, angle)
-    assert half == pytest.approx(0.5 * (angle[0] + angle[-1]), rel=1e-3)
 
 
 def test_interval_holds_what_stands_between_the_histories(resolved: ResolvedModule, release: Trial) -> None:

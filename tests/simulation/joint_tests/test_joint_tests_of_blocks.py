@@ -9,15 +9,11 @@ import pytest
 from stiff_when_warm import LOSSLESS
 from support import ROOT
 
-from tvimdesign.physics.motions import one_sided
 from tvimdesign.report.output.tables import results
 from tvimdesign.simulation.joint_tests import release as release_test
-from tvimdesign.simulation.joint_tests import step_test
 from tvimdesign.simulation.joint_tests.case import Case, cases
-from tvimdesign.simulation.joint_tests.load_through_cycle import SliceHistory
 from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.link_motion import link
-from tvimdesign.simulation.link_motion.sampled_motion import OneSided
 from tvimdesign.simulation.trial import CurveTable, Trial
 from tvimdesign.simulation.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
@@ -77,9 +73,7 @@ def test_every_test_runs_on_a_compression_module(test: str, trial: Callable[[str
         sheets[line.sheet].column(line.x)
         sheets[line.sheet].column(line.y)
     # Only where the link moves does it matter that blocks push.
-    assert any(note.startswith("Blocks push and never pull") for note in found.notes) == (
-        test in {"release", "sine", "step"}
-    )
+    assert any(note.startswith("Blocks push and never pull") for note in found.notes) == (test in {"release", "sine"})
 
 
 def test_energy_never_rises_and_a_link_that_rattles_on_is_said_to(
@@ -205,40 +199,3 @@ def test_sine_pushes_molten_blocks_aside_and_keeps_frozen_ones(
     assert value(sine, "contact_lost@cold") < 1e-3
     loop = sheet(sine, "sine_hot_loop").column("time").values
     assert loop[-1] - loop[0] == pytest.approx(1.0, rel=1e-6)
-
-
-@pytest.mark.parametrize("name", ["cold", "hot"])
-def test_step_presses_the_blocks_ahead_throughout_and_none_behind(resolved: ResolvedModule, name: str) -> None:
-    case = case_of(resolved, name)
-    moved = link.turned(case.plant, 0.104, 0.01, [(1e-3, 50), (1.0, 50)])
-    internal = [*moved.motion.internal, *np.zeros_like(moved.motion.internal)]
-    ahead, behind = one_sided.pulls(moved.motion.angle, internal, case.plant.polymer)
-    assert np.all(ahead[1:] > -1e-9 * np.max(ahead))
-    assert np.all(behind[1:] < 0.0)
-    assert np.array_equal(moved.touching, np.array([[True], [False]]).repeat(len(moved.motion.times), axis=1))
-
-
-def test_load_through_a_switch_leaves_a_gap_and_not_a_pose(resolved: ResolvedModule) -> None:
-    # It melts and freezes under the load: the blocks ahead stay at the stroke, the springs turn the link back to rest.
-    times = np.linspace(0.0, 60.0, 121)
-    heat = np.clip(np.minimum(times / 15.0, (60.0 - times) / 15.0), 0.0, 1.0)
-    temperatures = 303.15 + 70.0 * np.array([heat, heat])
-    fractions = np.array([1.0 - np.clip((heat - 0.4) / 0.3, 0.0, 1.0)] * 2)
-    step = step_test.step(resolved, history=SliceHistory(times, temperatures, fractions))
-    assert value(step, "unloaded_angle") == 0.0
-    assert value(step, "unloaded_backlash") == pytest.approx(0.104, rel=1e-2)
-    layer = sheet(step, "step_of_impedance").column("layer_torque").values
-    assert np.min(layer) > -1e-6 * np.max(layer)  # the integration is as exact
-    bonded = step_test.step(
-        with_rows(resolved, parting_share=0.0), history=SliceHistory(times, temperatures, fractions)
-    )
-    assert value(bonded, "unloaded_angle") == pytest.approx(0.104, rel=0.05)
-    assert value(bonded, "unloaded_backlash") == 0.0
-
-
-def test_average_weighs_each_value_with_the_time_it_lasts(resolved: ResolvedModule) -> None:
-    case = case_of(resolved, "cold")
-    moved = link.turned(case.plant, 0.1, 0.24, [(1.0, 2)])
-    found = OneSided(moved.motion, moved.touching, ())
-    values = np.where(moved.motion.times < 0.24 - 1e-9, 5.0, 2.0)
-    assert found.average(values, 0.0, 2.24) == pytest.approx((5.0 * 0.24 + 2.0 * 2.0) / 2.24, rel=1e-9)

@@ -89,23 +89,6 @@ def test_kelvin_voigt_is_the_dashpot_beside_the_spring(damping: float) -> None:
     assert torque[later] == pytest.approx(moved.torque[later], abs=1e-3)
 
 
-def test_solids_relax_with_the_textbook_s_times() -> None:
-    joint = motion.Joint(INERTIA, SPRINGS, 1e12)
-    tau, permanent, passing, rise = 0.5, 100.0, 40.0, 0.2
-    moved = link.turned(Plant(joint, [(1e16, permanent), (tau, passing)]), 0.1, rise, doubling(1e-3, 5.0)).motion
-    after = moved.times >= rise
-    # A ramp of gamma/rise, then rest: k1 gamma tau/rise (1 - exp(-rise/tau)) exp(-(t - rise)/tau).
-    fading = passing * 0.1 * tau / rise * (1.0 - np.exp(-rise / tau)) * np.exp(-(moved.times[after] - rise) / tau)
-    assert -moved.torque[after] == pytest.approx(0.1 * (SPRINGS + permanent) + fading, rel=1e-8)
-    assert moved.times[-1] == pytest.approx(5.0 + rise)
-    # One mode k behind S: torque falls from S k/(S + k) with the time constant tau (S + k)/S.
-    joint, k, tau = motion.Joint(INERTIA, 0.0, 919.0), 400.0, 0.1
-    moved = link.turned(Plant(joint, [(tau, k)]), 0.1, 1e-7, doubling(1e-3, 1.0)).motion
-    after = moved.times >= 1e-7
-    expected = 0.1 * 919.0 * k / (919.0 + k) * np.exp(-moved.times[after] / (tau * (919.0 + k) / 919.0))
-    assert -moved.torque[after] == pytest.approx(expected, rel=1e-5)
-
-
 @pytest.mark.parametrize(("layer", "hold"), [("melt", 10.0), ("half frozen", 10.0), ("solid", 10.0), ("solid", 0.0)])
 def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer: str, hold: float) -> None:
     # Other unknowns: torque of each mode, with the layer's angle from d/dt of the series' balance.

@@ -284,12 +284,6 @@ class Course:
         springs = float(0.5 * self._plant.joint.spring_stiffness * angle**2)
         return whole if self.phase.sliding is Sliding.FREE else whole - springs
 
-    def stop(self) -> None:
-        """Stop a link that is turned as prescribed, and end the phase it was in."""
-        state = self._from @ self.columns[-1]
-        state[1] = 0.0
-        self.columns[-1] = self._to @ state
-
     def states(self) -> Array:
         """Return angle, speed and internal angles, one column a sample."""
         return np.asarray((self._from @ np.column_stack(self.columns))[:-1])

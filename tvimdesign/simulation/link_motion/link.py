@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,6 @@ from tvimdesign.simulation.link_motion.course import HELD, Course, Plant
 from tvimdesign.simulation.link_motion.sampled_motion import (
     DEAD,
     LONGEST,
-    PER_STRETCH,
     SAMPLES_A_PERIOD,
     Array,
     Motion,
@@ -75,25 +74,6 @@ def swung(
     for _ in range(periods * samples):
         course.across(1.0 / frequency / samples)
     return course.found()
-
-
-def turned(plant: Plant, angle: float, rise: float, after: Sequence[Stretch]) -> OneSided:
-    """Turn a link steadily to a positive angle in `rise` seconds and hold it there; its polymer is free of strain.
-
-    Blocks ahead are pressed throughout and those behind never, so the ones ahead count as bonded.
-    """
-    alone = Plant(plant.joint, plant.sides[0])
-    course = Course(alone, omega=0.0)
-    course.start(0.0, angle / rise, squeezed(alone, 0.0))
-    for _ in range(PER_STRETCH):
-        course.across(rise / PER_STRETCH)
-    course.stop()
-    for step, count in after:
-        for _ in range(count):
-            course.across(step)
-    turned_motion = course.found()
-    turned_motion.touching[1] = len(plant.sides) == 1
-    return turned_motion
 
 
 def squeezed(plant: Plant, angle: float) -> Array:
