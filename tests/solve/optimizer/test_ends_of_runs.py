@@ -35,7 +35,8 @@ def _swallowed() -> None:
         os.kill(os.getpid(), signal.SIGTERM)
 
 
-def _solve_until_interrupted(optimizer: Optimizer) -> None:
+def _solve_until_interrupted(optimizer: Optimizer, signaling: threading.Timer) -> None:
+    signaling.start()
     while not interrupt_came():
         optimizer.solve()
 
@@ -47,8 +48,7 @@ def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer
     seconds = optimizer.seconds["solve"] - before
     signaling = threading.Timer(share * seconds, os.kill, (os.getpid(), signal.SIGTERM))
     with interrupt_handler(), pytest.raises(KeyboardInterrupt):
-        signaling.start()
-        _solve_until_interrupted(optimizer)
+        _solve_until_interrupted(optimizer, signaling)
 
 
 def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optimizer) -> None:

@@ -9,6 +9,7 @@ end an equation.
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
@@ -38,7 +39,8 @@ LATEST = 0.98
 """Share of the horizon at which an event must have come: times of the problem are some thousandths off those simulated.
 """
 REMEMBERED = 3
-"""Points that are remembered: where a solver ended, by the cycle and by its model, and with steps placed anew."""
+"""Points that are remembered, of the cycle and of its model: where a step begins and ends, and with steps placed anew.
+"""
 UNIT = 1.0
 """Unit of the time that a profile takes [s]; its unknown is the logarithm."""
 
@@ -90,7 +92,8 @@ class Problem:
         self.own_count = self.slope_count + len(self.unlimited) + self.sample_count
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
         self._cycle_model: CycleModel | None = None
-        self._last: list[tuple[bytes, dict[str, Grid], CycleModel | None, Point]] = []
+        self._last: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
+        self._last_modelled: deque[tuple[bytes, Point]] = deque(maxlen=REMEMBERED)
 
     # --- evaluation ---
 
@@ -118,22 +121,30 @@ class Problem:
 
     def forget(self) -> None:
         """Forget the last points."""
-        self._last = []
+        self._last.clear()
 
     def at(self, x: Array, parameters: Parameters) -> Point:
         """Evaluate the problem at a point; NaN where the cycle has no end. The last points are remembered."""
         key = x.tobytes() + b"".join(part.tobytes() for part in vars(parameters).values())
-        for known, grids, cycle_model, point in self._last:
-            if known == key and grids is self.grids and cycle_model is self._cycle_model:
+        if self._cycle_model is not None:
+            for known, point in self._last_modelled:
+                if known == key:
+                    return point
+            point = self._evaluated(x, parameters)
+            self._last_modelled.append((key, point))
+            return point
+        for known, grids, point in self._last:
+            if known == key and grids is self.grids:
                 return point
         point = self._evaluated(x, parameters)
-        self._last = [*self._last[1 - REMEMBERED :], (key, self.grids, self._cycle_model, point)]
+        self._last.append((key, self.grids, point))
         return point
 
     @contextmanager
     def modelled(self, cycle_model: CycleModel) -> Iterator[None]:
         """Evaluate with a model in place of the cycle, as long as the context lasts."""
         self._cycle_model = cycle_model
+        self._last_modelled.clear()
         try:
             yield
         finally:

@@ -80,6 +80,8 @@ class TrustRegion:
                 self._curvatures.learn(model, reached)
             error = np.inf if reached is None else _error(expected, there)
             stats = {**stats, "iter_count": self.iterations}
+            if not stats["success"] and beginning in ("near", "warm"):
+                multipliers, beginning = {}, "cold"  # which says sooner that there is nothing
             fails = not stats["success"] and error <= EXACT and length < 0.99 * radius
             if (length < LEAST_RADIUS and not stats["success"]) or (fails and not self._better(there, -NOISE)):
                 return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
