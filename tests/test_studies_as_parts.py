@@ -19,7 +19,7 @@ def test_a_study_becomes_parts_that_pass_every_check(tvimdesign: Command, tmp_pa
     assert all(check["ok"] for check in json.loads((cad / "checks.json").read_text())["checks"])
     mode = json.loads((tmp_path / "out/design.json").read_text())["mode"]
     pcl = {"shear": "pcl_arc", "compression": "pcl_block"}[mode]
-    parts = ("housing", "rotor", "link", "retainer", pcl, "peltier_pad", "spring_left", "spring_right")
+    parts = ("housing", "rotor", "link", "retainer", pcl, "heater", "spring_left", "spring_right")
     for part in parts:
         assert (cad / f"step/{part}.step").stat().st_size > 500
     for part in parts[:5]:

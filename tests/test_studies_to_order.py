@@ -93,14 +93,14 @@ MAKERS = (
 NUMBERED = re.compile(f"{STANDARDS}|{MAKERS}")
 TO_SIZE = {
     "preload_spring": r"flat wire, [\d.]+ x [\d.]+ x [\d.]+ mm, .* waves, .* free, wound to order",
-    "peltier_pad": r"[\d.]+ ohm each, made to the outline of its STEP file",
+    "heater": r"to the outline of its STEP file; [\d.]+ ohm each, .* W each, at [\d.]+ V",
     "liner": r"[\d.]+ mm thick, to the outline of its STEP file",
     "cover_insert": r"M\d", "link_insert": r"M\d", "insert": r"M\d",
 }  # fmt: skip
 """Kinds that are made to sizes the bill tells, as no table of a maker was to be read."""
 RATED = {
     "thermal_grease", "heat_conducting_adhesive", "polyimide_film", "thread_locker", "motor_adhesive", "mould_release",
-    "supply", "driver", "wire_sleeve", "crimp_splice", "grease",
+    "supply", "driver", "controller", "wire_sleeve", "crimp_splice", "grease",
 }  # fmt: skip
 """Kinds that any shop has, by a rating that the bill tells."""
 FIGURE = re.compile(r"\d+(\.\d+)? (°C|V|A)\b")
@@ -120,7 +120,7 @@ def bought(path: Path) -> list[Item]:
 @pytest.mark.parametrize("path", ORDERED, ids=lambda path: str(path.stem))
 def test_bought_items_have_a_number_a_standard_or_sizes_to_order_by(path: Path) -> None:
     found = bought(path)
-    assert {"peltier_pad", "polymer", "thermal_cutout", "spring_right", "link_screw"} <= {one.kind for one in found}
+    assert {"heater", "polymer", "thermal_cutout", "spring_right", "link_screw"} <= {one.kind for one in found}
     for one in found:
         ways = (
             NUMBERED.search(one.title),

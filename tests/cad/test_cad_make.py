@@ -45,7 +45,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     expected |= pictures
     for kind in MODULES[design.mode].kinds(dimensions(design)):
         expected.add(f"step/{kind}.step")
-        bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw",
+        bought = kind in {"heater", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw",
                           "thermal_cutout"}  # fmt: skip
         expected |= {f"mesh/{kind}.stl"} if bought else {f"print/{kind}.stl", f"print/{kind}.3mf"}
     expected |= {f"step/{piece}.step" for piece in ("casting_mould", "casting_lid", "setting_fork")}
@@ -53,7 +53,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
         f"print/{piece}.{form}" for piece in ("casting_mould", "casting_lid", "setting_fork") for form in ("stl", "3mf")
     }
     cast = "pcl_arc" if design.mode == "shear" else "pcl_block"
-    for kind in ("housing", "rotor", "link", "retainer", "peltier_pad", cast):
+    for kind in ("housing", "rotor", "link", "retainer", "heater", cast):
         expected |= {f"drawings/{kind}.dxf", f"drawings/{kind}.pdf"}
     assert set(report.files) == expected
     found = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}
@@ -66,7 +66,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
 def test_moving_parts_are_compared_with_all_they_could_meet(made: Made) -> None:
     pairs = {
         "shear": {"rotor | spring_right_1", "housing | spring_left_2"},
-        "compression": {"rotor | pcl_block_1", "peltier_pad_2 | pcl_block_1", "housing | pcl_block_1"},
+        "compression": {"rotor | pcl_block_1", "heater_2 | pcl_block_1", "housing | pcl_block_1"},
     }
     reported = {check.name for check in made.report.checks}
     # From stop to stop, 0.02 rad beyond the stroke of 0.104 rad.
@@ -78,7 +78,7 @@ def test_moving_parts_are_compared_with_all_they_could_meet(made: Made) -> None:
 def test_step_and_mesh_read_back_with_names_and_colours(made: Made) -> None:
     for kind in MODULES[made.design.mode].kinds(dimensions(made.design)):
         copies = {"link_screw": 4, "link_dowel": 4}.get(kind, 1)
-        if kind in ("pcl_arc", "pcl_block", "peltier_pad"):
+        if kind in ("pcl_arc", "pcl_block", "heater"):
             copies = COPIES[made.design.mode]
         expected = 1e9 * made.design.values[KINDS[kind].volume] / copies
         solid = cq.importers.importStep(str(made.report.folder / f"step/{kind}.step")).val()
@@ -105,7 +105,7 @@ def test_step_and_mesh_read_back_with_names_and_colours(made: Made) -> None:
     values = made.design.values
     width, height = values["envelope_diameter"], values["envelope_height"]
     assert scene.extents == pytest.approx([width, height, width], rel=1e-3)
-    assert {"housing", "spring_left_4", f"peltier_pad_{COPIES[made.design.mode]}"} <= set(scene.graph.nodes_geometry)
+    assert {"housing", "spring_left_4", f"heater_{COPIES[made.design.mode]}"} <= set(scene.graph.nodes_geometry)
     # glTF 2.0, 3.9.2: factors are linear. By IEC 61966-2-1 half of full sRGB is 0.214 of the light.
     assert _linear(0.5) == pytest.approx(0.2140, abs=5e-5)
     factors = scene.geometry["rotor"].visual.material.baseColorFactor[:3] / 255.0
@@ -115,7 +115,7 @@ def test_step_and_mesh_read_back_with_names_and_colours(made: Made) -> None:
 @pytest.mark.gate
 def test_pictures_show_the_parts_and_what_is_cut(made: Made) -> None:
     image = matplotlib.image.imread(made.report.folder / "views/section.png")[:560, :, :3]
-    for kind in ("peltier_pad", "pcl_arc" if made.design.mode == "shear" else "pcl_block", "rotor", "housing"):
+    for kind in ("heater", "pcl_arc" if made.design.mode == "shear" else "pcl_block", "rotor", "housing"):
         hue = np.array(KINDS[kind].colour) / max(KINDS[kind].colour)
         bright = image.max(axis=2)
         alike = np.abs(image / np.maximum(bright, 1e-6)[:, :, None] - hue).max(axis=2) < 0.06

@@ -31,7 +31,7 @@ RING = 4
 LEG_MOVED = 2.5
 """How far the last ring of the spring moves at full stroke [mm]."""
 _BOXES = {
-    "housing": ((60.0, 60.0, 20.0), (0.0, 0.0, 0.0)), "peltier_pad": ((20.0, 20.0, 1.0), (0.0, 0.0, 12.0)),
+    "housing": ((60.0, 60.0, 20.0), (0.0, 0.0, 0.0)), "heater": ((20.0, 20.0, 1.0), (0.0, 0.0, 12.0)),
     "pcl_arc_1": ((20.0, 20.0, 2.0), (0.0, 0.0, 13.5)), "rotor": ((40.0, 40.0, 6.0), (0.0, 0.0, 18.0)),
     "link": ((50.0, 12.0, 4.0), (15.0, 0.0, 23.0)),
 }  # fmt: skip
@@ -123,7 +123,7 @@ def _told() -> dict[str, Any]:
         ],
         "steps": [
             {"text": "Deburr all parts.", "parts": ["housing"], "from": "above"},
-            {"text": "Lay the pad and the arc into it.", "parts": ["peltier_pad", "pcl_arc_1"], "from": "above"},
+            {"text": "Lay the pad and the arc into it.", "parts": ["heater", "pcl_arc_1"], "from": "above"},
             {"text": "Set the rotor, spring and link.", "parts": ["rotor", "spring_right_1", "link"], "from": "below"},
         ],
         "wires": {"ring": RING, "shares": [-1.0, -0.5, 0.5, 1.0], "moved": {"spring_right": moved}},

@@ -78,7 +78,7 @@ def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
     assert cooled.design.values["frozen_time"] < 0.8 * air.design.values["frozen_time"]
     for name, seconds in cooled.cooling.unpowered.items():
         assert seconds == pytest.approx(air.design.values[name], rel=2e-3)
-    assert f"{air.design.values['frozen_time']:.3g} s if the Peltiers are switched off" in stiff(cooled)
+    assert f"{air.design.values['frozen_time']:.3g} s if the heaters are switched off" in stiff(cooled)
     assert "by the air alone: no current cools" in stiff(air)
     reported = results(cooled, TABLE)["cooling"]
     assert (reported["able"], reported["used"]) == (True, True)

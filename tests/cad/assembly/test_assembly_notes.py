@@ -86,7 +86,7 @@ def test_steps_that_open_bring_no_part_and_each_says_who_holds_what() -> None:
         if "to hold the adjuster" in step["text"]:
             assert needs["hands"] == 2
     # The cut-out and the thermistor have one step in each kind of module.
-    for kinds in ({"peltier_pad", "pcl_arc"}, {"peltier_pad", "pcl_block"}, {"peltier_pad", "pcl_arc", "spreader"}):
+    for kinds in ({"heater", "pcl_arc"}, {"heater", "pcl_block"}, {"heater", "pcl_arc", "spreader"}):
         texts = [step["text"] for step in steps_of({*kinds, "thermal_cutout"})]
         assert sum("thermal cut-out" in text for text in texts) == 1, kinds
     assert preload_tolerance(made("milled")) == pytest.approx(radians(1.0))

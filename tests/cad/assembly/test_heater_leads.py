@@ -10,7 +10,7 @@ from cad_designs import TILES, design_of
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, fixtures
-from tvimdesign.cad.assembly.heater_leads import fuse_in_words, thermistor_in_words, thermistors, wires
+from tvimdesign.cad.assembly.heater_leads import fuse_in_words, heater_order, thermistor_in_words, thermistors, wires
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.catalog import Catalog
@@ -39,6 +39,8 @@ def listed(design: Design) -> dict[str, str]:
 def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, Any], mode: str) -> None:
     found = listed(switched(changes, mode=mode))
     cutout = found["thermal_cutout"]
+    assert cutout.startswith("Does not fit: it opens above the 60 °C that the structure bears")
+    assert "choose a cooler heater, or parts that bear 120.2 °C. Not to be ordered: Thermal cut-out 5MA3" in cutout
     assert "5MA3SPF121019340: opens from 112 to 122 °C; the heater has 105.2 °C at most" in cutout
     assert "holds 94 °C at its rated current, less than the heater's peak: ask the maker" in cutout
     assert "it opens above the 60 °C that the structure bears; it opens above the 120 °C that the heater" in cutout
@@ -51,6 +53,12 @@ def test_cut_outs_and_beads_say_only_what_they_can() -> None:
     cutout = listed(switched(bears, hottest=83.0))["thermal_cutout"]
     assert "5MA3SPF152019340: opens from 147 to 157 °C" in cutout  # of what opens below the heater's 160 the highest
     assert "opens above" not in cutout
+    assert cutout.startswith("Thermal cut-out 5MA3")
+    low = switched(bears, hottest=83.0)
+    low.values["cutout_ground_gap"] = -1e-3
+    assert listed(low)["thermal_cutout"].startswith(
+        "Does not fit: it has no room; choose one that opens between 88 and"
+    )
     assert "ask the maker" not in cutout
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
     assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
@@ -88,9 +96,20 @@ def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(
 
 def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
     design = switched({"peltier_module": "silicone_9ar_08_24v"})
-    (item,) = bill(design, _titles(design), {"peltier_pad_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
+    (item,) = bill(design, _titles(design), {"heater_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
     each = 45.0 * design.values["peltier_volume"] / (1.6e-3 * 1600e-6) / 4.0  # 45 ohm of 1600 mm2, four pads
-    assert f"{each:.3g} ohm each" in item.title
+    amperes, area = 2.1, 1e4 * design.values["peltier_volume"] / 1.6e-3 / 4.0  # in series; cm2
+    power = f"{each * amperes**2:.3g} W each, at {each * amperes:.3g} V and 2.1 A, {each * amperes**2 / area:.2g} W/cm²"
+    # 2.1 A want AWG 22; the leads leave within the window, behind ledges of 2 mm.
+    for words in (
+        f"{each:.3g} ohm each, ± 10 %",
+        power,
+        "two leads of AWG 22 or thicker, insulated for 160 °C",
+        "2 mm or more",
+    ):
+        assert words in item.title
+    assert heater_order(switched({})) == []  # a Peltier module is bought by its number
+    assert len(heater_order(design_of("never switched", {"peltier_module": "polyimide_foil_24v"}))) == 3
     assert "polyimide_film" in listed(switched({}))
     assert "polyimide_film" not in listed(switched({"heater_fuse": "none"}))
     design = switched({})

@@ -5,7 +5,8 @@ import pytest
 from tvimdesign.cad.assembly.offers import QUOTE, offer_for, offers, total
 from tvimdesign.catalog import Catalog
 
-KINDS = {"thread_locker", "supply", "driver"}
+KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
+BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"
 
 
 def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source() -> None:
@@ -26,19 +27,22 @@ def test_a_screw_is_ordered_by_its_length() -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "asks", "number"),
+    ("kind", "title", "asks", "number"),
     [
-        ("driver", (9.5, 2.0), "4035 (DRV8874 carrier)"),
-        ("driver", (9.5, 2.6), "2992 (G2 24v13)"),
-        ("driver", (36.0, 2.6), None),
-        ("supply", (9.5, 2.6), "LRS-50-12"),
-        ("supply", (13.0, 2.6), "LRS-100-24"),
+        ("driver", f"{BRIDGE} both ways round", (9.5, 2.0), "4035 (DRV8874 carrier)"),
+        ("driver", f"{BRIDGE} one way round", (9.5, 2.6), "2992 (G2 24v13)"),
+        ("driver", f"{BRIDGE} one way round", (36.0, 2.6), None),
+        ("driver", f"{DOWN} both ways round", (10.6, 2.9), "TEC-1091"),
+        ("driver", f"{DOWN} both ways round", (10.6, 4.1), None),
+        ("driver", f"{DOWN} one way round", (1.2, 1.9), "DPS5005"),
+        ("supply", "", (9.5, 2.6), "LRS-50-12"),
+        ("supply", "", (13.0, 2.6), "LRS-100-24"),
     ],
 )
 def test_the_first_that_bears_volts_and_amperes_is_taken(
-    kind: str, asks: tuple[float, float], number: str | None
+    kind: str, title: str, asks: tuple[float, float], number: str | None
 ) -> None:
-    offer = offer_for(kind, "", "", *asks)
+    offer = offer_for(kind, "", title, *asks)
     assert (offer.number if offer else None) == number
 
 

@@ -135,7 +135,7 @@ def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case: str) -> None:
     mode, overrides = CASES[case]
     design = design_of(case, overrides, mode)
     dims = dimensions(design)
-    sheet = sheet_of(design, "peltier_pad", drawn_part(dims, "peltier_pad"))
+    sheet = sheet_of(design, "heater", drawn_part(dims, "heater"))
     said = [one.dxf.text for one in sheet.document.modelspace().query("TEXT")]
     is_whole = case.startswith("tiles")
     assert ("nominal sizes; limits as the maker's" in said) == is_whole

@@ -251,7 +251,7 @@ def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     switch = {"peak_voltage": 3.21, "stiffening_peak_voltage": -4.01, "peak_current": 1.5, "cooling_current": 0.2}
     fed = design.model_copy(update={"values": design.values | switch | {"stiffening_peak_current": math.nan}})
     supply, driver = (one for one in beside(fed, {}) if one.kind in ("supply", "driver"))
-    assert driver.title.startswith("H-bridge with a controlled current both ways round, ")
+    assert driver.title.startswith("H-bridge, current controlled both ways round, ")
     assert all("at least 4.1 V and 1.5 A" in one.title for one in (supply, driver))
     assert [one.kind for one in beside(design, {}) if one.kind in ("supply", "driver")] == []
     limited = {**fed.study, "require": [{"output": "peak_voltage", "sense": "<=", "limit": 24.0}]}
@@ -261,8 +261,15 @@ def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     assert supply.title == "DC supply of 24 V, at least 0.3 A"  # 4.01 V and 1.5 A, a tenth lost
     assert supply.offer is not None
     assert supply.offer.number == "LRS-50-24"
-    assert driver.title.startswith("Step-down driver from 24 V with a controlled current both ways round, ")
-    assert driver.offer is None
+    assert driver.title.startswith(
+        "Step-down driver, current controlled both ways round, from 24 V, at least 4.1 V and 1.5 A"
+    )
+    assert driver.offer is not None
+    assert driver.offer.number == "TEC-1091"
+    strong = fed.model_copy(update={"values": fed.values | {"peak_current": 12.0}, "study": limited})
+    (row,) = (row for row in csv.DictReader(io.StringIO(bill_csv(beside(strong, {})).decode("utf-8-sig")))
+              if row["part"] == "driver")  # fmt: skip
+    assert (row["number"], row["price"]) == ("to be chosen", "quote")
 
 
 @pytest.mark.slow

@@ -211,7 +211,7 @@ def no_number_lies_on_a_section_s_mark(kind: str, document: Drawing) -> None:
 
 @pytest.mark.parametrize(
     ("case", "kind"),
-    [("paper", "link"), ("paper", "peltier_pad"), ("tiles", "peltier_pad"), ("blocks", "pcl_block"),
+    [("paper", "link"), ("paper", "heater"), ("tiles", "heater"), ("blocks", "pcl_block"),
      ("bearings", "adjuster")],  # whose two sections are taken near each other
 )  # fmt: skip
 def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:

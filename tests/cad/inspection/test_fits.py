@@ -17,15 +17,15 @@ from tvimdesign.study.design import Design
 
 LINED = {"liner_material": "peek", "key_count": 0}
 CASES: dict[str, tuple[str, Mapping[str, Any], list[str]]] = {
-    "pads": ("shear", {}, ["peltier_pad"]), "milled": ("shear", {"process": "machine_6061"}, ["peltier_pad"]),
-    "tiles": ("shear", TILES, ["peltier_pad", "spreader"]), "lined": ("shear", LINED, ["peltier_pad", "liner"]),
-    "vanes": ("compression", BLOCKS, ["peltier_pad"]),
-    "tiles in vanes": ("compression", VANE_TILES, ["peltier_pad", "spreader"]),
+    "pads": ("shear", {}, ["heater"]), "milled": ("shear", {"process": "machine_6061"}, ["heater"]),
+    "tiles": ("shear", TILES, ["heater", "spreader"]), "lined": ("shear", LINED, ["heater", "liner"]),
+    "vanes": ("compression", BLOCKS, ["heater"]),
+    "tiles in vanes": ("compression", VANE_TILES, ["heater", "spreader"]),
 }  # fmt: skip
 
 
 def placed(design: Design, dims: Dimensions) -> dict[str, cq.Solid]:
-    kinds = [kind for kind in ("peltier_pad", "spreader", "liner") if kind in MODULES[design.mode].drawn(dims)]
+    kinds = [kind for kind in ("heater", "spreader", "liner") if kind in MODULES[design.mode].drawn(dims)]
     block = "pcl_arc" if design.mode == "shear" else "pcl_block"
     drawn = {kind: drawn_part(dims, kind) for kind in ("housing", "rotor", block, *kinds)}
     standing = MODULES[design.mode].stand_heaters(dims, drawn, 0.0)
@@ -50,7 +50,7 @@ def test_pads_that_are_wide_or_aside_do_not_go_in(monkeypatch: pytest.MonkeyPatc
     design = design_of("aside", {})
     dims = dimensions(design)
     there = placed(design, dims)
-    there["peltier_pad_1"] = turned(there["peltier_pad_1"], 0.125 / dims.pcl_inner_radius)
+    there["heater_1"] = turned(there["heater_1"], 0.125 / dims.pcl_inner_radius)
     (check,) = fit_checks(dims, there)
     assert not check.ok
     assert check.value == pytest.approx(dims.slip_clearance - 0.125, abs=0.01)
@@ -71,7 +71,7 @@ def test_pockets_that_leave_too_little_floor_break_a_rule(rule: str, changes: di
 
 def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported() -> None:
     dims = dimensions(design_of("tiles", TILES))
-    kinds = ("housing", "peltier_pad", "heater_lead", "spreader", "pcl_arc", "thermal_cutout")
+    kinds = ("housing", "heater", "heater_lead", "spreader", "pcl_arc", "thermal_cutout")
     solids = placed_solids(dims, kinds)
     checks = {check.part: check for check in bought_checks(solids)}
     assert set(checks) == {"heater_lead", "thermal_cutout"}

@@ -12,6 +12,7 @@ from tvimdesign.cad.assembly.assembly import build, drawn_parts
 from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.export.print_files import closed
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.device.core.clearances import POCKET_WIDTH
@@ -46,12 +47,12 @@ def failed(parts: dict[str, cq.Solid], among: str) -> set[str]:
         # At the mean radius of 18.5 mm a degree is 0.323 mm: vanes of 4 mm end at 6.19 degrees, blocks of 4 mm at
         # 18.58, pads of 1 mm at 21.68; the housing's vane has its middle at 30.
         (0.0, 6.0, "rotor"), (6.0, 6.0, "rotor"), (6.4, 6.0, "pcl_block_1"), (-6.4, 6.0, "pcl_block_2"),
-        (18.4, 6.0, "pcl_block_1"), (18.8, 6.0, "peltier_pad_2"), (41.2, 6.0, "peltier_pad_1"),
-        (21.5, 6.0, "peltier_pad_2"), (30.0, 11.9, "housing"), (60.0, 6.0, "rotor"),
+        (18.4, 6.0, "pcl_block_1"), (18.8, 6.0, "heater_2"), (41.2, 6.0, "heater_1"),
+        (21.5, 6.0, "heater_2"), (30.0, 11.9, "housing"), (60.0, 6.0, "rotor"),
         # Levels: 0.4 mm of air, 11.964 mm of block and pad, 0.4 mm of air, 4 mm of plate; floor below zero.
         (0.0, 0.3, None), (0.0, 0.5, "rotor"), (12.0, 0.3, None), (12.0, 0.5, "pcl_block_1"),
         (12.0, 12.3, "pcl_block_1"), (12.0, 12.5, None), (30.0, 12.5, None), (30.0, 12.9, "rotor"),
-        (20.0, 0.2, "housing"), (20.0, 0.5, "peltier_pad_2"),
+        (20.0, 0.2, "housing"), (20.0, 0.5, "heater_2"),
         # The slot reaches through the floor, and up to 2 mm below the vane's top at 12.364 mm.
         (30.0, 6.0, None), (30.0, -2.0, None), (30.0, 10.3, None), (30.0, 10.5, "housing"), (12.0, -2.0, "housing"),
     ],
@@ -68,7 +69,7 @@ def test_blocks_are_squeezed_into_the_room_of_the_quantity(rest: dict[str, cq.So
     inside = [housing.isInside(at(radius, 30.0, 5.0)) for radius in (13.1, 15.6, 15.9, 21.1, 21.4, 23.9)]
     assert inside == [True, True, False, False, True, True]
     assert sum(name.startswith("pcl_block") for name in rest) == 12
-    assert sum(name.startswith("peltier_pad") for name in rest) == 12
+    assert sum(kind_of(name) == "heater" for name in rest) == 12
     # Springs of 12.02 mm and wire of 2.413 mm at 57 mm reach in to 48.09 mm, and 1 mm is to stay.
     outer = 57.0 - 8.914 - 1.0 - 1e3 * blocks.values["squeezed_block_gap"]
     bulged = sector(13.0, outer, 4.0 / 18.5 - 0.124, 0.4, 12.364)  # up to the stops, 0.02 rad beyond the stroke
@@ -91,7 +92,7 @@ def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(
     behind_at = -side * np.array([-0.5, 0.5, 5.9, 6.5, 18.0])
     held = [holders(parts, at(18.5, degrees, 6.0)) for degrees in behind_at]
     assert held == [["rotor"], [], [], [behind], [behind]]
-    assert parts["peltier_pad_2"].distance(parts["pcl_block_1"]) == pytest.approx(0.0, abs=1e-6)
+    assert parts["heater_2"].distance(parts["pcl_block_1"]) == pytest.approx(0.0, abs=1e-6)
 
 
 def test_blocks_that_do_not_fit_are_found_and_named(rest: dict[str, cq.Solid], blocks: Design) -> None:
@@ -112,7 +113,7 @@ def test_blocks_that_do_not_fit_are_found_and_named(rest: dict[str, cq.Solid], b
 @pytest.mark.slow
 def test_a_housing_vane_in_a_pad_is_found(rest: dict[str, cq.Solid]) -> None:
     moved = rest | {"housing": turned(rest["housing"], 0.01)}
-    assert {f"housing | peltier_pad_{index} here" for index in range(1, 12, 2)} <= failed(moved, "housing peltier_pad")
+    assert {f"housing | heater_{index} here" for index in range(1, 12, 2)} <= failed(moved, "housing heater")
 
 
 @pytest.mark.parametrize("row", ["housing_volume", "rotor_inertia", "pcl_volume", "peltier_volume", "rotor_volume"])

@@ -36,7 +36,7 @@ def dims(design: Design) -> Dimensions:
 
 @pytest.fixture(scope="module")
 def drawn(dims: Dimensions) -> dict[str, cq.Solid]:
-    kinds = ("housing", "rotor", "pcl_arc", "peltier_pad", "cover", "cover_screw", "cover_insert", "link_insert",
+    kinds = ("housing", "rotor", "pcl_arc", "heater", "cover", "cover_screw", "cover_insert", "link_insert",
              "retainer_insert", "link_screw", "retainer_screw")  # fmt: skip
     return {kind: drawn_part(dims, kind) for kind in kinds}
 

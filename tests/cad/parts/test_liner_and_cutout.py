@@ -94,7 +94,7 @@ def test_the_cut_out_lies_across_the_first_heater_in_no_part_s_way(
     assert box.zmax - box.zmin == pytest.approx(diameter, abs=1e-6)
     assert body.Volume() == pytest.approx(1e9 * design.values["cutout_volume"], rel=1e-9)
     middle = body.Center()
-    first = placed["peltier_pad_1"].Center()
+    first = placed["heater_1"].Center()
     apart = abs(atan2(middle.y, middle.x) - atan2(first.y, first.x))
     assert apart < design.values.get("arc_span", 1.0)
     for name, other in placed.items():

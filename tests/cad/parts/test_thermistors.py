@@ -17,13 +17,13 @@ BEAD = {"thermistor_diameter": 1.1e-3}
 
 def standing(design: Design) -> dict[str, cq.Solid]:
     dims = dimensions(design)
-    kinds = ["housing", "peltier_pad", "pcl_arc", "thermistor", *(["spreader"] if dims.spreader_depth else [])]
+    kinds = ["housing", "heater", "pcl_arc", "thermistor", *(["spreader"] if dims.spreader_depth else [])]
     drawn = {kind: drawn_part(dims, kind) for kind in kinds}
     placed = {name: shape.Solids()[0] for name, shape in shear_parts.stand(dims, drawn, 0.0).items()}
     return {"housing": drawn["housing"], **placed}
 
 
-@pytest.mark.parametrize(("changes", "touched", "count"), [(BEAD, "peltier_pad_1", 1), (TILES | BEAD, "spreader_1", 3)])
+@pytest.mark.parametrize(("changes", "touched", "count"), [(BEAD, "heater_1", 1), (TILES | BEAD, "spreader_1", 3)])
 def test_it_touches_what_it_measures_and_cuts_nothing(changes: dict[str, float], touched: str, count: int) -> None:
     design = design_of("seat", changes)
     placed = standing(design)
@@ -62,13 +62,13 @@ BEAD_BY_BLOCK = {"thermistor_diameter": 0.8e-3, "thermistor_length": 2.5e-3}
 
 def standing_in_vane(design: Design) -> dict[str, cq.Solid]:
     dims = dimensions(design)
-    kinds = ["housing", "peltier_pad", "pcl_block", "thermistor", *(["spreader"] if dims.spreader_depth else [])]
+    kinds = ["housing", "heater", "pcl_block", "thermistor", *(["spreader"] if dims.spreader_depth else [])]
     drawn = {kind: drawn_part(dims, kind) for kind in kinds}
     placed = {name: one.Solids()[0] for name, one in MODULES["compression"].stand_heaters(dims, drawn, 0.0).items()}
     return {"housing": drawn["housing"], **placed}
 
 
-@pytest.mark.parametrize(("changes", "touched"), [(BLOCKS, "peltier_pad_1"), (VANE_TILES, "spreader_1")])
+@pytest.mark.parametrize(("changes", "touched"), [(BLOCKS, "heater_1"), (VANE_TILES, "spreader_1")])
 def test_it_touches_what_heats_the_block_and_cuts_nothing(changes: Mapping[str, float | str], touched: str) -> None:
     design = design_of("bead", {**changes, **BEAD_BY_BLOCK}, "compression")
     placed, dims = standing_in_vane(design), dimensions(design)

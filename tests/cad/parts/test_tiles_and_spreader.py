@@ -19,7 +19,7 @@ from tvimdesign.cad.parts import shear_parts
 from tvimdesign.cad.parts.heater_parts import heater_lead
 from tvimdesign.study.design import Design
 
-KINDS = ("housing", "peltier_pad", "heater_lead", "spreader", "pcl_arc")
+KINDS = ("housing", "heater", "heater_lead", "spreader", "pcl_arc")
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
 ) -> None:
     assert broken_rules(design) == []
     counts = {kind: sum(kind_of(name) == kind for name in placed) for kind in KINDS}
-    assert counts == {"housing": 1, "peltier_pad": 6, "heater_lead": 12, "spreader": 3, "pcl_arc": 3}
+    assert counts == {"housing": 1, "heater": 6, "heater_lead": 12, "spreader": 3, "pcl_arc": 3}
     named = [f"{kind}_volume" for kind in KINDS]
     sizes = {check.name: check for check in size_checks(design, placed) if check.name in named}
     assert sorted(sizes) == sorted(named)
@@ -51,7 +51,7 @@ def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
 
 
 def test_tiles_stand_over_windows_with_their_plates_on_ledges(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
-    for name in (name for name in placed if kind_of(name) == "peltier_pad"):
+    for name in (name for name in placed if kind_of(name) == "heater"):
         tile, box = placed[name], placed[name].BoundingBox()
         assert (box.zmin, box.zmax) == pytest.approx((-dims.pad_depth, -dims.spreader_depth))
         assert min(tile.distance(placed[f"spreader_{i}"]) for i in (1, 2, 3)) == pytest.approx(0.0, abs=1e-9)
@@ -68,7 +68,7 @@ def test_tiles_stand_over_windows_with_their_plates_on_ledges(dims: Dimensions, 
     radii = [cq.Face.makeFromWires(wire).Center().toTuple()[:2] for wire in holes]
     at = [hole for hole in radii if abs((hole[0] ** 2 + hole[1] ** 2) ** 0.5 - dims.tile_radius) < 1e-6]
     assert len(at) == 3
-    tile = placed["peltier_pad_1"]
+    tile = placed["heater_1"]
     faces = sorted(tile.Faces(), key=lambda face: face.Center().z)
     assert faces[-1].Area() == pytest.approx(200.0)
     assert faces[0].Area() == pytest.approx(180.0)
@@ -85,7 +85,7 @@ def test_bent_leads_go_down_through_their_slots_in_drafts_too(dims: Dimensions, 
     assert box.zmin == pytest.approx(-dims.floor_thickness - dims.foot_height, abs=1e-6)
     for lead in leads:
         assert lead.distance(placed["housing"]) > 0.1
-        tiles = [placed[f"peltier_pad_{index}"] for index in range(1, 7)]
+        tiles = [placed[f"heater_{index}"] for index in range(1, 7)]
         assert min(lead.distance(tile) for tile in tiles) == pytest.approx(0.0, abs=1e-6)  # it begins there
     with drawn_by(DraftKernel()):
         draft: Any = heater_lead(dims)
@@ -96,9 +96,9 @@ def test_tiles_that_overlap_are_found_by_rule_and_solid() -> None:
     crowded = design_of("crowded", TILES | {"arc_span": 1.4})
     assert "tile_side_margin" in broken_rules(crowded)
     dims = dimensions(crowded)
-    drawn = {kind: drawn_part(dims, kind) for kind in ("peltier_pad", "pcl_arc", "spreader")}
+    drawn = {kind: drawn_part(dims, kind) for kind in ("heater", "pcl_arc", "spreader")}
     placed = {name: shape.Solids()[0] for name, shape in shear_parts.stand(dims, drawn, 0.0).items()}
-    assert any("peltier_pad_1 and peltier_pad_2" in c.text for c in interference_checks(placed, "here") if not c.ok)
+    assert any("heater_1 and heater_2" in c.text for c in interference_checks(placed, "here") if not c.ok)
 
 
 def test_adhesive_and_a_thermistor_for_each_spreader_are_in_the_list(design: Design) -> None:

@@ -15,7 +15,7 @@ from tvimdesign.cad.inspection.size_checks import interference_checks, size_chec
 from tvimdesign.cad.parts import compression_parts
 from tvimdesign.study.design import Design
 
-KINDS = ("housing", "peltier_pad", "spreader", "pcl_block")
+KINDS = ("housing", "heater", "spreader", "pcl_block")
 
 
 @pytest.fixture(
@@ -40,7 +40,7 @@ def placed(dims: Dimensions) -> dict[str, cq.Solid]:
 
 
 def tiles(placed: dict[str, cq.Solid]) -> Iterator[tuple[str, cq.Solid]]:
-    return ((name, solid) for name, solid in placed.items() if kind_of(name) == "peltier_pad")
+    return ((name, solid) for name, solid in placed.items() if kind_of(name) == "heater")
 
 
 def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
@@ -49,8 +49,8 @@ def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
     assert broken_rules(design) == []
     counts = {kind: sum(kind_of(name) == kind for name in placed) for kind in KINDS}
     row = round(dims.tiles_per_block)
-    assert counts == {"housing": 1, "peltier_pad": 8 * row, "spreader": 8, "pcl_block": 8}
-    named = [f"{kind}_volume" for kind in ("housing", "peltier_pad", "spreader", "pcl_block")]
+    assert counts == {"housing": 1, "heater": 8 * row, "spreader": 8, "pcl_block": 8}
+    named = [f"{kind}_volume" for kind in ("housing", "heater", "spreader", "pcl_block")]
     sizes = {check.name: check for check in size_checks(design, placed) if check.name in named}
     assert sorted(sizes) == sorted(named)
     assert all(check.ok for check in sizes.values()), [check.text for check in sizes.values()]
@@ -94,19 +94,19 @@ def test_the_supply_is_for_vanes_as_they_are_wired() -> None:
 
 def test_modules_spreaders_adhesive_and_wires_are_in_the_list(design: Design, placed: dict[str, cq.Solid]) -> None:
     counted = {item.kind: item.quantity for item in bill(design, {}, placed)}
-    assert counted["peltier_pad"] == round(design.values["heater_count"])
+    assert counted["heater"] == round(design.values["heater_count"])
     assert counted["spreader"] == 8
     design.values.update(peak_voltage=20.0, peak_current=1.5)
     listed = {item.kind: item for item in beside(design, {})}
     assert "heat_conducting_adhesive" in listed
     assert (listed["thermistor"].quantity, "hole" in listed["thermistor"].title) == (1, False)
-    assert f"for the {counted['peltier_pad']} heaters" in listed["heater_wire"].title
+    assert f"for the {counted['heater']} heaters" in listed["heater_wire"].title
 
 
 def test_tiles_that_overlap_are_found_by_rule_and_solid() -> None:
     crowded = design_of("crowded", VANE_TILE_ROWS | {"pcl_outer_radius": 38e-3}, "compression")
     assert "tile_side_margin" in broken_rules(crowded)
     dims = dimensions(crowded)
-    drawn = {kind: drawn_part(dims, kind) for kind in ("peltier_pad", "pcl_block", "spreader")}
+    drawn = {kind: drawn_part(dims, kind) for kind in ("heater", "pcl_block", "spreader")}
     placed = {name: shape.Solids()[0] for name, shape in compression_parts.stand(dims, drawn, 0.0).items()}
-    assert any("peltier_pad_1 and peltier_pad_2" in c.text for c in interference_checks(placed, "here") if not c.ok)
+    assert any("heater_1 and heater_2" in c.text for c in interference_checks(placed, "here") if not c.ok)

@@ -267,9 +267,9 @@ def _bonding_heat(design: Design, _: Dimensions) -> str:
     """
     current, time, hold = (design.values.get(name, math.nan) for name in _HEATED)
     if not all(math.isfinite(one) and one > 0.0 for one in (current, time, hold)):
-        return "heat the pads until the rotor turns by hand against its springs alone, and hold that for two minutes"
+        return "heat the PCL until the rotor turns by hand against its springs alone, and hold that for two minutes"
     by = "the study's current profile" if "softening" in design.current_profiles else f"{current:.3g} A"
-    return f"heat the pads with {by} for {time:.3g} s, then hold {hold:.3g} A for two minutes"
+    return f"heat with {by} for {time:.3g} s, then hold {hold:.3g} A for two minutes"
 
 
 def _cutout_place(_: Design, dims: Dimensions) -> str:
@@ -288,7 +288,12 @@ def _ledge_pull(design: Design, _: Dimensions) -> str:
 
 def _heated_parts(_: Design, dims: Dimensions) -> str:
     """Return what the PCL lies on."""
-    return "spreaders" if dims.spreader_depth else "pads"
+    return "spreaders" if dims.spreader_depth else "heaters"
+
+
+def _hot_side(design: Design, _: Dimensions) -> str:
+    """Return which side of a heater faces the PCL; nothing where both are alike."""
+    return ", hot side to the PCL" if design.values.get("peltier_seebeck") else ""
 
 
 _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
@@ -297,6 +302,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "bonding_heat": _bonding_heat,
     "cutout_place": _cutout_place,
     "heated_parts": _heated_parts,
+    "hot_side": _hot_side,
     "ledge_pull": _ledge_pull,
 }
 """By the name a text has in braces."""

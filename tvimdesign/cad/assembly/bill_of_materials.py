@@ -11,9 +11,16 @@ from dataclasses import dataclass, replace
 import cadquery as cq
 
 from tvimdesign.base.atomic_files import TABLE_ENCODING
-from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad import cad_report
-from tvimdesign.cad.assembly.heater_leads import lead_in_words, pad_count, thermistor_in_words, up, wire_in_words
+from tvimdesign.cad.assembly.heater_leads import (
+    heater_order,
+    lead_in_words,
+    pad_count,
+    rating,
+    thermistor_in_words,
+    up,
+    wire_in_words,
+)
 from tvimdesign.cad.assembly.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, kind_of
@@ -28,10 +35,10 @@ _EFFICIENCY = 0.9
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
 """Rows of the switch that a supply is bought by: volts, amperes."""
 _WIRED = {
-    "series": "all pads in series",
-    "arcs_parallel": "arcs in parallel, the pads of each in series",
-    "vanes_parallel": "vanes in parallel, the pads of each in series",
-    "all_parallel": "all pads in parallel",
+    "series": "all heaters in series",
+    "arcs_parallel": "arcs in parallel, the heaters of each in series",
+    "vanes_parallel": "vanes in parallel, the heaters of each in series",
+    "all_parallel": "all heaters in parallel",
 }
 """By the word of `heater_wiring`."""
 _RINGS = ("bearing_inner", "bearing_outer")
@@ -39,6 +46,8 @@ _SEALED = (*_RINGS, "motor_bearing")
 """Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
 _SHEETS = ("spreader", "liner")
 """Kinds cut from a sheet."""
+_BY_RATING = ("supply", "driver", "controller")
+"""Kinds whose type the builder chooses where no offer is known."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
 
 
@@ -122,8 +131,8 @@ def _titled(design: Design, kind: str, title: str) -> str:
         return thermistor_in_words(design)
     if kind == "heater_lead":
         return f"{lead_in_words(design)}; it comes with its module, drawn as far as the ground"
-    if kind == "peltier_pad" and design.values.get("peltier_seebeck") == 0.0:
-        return f"{title}, {_resistance(design):.3g} ohm each, made to the outline of its STEP file"
+    if kind == "heater" and (order := heater_order(design)):
+        return "; ".join([f"{title}, to the outline of its STEP file", *order])
     if kind in _SEALED:
         return f"{title}, sealed on both sides (2RS)"
     if kind in _SHEETS:
@@ -140,12 +149,6 @@ def _spring(design: Design, kind: str, title: str) -> str:
     turns = design.value("coil_count")
     size = f"wire {wire:.4g} mm, mean coil {coil:.4g} mm, {turns:.4g} coils, wound {_HANDS[kind]}"
     return f"Torsion spring of {title}: {size}, by the spring's sheet"
-
-
-def _resistance(design: Design) -> float:
-    """Return the resistance of one foil heater [ohm], which goes with its area."""
-    scale = design.value("peltier_volume") / (design.value("peltier_thickness") * design.value("peltier_area"))
-    return design.value("peltier_resistance") * scale / pad_count(design)
 
 
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
@@ -204,23 +207,21 @@ def _polymer(design: Design, titles: Mapping[str, str]) -> Item:
 
 def _glues(design: Design) -> list[Item]:
     """Return what else holds: the locking of screws in metal, and the motor's bonded parts."""
-    items = []
+    items, bears = [], rating(design, "structure_service_temperature")
     if design.choices["making_method"] == "milled":
-        bears = up(design.value("structure_service_temperature") - ZERO_CELSIUS)
-        text = f"Thread-locking compound of medium strength for {bears} °C, for all screws in tapped metal"
+        text = f"Thread-locking compound of medium strength for {bears}, for all screws in tapped metal"
         items.append(Item("thread_locker", 1, False, "", text, 0.0, ()))
     if design.values.get("drive_height", 0.0) > 0.0:
-        bears = up(design.value("structure_service_temperature") - ZERO_CELSIUS)
-        text = f"Structural adhesive for {bears} °C, for the motor's rotor, stator and magnet"
+        text = f"Structural adhesive for {bears}, for the motor's rotor, stator and magnet"
         items.append(Item("motor_adhesive", 1, False, "", text, 0.0, ()))
     return items
 
 
 def _beside_the_module(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return the screws that fix the module, and grease where parts rub."""
-    bears = up(design.value("structure_service_temperature") - ZERO_CELSIUS)
+    bears = rating(design, "structure_service_temperature")
     bore = ", bore" if design.choices.get("bearing", "none") == "none" and design.value("bore_friction") < _DRY else ""
-    grease = f"Grease for plastics and metals, for {bears} °C: retainer{bore}, wave spring, springs' posts and pins"
+    grease = f"Grease for plastics and metals, for {bears}: retainer{bore}, wave spring, springs' posts and pins"
     items = [Item("grease", 1, False, "", grease, 0.0, ())]
     if design.values.get("drive_height", 0.0) > 0.0:
         return items
@@ -236,7 +237,7 @@ def _under_pads(design: Design, titles: Mapping[str, str]) -> list[Item]:
     Pads and spreaders in vanes are glued at their ends, and the block presses them in.
     """
     if design.mode == "compression" or design.choices.get("heater_form", "flexible") != "flexible":
-        grease = f"Thermal grease for {_hottest(design)}, a film behind each pad"
+        grease = f"Thermal grease for {rating(design)}, a film behind each heater"
         items = [Item("thermal_grease", 1, False, "", grease, 0.0, ())]
         if design.mode == "shear":
             gap, deep = 1e3 * design.value("spreader_gap"), 1e3 * design.value("spreader_depth")
@@ -247,7 +248,7 @@ def _under_pads(design: Design, titles: Mapping[str, str]) -> list[Item]:
         return items
     tension = design.values.get("ledge_tension", math.nan)
     bears = f", which bears {1e-6 * tension:.2g} MPa in tension" if math.isfinite(tension) else ""
-    return [_adhesive(design, titles, f"a thin film on the pads' ledges{bears}")]
+    return [_adhesive(design, titles, f"a thin film on the heaters' ledges{bears}")]
 
 
 def _adhesive(design: Design, titles: Mapping[str, str], where: str) -> Item:
@@ -256,17 +257,12 @@ def _adhesive(design: Design, titles: Mapping[str, str], where: str) -> Item:
     return Item("heater_adhesive", 1, False, record, f"{titles.get('heater_adhesive', record)}, {where}", 0.0, ())
 
 
-def _hottest(design: Design) -> str:
-    """Return what must bear the heater's rating, in words."""
-    return f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
-
-
 def _with_spreaders(design: Design) -> list[Item]:
-    """Return what rigid Peltier modules below spreaders take beside: the adhesive between them."""
+    """Return what rigid heaters below spreaders take beside: the adhesive between them."""
     if design.choices.get("heater_form", "flexible") == "flexible":
         return []
     area = 1e6 * design.value("peltier_area") * design.value("heater_count")
-    words = f"Adhesive of modules and spreaders, for {_hottest(design)}, a thin film over {area:.4g} mm² in all"
+    words = f"Adhesive of modules and spreaders, for {rating(design)}, a thin film over {area:.4g} mm² in all"
     return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
 
 
@@ -280,16 +276,16 @@ def _of_the_heater(design: Design) -> list[Item]:
         count = round(design.value("arc_count")) if hole else 1
         items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
     if design.values.get("cutout_diameter", 0.0) > 0.0:
-        film = f"Polyimide film with adhesive for {_hottest(design)}, to wrap the thermal cut-out"
+        film = f"Polyimide film with adhesive for {rating(design)}, to wrap the thermal cut-out"
         items.append(Item("polyimide_film", 1, False, "", film, 0.0, ()))
         covers += 2
-    sleeves = f"Sleeve of PTFE or glass fibre for {_hottest(design)}, over each bare wire of thermistors and cut-out"
+    sleeves = f"Sleeve of PTFE or glass fibre for {rating(design)}, over each bare wire of thermistors and cut-out"
     items.append(Item("wire_sleeve", covers, False, "", sleeves, 0.0, ()))
     if not (wire := wire_in_words(design, pad_count(design))):
         return items
     items.append(Item("heater_wire", 1, False, "", wire, 0.0, ()))
     joints = 2 * pad_count(design) + (2 if design.values.get("cutout_diameter", 0.0) > 0.0 else 0)
-    words = f"Uninsulated crimp splice for the wires it joins, for {_hottest(design)}, with a shrink sleeve over it"
+    words = f"Uninsulated crimp splice for the wires it joins, for {rating(design)}, with a shrink sleeve over it"
     return [*items, Item("crimp_splice", joints, False, "", words, 0.0, ())]
 
 
@@ -299,7 +295,7 @@ def _has_lead_holes(design: Design) -> bool:
 
 
 def _supply(design: Design) -> list[Item]:
-    """Return supply and bridge by what the switch asks of them; none where the design was not taken through it."""
+    """Return supply, driver and controller by what the switch asks; none where the design was not taken through it."""
     volts, amperes = (
         max(
             (abs(design.values[name]) for name in names if math.isfinite(design.values.get(name, math.nan))),
@@ -309,20 +305,23 @@ def _supply(design: Design) -> list[Item]:
     )
     if not volts or not amperes:
         return []
-    both = " both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else ""
+    ways = "both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else "one way round"
     wired = _WIRED[design.choices.get("heater_wiring", "series")]
+    asks = bears = (volts, amperes)
     asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
-    bridge, bears, asks = "H-bridge" if both else "Switch", (volts, amperes), (volts, amperes)
-    supply = f"DC supply, {asked}"
+    driver, supply = f"H-bridge, current controlled {ways}, {asked}", f"DC supply, {asked}"
     if (given := design.supply_voltage) is not None:
-        # Power is what stays. No offer is known of a driver that steps down.
-        bears, asks = (given, volts * amperes / given / _EFFICIENCY), (math.inf, amperes)
+        bears = given, volts * amperes / given / _EFFICIENCY  # power is what stays
         supply = f"DC supply of {given:.4g} V, at least {up(bears[1])} A"
-        bridge = f"Step-down driver from {given:.4g} V"
-    driver = f"{bridge} with a controlled current{both}, {asked}"
+        driver = f"Step-down driver, current controlled {ways}, from {given:.4g} V, {asked}"
+    sensors = round(design.values.get("thermistor_count", 1.0))
+    controller = (
+        f"Controller with an output that sets the driver's current, and 3.3 V inputs for thermistors: {sensors}"
+    )
     return [
         Item("supply", 1, False, "", supply, 0.0, (), asks=bears),
         Item("driver", 1, False, "", driver, 0.0, (), asks=asks),
+        Item("controller", 1, False, "", controller, 0.0, ()),
     ]
 
 
@@ -359,7 +358,8 @@ def bill_csv(items: Sequence[Item]) -> bytes:
                      "mass_all_g", "supplier", "number", "pack", "price", "link", "solids", "files"])  # fmt: skip
     for number, item in enumerate(as_ordered(items), start=1):
         offer = item.offer
-        ordered = (offer.supplier, _noted(offer), offer.pack) if offer else ("", "", "")
+        chosen = "to be chosen" if item.kind in _BY_RATING else ""
+        ordered = (offer.supplier, _noted(offer), offer.pack) if offer else ("", chosen, "")
         writer.writerow([
             number, item.kind, item.quantity, _come_by(item), item.material, item.title,
             item.fit, f"{item.mass:.3f}", f"{item.mass * item.quantity:.3f}", *ordered, item.price,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -11,7 +12,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
 from tvimdesign.base.yaml_data import plain_data
-from tvimdesign.device.core.heat.heater_form import heater_fuse
+from tvimdesign.device.core.heat.heater_form import HeaterFuse, heater_fuse
 from tvimdesign.study.design import Design
 
 _HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")
@@ -24,6 +25,8 @@ _BEARS = {
     "the liner": _LINER,
 }
 """What stands beside the heater, and the quantity that says what it bears."""
+_ROOM = ("cutout_ground_gap", "cutout_retainer_gap")
+"""Quantities that say whether a cut-out has room; negative where it has none."""
 _ROUNDING = 1e-6
 _WIRES = Path(__file__).with_name("wire_ratings.yaml")
 _THERMISTORS = Path(__file__).with_name("thermistors.yaml")
@@ -32,6 +35,11 @@ _THERMISTORS = Path(__file__).with_name("thermistors.yaml")
 def up(value: float) -> str:
     """Return a figure that a rating must reach, to a tenth upwards."""
     return f"{math.ceil(10.0 * value - _ROUNDING) / 10.0:g}"
+
+
+def rating(design: Design, name: str = "peltier_max_temperature") -> str:
+    """Return a temperature that a bought part must bear, by default the heater's rating, in words."""
+    return f"{up(design.value(name) - ZERO_CELSIUS)} °C"
 
 
 def largest(design: Design, names: tuple[str, ...]) -> float | None:
@@ -53,13 +61,27 @@ def fuse_in_words(record: Record, design: Design) -> str:
     size = " x ".join(f"{1e3 * record.value(name):.3g}" for name in ("body_diameter", "body_length"))
     works, holds = up(hottest - ZERO_CELSIUS), f"{fuse.holds - ZERO_CELSIUS:.3g} °C at its rated current"
     said = [
-        f"{record.title}, {fuse.designation}",
         f"opens from {fuse.opens_from - ZERO_CELSIUS:.3g} to {fuse.opens_at - ZERO_CELSIUS:.3g} °C",
         f"the heater has {works} °C at most",
         f"for good it holds {holds}" + (", less than the heater's peak: ask the maker" if fuse.holds < hottest else ""),
-        *(f"it opens above the {bears[what] - ZERO_CELSIUS:.3g} °C that {what} bears" for what in fuse.above),
+        f"body {size} mm",
+        "ask for its rating in direct current",
     ]
-    return f"{said[0]}: {'; '.join(said[1:])}; body {size} mm; ask for its rating in direct current"
+    return f"{_misfit(record, design, fuse, hottest, bears)}{record.title}, {fuse.designation}: {'; '.join(said)}"
+
+
+def _misfit(record: Record, design: Design, fuse: HeaterFuse, hottest: float, bears: Mapping[str, float]) -> str:
+    """Return why a cut-out must not be ordered for this module, and what to choose instead; empty for one that fits."""
+    why = [f"it opens above the {bears[what] - ZERO_CELSIUS:.3g} °C that {what} bears" for what in fuse.above]
+    if any(design.values.get(name, 0.0) < 0.0 for name in _ROOM):
+        why.append("it has no room")
+    if not why:
+        return ""
+    low = hottest + record.value("working_margin")
+    between = f"one that opens between {up(low - ZERO_CELSIUS)} and {min(bears.values()) - ZERO_CELSIUS:.3g} °C"
+    beyond = f"a cooler heater, or parts that bear {up(low + record.value('opening_band') - ZERO_CELSIUS)} °C"
+    other = f"{between}, {beyond}" if low < min(bears.values()) else beyond
+    return f"Does not fit: {'; '.join(why)}; choose {other}. Not to be ordered: "
 
 
 def _ratings(design: Design) -> dict[str, float]:
@@ -74,8 +96,7 @@ def _ratings(design: Design) -> dict[str, float]:
 def thermistor_in_words(design: Design) -> str:
     """Return a thermistor for the temperature the heater is rated for: its number, and the bead that is drawn where
     one is."""
-    rated = design.value("peltier_max_temperature")
-    bears = f"for {up(rated - ZERO_CELSIUS)} °C"
+    rated, bears = design.value("peltier_max_temperature"), f"for {rating(design)}"
     bead = None
     if design.values.get("thermistor_diameter", 0.0) > 0.0:
         bead = Bead(design.value("thermistor_diameter"), design.value("thermistor_length"))
@@ -151,11 +172,37 @@ def wire_in_words(design: Design, pads: int) -> str:
     current = largest(design, _STRONGEST)
     if current is None:
         return ""
-    rated = up(design.value("peltier_max_temperature") - ZERO_CELSIUS)
-    said = f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rated} °C"
-    wire = next((one for one in wires() if one.current >= current), None)
+    said = f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rating(design)}"
+    wire = _wire(current)
     said = f"{said}: copper of {1e6 * wire.section:.3g} mm² ({wire.gauge}; {_source()}) or thicker" if wire else said
     return f"{said}, spliced to the heaters' own leads{_own_leads(design)}"
+
+
+def _wire(current: float) -> Wire | None:
+    """Return the thinnest wire that bears a current [A]."""
+    return next((one for one in wires() if one.current >= current), None)
+
+
+def heater_order(design: Design) -> list[str]:
+    """Return what a heater that only heats is ordered by: resistance, watts at its voltage, and its leads.
+
+    Nothing for Peltier modules, which are bought by their number.
+    """
+    if design.values.get("peltier_seebeck") != 0.0:
+        return []
+    count = pad_count(design)
+    area = design.value("peltier_volume") / design.value("peltier_thickness")
+    ohms = design.value("peltier_resistance") * area / design.value("peltier_area") / count
+    order, leads = [f"{ohms:.3g} ohm each, ± 10 % (assumed)"], "two leads"
+    if (current := largest(design, _STRONGEST)) and design.choices.get("heat_source") != "layer":
+        amperes = current / design.values.get("heater_strings", 1.0)
+        watts = amperes**2 * ohms
+        dense = 1e-4 * watts * count / area
+        order.append(f"at most {watts:.3g} W each, at {amperes * ohms:.3g} V and {amperes:.3g} A, {dense:.2g} W/cm²")
+        leads += f" of {wire.gauge} or thicker" if (wire := _wire(amperes)) else f" for {up(amperes)} A"
+    long, ledge = (1e3 * design.value(name) for name in ("envelope_diameter", "window_ledge"))
+    exits = f"at least {long:.0f} mm long, off one face, {ledge:.3g} mm or more inside the outline"
+    return [*order, f"{leads}, insulated for {rating(design)}", f"leads {exits}"]
 
 
 def _own_leads(design: Design) -> str:

@@ -41,7 +41,7 @@ KINDS = {
     "retainer": _kind((0.42, 0.28, 0.50), *_STRUCTURE, "retainer_volume"),
     "pcl_arc": _kind((0.95, 0.93, 0.82), "pcl_grade", "pcl_density", "pcl_volume"),
     "pcl_block": _kind((0.95, 0.93, 0.82), "pcl_grade", "pcl_density", "pcl_volume"),
-    "peltier_pad": _kind((0.72, 0.20, 0.18), "peltier_module", "peltier_density", "peltier_volume"),
+    "heater": _kind((0.72, 0.20, 0.18), "peltier_module", "peltier_density", "peltier_volume"),
     "heater_lead": _kind((0.70, 0.12, 0.12), "peltier_module", "lead_density", "lead_volume"),
     "spreader": _kind((0.80, 0.80, 0.78), "spreader_material", "spreader_density", "spreader_volume"),
     "liner": _kind((0.55, 0.50, 0.40), "liner_material", "liner_density", "liner_volume"),
@@ -131,11 +131,11 @@ PRODUCTION = {
     "pcl_block": Production(
         down="bottom", drawn=True, why="flat; cast it, print it of PCL, or cut it from sheet",
     ),
-    "peltier_pad": Production(
+    "heater": Production(
         down="bought", drawn=True,
-        why="a Peltier module of the catalogue, cut to this outline or of this size as it is sold",
+        why="a heater of the catalogue, made to this outline or of this size as it is sold",
     ),
-    "heater_lead": Production(down="bought", why="comes with its Peltier module; drawn as far as the ground"),
+    "heater_lead": Production(down="bought", why="comes with its heater; drawn as far as the ground"),
     "spreader": Production(down="bought", drawn=True, why="cut from sheet of its material by its drawing"),
     "liner": Production(down="bought", drawn=True, why="cut from sheet of its material by its drawing, or printed"),
     "thermistor": Production(down="bought", why="a thermistor in glass with a bead of this size and insulated wires"),

@@ -119,7 +119,7 @@ def spring_reach(coil: Coil) -> float:
     return max(0.5 * coil.diameter, hypot(*coil.tang_position)) + 0.5 * coil.wire_diameter
 
 
-_IN = {"peltier_pad": "housing", "spreader": "housing", "liner": "rotor"}
+_IN = {"heater": "housing", "spreader": "housing", "liner": "rotor"}
 """Parts that lie in a pocket, and the part that has it."""
 _ROUNDING = 1e-3
 """By which a measured gap may be short [mm]: a twentieth of the least clearance of any process."""
@@ -139,9 +139,9 @@ def fit_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[Sol
 
 
 _WIRES = {
-    "heater_lead": ("peltier_pad",),
-    "thermal_cutout": ("peltier_pad", "housing"),  # wrapped in film, it may lie on the floor
-    "thermistor": ("peltier_pad", "spreader", "pcl_arc", "pcl_block"),
+    "heater_lead": ("heater",),
+    "thermal_cutout": ("heater", "housing"),  # wrapped in film, it may lie on the floor
+    "thermistor": ("heater", "spreader", "pcl_arc", "pcl_block"),
 }
 """Bought parts with wires, drawn with these, and what they touch on purpose."""
 _INSULATED = 0.1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache, partial
 from math import dist
 from pathlib import Path
@@ -18,6 +19,7 @@ from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, o
 from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
 from tvimdesign.cad.assembly.assembly_note import assembly_note, coming, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
+from tvimdesign.cad.assembly.heater_leads import heater_order
 from tvimdesign.cad.assembly.module_script import module_script
 from tvimdesign.cad.assembly.wiring import wiring_svg
 from tvimdesign.cad.cad_report import SolidCheck
@@ -120,6 +122,8 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
     solid, what = _solids(job.needs)[kind], product(job.design, kind)
     if PRODUCTION[kind].drawn:
         asked = drawing_requirements(kind, job.dims, job.design.choices)
+        if kind == "heater" and (order := heater_order(job.design)):
+            asked = replace(asked, notes=[f"{words[0].upper()}{words[1:]}." for words in order])
         sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(KINDS[kind].material, ""))
         _write(job.folder, cad_report.drawing_dxf(kind), sheet.dxf())
         _write(job.folder, cad_report.drawing_pdf(kind), sheet.pdf())

@@ -61,8 +61,8 @@ def pcl_block(dims: Dimensions, squeeze: float = 0.0) -> cq.Shape:
     return sector(dims.pcl_inner_radius, dims.pcl_outer_radius, span, dims.running_clearance, dims.vane_height)
 
 
-def peltier_pad(dims: Dimensions) -> cq.Shape:
-    """Draw one Peltier module, upright along the x axis: a flat pad, or a tile whose middle is on the axis."""
+def heater(dims: Dimensions) -> cq.Shape:
+    """Draw one heater, upright along the x axis: a flat pad, or a tile whose middle is on the axis."""
     if dims.spreader_depth:
         return heater_parts.vane_tile(dims)
     along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
@@ -75,7 +75,7 @@ DRAWN = {
     "link": link,
     "retainer": retainer,
     "pcl_block": pcl_block,
-    "peltier_pad": peltier_pad,
+    "heater": heater,
 }
 
 
@@ -121,14 +121,14 @@ def _heaters(
     """Draw what stands in one face of a housing vane, faces counted around the axis: a pad, or spreader and tiles."""
     if not dims.spreader_depth:
         at, beside = _behind_face(dims, side, dims.peltier_thickness)
-        return {f"peltier_pad_{face + 1}": turned(drawn["peltier_pad"], azimuth + at, beside)}
+        return {f"heater_{face + 1}": turned(drawn["heater"], azimuth + at, beside)}
     at, beside = _behind_face(dims, side, dims.spreader_depth)
     placed = {f"spreader_{face + 1}": turned(drawn["spreader"], azimuth + at, beside)}
     at, beside = _behind_face(dims, side, dims.peltier_thickness, dims.spreader_depth)
     places = heater_parts.tile_row(dims)
     for index, along in enumerate(places):
-        tile = drawn["peltier_pad"].moved(cq.Location(cq.Vector(along, 0.0, 0.0)))
-        placed[f"peltier_pad_{face * len(places) + index + 1}"] = turned(tile, azimuth + at, beside)
+        tile = drawn["heater"].moved(cq.Location(cq.Vector(along, 0.0, 0.0)))
+        placed[f"heater_{face * len(places) + index + 1}"] = turned(tile, azimuth + at, beside)
     return placed
 
 

@@ -1,4 +1,4 @@
-"""Parts of the heaters: rectangular Peltier modules with spreaders, liners, thermistor, thermal cut-out.
+"""Parts of the heaters: rectangular ones with spreaders, liners, thermistor, thermal cut-out.
 
 Parts of the shear module are centred on the x axis, as an arc is; those in vanes stand along it.
 """
@@ -29,7 +29,7 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
     }
 
 
-# --- rectangular Peltier modules ---
+# --- rectangular heaters ---
 
 
 def arc_tile(dims: Dimensions) -> cq.Shape:

@@ -80,8 +80,8 @@ def _keys(dims: Dimensions) -> list[cq.Shape]:
     return [cylinder(0.5 * dims.key_diameter, bottom, bottom + dims.key_depth, place) for place in at]
 
 
-def peltier_pad(dims: Dimensions) -> cq.Shape:
-    """Draw one Peltier module under an arc: a pad of its outline, or a tile, on the x axis."""
+def heater(dims: Dimensions) -> cq.Shape:
+    """Draw one heater under an arc: a pad of its outline, or a tile, on the x axis."""
     return heater_parts.arc_tile(dims) if dims.spreader_depth else _pad(dims)
 
 
@@ -91,12 +91,12 @@ DRAWN = {
     "link": link,
     "retainer": retainer,
     "pcl_arc": pcl_arc,
-    "peltier_pad": peltier_pad,
+    "heater": heater,
 }
 
 
 def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
-    """Place Peltier modules, spreaders, arcs and liners, these and keys with the rotor at an angle [rad], by name.
+    """Place heaters, spreaders, arcs and liners, these and keys with the rotor at an angle [rad], by name.
 
     The arcs are drawn unsheared: the floor holds their lower face, the keys go with the rotor.
     """
@@ -105,7 +105,7 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
     beside = heater_parts.tile_azimuths(dims) if dims.spreader_depth else [0.0]
     pads = [azimuth + of_tile for azimuth in _azimuths(dims) for of_tile in beside]
     sensed = _azimuths(dims)[: dims.count("thermistor_count")] if "thermistor" in drawn else []
-    places = {"peltier_pad": pads, "pcl_arc": _azimuths(dims), "spreader": _azimuths(dims), "thermistor": sensed}
+    places = {"heater": pads, "pcl_arc": _azimuths(dims), "spreader": _azimuths(dims), "thermistor": sensed}
     places["liner"] = [azimuth + rotor_angle for azimuth in _azimuths(dims)]
     shapes = {kind: drawn[kind] for kind in places if kind in drawn} | {"pcl_arc": arc}
     placed = {

@@ -153,7 +153,7 @@ def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str
 
 def _going_with(name: str) -> str:
     """Return the kind of part that a part is put in with: leads hang on their heater."""
-    return "peltier_pad" if kind_of(name) == "heater_lead" else kind_of(name)
+    return "heater" if kind_of(name) == "heater_lead" else kind_of(name)
 
 
 _SECTION_SIZE = (1500, 750)

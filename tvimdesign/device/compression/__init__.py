@@ -12,7 +12,7 @@ vanes) are given, the housing vanes take what is left of the circle. A sector's 
 radius, so a block is strained alike from its inner to its outer end and K = n E A r^2/L is exact with the mean radius.
 
 - A rotor vane hangs from the plate to a running clearance above the floor.
-- A housing vane stands on the floor and reaches to a running clearance below the plate. A flat Peltier pad, of block
+- A housing vane stands on the floor and reaches to a running clearance below the plate. A flat heater, of block
   width by block height, is let into each of its two faces flush with it, from a running clearance above the floor to
   the vane's top: hot side to the block, cold side to the inside of the vane.
 - Between its two pads the vane has a slot, open to the air below through the floor: `slot_share` of the block's width,

@@ -1,4 +1,4 @@
-"""Heat of rotor plate, vanes and rigid Peltier modules around the blocks of the compression module.
+"""Heat of rotor plate, vanes and rigid heaters around the blocks of the compression module.
 
 Vanes give heat to floor and rotor plate through their roots, and through the clearance at their other end. A vane
 meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`ledge_ways`).
@@ -154,7 +154,7 @@ def _into(sheet: Scalar, width: Scalar, depth: Scalar) -> Scalar:
 
 @quantities.output("1")
 def heater_strings(m: Module) -> Scalar:
-    """Strings of Peltier modules in parallel, which share the current."""
+    """Strings of heaters in parallel, which share the current."""
     return {"series": 1.0, "vanes_parallel": m.vane_count, "all_parallel": m.heater_count}[m.heater_wiring]
 
 

@@ -134,7 +134,7 @@ weights = QuantityGroup("Size and weight")
 
 @weights.output("mm^2")
 def block_area(m: Module) -> Scalar:
-    """Face of one block, and of one Peltier pad."""
+    """Face of one block, and of one heater."""
     return m.block_width * m.block_height
 
 
@@ -152,7 +152,7 @@ def pcl_volume(m: Module) -> Scalar:
 
 @weights.output("mm^3")
 def peltier_volume(m: Module) -> Scalar:
-    """Volume of all Peltier modules together: pads with the faces of the blocks, or rectangular tiles."""
+    """Volume of all heaters together: pads with the faces of the blocks, or rectangular tiles."""
     area = m.pcl_area if m.heater_form == CUT else m.heater_count * m.peltier_length * m.peltier_width
     return area * m.peltier_thickness
 

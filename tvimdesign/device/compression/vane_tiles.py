@@ -1,4 +1,4 @@
-"""Rigid Peltier modules in the housing's vanes, as they are bought: rectangular tiles in a row behind a spreader.
+"""Rigid heaters in the housing's vanes, as they are bought: rectangular tiles in a row behind a spreader.
 
 Behind the face of each block stands a spreader of the block's face, flush with the vane, and behind that a row of
 `tiles_per_block` tiles, upright: their length along the radius, evenly spread over the block's width, their width along
@@ -40,19 +40,19 @@ tile_rules = QuantityGroup("Gaps", WITH_TILES)
 kinds.option(
     "heater_wiring",
     ("series", "vanes_parallel", "all_parallel"),
-    "How the Peltier modules are wired: all in series, the vanes in parallel each in series, or all in parallel",
+    "How the heaters are wired: all in series, the vanes in parallel each in series, or all in parallel",
 )
 
 
 @tile_places.helper(requires=())
 def pocket_count(m: Module) -> Scalar:
-    """Pockets for Peltier modules [1]: one in each face of the housing's vanes."""
+    """Pockets for heaters [1]: one in each face of the housing's vanes."""
     return 2.0 * m.vane_count
 
 
 @tile_places.helper(requires=())
 def tiles_per_pocket(m: Module) -> Scalar:
-    """Rectangular Peltier modules in each pocket [1]."""
+    """Rectangular heaters in each pocket [1]."""
     return m.tiles_per_block
 
 
@@ -99,30 +99,26 @@ def tile_seat_area(m: Module) -> Scalar:
     return m.peltier_length * m.peltier_width - m.tile_window * m.slot_height
 
 
-@tile_rules.output(
-    "mm", at_least(0.0, "the Peltier modules are too long for the block's width: fewer, or a wider block")
-)
+@tile_rules.output("mm", at_least(0.0, "the heaters are too long for the block's width: fewer, or a wider block"))
 def tile_side_margin(m: Module) -> Scalar:
     """Gap between neighbouring tiles of a row beyond the least; of one, to both ends of its block."""
     return m.tile_spacing - m.peltier_length - m.tile_clearance
 
 
-@tile_rules.output(
-    "mm", at_least(0.0, "the Peltier modules are taller than the block: a smaller one, or a taller block")
-)
+@tile_rules.output("mm", at_least(0.0, "the heaters are taller than the block: a smaller one, or a taller block"))
 def tile_height_margin(m: Module) -> Scalar:
     """Height of the block beyond that of the tiles."""
     return m.block_height - m.peltier_width
 
 
-@tile_rules.output("mm", at_least(0.0, "a Peltier module reaches beyond the outer end of its vane: a wider block"))
+@tile_rules.output("mm", at_least(0.0, "a heater reaches beyond the outer end of its vane: a wider block"))
 def tile_end_margin(m: Module) -> Scalar:
     """Vane beyond the back corner of its outermost tiles, which bear on it up to there."""
     end = m.pcl_outer_radius - 0.5 * (m.tile_spacing - m.peltier_length)
     return m.pcl_outer_radius - np.sqrt(end**2 + m.pad_depth**2)
 
 
-@tile_rules.output("mm", at_least(0.0, "the slot behind a Peltier module is too narrow for its leads"))
+@tile_rules.output("mm", at_least(0.0, "the slot behind a heater is too narrow for its leads"))
 def lead_slot_margin(m: Module) -> Scalar:
     """Width of the slots beyond what the leads of a tile need."""
     return m.slot_width - m.lead_hole_diameter
@@ -164,7 +160,7 @@ def tile_edge_rise(m: Module) -> Scalar:
 
 @loads.output("N*m", requires=WITH_TILES)
 def heater_holding_torque(m: Module) -> Scalar:
-    """Torque at which the blocks press on the rigid Peltier modules as hard as these bear, at their upper edges."""
+    """Torque at which the blocks press on the rigid heaters as hard as these bear, at their upper edges."""
     seats = m.tiles_per_block * m.tile_seat_area / m.tile_edge_rise
     return block.torque_at_stress(m.heater_pressure_limit, m.vane_count, seats, m.pcl_mean_radius)
 
@@ -190,7 +186,7 @@ def lower_seat_holding_torque(m: Module) -> Scalar:
 
 @loads.output("MPa", per_point=True, requires=WITH_TILES)
 def heater_pressure(m: Module) -> Scalar:
-    """Highest pressure on rigid Peltier modules in a hold, at their upper edges: when the load has just come on."""
+    """Highest pressure on rigid heaters in a hold, at their upper edges: when the load has just come on."""
     return m.block_pressure * m.block_area * m.tile_edge_rise / (m.tiles_per_block * m.tile_seat_area)
 
 

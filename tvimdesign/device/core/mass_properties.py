@@ -199,13 +199,13 @@ def pcl_mass(m: Module) -> Scalar:
 
 @quantities.output("kg/m^3")
 def peltier_density(m: Module) -> Scalar:
-    """Mass of the Peltier module over its volume."""
+    """Mass of the heater over its volume."""
     return m.peltier_scale * m.peltier_unit_mass / m.peltier_volume
 
 
 @quantities.output("g")
 def peltier_mass(m: Module) -> Scalar:
-    """Mass of all Peltier pads together."""
+    """Mass of all heaters together."""
     return m.peltier_volume * m.peltier_density
 
 

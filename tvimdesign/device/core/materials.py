@@ -58,7 +58,7 @@ quantities.record(
     "peltier_module",
     "peltiers",
     "flexible_1600",
-    "Peltier module under the layer",
+    "Heater under the layer: Peltier module, foil or silicone",
 )
 
 quantities.record(
@@ -172,15 +172,15 @@ for name, unit, field, description in (
     quantities.property(name, unit, ("pcl_grade", field), description, mode="shear", default=unlimited)
 
 for name, unit, field, description in (
-    ("peltier_seebeck", "V/K", "seebeck", "Seebeck coefficient of one Peltier module"),
-    ("peltier_resistance", "ohm", "resistance", "Electrical resistance of one Peltier module"),
-    ("peltier_conductance", "W/K", "conductance", "Thermal conductance of one Peltier module"),
-    ("peltier_shear_modulus", "MPa", "shear_modulus", "Shear modulus of the Peltier module as a sheet"),
-    ("peltier_thickness", "mm", "thickness", "Thickness of the Peltier module"),
-    ("peltier_area", "mm^2", "area", "Area of one Peltier module"),
-    ("peltier_unit_mass", "g", "mass", "Mass of one Peltier module"),
-    ("peltier_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the Peltier module"),
-    ("peltier_max_temperature", "degC", "max_temperature", "Highest temperature the Peltier module is rated for"),
-    ("peltier_max_current", "A", "max_current", "Highest current the Peltier module is rated for"),
+    ("peltier_seebeck", "V/K", "seebeck", "Seebeck coefficient of one heater"),
+    ("peltier_resistance", "ohm", "resistance", "Electrical resistance of one heater"),
+    ("peltier_conductance", "W/K", "conductance", "Thermal conductance of one heater"),
+    ("peltier_shear_modulus", "MPa", "shear_modulus", "Shear modulus of the heater as a sheet"),
+    ("peltier_thickness", "mm", "thickness", "Thickness of the heater"),
+    ("peltier_area", "mm^2", "area", "Area of one heater"),
+    ("peltier_unit_mass", "g", "mass", "Mass of one heater"),
+    ("peltier_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the heater"),
+    ("peltier_max_temperature", "degC", "max_temperature", "Highest temperature the heater is rated for"),
+    ("peltier_max_current", "A", "max_current", "Highest current the heater is rated for"),
 ):
     quantities.property(name, unit, ("peltier_module", field), description)

@@ -55,7 +55,7 @@ def _rounded_sector(span: Scalar, inner_radius: Scalar, outer_radius: Scalar, co
 
 @weights.helper()
 def pad_section(m: Module) -> Section:
-    """Plan view of all Peltier pads: the outline of the PCL, its corners as round as those of the pockets."""
+    """Plan view of all heaters: the outline of the PCL, its corners as round as those of the pockets."""
     return _rounded_sector(m.arc_span, m.pcl_inner_radius, m.pcl_outer_radius, m.corner_radius).times(m.arc_count)
 
 
@@ -68,7 +68,7 @@ def _pocket_section(m: Module) -> Section:
 
 @weights.output("mm^3")
 def peltier_volume(m: Module) -> Scalar:
-    """Volume of all Peltier modules together: cut to the pockets' outline, or rectangular tiles."""
+    """Volume of all heaters together: cut to the pockets' outline, or rectangular tiles."""
     if m.heater_form == CUT:
         return m.pad_section.area * m.peltier_thickness
     return m.heater_count * m.peltier_width * (m.peltier_length - 0.5 * m.peltier_porch) * m.peltier_thickness
@@ -76,7 +76,7 @@ def peltier_volume(m: Module) -> Scalar:
 
 @weights.helper()
 def window_section(m: Module) -> Section:
-    """Plan view of the windows below the Peltier modules: arcs or tiles, less a ledge on every side, rounded."""
+    """Plan view of the windows below the heaters: arcs or tiles, less a ledge on every side, rounded."""
     if m.heater_form != CUT:
         sides = (m.peltier_width - 2.0 * m.window_ledge, m.cold_plate_length - 2.0 * m.window_ledge)
         away = np.sqrt(m.tile_radius**2 + (0.5 * m.peltier_porch) ** 2)
@@ -138,33 +138,33 @@ def hub_arc_gap(m: Module) -> Scalar:
     return m.pcl_inner_radius - m.hub_radius - m.radial_clearance
 
 
-@rules.output("mm", at_least(3.0 * MM, "the floor needs a web between two Peltier pads", 0.0))
+@rules.output("mm", at_least(3.0 * MM, "the floor needs a web between two heaters", 0.0))
 def arc_gap(m: Module) -> Scalar:
     """Web between neighbouring PCL arcs at their inner radius."""
     return (2.0 * np.pi / m.arc_count - m.arc_span) * m.pcl_inner_radius
 
 
-@rules.output("mm", at_least(5.0 * MM, "the Peltier pad needs its ledges and a window for its cold side", 0.0))
+@rules.output("mm", at_least(5.0 * MM, "the heater needs its ledges and a window for its cold side", 0.0))
 def arc_width(m: Module) -> Scalar:
     """Radial width of the PCL arcs."""
     return m.pcl_outer_radius - m.pcl_inner_radius
 
 
-@rules.output("mm", at_least(0.0, "a Peltier pad needs a window behind its ledges for its cold side", 0.0))
+@rules.output("mm", at_least(0.0, "a heater needs a window behind its ledges for its cold side", 0.0))
 def window_depth(m: Module) -> Scalar:
-    """Radial width of the windows below the Peltier modules."""
+    """Radial width of the windows below the heaters."""
     return (m.arc_width if m.heater_form == CUT else m.peltier_width) - 2.0 * m.window_ledge
 
 
-@rules.output("mm", at_least(0.0, "there must be a floor below a Peltier pad", 0.0))
+@rules.output("mm", at_least(0.0, "there must be a floor below a heater", 0.0))
 def floor_web(m: Module) -> Scalar:
-    """Thickness of the floor below the Peltier pads."""
+    """Thickness of the floor below the heaters."""
     return m.floor_thickness - m.pad_depth
 
 
-@rules.output("mm", at_least(0.0, "the floor below a Peltier pad is thinner than the process can make it"))
+@rules.output("mm", at_least(0.0, "the floor below a heater is thinner than the process can make it"))
 def floor_web_margin(m: Module) -> Scalar:
-    """Floor below the Peltier pads beyond the process's least wall."""
+    """Floor below the heaters beyond the process's least wall."""
     return m.floor_web - m.minimum_wall
 
 
@@ -183,18 +183,18 @@ def floor_opening_radius(m: Module) -> Scalar:
 rules.after("retainer_gap")
 
 
-@rules.output("mm", at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))
+@rules.output("mm", at_least(2.0 * MM, "the window below a heater must have a width", 0.0))
 def window_width(m: Module) -> Scalar:
-    """Width of the windows below the Peltier modules, along the arc: of an arc's at its inner radius."""
+    """Width of the windows below the heaters, along the arc: of an arc's at its inner radius."""
     return (m.arc_span * m.pcl_inner_radius if m.heater_form == CUT else m.cold_plate_length) - 2.0 * m.window_ledge
 
 
 rules.after("mount_wall_gap")
 
 
-@rules.output("mm", at_least(0.0, "the feet must clear the Peltier pads"))
+@rules.output("mm", at_least(0.0, "the feet must clear the heaters"))
 def mount_pad_gap(m: Module) -> Scalar:
-    """Room between the mounting feet and the Peltier pads beyond the radial clearance."""
+    """Room between the mounting feet and the heaters beyond the radial clearance."""
     return m.placement_radius - m.mount_boss_radius - m.pcl_outer_radius - m.radial_clearance
 
 

@@ -5,7 +5,7 @@ the upper strip's first body, next to the pads' hot sides, is a body of its own.
 what is left of the housing. A body that is heated over a face has its mean temperature a third of its depth behind that
 face (even heating, Incropera, Fundamentals of Heat and Mass Transfer, ch. 3); one that heat passes through, half of it.
 
-Peltier modules and a spreader on them in shear: strings, spreading resistance, compliance, air and cold sides.
+Heaters and a spreader on them in shear: strings, spreading resistance, compliance, air and cold sides.
 
 Beside rigid modules, below their spreader, is a room of air that tiles, ledge and the pocket's wall close. Ledges touch
 a share of the pads' cold sides, a sink the rest. The legs conduct k_x along and k_y up: a slab of the mean k = (k_x
@@ -205,7 +205,7 @@ INCOMPRESSIBLE = 3.0
 
 @quantities.output("1")
 def heater_strings(m: Module) -> Scalar:
-    """Strings of Peltier modules in parallel, which share the current."""
+    """Strings of heaters in parallel, which share the current."""
     return {"series": 1.0, "arcs_parallel": m.arc_count, "all_parallel": m.heater_count}[m.heater_wiring]
 
 

@@ -1,4 +1,4 @@
-"""Leads of rectangular Peltier modules under the arcs: how they bend, and the slot of the floor they go down through.
+"""Leads of rectangular heaters under the arcs: how they bend, and the slot of the floor they go down through.
 
 Both leads leave one end of their module side by side, at half its height. They bend down by `lead_bend_radius` and back
 again, and run on along the ground below the floor. A slot beside that end of each module is as long as this bend needs.
@@ -29,13 +29,13 @@ rules = QuantityGroup("Gaps", WITH_TILES)
 
 @places.output("mm")
 def lead_bend_radius(m: Module) -> Scalar:
-    """Radius to which the leads of a Peltier module are bent, along their middle."""
+    """Radius to which the leads of a heater are bent, along their middle."""
     return (m.lead_bend_ratio + 0.5) * m.lead_diameter
 
 
 @places.output("mm", hidden=True)
 def lead_level(m: Module) -> Scalar:
-    """Level at which the leads leave a Peltier module: half its height."""
+    """Level at which the leads leave a heater: half its height."""
     return -m.spreader_depth - 0.5 * m.peltier_thickness
 
 
@@ -54,7 +54,7 @@ def lead_bend_angle(m: Module) -> Scalar:
 
 @places.output("mm")
 def lead_slot_length(m: Module) -> Scalar:
-    """Length of the slot that the leads go down through, from the end of their Peltier module."""
+    """Length of the slot that the leads go down through, from the end of their heater."""
     run = 2.0 * m.lead_bend_radius * np.sin(m.lead_bend_angle)
     inside = m.lead_bend_ratio * m.lead_diameter
     above = np.fmax(m.lead_level - m.lead_drop + m.lead_bend_radius + m.floor_thickness, 0.0)
@@ -92,14 +92,14 @@ def lead_hole_section(m: Module) -> Section:
 
 @weights.output("mm^3")
 def lead_volume(m: Module) -> Scalar:
-    """Volume of all leads of Peltier modules between these and the ground below the floor; zero without."""
+    """Volume of all leads of heaters between these and the ground below the floor; zero without."""
     section = 0.25 * np.pi * m.lead_diameter**2
     return LEADS * m.heater_count * section * 2.0 * m.lead_bend_radius * m.lead_bend_angle
 
 
 @rules.output("mm", at_least(0.0, "the leads would have to bend sideways as well: a wider or longer arc"))
 def lead_exit_margin(m: Module) -> Scalar:
-    """Width by which the slot for the leads lies behind the end of their Peltier module."""
+    """Width by which the slot for the leads lies behind the end of their heater."""
     return m.lead_slot_radius - 0.5 * m.lead_slot_width - m.tile_radius + 0.5 * m.peltier_width
 
 
@@ -110,9 +110,9 @@ def lead_slot_end_margin(m: Module) -> Scalar:
     return (m.lead_slot_radius - 0.5 * m.lead_slot_width) * np.sin(half) - _slot_end(m) * np.cos(half)
 
 
-@rules.output("mm", at_least(0.0, "the slot for the leads lies below the next Peltier module: fewer, or a longer arc"))
+@rules.output("mm", at_least(0.0, "the slot for the leads lies below the next heater: fewer, or a longer arc"))
 def lead_tile_margin(m: Module) -> Scalar:
-    """Gap of that slot to the next Peltier module of its arc beyond the least; zero for one module an arc."""
+    """Gap of that slot to the next heater of its arc beyond the least; zero for one module an arc."""
     inner, pitch = m.lead_slot_radius - 0.5 * m.lead_slot_width, m.tile_pitch
     beyond = inner * np.sin(pitch) - _slot_end(m) * np.cos(pitch) - 0.5 * m.peltier_length
     return np.fmin(m.tiles_per_arc - 1.0, 1.0) * (beyond - m.tile_clearance)

@@ -1,6 +1,6 @@
 """Pads of the shear module in the floor: rigid modules as bought, pockets, and the thermistor beside them.
 
-Rigid Peltier modules under the arcs, as they are bought: rectangular tiles in a row below a spreader.
+Rigid heaters under the arcs, as they are bought: rectangular tiles in a row below a spreader.
 
 A flexible module is cut to the outline of the PCL. A rigid one, or a sheet heater that is not cut, is a rectangle:
 `tiles_per_arc` of them lie side by side under each arc, their length along the arc, on a radius at which their inner
@@ -44,19 +44,19 @@ kinds = QuantityGroup("Materials")
 kinds.option(
     "heater_wiring",
     ("series", "arcs_parallel", "all_parallel"),
-    "How the Peltier modules are wired: all in series, the arcs in parallel each in series, or all in parallel",
+    "How the heaters are wired: all in series, the arcs in parallel each in series, or all in parallel",
 )
 
 
 @tile_places.helper(requires=())
 def pocket_count(m: Module) -> Scalar:
-    """Pockets for Peltier modules [1]: one under each arc."""
+    """Pockets for heaters [1]: one under each arc."""
     return m.arc_count
 
 
 @tile_places.helper(requires=())
 def tiles_per_pocket(m: Module) -> Scalar:
-    """Rectangular Peltier modules in each pocket [1]."""
+    """Rectangular heaters in each pocket [1]."""
     return m.tiles_per_arc
 
 
@@ -97,15 +97,13 @@ def spreader_volume(m: Module) -> Scalar:
     return m.pad_section.area * m.spreader_depth
 
 
-@tile_rules.output(
-    "mm", at_least(0.0, "a Peltier module is too wide for its arc: choose a smaller one, or a wider arc")
-)
+@tile_rules.output("mm", at_least(0.0, "a heater is too wide for its arc: choose a smaller one, or a wider arc"))
 def tile_radial_margin(m: Module) -> Scalar:
     """Gap of a tile's inner edge and outer corners to the walls of its pocket, beyond the least."""
     return 0.5 * (m.tile_reach - m.pcl_inner_radius - m.peltier_width) - m.tile_clearance
 
 
-@tile_rules.output("mm", at_least(0.0, "the Peltier modules of an arc overlap: choose fewer, or a longer arc"))
+@tile_rules.output("mm", at_least(0.0, "the heaters of an arc overlap: choose fewer, or a longer arc"))
 def tile_side_margin(m: Module) -> Scalar:
     """Gap between the inner corners of neighbouring tiles beyond the least; at an arc's end, between tile and hole."""
     inner = m.tile_radius - 0.5 * m.peltier_width

@@ -1,4 +1,4 @@
-"""Path of the frozen torque from the layer to the floor, beside rigid Peltier modules and through flexible pads.
+"""Path of the frozen torque from the layer to the floor, beside rigid heaters and through flexible pads.
 
 Makers rate rigid modules for pressure, not for shear or tension. A spreader therefore has a seat of adhesive, which
 fills the gap along its inner and outer rim, and hands all of the torque to the floor in its own plane. The modules

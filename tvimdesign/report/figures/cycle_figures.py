@@ -136,6 +136,6 @@ def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: st
         style = theme.style_of(i) | {"color": colours(shade)}
         axes.plot(data["depths"], profile["temperatures"], label=f"{profile['time']:.0f} s", **style)
     axes.axhspan(*data["melting"], **theme.BAND)
-    axes.set(xlabel="Depth from the Peltier pads (mm)", ylabel="Temperature (°C)")
+    axes.set(xlabel="Depth from the heaters (mm)", ylabel="Temperature (°C)")
     theme.heading(axes, title)
     theme.legend_beside(axes, "after")

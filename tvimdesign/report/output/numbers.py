@@ -21,7 +21,7 @@ from typing_extensions import TypedDict
 from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.base.yaml_data import plain_data
 
-_CAPITALS = {"pcl": "PCL", "peltier": "Peltier", "peltiers": "Peltiers"}
+_CAPITALS = {"pcl": "PCL", "peltier": "heater", "peltiers": "heaters"}
 _NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^[a-z]+(?= [<>]=)")
 
 

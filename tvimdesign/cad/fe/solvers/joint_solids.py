@@ -73,7 +73,7 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
     for hollow in sectors(mm, *recess, wider=mm.get("liner_gap", 0.0)) if lined else []:
         rotor -= hollow
     if blocks:
-        heaters = [*folder.glob("peltier_pad_*.step"), *folder.glob("spreader_*.step")]
+        heaters = [*folder.glob("heater_[0-9]*.step"), *folder.glob("spreader_*.step")]
         housing = _ring_housing(read("housing"), mm, [read(path.stem) for path in sorted(heaters)])
     else:
         housing = _arc_housing(read("housing"), mm, _tile_pockets(mm) if rigid else _pad_pockets(mm))
@@ -100,7 +100,7 @@ def _pressed(folder: Path, mm: dict[str, float], pressed: float) -> list[tuple[s
     """
     row = round(mm["tiles_per_block"]) if mm["spreader_depth"] else 1
     thin = pressed * mm["peltier_thickness"]
-    kinds = {"pcl_block": ("pcl", SIZES["layer"], 1, 1), "peltier_pad": ("pad", thin, 0, row)}
+    kinds = {"pcl_block": ("pcl", SIZES["layer"], 1, 1), "heater": ("pad", thin, 0, row)}
     if mm["spreader_depth"]:
         kinds |= {"spreader": ("spreader", SIZES["layer"], 0, 1)}
     found = []

@@ -1,4 +1,4 @@
-"""Forms of heaters: Peltier modules cut to the PCL or rectangles behind a spreader, and layers heated by their current.
+"""Forms of heaters: cut to the PCL or rectangles behind a spreader, and layers heated by their current.
 
 A flexible module is cut to the face of the PCL. A rigid one is a rectangle: as many as have room share a pocket, and a
 spreader of the PCL's outline lies on them, flush with the structure, and takes their heat to what they do not cover.
@@ -43,21 +43,21 @@ flows = QuantityGroup("Switch")
 kinds.option(
     "heater_form",
     (CUT, "rigid"),
-    "How the Peltier modules face the PCL: cut to its outline, or as rectangles behind a spreader",
+    "How the heaters face the PCL: cut to its outline, or as rectangles behind a spreader",
     record=("peltier_module", "form"),
 )
 kinds.record(
-    "spreader_material", "spreaders", "aluminum_6061", "Sheet between rigid Peltier modules and the PCL",
+    "spreader_material", "spreaders", "aluminum_6061", "Sheet between rigid heaters and the PCL",
     requires=WITH_TILES,
 )  # fmt: skip
 for name, unit, field, description in (
     ("peltier_bulk_modulus", "GPa", "bulk_modulus", "Bulk modulus of a module that is cut to the PCL"),
-    ("peltier_length", "mm", "length", "Length of one rectangular Peltier module, along its row"),
-    ("peltier_width", "mm", "width", "Width of one rectangular Peltier module, across its row"),
+    ("peltier_length", "mm", "length", "Length of one rectangular heater, along its row"),
+    ("peltier_width", "mm", "width", "Width of one rectangular heater, across its row"),
 ):
     kinds.property(name, unit, ("peltier_module", field), description, default=0.0)
 for name, unit, description in (
-    ("lead_gauge", "1", "Gauge (AWG) of the leads that rectangular Peltier modules come with"),
+    ("lead_gauge", "1", "Gauge (AWG) of the leads that rectangular heaters come with"),
     ("lead_length", "mm", "Length of these leads"),
 ):
     kinds.property(name, unit, ("peltier_module", name), description, default=0.0, read_by="cad")
@@ -87,7 +87,7 @@ kinds.property(
 
 @places.output("1", default=1.0, requires=())
 def heater_count(m: Module) -> Scalar:
-    """Peltier modules of the module: one pad at each arc or block, or all its tiles."""
+    """Heaters of the module: one pad at each arc or block, or all its tiles."""
     if m.heater_form != CUT:
         return m.pocket_count * m.tiles_per_pocket
     if m.peltier_module.word("form") != CUT:
@@ -103,7 +103,7 @@ def spreader_depth(m: Module) -> Scalar:
 
 @places.output("mm", requires=())
 def pad_depth(m: Module) -> Scalar:
-    """Depth of the pockets for the Peltier modules and the spreader on them."""
+    """Depth of the pockets for the heaters and the spreader on them."""
     return m.peltier_thickness + m.spreader_depth
 
 
@@ -115,19 +115,19 @@ def spreader_mass(m: Module) -> Scalar:
 
 @weights.output("g")
 def lead_mass(m: Module) -> Scalar:
-    """Mass of the leads of rectangular Peltier modules as far as they are in the floor; zero without."""
+    """Mass of the leads of rectangular heaters as far as they are in the floor; zero without."""
     return m.lead_volume * m.lead_density
 
 
 @flows.output("mm^2")
 def heated_area(m: Module) -> Scalar:
-    """Area of all Peltier modules towards the layer."""
+    """Area of all heaters towards the layer."""
     return m.pcl_area if m.heater_form == CUT else m.heater_count * m.peltier_area
 
 
 @flows.output("%")
 def heater_coverage(m: Module) -> Scalar:
-    """Share of the layer's area that faces Peltier modules."""
+    """Share of the layer's area that faces heaters."""
     return m.heated_area / m.pcl_area
 
 
@@ -157,9 +157,9 @@ def spreader_capacity(m: Module) -> Scalar:
 gaps = QuantityGroup("Gaps", WITH_TILES)
 
 
-@gaps.output("mm", at_least(0.0, "the leads of the Peltier modules do not go through: a larger lead_hole_diameter"))
+@gaps.output("mm", at_least(0.0, "the leads of the heaters do not go through: a larger lead_hole_diameter"))
 def lead_hole_margin(m: Module) -> Scalar:
-    """Room for a lead of a rectangular Peltier module beyond its diameter and the clearance with which it goes in."""
+    """Room for a lead of a rectangular heater beyond its diameter and the clearance with which it goes in."""
     return m.lead_hole_diameter - m.lead_diameter - m.slip_clearance
 
 

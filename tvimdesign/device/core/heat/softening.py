@@ -29,7 +29,7 @@ quantities.option(
 
 @quantities.event(SOFTENING)
 def near_face_time(m: Module) -> Scalar:
-    """Time until the layer's face at the Peltier pads is at the target temperature."""
+    """Time until the layer's face at the heaters is at the target temperature."""
     return (m.stack_profile.near - m.target_temperature) / heat.TEMPERATURE_SCALE
 
 
@@ -154,9 +154,9 @@ def peak_current(m: Module) -> Scalar:
     return m.drive_current
 
 
-@quantities.output("A", ratings=(Rule(sense=">=", value=0.0, reason="above the Peltier module's rated current"),))
+@quantities.output("A", ratings=(Rule(sense=">=", value=0.0, reason="above the heater's rated current"),))
 def current_margin(m: Module) -> Scalar:
-    """Rated current of the Peltier module less the highest one of them takes in the switch."""
+    """Rated current of the heater less the highest one of them takes in the switch."""
     return m.peltier_max_current - m.peak_current / m.heater_strings
 
 
@@ -179,10 +179,10 @@ def peak_rotor_temperature(m: Module) -> Scalar:
 
 
 @quantities.output(
-    "K", ratings=(Rule(sense=">=", value=0.0, reason="the Peltier module is above the temperature it is rated for"),)
+    "K", ratings=(Rule(sense=">=", value=0.0, reason="the heater is above the temperature it is rated for"),)
 )
 def peltier_temperature_margin(m: Module) -> Scalar:
-    """Rated temperature of the Peltier module less the highest it sees."""
+    """Rated temperature of the heater less the highest it sees."""
     return m.peltier_max_temperature - m.peak_peltier_temperature
 
 

@@ -125,11 +125,9 @@ def stiffening_peak_current(m: Module) -> Scalar:
     return -m.drive_current
 
 
-@quantities.output(
-    "A", ratings=(Rule(sense=">=", value=0.0, reason="cooling is above the Peltier module's rated current"),)
-)
+@quantities.output("A", ratings=(Rule(sense=">=", value=0.0, reason="cooling is above the heater's rated current"),))
 def cooling_current_margin(m: Module) -> Scalar:
-    """Rated current of the Peltier module less the highest one of them takes while the joint stiffens."""
+    """Rated current of the heater less the highest one of them takes while the joint stiffens."""
     return m.peltier_max_current - m.stiffening_peak_current / m.heater_strings
 
 
@@ -137,7 +135,7 @@ def cooling_current_margin(m: Module) -> Scalar:
     "K", ratings=(Rule(sense=">=", value=0.0, reason="the pads' outer side is above the temperature it is rated for"),)
 )
 def cold_side_temperature_margin(m: Module) -> Scalar:
-    """Rated temperature of the Peltier module less the highest of its outer side."""
+    """Rated temperature of the heater less the highest of its outer side."""
     return m.peltier_max_temperature - m.peak_cold_side_temperature
 
 

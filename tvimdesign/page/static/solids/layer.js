@@ -6,7 +6,7 @@ const [SOLID, MELTING, LIQUID] = [new Color(0x1f5fb4), new Color(0xf2f2ee), new 
 /** Colours the layer: call with the temperatures from the pads on, or with null for the colour of the part. */
 export function layerColours(parts, mode, [start, end], hottest, coldest) {
   const layers = [...parts.values()].filter((part) => part.isLayer);
-  const pads = [...parts.values()].filter(({ kind }) => kind === "peltier_pad" || kind === "spreader");
+  const pads = [...parts.values()].filter(({ kind }) => kind === "heater" || kind === "spreader");
   const depths = new Map(layers.map((part) => [part, depthsOf(part, mode === "shear" ? null : pads)]));
   const own = new Map(layers.map((part) => [part, part.outside.color.clone()]));
   const colourOf = (temperature, colour) => {

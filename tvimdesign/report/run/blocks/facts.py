@@ -247,7 +247,7 @@ def _stiff(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]
         yield "cooled by the air alone: no current cools"
     else:
         time = answer.cooling.unpowered.get("frozen_time", math.inf)
-        yield f"{'never' if math.isinf(time) else f'{number(time, _DIGITS)} s'} if the Peltiers are switched off"
+        yield f"{'never' if math.isinf(time) else f'{number(time, _DIGITS)} s'} if the heaters are switched off"
 
 
 def time_over_rise(softening: Curves, time: float) -> float:
