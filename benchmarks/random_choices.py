@@ -36,7 +36,6 @@ BASES = ("paper_shear", "elbow_printed", "finger", "compare_compression", "wrist
 CHOSEN = (
     "stock_spring", "spring_material", "process", "peltier_module", "heater_fuse", "heater_wiring", "spreader_material",
     "liner_material", "link_screw", "link_fit", "tang_hold", "bearing", "axial_preload", "preload_adjuster", "cover",
-    "sensor_flange",
 )  # fmt: skip
 """What is drawn at random."""
 OFTEN = 0.25

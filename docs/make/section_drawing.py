@@ -72,7 +72,7 @@ def _unused(dims: Dimensions) -> set[str]:
 def _lacks(dims: Dimensions, choice: str) -> bool:
     """Return True if a module lacks a choice's part, by a dimension that is zero without it."""
     sign = {"motor": "drive_height", "cover": "cover_height", "preload_adjuster": "adjuster_radius",
-            "sensor_flange": "flange_outer_radius", "encoder": "encoder_board_radius",
+            "encoder": "encoder_board_radius",
             "axial_preload": "preload_height"}  # fmt: skip
     return dims.by_name.get(sign.get(choice, ""), 1.0) == 0.0
 

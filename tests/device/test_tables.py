@@ -106,7 +106,7 @@ def test_the_default_compression_module_satisfies_every_rule(
 
 def test_every_feature_is_a_choice_that_has_the_word_for_none() -> None:
     requires = {feature for row in TABLE.quantities for feature in row.requires}
-    wanted = {"cover", "preload_adjuster", "sensor_flange", "motor", "encoder", "cold_side", "impedance_targets"}
+    wanted = {"cover", "preload_adjuster", "motor", "encoder", "cold_side", "impedance_targets"}
     assert {feature.choice for feature in requires} >= wanted
     words = {row.name: row.options for row in TABLE.choices}
     assert [feature for feature in requires if feature.without not in words[feature.choice]] == []
@@ -174,9 +174,7 @@ def test_rules_hold_exactly_where_the_module_has_their_features(mode: str) -> No
 
 # --- floats, arrays and symbols ------------------------------------------------------------------------------------
 
-FLANGE = {"sensor_flange": "iso_9409_40_4_m6", "core_radius": 9e-3, "foot_height": 12e-3, "flange_screw_reach": 10.5e-3}
 MOTOR = {"motor": "frameless_70x10", "encoder": "on_axis_28", "stroke": 0.104}
-ON_SENSOR = {**MOTOR, "sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": 13e-3, "flange_screw_reach": 10.5e-3}
 EXTRAS = {
     "cover": "plate", "preload_adjuster": "rotary", "thread_insert": "heat_set", "radial_clearance": 1.7e-3,
     "axial_preload": "wave_21x25", "liner_material": "peek", "cold_side": "sink", "transmission": "unity",
@@ -184,9 +182,7 @@ EXTRAS = {
 MODULES = {
     "shear": ("shear", {}),
     "shear, unity": ("shear", {"transmission": "unity"}),
-    "shear, flange": ("shear", FLANGE),
     "shear, motor": ("shear", MOTOR),
-    "shear, motor on a sensor": ("shear", ON_SENSOR),
     "shear, tiles": ("shear", TILES),
     "shear, extras": ("shear", {**EXTRAS, "key_count": 0.0, "melt_lip": "rings"}),
     "compression": ("compression", {}),

@@ -55,22 +55,11 @@ BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "c
                            "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 4.3 * MM,
                            "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate",
                            "link_dowel_count": 2}  # fmt: skip
-# A flange for a torque sensor between hub and windows, and one between a hub with bearings and slots.
-FLANGE = {"sensor_flange": "iso_9409_40_4_m6", "core_radius": 9.0 * MM, "foot_height": 12.0 * MM,
-          "flange_screw_reach": 10.5 * MM}  # fmt: skip
-FLANGE_BLOCKS = BEARING_BLOCKS | {"sensor_flange": "iso_9409_50_4_m6", "pcl_inner_radius": 27.0 * MM,
-                                  "pcl_outer_radius": 38.0 * MM, "rotor_rim": 2.0 * MM, "foot_height": 12.0 * MM,
-                                  "block_depth": 4.5 * MM,
-                                  "flange_azimuth": 0.2, "flange_wall": 1.2 * MM, "hub_depth": 1.0 * MM,
-                                  "cover": "none"}  # fmt: skip
 # A motor below the feet: with an encoder and printed, and the larger one without, milled, below blocks.
 DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
 DRIVEN_BLOCKS = BLOCKS | {"motor": "frameless_85x13", "process": "machine_6061", "corner_radius": 0.5 * MM,
                           "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "slot_corner_offset": -0.1 * MM,
                           "spring_pairs": 3}  # fmt: skip
-# A torque sensor below the motor: its pattern is in the base of the motor's housing.
-ON_SENSOR = DRIVEN | {"sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": 13.0 * MM,
-                      "flange_screw_reach": 10.5 * MM}  # fmt: skip
 # A wave spring around the core of a plain bore, with lips beside the layer, and one below a bearing.
 SPRUNG = {"axial_preload": "wave_21x25", "melt_lip": "rings", "pcl_thickness": 0.95 * MM}
 SPRUNG_BEARINGS = BEARINGS | {
@@ -97,7 +86,6 @@ CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),
     "odd blocks": ("compression", ODD_BLOCKS),
     "bearings": ("shear", BEARINGS), "bearings among blocks": ("compression", BEARING_BLOCKS),
-    "flange": ("shear", FLANGE), "flange among blocks": ("compression", FLANGE_BLOCKS),
     "sprung": ("shear", SPRUNG), "sprung bearings": ("shear", SPRUNG_BEARINGS),
     "sprung blocks": ("compression", SPRUNG_BLOCKS), "driven": ("shear", DRIVEN),
     "driven blocks": ("compression", DRIVEN_BLOCKS), "tiles": ("shear", TILES),

@@ -13,7 +13,6 @@ from tvimdesign.device.components import (
     preload_adjuster,
     process,
     screws,
-    sensor_flange,
     tang,
 )
 from tvimdesign.device.compression import (
@@ -55,7 +54,7 @@ SHARED_FILES = (
     materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
     warm_structure, large_motion, thermal_stack, softening, stiffening, mass_properties, clearances, axial_preload,
     process, heater_form, screws, tang, dowels, hard_stops, heater_adhesive, liner, bearing, preload_adjuster, cover,
-    sensor_flange, motor_choice, motor_layout, motor_mass_properties, motor_clearances, task,
+    motor_choice, motor_layout, motor_mass_properties, motor_clearances, task,
 )  # fmt: skip
 FILES_OF_MODE = {
     "shear": (

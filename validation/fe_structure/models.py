@@ -20,7 +20,7 @@ LENGTHS = (
     "pcl_outer_radius", "placement_radius", "floor_thickness", "mount_boss_radius", "mount_hole", "foot_height",
     "arc_count", "arc_span", "floor_web", "pcl_thickness", "peltier_thickness", "window_ledge", "vane_count",
     "vane_height", "vane_thickness", "block_height", "block_width", "slot_web", "housing_vane_thickness",
-    "flange_bore_radius", "flange_outer_radius", "spreader_depth", "spreader_gap",
+    "spreader_depth", "spreader_gap",
     "block_depth", "slot_count", "liner_thickness", "liner_depth",
     "adjuster_radius", "adjuster_thickness", "slip_clearance", "foot_fillet",
     "tile_radius", "heater_count", "peltier_length", "peltier_width",

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from cad_designs import BLOCKS, CASES, FLANGE, ON_SENSOR, TILES, VANE_TILES, design_of
+from cad_designs import BLOCKS, CASES, TILES, VANE_TILES, design_of
 
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.assembly_note import all_steps, assembly_note, preload_tolerance, steps_of
@@ -27,8 +27,6 @@ MADE: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     "printed": ("shear", {"free_angle_sorting": radians(5.0)}, TOLERANCE),
     "milled": ("shear", COVERED | {"tang_hold": "hole"}, ADJUSTED),
     "blocks": ("compression", dict(BLOCKS), {}),
-    "on a sensor": ("shear", dict(ON_SENSOR), {}),
-    "flange": ("shear", FLANGE | LOOSE, {}),
     "tiles": ("shear", TILES | BEAD, {}),
     "tiles in vanes": ("compression", VANE_TILES | BEAD_BY_BLOCK, {}),
     "sprung": ("shear", dict(CASES["sprung"][1]), {}),

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import ezdxf
 import pytest
 import yaml
-from cad_designs import BEARING_BLOCKS, CASES, DRIVEN, FLANGE, design_of
+from cad_designs import BEARING_BLOCKS, CASES, DRIVEN, design_of
 from support import ROOT
 from test_drawings import no_text_lies_on_another, sheet_of, texts
 
@@ -57,8 +57,7 @@ def milled(case: Mapping[str, float | str], mode: str) -> Design:
 
 @pytest.mark.parametrize(
     ("case", "mode", "kinds"),
-    [(BEARING_BLOCKS, "compression", ("housing", "rotor")), (DRIVEN, "shear", ("motor_hub", "motor_housing")),
-     (FLANGE, "shear", ("housing", "rotor"))],
+    [(BEARING_BLOCKS, "compression", ("housing", "rotor")), (DRIVEN, "shear", ("motor_hub", "motor_housing"))],
 )  # fmt: skip
 def test_what_is_milled_to_the_file_is_within_every_fit(
     case: Mapping[str, float | str], mode: str, kinds: tuple[str, ...]
@@ -153,7 +152,7 @@ def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case: str) -> None:
 def test_every_seat_is_a_face_of_its_part() -> None:
     for case, mode, kinds in (
         (BEARING_BLOCKS, "compression", ("housing", "rotor", "adjuster", "cover")),
-        (FLANGE, "shear", ("housing", "rotor", "link")),
+        ({}, "shear", ("housing", "rotor", "link")),
         (DRIVEN, "shear", ("motor_hub", "motor_housing")),
     ):
         design = milled(case, mode)

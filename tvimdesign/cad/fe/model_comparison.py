@@ -183,11 +183,10 @@ def fe_values(module: ResolvedModule, fe_results: Mapping[str, Mapping[str, floa
     joint = fe_results["joint"]
     held = float(module.table.evaluate(_drawn(module), ("holding_torque",))["holding_torque"])
     slip = friction * fe_results["screws"]["friction_radius"] * 1e-3 / circle
-    across = joint["foot_across"] * held if "foot_across" in joint else None
     return {
-        **screw_rows(module, Carried(across, joint.get("foot_along", 0.0) * held, slip)),
+        **screw_rows(module, Carried(joint["foot_across"] * held, joint["foot_along"] * held, slip)),
         **joint_rows(joint), **spring_rows(fe_results["spring"]), "natural_frequency": joint["frequency"],
-        "link": fe_results["link"]["link"], **({"foot_force": joint["foot_across"]} if "foot_across" in joint else {}),
+        "link": fe_results["link"]["link"], "foot_force": joint["foot_across"],
         "link_friction_torque": slip,
     }  # fmt: skip
 
@@ -225,8 +224,8 @@ _MPA = 1e-6
 class Carried(NamedTuple):
     """Loads that screws and pins carry."""
 
-    across: float | None
-    """Force across the screw of the foot that takes most [N]; None for a module that stands on a flange."""
+    across: float
+    """Force across the screw of the foot that takes most [N]."""
     along: float
     """Force along it [N]."""
     slip: float
@@ -248,7 +247,7 @@ class _Tightened(NamedTuple):
 
 
 def screw_rows(module: ResolvedModule, carried: Carried) -> dict[str, float]:
-    """Return stresses [MPa] by row; none of missing pins or feet, or of pins that friction relieves."""
+    """Return stresses [MPa] by row; none of missing pins, or of pins that friction relieves."""
     names = ("holding_torque", "link_bolt_circle_radius", "link_dowel_circle_radius")
     values = {name: float(value) for name, value in module.table.evaluate(module.values, names).items()}
     friction = float(module.values["link_friction"])
@@ -261,9 +260,8 @@ def screw_rows(module: ResolvedModule, carried: Carried) -> dict[str, float]:
         diameter, count = (float(module.values[name]) for name in ("link_dowel_diameter", "link_dowel_count"))
         force = pins / (count * values["link_dowel_circle_radius"])
         rows["link_pin_shear"] = force / (0.25 * math.pi * diameter**2) * _MPA
-    if carried.across is not None:
-        foot = _tightened(module, "mount_screw")
-        rows["foot_screw_stress"] = foot.stress(carried.along, max(carried.across - friction * foot.force, 0.0))
+    foot = _tightened(module, "mount_screw")
+    rows["foot_screw_stress"] = foot.stress(carried.along, max(carried.across - friction * foot.force, 0.0))
     return rows
 
 

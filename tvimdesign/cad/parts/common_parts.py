@@ -47,7 +47,7 @@ def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
 
 
 def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable[cq.Shape]) -> cq.Shape:
-    """Draw floor, hub, wall, skirt, spring posts, stops, cover bosses, feet, a sensor's flange and what the mode adds.
+    """Draw floor, hub, wall, skirt, spring posts, stops, cover bosses, feet and what the mode adds.
 
     Less bore, the mode's openings, tang and screw holes, and notches.
     """
@@ -59,9 +59,8 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
     walls, cover_holes = walls_and_cover_holes(dims, ground)
     feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
     mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
-    flange, flange_holes = sensor_flange(dims)
-    body = join(floor, [*walls, hub, *posts, *stops(dims), *feet, *flange, *added])
-    return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims), *flange_holes)
+    body = join(floor, [*walls, hub, *posts, *stops(dims), *feet, *added])
+    return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims))
 
 
 def stop_azimuths(dims: Dimensions) -> list[float]:
@@ -75,30 +74,6 @@ def stops(dims: Dimensions) -> list[cq.Shape]:
     post = sector(dims.stop_inner_radius, dims.stop_outer_radius, dims.stop_post_span, 0.0, dims.rotor_top_level)
     beside = dims.stop_angle + 0.5 * (dims.stop_tooth_span + dims.stop_post_span)
     return [turned(post, azimuth + side * beside) for azimuth in stop_azimuths(dims) for side in (1.0, -1.0)]
-
-
-def sensor_flange(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
-    """Draw the ring under the floor that bears a torque sensor, and its holes; nothing where there is none."""
-    if not dims.flange_outer_radius:
-        return [], []
-    floor_bottom = -dims.floor_thickness
-    ground = floor_bottom - dims.foot_height
-    ring_of_it = ring(dims.flange_bore_radius, dims.flange_outer_radius, ground, floor_bottom)
-    return [ring_of_it], sensor_holes(dims, ground)
-
-
-def sensor_holes(dims: Dimensions, ground: float) -> list[cq.Shape]:
-    """Draw holes for a torque sensor's screws and pin, upwards from the face it is screwed to."""
-    pitch = 2.0 * pi / dims.count("sensor_screw_count")
-    azimuths = [dims.flange_azimuth + index * pitch for index in range(dims.count("sensor_screw_count"))]
-    point = dims.drill_point_ratio
-    screws = [
-        hole
-        for at in (polar(dims.sensor_pitch_radius, azimuth) for azimuth in azimuths)
-        for hole in blind_hole(dims.sensor_screw_pilot, ground, ground + dims.flange_screw_depth, point, at)
-    ]
-    pin_at = polar(dims.sensor_pitch_radius, dims.flange_azimuth + 0.5 * pitch)
-    return [*screws, *blind_hole(dims.sensor_pin_diameter, ground, ground + dims.sensor_pin_depth, point, pin_at)]
 
 
 def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:

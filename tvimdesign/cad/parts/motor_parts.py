@@ -9,7 +9,7 @@ import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import blind_hole, block, cylinder, join, polar, ring, spoked_disc, turned
-from tvimdesign.cad.parts.common_parts import mounts, sensor_holes
+from tvimdesign.cad.parts.common_parts import mounts
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 
 Draw = Callable[[Dimensions], cq.Shape]
@@ -62,11 +62,8 @@ def housing(dims: Dimensions) -> cq.Shape:
 
 
 def base_holes(dims: Dimensions) -> list[cq.Shape]:
-    """Draw what fixes the base from below: four holes, or a torque sensor's pattern with the recess for its spigot."""
+    """Draw what fixes the base from below: four holes."""
     bottom = dims.motor_bottom_level
-    if dims.sensor_recess_depth:
-        recess = cylinder(dims.flange_bore_radius, bottom, bottom + dims.sensor_recess_depth)
-        return [recess, *sensor_holes(dims, bottom)]
     azimuths = [(index + 0.5) * 2.0 * pi / BASE_SCREWS for index in range(BASE_SCREWS)]
     top, point = bottom + dims.motor_base_hole_depth, dims.drill_point_ratio
     return [

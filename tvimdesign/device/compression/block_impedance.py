@@ -86,12 +86,6 @@ def core_foot_rise(m: Module) -> Scalar:
 
 
 @quantities.helper()
-def driven_share(_: Module) -> Scalar:
-    """Share of the circle on which the plate drives the PCL [1]: all of it, its vanes' roots are counted with them."""
-    return 1.0
-
-
-@quantities.helper()
 def over_arcs_compliance(m: Module) -> Scalar:
     """Compliance of the rotor plate from the PCL's inner edge to its vanes' middle [rad/(N*m)]."""
     ring = structure.ring_stiffness(m.structure_shear_modulus, m.rotor_thickness, m.pcl_inner_radius, m.pcl_mean_radius)
@@ -106,21 +100,12 @@ def under_arcs_compliance(_: Module) -> Scalar:
 
 @quantities.helper()
 def structure_compliances(m: Module) -> Compliances:
-    """Compliances in series with the blocks: core, plate, vanes, floor up to its feet or flange, pads and liners."""
+    """Compliances in series with the blocks: core, plate, vanes, floor up to its feet, pads and liners."""
     pads = m.vane_count * m.pad_press_stiffness * m.pcl_mean_radius**2
     return Compliances(
         1.0 / m.core_stiffness, 1.0 / m.plate_stiffness, 1.0 / m.rotor_vane_stiffness, 1.0 / m.housing_vane_stiffness,
         1.0 / m.floor_stiffness, 1.0 / pads + m.liner_compliance,
     )  # fmt: skip
-
-
-@quantities.helper()
-def floor_ring(m: Module) -> Scalar:
-    """Thickness of the floor within the PCL's outer radius, as if spread evenly [m].
-
-    The floor is weakest where slots cut it: what is left of its circumference there counts.
-    """
-    return m.floor_thickness * (1.0 - m.vane_count * m.slot_angle / (2.0 * np.pi))
 
 
 @quantities.helper()

@@ -126,18 +126,6 @@ def slot_width_margin(m: Module) -> Scalar:
     return m.slot_width - POCKET_WIDTH * m.corner_radius
 
 
-@quantities.helper()
-def solid_floor(m: Module) -> Scalar:
-    """Floor that may be drilled into from below [m]: all of it, pads stand in the vanes."""
-    return m.floor_thickness
-
-
-@quantities.helper()
-def floor_opening_radius(m: Module) -> Scalar:
-    """Radius at which the openings of the floor begin [m]: the slots."""
-    return m.slot_inner_radius
-
-
 _PRESSED_OUT = "what is squeezed out of the blocks' places could reach the springs, were all of it to go outwards"
 
 

@@ -63,7 +63,7 @@ def floor_moments(m: Module) -> Section:
 def bare_housing_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the housing without what the mode adds.
 
-    That is skirt and floor, wall, hub, posts, bosses, flange, stops.
+    That is skirt and floor, wall, hub, posts, bosses, stops.
     """
     wall = ring(m.housing_inner_radius, m.housing_outer_radius).times(m.rim_level)
     return wall.plus(
@@ -72,7 +72,6 @@ def bare_housing_moments(m: Module) -> Section:
         m.hub_moments,
         m.fixed_posts_moments,
         m.cover_bosses_moments,
-        m.flange_moments,
         m.stop_posts_moments,
     )
 

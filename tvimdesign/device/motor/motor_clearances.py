@@ -114,9 +114,7 @@ def motor_retainer_wall_margin(m: Module) -> Scalar:
 
 @quantities.output("mm", at_least(0.0, "the motor housing's base is too thin for the screws that fix it"))
 def motor_base_thread_margin(m: Module) -> Scalar:
-    """Thread in the base beyond what the process wants; zero without a motor, or where a sensor bears it."""
-    if m.base_pattern.screws:
-        return 0.0
+    """Thread in the base beyond what the process wants; zero without a motor."""
     return m.motor_base_hole_depth - m.mount_screw_runout - m.thread_engagement * m.mount_screw_diameter
 
 
@@ -124,9 +122,7 @@ def motor_base_thread_margin(m: Module) -> Scalar:
     "mm", at_least(0.0, "the holes of the motor housing's base would meet its bore or the encoder's recess")
 )
 def motor_base_hole_gap(m: Module) -> Scalar:
-    """Base between its holes and bore or recess beyond the least wall; zero without a motor, or with a sensor's."""
-    if m.base_pattern.screws:
-        return 0.0
+    """Base between its holes and bore or recess beyond the least wall; zero without a motor."""
     inside = np.fmax(m.motor_seat_radius, m.encoder_recess_radius)
     return m.motor_base_hole_radius - 0.5 * m.mount_screw_pilot - inside - m.hole_wall
 
@@ -148,7 +144,7 @@ def encoder_ledge_margin(m: Module) -> Scalar:
 )
 def encoder_floor_margin(m: Module) -> Scalar:
     """Base above the encoder's board beyond the process's least wall; zero without an encoder."""
-    return m.motor_base_thickness - m.sensor_recess_depth - m.angle_sensor.board_height - m.minimum_wall
+    return m.motor_base_thickness - m.angle_sensor.board_height - m.minimum_wall
 
 
 @quantities.output("N")

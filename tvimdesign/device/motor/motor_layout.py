@@ -13,9 +13,6 @@ of the base. Rotor and stator are bonded, with the gap of parts that slip into a
     |S|R| [bearing] | lip    |R|S|  stator in the outer wall
     |S|R| [bearing] |        |R|S|
     base, retainer with magnet, board
-
-With a flange for a torque sensor its pattern takes the place of the base's holes, and its spigot a recess below the
-board, as deep as the spigot and a running clearance (`flange.py`).
 """
 
 from __future__ import annotations
@@ -151,8 +148,8 @@ def motor_bottom_level(m: Module) -> Scalar:
 
 @quantities.output("mm")
 def encoder_board_level(m: Module) -> Scalar:
-    """Lower face of the encoder's board, if any: the base's, or over a sensor's spigot; zero without a motor."""
-    return m.motor_bottom_level + m.sensor_recess_depth
+    """Lower face of the encoder's board, if any: the base's; zero without a motor."""
+    return m.motor_bottom_level
 
 
 @quantities.output("mm")
@@ -206,7 +203,5 @@ def mount_screw_runout(m: Module) -> Scalar:
 
 @quantities.output("mm")
 def motor_base_hole_depth(m: Module) -> Scalar:
-    """Depth of the base's holes: their points leave it the least wall; zero without a motor, or on a sensor."""
-    if m.base_pattern.screws:
-        return 0.0
+    """Depth of the base's holes: their points leave it the least wall; zero without a motor."""
     return m.motor_base_thickness - m.drill_point_ratio * m.mount_screw_pilot - m.minimum_wall

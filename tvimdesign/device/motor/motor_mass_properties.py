@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from tvimdesign.device.components.bearing import BEARINGS, density_as_a_ring, inner_ring
 from tvimdesign.device.components.fastening import screw_moments
-from tvimdesign.device.components.sensor_flange import pattern_holes
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 from tvimdesign.device.table.module import Module
@@ -68,19 +67,15 @@ def motor_housing_volume(m: Module) -> Scalar:
         ring(0.0, m.motor_seat_radius).area * (lower + m.drive_motor.bearing_width)
         + ring(0.0, m.motor_lip_radius).area * lip
     )
-    point = 0.0 if m.base_pattern.screws else m.drill_point_ratio * m.mount_screw_pilot
+    point = m.drill_point_ratio * m.mount_screw_pilot
     screws = BASE_SCREWS * ring(0.0, 0.5 * m.mount_screw_pilot).area * (m.motor_base_hole_depth + point / 3.0)
     wires = notch(0.5 * m.motor_wire_width, m.stator_seat_radius, m.motor_outer_radius).area * m.motor_wire_depth
-    whole = solid - bore - screws - wires - pattern_holes(m.base_pattern, m.flange_screw_depth, m.drill_point_ratio)
-    recesses: list[tuple[Scalar, Scalar]] = (
-        [(m.flange_bore_radius, m.sensor_recess_depth)] if m.base_pattern.screws else []
-    )
-    if m.angle_sensor is not None:
-        recesses.append((m.encoder_recess_radius, m.angle_sensor.board_height))
-    for radius, height in recesses:
-        groove = 0.0 if m.angle_sensor is None else notch(0.5 * m.motor_wire_width, radius, m.motor_outer_radius).area
-        whole -= (ring(m.motor_seat_radius, radius).area + groove) * height
-    return whole
+    whole = solid - bore - screws - wires
+    if m.angle_sensor is None:
+        return whole
+    radius = m.encoder_recess_radius
+    groove = notch(0.5 * m.motor_wire_width, radius, m.motor_outer_radius).area
+    return whole - (ring(m.motor_seat_radius, radius).area + groove) * m.angle_sensor.board_height
 
 
 @quantities.helper(default=NOTHING)

@@ -168,18 +168,6 @@ def floor_web_margin(m: Module) -> Scalar:
     return m.floor_web - m.minimum_wall
 
 
-@rules.helper()
-def solid_floor(m: Module) -> Scalar:
-    """Floor that may be drilled into from below [m]: what is left below the pads, wherever these are."""
-    return m.floor_web
-
-
-@rules.helper()
-def floor_opening_radius(m: Module) -> Scalar:
-    """Radius at which the openings of the floor begin [m]: the windows."""
-    return m.pcl_inner_radius + m.window_ledge
-
-
 rules.after("retainer_gap")
 
 

@@ -124,12 +124,6 @@ def structure_compliances(m: Module) -> Compliances:
 
 
 @quantities.helper()
-def floor_ring(m: Module) -> Scalar:
-    """Thickness of the floor within the PCL's outer radius [m]: its web, where pockets and windows thin it."""
-    return m.floor_web
-
-
-@quantities.helper()
 def pcl_moment(m: Module) -> Scalar:
     """Factor of the PCL's shear modulus over its depth in its stiffness [m^4]: the layer's polar moment."""
     return m.layer_polar_moment

@@ -334,22 +334,6 @@ def footed_floor_stiffness(ring: Any, spot: Any, foot: Any, count: Any, foot_rad
     return 1.0 / (1.0 / ring + (1.0 / spot + 1.0 / foot) / (count * foot_radius**2))
 
 
-FLANGE_SPREAD = 1.4
-"""Rise of a flanged floor's compliance below the layer; between FE of a printed module, 1.05, and a milled, 1.96."""
-
-
-def flanged_floor_stiffness(modulus: Any, whole: Any, web: Any, flange: tuple[Any, Any], height: Any) -> Any:
-    """Return the floor that hands its torque to a tube under it [N*m/rad]: 1/K = 1/K_whole + 1.4/K_web + 2 h/(pi G (b^4
-    - a^4)).
-
-    `whole` is its ring between tube and layer, `web` what is left of it below the layer; the tube's radii are a and b,
-    its height is h. FE of a printed and a milled shear module: within 25 %.
-    """
-    bore, outer = flange
-    tube = shaft_stiffness(modulus, outer, height) - shaft_stiffness(modulus, bore, height)
-    return 1.0 / (1.0 / whole + FLANGE_SPREAD / web + 1.0 / tube)
-
-
 LEVER_ROOT, LEVER_DEPTH = 0.55, 0.91
 """Shares of the clamped radius that a lever does not bend over, and of its thickness that it bends over besides, as it
 is held on one face; calibrated to validation/fe_link."""

@@ -72,8 +72,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
         torque = held.work(found)
         shares = _energies(mesh, InnerProduct(tensor, strain), mm, torque)
         frequency = turning_frequency(mesh, values, held.solved, found, torque)
-        on_feet = not mm["flange_outer_radius"]
-        feet = joint_samples.at_feet(held.space, tensor, torque, round(mm["spring_count"])) if on_feet else {}
+        feet = joint_samples.at_feet(held.space, tensor, torque, round(mm["spring_count"]))
     result = {"elements": mesh.ne, "unknowns": found.space.ndof, "hub": torque * 1e-3, "frequency": frequency, **feet}
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
     result |= joint_samples.in_bodies(mesh, tensor, mm, torque) | joint_samples.at_foot(mesh, tensor, mm, torque)

@@ -249,10 +249,5 @@ def name_faces(whole: Any, mm: dict[str, float]) -> None:
 
 
 def _stands(beside: bool, wide: float, mm: dict[str, float]) -> bool:
-    """Return whether a face at the ground is what holds the housing: a torque sensor's flange, or else a foot.
-
-    No skirt.
-    """
-    if mm["flange_outer_radius"]:
-        return not beside and wide < 2 * mm["flange_outer_radius"] + 0.1
+    """Return whether a face at the ground is a foot, which holds the housing, and not the skirt."""
     return beside and wide < 3 * mm["mount_boss_radius"]

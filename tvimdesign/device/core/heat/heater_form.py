@@ -286,13 +286,13 @@ def cutout_ground_gap(m: Module) -> Scalar:
     return m.foot_height - m.cutout_diameter
 
 
-_MEETS = "the thermal cut-out meets the retainer or the sensor's flange: a smaller one, or heater_fuse: none"
+_MEETS = "the thermal cut-out meets the retainer: a smaller one, or heater_fuse: none"
 
 
 @cutout_rules.output("mm", at_least(0.0, _MEETS))
 def cutout_retainer_gap(m: Module) -> Scalar:
     """Room between the thermal cut-out below the floor and what is within it."""
-    return m.cutout_radius - 0.5 * m.cutout_diameter - np.fmax(m.retainer_radius, m.flange_outer_radius)
+    return m.cutout_radius - 0.5 * m.cutout_diameter - m.retainer_radius
 
 
 _LATE = "the thermal cut-out opens above what it saves: a cooler heater, another heater_fuse, or a better structure"

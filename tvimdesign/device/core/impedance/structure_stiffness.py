@@ -64,18 +64,11 @@ def plate_stiffness(m: Module) -> Scalar:
 
 @quantities.output("N*m/rad")
 def floor_stiffness(m: Module) -> Scalar:
-    """Stiffness of the floor from the PCL out to the ground under its feet, or in to its flange.
+    """Stiffness of the floor from the PCL out to the ground under its feet.
 
     Feet are screwed down between the springs; the skirt only stands on the ground. Beyond the PCL's outer rim the floor
     is whole but for the adjusters' pockets.
     """
-    if m.floor_flange is not None:
-        bore, outer = m.floor_flange
-        web = structure.covered_ring_stiffness(
-            m.structure_shear_modulus, m.floor_ring, m.pcl_inner_radius, m.pcl_mean_radius, m.driven_share
-        )
-        whole = structure.ring_stiffness(m.structure_shear_modulus, m.floor_thickness, outer, m.pcl_inner_radius)
-        return structure.flanged_floor_stiffness(m.structure_shear_modulus, whole, web, (bore, outer), m.foot_height)
     left = structure.pocketed_thickness(
         m.floor_thickness,
         m.spring_count,
@@ -155,5 +148,5 @@ def core_holding_torque(m: Module) -> Scalar:
 
 @quantities.output("N*m/rad")
 def structure_stiffness(m: Module) -> Scalar:
-    """Stiffness in series with the PCL, at 23 degC: core, plate, vanes, pads, and floor up to its feet or flange."""
+    """Stiffness in series with the PCL, at 23 degC: core, plate, vanes, pads, and floor up to its feet."""
     return 1.0 / sum(m.structure_compliances)
