@@ -61,6 +61,12 @@ def test_a_range_of_stiffness_and_the_supply_are_taken_as_written() -> None:
     assert study.module["peltier_module"] == "polyimide_foil_12v"
 
 
+def test_the_time_to_stiffen_is_required_where_it_is_asked() -> None:
+    limits = {limit.output: limit.limit for limit in sized(stiff_time="5 min").require}
+    assert (limits["stiffening_time"], limits["response_time"]) == (300.0, 60.0)
+    assert "stiffening_time" not in {limit.output for limit in sized().require}
+
+
 @pytest.mark.gate
 def test_a_joint_that_is_too_small_names_a_diameter_that_is_not() -> None:
     with pytest.raises(InfeasibleError, match="Hardware fits, by arithmetic and with the other numbers") as refusal:
@@ -77,6 +83,7 @@ def test_a_joint_that_is_too_small_names_a_diameter_that_is_not() -> None:
         ({"torque": "-8 N.m"}, "torque: -8 N.m is not above zero"),
         ({"diameter": "300 mm"}, "diameter: 300 mm is not from 20 mm to 200 mm"),
         ({"stroke": "50 deg"}, "stroke: 50 deg to either side of rest is beyond 28.6"),
+        ({"stiff_time": "5"}, "stiff_time: .* write for instance '300 s'"),
         ({"supply": "24 V"}, "supply: .* write for instance '24 V, 3 A'"),
         ({"stiffness": "2 to 1 N.m/rad"}, "stiffness: .* is upside down"),
     ],

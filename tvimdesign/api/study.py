@@ -39,8 +39,8 @@ def example(name: str) -> Study:
 
 
 def size(
-    *, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "", name: str = "joint",
-    progress: bool = True,
+    *, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "",
+    stiff_time: str = "", name: str = "joint", progress: bool = True,
 ) -> Result[Study]:  # fmt: skip
     """Size a joint from five numbers, as `tvimdesign size` does.
 
@@ -58,6 +58,8 @@ def size(
         Voltage and current, such as ``"24 V, 3 A"``.
     stroke : str, optional
         Angle that the soft joint turns to either side; 0.104 rad unless given.
+    stiff_time : str, optional
+        Time within which the joint gets stiff again.
     name : str
         Name of the study.
     progress : bool
@@ -80,7 +82,7 @@ def size(
     from tvimdesign.report.run.study_files import sized_text
     from tvimdesign.study.sizing import JointTask
 
-    text = sized_text(JointTask.read(torque, stiffness, diameter, time, supply, stroke), name)
+    text = sized_text(JointTask.read(torque, stiffness, diameter, time, supply, stroke, stiff_time), name)
     return Study._of(tree_of_text(text, f"{name}.yaml", name, Path())).run(progress=progress)
 
 

@@ -150,6 +150,9 @@ def size(
     diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")],
     time: Annotated[str, typer.Option("--time", help="Time within which it gets soft, such as '60 s'.")],
     supply: Annotated[str, typer.Option("--supply", help="Voltage and current, such as '24 V, 3 A'.")],
+    stiff_time: Annotated[
+        str, typer.Option("--stiff-time", help="Time within which it gets stiff again; any unless given.")
+    ] = "",
     stroke: Annotated[
         str, typer.Option("--stroke", help="Angle that the soft joint turns to either side; 0.104 rad unless given.")
     ] = "",
@@ -166,7 +169,8 @@ def size(
     from tvimdesign.report.run.study_files import size_study
 
     numbers = {
-        "torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply, "stroke": stroke
+        "torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply,
+        "stroke": stroke, "stiff_time": stiff_time,
     }  # fmt: skip
     size_study(
         file,

@@ -37,7 +37,7 @@ _BANDS = (1.1, 2.0)
 asked for is not reached when the switch ends."""
 _EXAMPLES = {
     "torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
-    "stroke": "6 deg",
+    "stroke": "6 deg", "stiff_time": "300 s",
 }  # fmt: skip
 STROKE = "0.104 rad"
 """Stroke to either side of rest, unless given."""
@@ -60,9 +60,13 @@ class JointTask:
     assumes_stroke: bool
     friction: float = 0.5
     """Most friction over the springs' torque at full stroke."""
+    stiff_time: float = math.inf
+    """Most time from the end of the heating until it is stiff again."""
 
     @classmethod
-    def read(cls, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "") -> JointTask:
+    def read(
+        cls, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "", stiff_time: str = ""
+    ) -> JointTask:  # fmt: skip
         """Read quantities with their units, as `tvim.size` takes them; an empty stroke is `STROKE`.
 
         Raises InputError if one of them is no such quantity, or out of range.
@@ -74,6 +78,7 @@ class JointTask:
             _positive("torque", torque, "N*m"), _stiffness(stiffness), _positive("diameter", diameter, "mm"),
             _positive("time", time, "s"), _positive("supply", voltage.strip(), "V"),
             _positive("supply", current.strip(), "A"), _positive("stroke", stroke or STROKE, "rad"), not stroke,
+            stiff_time=_positive("stiff_time", stiff_time, "s") if stiff_time else math.inf,
         )  # fmt: skip
         row = _inputs()["stroke"]
         if not row.lower <= task.stroke <= row.upper:
@@ -148,6 +153,7 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
     about = "to either side of rest" + ("; assumed, as --stroke was not given" if task.assumes_stroke else "")
     stroke = f"stroke: {task.stroke:.4g} rad  # {about}\n"
     cut_out = _CUT_OUT if task.diameter > _ROOMY * diameters()[hardware] else ""
+    stiff = "" if math.isinf(task.stiff_time) else f'  stiffening_time: "<= {task.stiff_time:.4g} s"\n'
     module = _indented(f"{stroke}{shared['common']}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}")
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
@@ -167,7 +173,7 @@ require:
   holding_torque: ">= {task.torque:.4g} N.m"
   envelope_diameter: "<= {_mm(task.diameter)}"
   response_time: "<= {task.time:.4g} s"
-  peak_voltage: "<= {task.voltage:.4g} V"
+{stiff}  peak_voltage: "<= {task.voltage:.4g} V"
   peak_current: "<= {task.current:.4g} A"
   current_margin: ">= 0 A"             # of the heater
   peltier_temperature_margin: ">= 5 K"

@@ -114,6 +114,7 @@ class Size(_Message):
     time: _Text
     supply: _Text
     stroke: _Text = ""
+    stiff_time: _Text = ""
 
 
 class MakeParts(_Message):
