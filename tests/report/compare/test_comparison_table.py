@@ -14,8 +14,9 @@ from tvimdesign.device import MODES, Output, table_for
 from tvimdesign.device.table.quantity_group import directions
 from tvimdesign.report.compare.comparison import Outcome
 from tvimdesign.report.compare.comparison_job import ComparisonJob
-from tvimdesign.report.compare.comparison_page import summary_text
+from tvimdesign.report.compare.comparison_page import side_by_side, summary_text
 from tvimdesign.report.compare.comparison_table import Row, against, compare_csv
+from tvimdesign.report.run.blocks.warnings import advice_text
 from tvimdesign.solve.pareto.front_shape import ALIKE
 from tvimdesign.study.tree import tree_of_file
 
@@ -76,6 +77,13 @@ def test_sentence_and_csv_of_a_comparison() -> None:
     ]
 
 
+def test_outputs_that_do_not_differ_beyond_rounding_are_counted() -> None:
+    alike = [row(0.0, 0.0, name="sag"), row(70.0, 70.001, name="cycle_time"), row(math.inf, math.inf, name="hold")]
+    table = side_by_side("As drawn", [*alike, row(70.0, 70.1), row(0.0, 1.0, name="backlash")])
+    assert [cells[0].text for cells in table.rows] == ["response_time", "backlash"]
+    assert table.note == "3 more are equal."
+
+
 def test_every_direction_belongs_to_an_output() -> None:
     outputs = {row.name for mode in MODES for row in table_for(mode).outputs}
     assert directions().keys() <= outputs
@@ -124,7 +132,10 @@ def test_warnings_are_of_the_same_designs(outcome: Outcome) -> None:
     for name in ("s", "c"):
         told: dict[str, Any] = outcome.found[name]["drawn"]
         assert f"{name}: {told['soft']}" in text
-        assert all(f"Warning {name}: {warning['output']} is" in text for warning in told["warnings"])
+        table = outcome.tables[name]
+        shown = [advice_text(one["output"], one["value"], one["because"], table) for one in told["warnings"]]
+        assert shown
+        assert all(f"Warning {name}: {one}" in text for one in shown)
     other = {warning["output"] for warning in outcome.found["s"]["optimised"]["warnings"]}
     for output in other - {warning["output"] for warning in outcome.found["s"]["drawn"]["warnings"]}:
         assert f"Warning s: {output}" not in text

@@ -17,8 +17,8 @@ from support import ROOT, Command
 
 from tvimdesign.report.output.numbers import ends_text, label
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.blocks.requirements import requirements
-from tvimdesign.report.run.first_screen import LINES, NARROW_LINES, first_screen, verdict_of
+from tvimdesign.report.run.blocks.requirements import Requirement, requirements
+from tvimdesign.report.run.first_screen import LINES, NARROW_LINES, first_screen, requirement_lines, verdict_of
 from tvimdesign.report.run.reasons import binding
 from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.solve.result import answer
@@ -121,8 +121,8 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
     assert not raw & set(re.findall(r"[a-z]\w*_\w*", " ".join(texts)))
     lines = first_screen(case(name), width)
     labels = (
-        "Size and mass", "Times", "Heating", "Lost motion", "Active constraints", "Manufacturing", "Model", "Chosen",
-        "Warning",
+        "Size and mass", "Times", "Heating", "Much lost motion", "Active constraints", "Manufacturing", "Model",
+        "Chosen", "Warning",
     )  # fmt: skip
     places = [(i, label) for label in labels for i, line in enumerate(lines) if line.startswith(f"{label}: ")]
     assert places == sorted(places)
@@ -131,15 +131,41 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
     value, text = case(name).result.design.value, " ".join(line.strip() for line in first_screen(case(name), width))
     lost = value("lost_motion") / value("stroke")
     rubs = value("friction_torque") / value("spring_torque_full_stroke")
-    for share, whole in ((lost, "the stroke"), (rubs, "the springs' torque")):
+    for share, whole in ((lost, "the stroke"), (rubs, "spring torque")):
         shown = re.search(rf"(\d+) % (\(\d+ to \d+\) )?of {whole}", text)
         assert bool(shown) == (share > 0.1), (whole, share)
         assert not shown or float(shown[1]) / 100.0 == pytest.approx(share, abs=0.006)
     rows, text = requirements(one.result, one.uncertainty), "\n".join(first_screen(one, width))
     shown = [row for row in rows if re.search(rf"^{re.escape(label(row.name))}(\s|$)", text, re.MULTILINE)]
-    assert len(shown) == len(rows) or f"closest {len(shown)} of {len(rows)}" in text
-    hidden = [row.least for row in rows if row not in shown]
-    assert all(row.least <= min(hidden, default=math.inf) for row in shown)
+    hidden = sorted((row for row in rows if row not in shown), key=lambda row: row.least)
+    assert all(row.least <= hidden[0].least for row in shown if hidden)
+    if hidden:
+        missed = sum(row.stands.startswith(("violated", "open")) for row in hidden)
+        others = "1 other is met: " if len(hidden) == 1 else f"{len(hidden)} others are met, the tightest: "
+        tightest = f"{others}{label(hidden[0].name)} {hidden[0].got}, asked"
+        others = "others" if shown else "requirements"
+        said = f"{missed} of {len(hidden)} {others} not met: {label(hidden[0].name)}" if missed else tightest
+        assert said in " ".join(text.split())
+
+
+def test_requirements_without_a_line_are_counted_or_named() -> None:
+    def row(name: str, least: float, stands: str) -> Requirement:
+        return Requirement(name, "<= 70 mm", "70", "", stands, "", least)
+
+    tight, open_, violated = (
+        row("envelope_diameter", 0.0, "at the limit"),
+        row("envelope_height", -0.1, "open: history decides"),
+        row("module_mass", -0.2, "violated by 20 %"),
+    )
+    loose = [row(f"loose_{i}", 0.1 + i, "10 %") for i in range(4)]
+    assert (
+        requirement_lines([*loose, tight], 100, 3)[-1] == "4 others are met, the tightest: loose 0 70, asked <= 70 mm"
+    )
+    assert requirement_lines([tight, loose[0]], 100, 3)[-1].startswith("loose 0 ")
+    lines = requirement_lines([*loose, tight, open_, violated, row("peak_power", -0.3, "violated by 30 %")], 100, 3)
+    assert lines[1].startswith("peak power")
+    assert lines[2] == "2 of 7 others not met: mass · height"
+    assert requirement_lines([*loose, violated], 100, 2) == ["1 of 5 requirements not met: mass"]
 
 
 @pytest.mark.gate

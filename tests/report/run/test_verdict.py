@@ -9,7 +9,7 @@ import pytest
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import margin_text
-from tvimdesign.report.run.blocks.verdict import TARGET, verdict
+from tvimdesign.report.run.blocks.verdict import TARGET, starts_in_words, verdict
 from tvimdesign.report.run.blocks.warnings import RunWarning
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
@@ -112,3 +112,18 @@ def test_a_violation_below_rounding_is_not_shown_as_none() -> None:
     assert margin_text(replace(gap, absolute=False), table) == "-0.004 %"
     assert margin_text(replace(gap, kept=True), table) == "0 mm"  # within the solver's tolerance
     assert verdict(answer(checks=(gap,)), SURE, []).text.endswith("by 0.0004 mm")
+
+
+@pytest.mark.parametrize(
+    ("found", "converged", "optima", "words"),
+    [
+        (True, [False], 0, "no start converged, a later search did"),
+        (True, [True], 1, "one start: others may be better"),
+        (False, [False], 0, "1 start, no design"),
+        (False, [True, False], 1, "1 of 2 starts converged"),
+    ],
+)
+def test_starts_are_told_in_words(found: bool, converged: list[bool], optima: int, words: str) -> None:
+    free = [SimpleNamespace(converged=each) for each in converged]
+    result = answer(found=found, free_starts=free, distinct_optima=lambda: free[:optima])
+    assert starts_in_words(result) == [words]

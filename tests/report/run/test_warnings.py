@@ -16,7 +16,15 @@ from support import ROOT
 from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
 from tvimdesign.report.run.blocks.remedies import Remedies, _changes
-from tvimdesign.report.run.blocks.warnings import RunWarning, filled, hints, lines_of, warnings_of
+from tvimdesign.report.run.blocks.warnings import (
+    RunWarning,
+    advice_text,
+    filled,
+    hints,
+    lines_of,
+    missed_points,
+    warnings_of,
+)
 from tvimdesign.report.run.first_screen import warning_lines
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import StudyResult, answer
@@ -115,6 +123,18 @@ def test_the_gravest_warning_comes_first() -> None:
     assert "never gets stiff again" in said[0][0]
     assert said[0][1] == "try module: {cooling_current: 0.2 A, cold_side: sink}"
     assert said[-1][:2] == ("a sheet contradicts itself", "try catalog: my_records")
+
+
+@pytest.mark.parametrize("extra", ["", "  response_criterion: softening\n  softening_band: 2\n"])
+def test_a_run_has_each_warning_that_compare_has(extra: str) -> None:
+    found, table = _published(extra), table_for("shear")
+    warned = {warning.text: warning for warning in warnings_of(found, [])}
+    of_compare = {one.output: advice_text(one.output, one.value, one.origin, table) for one in found.warnings}
+    assert set(of_compare.values()) <= set(warned)
+    assert ("hot_point_margin" in of_compare) == bool(extra)
+    if extra:
+        assert missed_points(found) == {}
+        assert warned[of_compare["hot_point_margin"]][1:] == ("", "")
 
 
 def _said(text: str, **module: float) -> str:

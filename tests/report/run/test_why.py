@@ -2,11 +2,14 @@
 
 import csv
 import io
+from dataclasses import replace
 
 import pytest
 from small_studies import FOUR_SIZES_IN_SHEAR
 
 from tvimdesign.device import table_for
+from tvimdesign.report.run.blocks.requirements import requirements
+from tvimdesign.report.run.blocks.tables import checks_grid
 from tvimdesign.report.run.reasons import binding, sentences, slack, slack_in_words, why_csv, why_rows
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
@@ -58,3 +61,15 @@ def test_each_limit_binds_touches_or_has_room_in_its_order(found: StudyResult) -
     assert rows[0]["limit"] == first.text
     for name, saving in first.sensitivity.items():
         assert float(rows[0][f"sensitivity of {name} [%]"]) == pytest.approx(saving, rel=1e-5, abs=1e-12)
+
+
+def test_a_limit_active_at_its_tolerance_margin_is_so_everywhere(found: StudyResult) -> None:
+    costly = {held.text for held in binding(found)}
+    assert "peak_power <= 9 W" in costly
+    checks = tuple(replace(each, margin=0.05, worst=0.05) for each in found.checks if each.text in costly)
+    with_margins = replace(found, checks=checks)
+    (row,) = [row for row in requirements(with_margins, {}) if row.name == "peak_power"]
+    assert row.stands == "5 %, active"
+    table = checks_grid(with_margins)
+    assert len(table.rows) == len(checks) >= 2
+    assert {row[0].text for row in table.rows} == {"active"}

@@ -9,7 +9,7 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
-from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.base.units import from_si, pretty
 from tvimdesign.page.blocks import Block, Drawn, Folded, Grid, Listing, Points, Section, Warned, Words
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_table import Row
@@ -17,6 +17,7 @@ from tvimdesign.report.output.numbers import axis_label, in_unit, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import WIDTH, plain_text, print_section
+from tvimdesign.report.run.blocks.warnings import advice_text
 
 
 def drawings(outcome: Outcome) -> list[Drawing]:
@@ -116,12 +117,14 @@ def reported_rows(outcome: Outcome) -> list[Grid]:
 
 
 def side_by_side(title: str, rows: Sequence[Row]) -> Grid:
-    """Tabulate outputs of all studies beside one another, with each one's ratio to the first."""
+    """Tabulate outputs that differ in four digits between the studies, with each one's ratio to the first."""
     labels = list(rows[0].values) if rows else []
     heads = ["", *labels, "unit"]
     heads += [head for label in labels[1:] for head in (f"{label} / {labels[0]}", f"{label} is")]
+    differing = [row for row in rows if len({_value(row, label) for label in labels}) > 1]
+    equal = len(rows) - len(differing)
     cells = []
-    for row in rows:
+    for row in differing:
         against: list[str] = []
         for label in labels[1:]:
             ratio = row.ratio(label)
@@ -129,7 +132,7 @@ def side_by_side(title: str, rows: Sequence[Row]) -> Grid:
         cells.append([row.name, *(_value(row, label) for label in labels), pretty(row.unit), *against])
     ratios = range(len(labels) + 2, len(heads), 2)
     right, toned = (*range(1, len(labels) + 1), *ratios), range(len(labels) + 3, len(heads), 2)
-    return grid(title, heads, cells, right=right, toned=toned)
+    return grid(title, heads, cells, right=right, toned=toned, note=f"{equal} more are equal." if equal else "")
 
 
 def _value(row: Row, label: str) -> str:
@@ -171,5 +174,4 @@ def warnings_of(outcome: Outcome) -> Iterator[str]:
     for label, answer in outcome.found.items():
         for warning in answer.get(outcome.which, {"warnings": []})["warnings"]:
             value = math.inf if warning["value"] is None else warning["value"]
-            value = format_quantity(value, outcome.unit(warning["output"]))
-            yield f"{label}: {warning['output']} is {value}: {warning['because']}"
+            yield f"{label}: {advice_text(warning['output'], value, warning['because'], outcome.tables[label])}"

@@ -17,7 +17,7 @@ NEVER = 1e300
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
 _TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
     ("bad", re.compile(r"\bviolated\b|\bbroken\b|\bfailure\b|\bworse\b")),
-    ("warn", re.compile(r"\bbinds\b|\bopen\b|\bwarning\b|partly done")),
+    ("warn", re.compile(r"\bactive\b|\bopen\b|\bwarning\b|partly done")),
     ("good", re.compile(r"^ok$|^pass$|\bbetter\b")),
 )
 """Words that say how something stands, worst first."""

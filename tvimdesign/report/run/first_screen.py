@@ -36,8 +36,8 @@ FILE = "summary.txt"
 LINES, NARROW_LINES = 16, 24
 """Lines of the screen from 100 columns on, and below."""
 _WIDE = 100
-_LEAST = 3
-"""Lines of the requirements, with their heads, for which the last facts make room."""
+_LEAST = 4
+"""Lines of the requirements, with their heads and the others, for which the last facts make room."""
 _FILE_WIDTH = 120
 _COLOURS = {"red": r"\bviolated by\b.*", "yellow": r"at the limit|^Warning:", "bold": r"^[A-Z][a-z ]+:"}
 _OF_TONE = {"good": "bold green", "warn": "bold yellow", "bad": "bold red", "": "bold"}
@@ -74,11 +74,11 @@ def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = No
         while extra and sum(map(len, facts)) > room - len(first) - _LEAST:
             extra, facts = extra[:-1], facts[:-1]
     left = room - sum(map(len, facts))
-    requirement_lines = _requirement_lines(requirements(answer, answered.uncertainty), width, left - len(first))
+    table = requirement_lines(requirements(answer, answered.uncertainty), width, left - len(first))
     counts = [count for count in range(SHOWN, 0, -1)
-              if len(requirement_lines) + len(warning_lines(answered.warnings, width, count)) <= left]  # fmt: skip
+              if len(table) + len(warning_lines(answered.warnings, width, count)) <= left]  # fmt: skip
     lines = [line for fact in facts for line in fact]
-    return [*head, *requirement_lines, *lines, *warning_lines(answered.warnings, width, counts[0] if counts else 1)]
+    return [*head, *table, *lines, *warning_lines(answered.warnings, width, counts[0] if counts else 1)]
 
 
 def _as_fit(lines: Sequence[str], more: Sequence[str], width: int) -> list[str]:
@@ -102,17 +102,26 @@ def _fact_lines(fact: Fact, width: int) -> list[str]:
     return wrapped(first, width, indent="  ")
 
 
-def _requirement_lines(rows: Sequence[Requirement], width: int, most: int) -> list[str]:
-    """Return the requirements; of more than `most` lines hold, those with the least margin."""
+def requirement_lines(rows: Sequence[Requirement], width: int, most: int) -> list[str]:
+    """Return the requirements, those with the least margin in at most `most` lines with one on the others."""
     by_margin = sorted(rows, key=lambda row: row.least)
     for count in range(len(rows), 0, -1):
-        least = by_margin[:count]
-        title = "" if count == len(rows) else f"closest {count} of {len(rows)}"
-        cells = [(title, *HEADS[1:]), *(row.cells for row in rows if row in least)]
-        lines = _fitting(cells, width)
-        if len(lines) <= max(most, 2):
+        least, others = by_margin[:count], by_margin[count:]
+        lines = _fitting([HEADS, *(row.cells for row in rows if row in least)], width)
+        lines += _others(others, "others", width) if others else []
+        if len(lines) <= most:
             return lines
-    return []
+    return _others(by_margin, "requirements", width) if rows else []
+
+
+def _others(rows: Sequence[Requirement], what: str, width: int) -> list[str]:
+    """Return a line that names what is violated or open of some requirements, else the tightest of them."""
+    missed = [row.cells[0] for row in rows if row.stands.startswith(("violated", "open"))]
+    if missed:
+        return _fact_lines(Fact(f"{len(missed)} of {len(rows)} {what} not met", missed, listing=True), width)
+    title, limit, got, *_ = rows[0].cells
+    met = f"1 {what[:-1]} is met" if len(rows) == 1 else f"{len(rows)} {what} are met, the tightest"
+    return wrapped(f"{met}: {title} {got}, asked {limit}", width, indent="  ")
 
 
 def _fitting(cells: Sequence[Sequence[str]], width: int) -> list[str]:

@@ -29,6 +29,11 @@ def binding(answer: StudyResult) -> list[ActiveConstraint]:
     return sorted((limit for limit in held if limit.shadow_price > PRICE_SHOWN), key=lambda limit: -limit.shadow_price)
 
 
+def is_active(check: ConstraintCheck, answer: StudyResult) -> bool:
+    """Return whether a limit is active: the design is at it, or at its margin for tolerances."""
+    return abs(check.margin) <= NOTHING or any(check.text == limit.text for limit in binding(answer))
+
+
 def slack(answer: StudyResult) -> list[ActiveConstraint]:
     """Return the limits that could be somewhat tighter and change nothing, those with the least margin first."""
     held = answer.solution.held if answer.solution and answer.found else ()

@@ -121,11 +121,7 @@ def heater_voltage(answer: StudyResult, uncertainty: Mapping[str, Any]) -> str:
 def _times(value: _Values) -> Iterator[str]:
     soft, stiff = (value.values[name] for name in ("softening_time", "stiffening_time"))
     reached = from_si(value.values["softened_temperature"], "degC")
-    coldest = (
-        f", coldest PCL {reached:.0f} {pretty('degC')}{value.ends('softened_temperature')}"
-        if math.isfinite(reached)
-        else ""
-    )
+    coldest = f", coldest PCL {reached:.0f} {pretty('degC')}" if math.isfinite(reached) else ""
     yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}{coldest}"
     if math.isfinite(stiff):
         yield f"stiff {value('stiffening_time')} later"
@@ -134,19 +130,26 @@ def _times(value: _Values) -> Iterator[str]:
 
 
 _LARGE = 0.1
-"""Share of stroke or spring torque from which lost motion or friction stands on the first screen."""
+"""Share of stroke or spring torque from which lost motion or friction is much, and stands on the first screen."""
 
 
-def _lost_motion(value: _Values) -> list[Fact]:
-    """Return lost motion and friction as shares of the stroke and of the springs' torque, with what adds most."""
+def _lost_motion(value: _Values, *, much: bool = True) -> list[Fact]:
+    """Return lost motion and friction as shares of the stroke and of spring torque, those that are much or the others.
+
+    The note names what adds most.
+    """
     shares = {"lost_motion": value.values["lost_motion"] / value.values["stroke"]}
     shares["friction_share"] = value.values["friction_share"]
-    stroke = f"the stroke, ±{from_si(value.values['stroke'], 'deg'):.3g}°"
-    texts = {"lost_motion": f"{{}} of {stroke}", "friction_share": "friction {} of the springs' torque"}
-    large = [name for name, share in shares.items() if share > _LARGE]
-    parts = [texts[name].format(value.in_percent(name, shares[name])) for name in large]
-    most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in large]
-    return [Fact("Lost motion", parts, f"most by {' and '.join(dict.fromkeys(most))}")] if parts else []
+    wholes = {"lost_motion": f"the stroke, ±{from_si(value.values['stroke'], 'deg'):.3g}°"}
+    wholes["friction_share"] = "spring torque"
+    shown = [name for name, share in shares.items() if (share > _LARGE) is much]
+    if not shown:
+        return []
+    first, *others = (f"{value.in_percent(name, shares[name])} of {wholes[name]}" for name in shown)
+    most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in shown]
+    title = f"{'Much' if much else 'Little'} {'lost motion' if 'lost_motion' in shown else 'friction'}"
+    note = f"{'above' if much else 'below'} a tenth, most by {' and '.join(dict.fromkeys(most))}"
+    return [Fact(title, [first, *(f"friction {part}" for part in others)], note)]
 
 
 _LOSES = {
@@ -184,7 +187,8 @@ def _active_constraints(answer: StudyResult) -> list[Fact]:
     outputs = list(answer.design.study["minimize"])
     of = label(outputs[0]) if len(outputs) == 1 else "objective"
     note = f"{held[0].step} of the first is worth {held[0].shadow_price:.2g} % of the {of}"
-    return [Fact("Active constraints", [in_labels(constraint.text) for constraint in held], note, listing=True)]
+    title = "Active constraints with margins" if answer.design.study.get("robust") else "Active constraints"
+    return [Fact(title, [in_labels(constraint.text) for constraint in held], note, listing=True)]
 
 
 def _manufacturing(uncertainty: Mapping[str, Any]) -> list[Fact]:
@@ -222,6 +226,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Frozen torque", list(_weakest(answer))),
         Fact("Accepts", list(_accepts(answer))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
+        *_lost_motion(_Values(answer, uncertainty), much=False),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table), *measured_fact(uncertainty),
         *_margins(answer, table), *_yield(answer, uncertainty),
     ]  # fmt: skip

@@ -49,7 +49,7 @@ class Remedies:
         self._study = Study.model_validate(answer.design.study)
 
     def of(self, check: ConstraintCheck, lines: Sequence[str], *, cheap: bool = False) -> Remedy:
-        """Return the first line that cures; else the last, untried, or why it does not.
+        """Return the first line that cures; else the last, untried, or why it does not; empty without lines.
 
         Parameters
         ----------
@@ -75,7 +75,7 @@ class Remedies:
                 refusal = self._misses(line)
                 if refusal is None:
                     return Remedy(line, tried=True)
-        return Remedy("", words=refusal) if refusal else Remedy(lines[-1])
+        return Remedy("", words=refusal or "") if refusal or not lines else Remedy(lines[-1])
 
     def _misses(self, line: str) -> str | None:
         """Return what is possible instead of a requirement; None, and the requirement is adopted, if it is possible.

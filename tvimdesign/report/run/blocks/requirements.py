@@ -11,6 +11,7 @@ from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Cell, Grid, Head, Tone
 from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, range_text
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, on_limit, value_text
+from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 HEADS = ("", "asked", "got", "plausible range", "margin")
@@ -138,13 +139,15 @@ def _got(answer: StudyResult, names: Sequence[str], unit: str, check: Constraint
 
 
 def _stands(answer: StudyResult, check: ConstraintCheck, table: Table) -> tuple[str, Tone]:
+    """Return the margin, or how a limit without any stands; `3 %, active` if the optimum is at its tolerance margin."""
     if not check.kept:
         return f"violated by {margin_text(check, table).lstrip('-')}", "bad"
     if check in answer.undecided:
         return "open: history decides", "warn"
     if abs(check.margin) <= NOTHING:
         return "at the limit", "warn"
-    return margin_text(replace(check, margin=check.worst), table), ""
+    margin = margin_text(replace(check, margin=check.worst), table)
+    return (f"{margin}, active", "warn") if is_active(check, answer) else (margin, "")
 
 
 def assumption(row: Mapping[str, Any]) -> str:

@@ -14,7 +14,7 @@ from tvimdesign.report.output.numbers import ends_text, in_unit, number, range_t
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
 from tvimdesign.report.run.blocks.warnings import unreached_points
-from tvimdesign.report.run.reasons import binding
+from tvimdesign.report.run.reasons import binding, is_active
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
@@ -147,16 +147,17 @@ def profile_grid(answer: StudyResult) -> Grid:
 def checks_grid(answer: StudyResult) -> Grid:
     """Return every requirement, and the machine's own rules that bind or are violated; a note counts the others."""
     table = table_for(answer.design.mode)
-    shown = [check for check in answer.checks if check.origin == "require" or not check.kept or check.worst <= NOTHING]
+    shown = [check for check in answer.checks
+             if check.origin == "require" or check.worst <= NOTHING or is_active(check, answer)]  # fmt: skip
     hidden = len(answer.checks) - len(shown)
-    note = f"{hidden} rules of the machine are satisfied with a margin." if hidden else ""
+    note = f"{hidden} rules of the machine are not active." if hidden else ""
     rows = [_check_row(check, answer, table) for check in shown]
     heads = ("", "limit", "value", "unit", "margin", "because")
     return grid("Limits", heads, rows, right=(2, 4), code=(), toned=(0,), note=note)
 
 
 def _check_row(check: ConstraintCheck, answer: StudyResult, table: Table) -> tuple[str, ...]:
-    stands = "violated" if not check.kept else "binds" if abs(check.margin) <= NOTHING else "ok"
+    stands = "violated" if not check.kept else "active" if is_active(check, answer) else "ok"
     stands = "open" if check in answer.undecided else stands
     because = "the study" if check.origin == "require" else check.origin
     margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least

@@ -204,12 +204,15 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict:
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:
-    """Say how many of the solver's starts ended at the optimum; empty for an evaluation."""
+    """Say how many of the solver's starts ended at the optimum, or what found it instead; empty for an evaluation."""
     if answer.solution is None:
         return []
     free, optima = answer.solution.free_starts, answer.solution.distinct_optima()
-    if not answer.found or not optima:
-        return [f"{sum(start.converged for start in free)} of {len(free)} starts converged"]
+    count = "1 start" if len(free) == 1 else f"{len(free)} starts"
+    if not answer.found:
+        return [f"{sum(start.converged for start in free)} of {count} converged" if optima else f"{count}, no design"]
+    if not optima:
+        return ["no start converged, a later search did"]
     if len(free) == 1:
         return ["one start: others may be better"]
     agree = answer.solution.reached(optima[0])

@@ -92,26 +92,25 @@ def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
     table, above, remedies = table_for(answer.design.mode), answer.design.above_rating, Remedies(answer, deadline)
     levels = {check.output: "grave" if check.output in above else _hint(check.output).get("level", "")
               for check in answer.warnings}  # fmt: skip
-    checks = [check for check in answer.warnings if not _answered(check.output, answer)]
-    for place, check in enumerate(sorted(checks, key=lambda check: _LEVELS.index(levels[check.output]))):
-        hint, value = _hint(check.output), format_quantity(check.value, table.unit(check.output), 3)
-        text = f"{label(check.output)} is {value}: {hint.get('say', check.origin)}"
-        if "text" in hint:
-            text = filled(hint["text"], {"size": value.lstrip("-")})
-        remedy = remedies.of(check, lines_of(check.output, answer), cheap=place >= SHOWN)
+    harmless = "" if missed_points(answer) else "hot_point_margin"
+    levels[harmless] = ""
+    for place, check in enumerate(sorted(answer.warnings, key=lambda check: _LEVELS.index(levels[check.output]))):
+        lines = [] if check.output == harmless else lines_of(check.output, answer)
+        remedy = remedies.of(check, lines, cheap=place >= SHOWN)
         cure = f"{'write' if remedy.tried else 'try'} {remedy.line}" if remedy.line else remedy.words
         if answer.solution is None and remedy.line.startswith("require:"):
             cure = f"{_VARY} {remedy.line}"
         if check.output in above:
             cure = f"{cure} or accept: [{check.output}]".removeprefix(" or ")
-        yield RunWarning(text, cure, levels[check.output])
+        yield RunWarning(advice_text(check.output, check.value, check.origin, table), cure, levels[check.output])
 
 
-def _answered(output: str, answer: StudyResult) -> bool:
-    """Return whether the study has all that an advice proposes, or needs nothing of it."""
-    if output == "hot_point_margin":
-        return not missed_points(answer)
-    return not lines_of(output, answer)
+def advice_text(output: str, value: float, origin: str, table: Table) -> str:
+    """Return advice or a rating that is not followed, with its value (SI) and its reason, `origin` or a shorter one."""
+    hint, shown = _hint(output), format_quantity(value, table.unit(output), 3)
+    if "text" in hint:
+        return filled(hint["text"], {"size": shown.lstrip("-")})
+    return f"{label(output)} is {shown}: {hint.get('say', origin)}"
 
 
 def lines_of(output: str, answer: StudyResult) -> list[str]:
