@@ -173,22 +173,6 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
     assert "placement_radius" in done.stderr
 
 
-def test_a_deep_check_says_what_depends_on_nothing(tvimdesign: Command, tmp_path: Path) -> None:
-    file = tmp_path / "idle.yaml"
-    file.write_text(
-        "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [14 mm, 30 mm], current: [0.5 A, 2 A]}\n"
-        'require: {spring_stiffness: ">= 4 N.m/rad"}\nminimize: module_mass\n'
-    )
-    done = tvimdesign("check", file, "--deep")
-    assert done.returncode == 0, done.stderr
-    assert "no limit and no goal depends on current" in done.stdout
-    assert "One solve from the start converged" in done.stdout
-    reported = json.loads(tvimdesign("check", file, "--deep", "--json").stdout)
-    assert reported["structure"]["idle"] == ["current"]
-    assert reported["start"]["converged"]
-    assert not reported["sound"]
-
-
 def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "weak.yaml"
     file.write_text("mode: shear\nmodule: {current: 0.2 A}\n")

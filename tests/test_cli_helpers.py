@@ -19,7 +19,7 @@ WRONG = ("--set", "pcl_thickness=1,2 mm", "--set", "require.holding_torque=15 N.
 
 @pytest.mark.parametrize(
     "command",
-    [["run"], ["check"], ["check", "--deep"], ["simulate", "--test", "creep"],
+    [["run"], ["check"], ["simulate", "--test", "creep"],
      ["compare", "studies/compare_compression.yaml"]],
     ids=lambda words: " ".join(words[:2]),
 )  # fmt: skip

@@ -90,21 +90,10 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
 @app.command()
 def check(
     study: options.StudyFile,
-    deep: Annotated[
-        bool,
-        typer.Option("--deep", help="Build the problem too: scaling, conditioning, derivatives, what depends on what."),
-    ] = False,
     settings: options.Settings = None,
     json: options.AsJson = False,
 ) -> None:
     """Check a study: every mistake, and limits that conflict."""
-    if deep:
-        from tvimdesign.report.run.check_study import check_deep
-        from tvimdesign.study import read_tree
-        from tvimdesign.study.tree import tree_of_file
-
-        check_deep(read_tree(tree_of_file(study, settings or ())), as_json=json)
-        return
     from tvimdesign.report.run.check_study import check_study
 
     check_study(study, settings or (), as_json=json)

@@ -11,7 +11,6 @@ from support import fine
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
-from tvimdesign.solve.infeasibility.inspection import row_names, unknown_names
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.solve.nlp.problem import LATEST
 from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
@@ -78,23 +77,7 @@ def test_gradient_and_jacobian_are_those_of_central_differences(name: str) -> No
     sizes = np.maximum(np.max(np.abs(exact), axis=1, keepdims=True), 1e-3)
     worst = np.abs(shown - exact) / sizes
     row, column = np.unravel_index(np.argmax(worst), worst.shape)
-    names = [*row_names(optimizer.problem), "objective"]
-    assert np.max(worst) < RIGHT[name], (names[row], unknown_names(optimizer.problem)[column])
-
-
-def test_every_row_and_unknown_has_a_name() -> None:
-    optimizer, x, _ = problem_of(PROFILE)
-    problem = optimizer.problem
-    assert len(unknown_names(problem)) == problem.unknown_count == len(x)
-    assert len(x) == len(problem.free) + (4 + 1) + (3 + 1) + len(problem.peaks)
-    assert [peak.row.name for peak in problem.peaks] == ["peak_power", "peak_peltier_temperature"]
-    names = row_names(problem)
-    assert len(names) == problem.row_count
-    assert names[:2] == ["end of softening", "end of stiffening"]
-    assert names.count("slew of the supply") == 2 * (3 + 2)
-    ends = ["response_time within the horizon", "return_time within the horizon"]
-    assert names[-2 - problem.sample_count : -problem.sample_count] == ends
-    assert set(names[-problem.sample_count :]) == {"samples below their peak"}
+    assert np.max(worst) < RIGHT[name], (row, column)
 
 
 def test_a_time_that_is_limited_has_no_second_row_for_the_horizon() -> None:

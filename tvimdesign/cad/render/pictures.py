@@ -135,7 +135,7 @@ def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str
     for file, parts in steps.items():
         renderer = renderer_on_white()
         order = list(dict.fromkeys(_going_with(part.name) for part in parts))
-        apart = _STEP_APART * max(float(np.ptp(one.points()[:, 0])) for one in placed.values())
+        apart = _STEP_APART * max(float(np.ptp(instance.points()[:, 0])) for instance in placed.values())
         coming = {}
         for part in parts:
             moved = placed[part.name].matrix.copy()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -93,11 +93,6 @@ def _part_of(study: Study, name: str) -> str:
 def on_cycle(table: Table, output: str) -> bool:
     """Return whether an output depends on how a switch runs."""
     return output.partition("@")[0] in table.behind_supplied
-
-
-def is_constant(limit: Constraint, table: Table, free: Iterable[str]) -> bool:
-    """Return whether no free number changes the limited output."""
-    return not on_cycle(table, limit.output) and not set(free) & table.ancestors(limit.output)
 
 
 def unchangeable(limit: Constraint, table: Table, value: float, study: Study) -> str:

@@ -117,9 +117,7 @@ MEANINGS = {
         "ended where no small change brings the broken limits closer to holding",
         "ease one of the limits it names, or widen a range that stands in the way",
     ),
-    "Search_Direction_Becomes_Too_Small": Meaning(
-        "stalled: the next step is smaller than rounding", f"{_BETTER_START}; `check --deep` shows what is badly scaled"
-    ),
+    "Search_Direction_Becomes_Too_Small": Meaning("stalled: the next step is smaller than rounding", _BETTER_START),
     "Diverging_Iterates": Meaning(
         "ran off without end: something that is minimised has no least value here",
         "give the variables it names ranges, or limit what is minimised under `require`",
@@ -133,7 +131,7 @@ MEANINGS = {
     "Restoration_Failed": Meaning("lost its way back to the equations of the switch", _BETTER_START),
     "Error_In_Step_Computation": Meaning(
         "could not compute a step: the equations are close to singular there",
-        f"{_BETTER_START}; `check --deep` names what depends on what",
+        _BETTER_START,
     ),
     "Invalid_Number_Detected": Meaning(
         "met a point where an output is no number, such as a leg that cannot reach its pin",
