@@ -1,5 +1,6 @@
 """Studies without a design: the conflicting limits or the nearest target are named, and the way out works."""
 
+import math
 import re
 from functools import cache
 
@@ -91,6 +92,19 @@ def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None
     refuse_infeasible(read_study_text(text.replace("<= 2.05 mm", f"<= {1.001 * float(figure):.6g} mm")))
     refuse_infeasible(read_study_text(text.replace(', coil_pitch: "<= 2.05 mm"', "")))
     refuse_infeasible(read_study_text(text.replace('spring_index: "<= 6", ', "")))
+
+
+def test_a_robust_study_is_refused_with_what_its_margins_take() -> None:
+    # Coils of 12 mm at least stand a wire and 0.1 mm apart. A third of each tolerance is its standard deviation.
+    text = HEAVY.replace(
+        'spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"', 'spring_index: "<= 6", coil_pitch: "<= 2.05 mm"'
+    )
+    refusal = _refusal(f"{text}tolerances: {{wire_diameter: 0.02 mm, coil_diameter: 0.1 mm}}\nrobust: {{yield: 95 %}}\n")
+    wire = 2.05 - 0.1 - 2.5 * 0.02 / 3.0
+    assert f"to <= 6.154 as drawn, to <= {12.0 / wire:.4g} with 2.5 deviations of margin" in refusal
+    wire = 2.0 * (1.0 + 2.5 * math.hypot(0.02 / 2.0, 0.1 / 12.0) / 3.0)
+    assert f"to <= 2.1 mm as drawn, to <= {wire + 0.1:.4g} mm with 2.5 deviations of margin" in refusal
+    assert "deviations" not in _refusal(text)
 
 
 def test_every_limit_that_the_fixed_inputs_break_is_told_at_once() -> None:

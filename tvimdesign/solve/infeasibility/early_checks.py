@@ -10,6 +10,8 @@ them satisfies the limits, no start of the whole problem does, and the elastic p
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from tvimdesign.base.deadline import Deadline
@@ -20,8 +22,9 @@ from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
 from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.mixture import discrete_records, with_records
-from tvimdesign.solve.nlp.solution import ConflictSet
+from tvimdesign.solve.nlp.solution import ConflictSet, Side
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.uncertainty.robust import SIGMA, least_with_margins
 from tvimdesign.study import ProfileOptions, Study, brought_along_by
 
 _ENDS = {
@@ -118,10 +121,26 @@ def _conflict(study: Study, deadline: Deadline | None) -> str:
     search = find_conflicts(optimizer, runs, lambda _: None)
     if search is None or search.conflict_set is None or optimizer.deadline.passed:
         return ""
-    lines = conflict_in_words(search.conflict_set)
+    lines = conflict_in_words(_with_margins(study, search.conflict_set))
     fixed = _fixed(optimizer, search.conflict_set)
     ways = f"Ease a limit, widen a range, or {fixed}." if fixed else "Ease a limit, or widen a range."
     return "\n".join([*lines, ways])
+
+
+def _with_margins(study: Study, conflict_set: ConflictSet) -> ConflictSet:
+    """Return the conflict with what each limit would have to move to for a robust design, where the study asks one."""
+    if not study.robust:
+        return conflict_set
+
+    def moved(side: Side) -> str:
+        output, sense = side.text.split(" ")[:2]
+        least = least_with_margins(study, output, 1.0 if sense == "<=" else -1.0) if side.move_words else None
+        if least is None:
+            return side.move_words
+        robust = format_quantity(least.value, study.table.unit(output))
+        return f"{side.move_words} as drawn, to {sense} {robust} with {SIGMA:g} deviations of margin"
+
+    return replace(conflict_set, sides=tuple(replace(side, move_words=moved(side)) for side in conflict_set.sides))
 
 
 def _fixed(optimizer: Optimizer, conflict_set: ConflictSet) -> str:

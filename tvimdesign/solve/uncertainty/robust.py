@@ -27,7 +27,7 @@ from tvimdesign.study.study import Robust as RobustOptions
 ROUNDS = 6
 _SETTLED = 1e-3
 """Change of a margin, as a share of its limit's scale, below which it is settled."""
-_STARTS, _SIGMA = 3, 2.5
+_STARTS, SIGMA = 3, 2.5
 """Of a search for a least value, and the standard deviations that a dozen active limits need for a yield of 95 %."""
 MOST_TRIED = 3
 """Designs that are tried, the best first."""
@@ -197,14 +197,14 @@ def least_with_margins(study: Study, output: str, weight: float = 1.0, *, margin
 
     With a negative weight it is the largest. Limits on the output itself are left out; None if no start gets there.
     """
-    normal = {"distribution": "normal", "sigma": _SIGMA}  # a uniform one ends at its plus-minus value
+    normal = {"distribution": "normal", "sigma": SIGMA}  # a uniform one ends at its plus-minus value
     tolerances = {
         name: tolerance if tolerance.distribution == "normal" else tolerance.model_copy(update=normal)
         for name, tolerance in study.tolerances.items()
     }
     update = {
         "tolerances": tolerances, "minimize": {output: weight},
-        "robust": RobustOptions(sigma=_SIGMA) if margins else None,
+        "robust": RobustOptions(sigma=SIGMA) if margins else None,
         "require": tuple(limit for limit in study.require if limit.output != output),
         "profile": ProfileOptions(), "solver": study.solver.model_copy(update={"starts": _STARTS if margins else 1}),
     }  # fmt: skip
