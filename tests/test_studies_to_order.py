@@ -93,7 +93,7 @@ MAKERS = (
 NUMBERED = re.compile(f"{STANDARDS}|{MAKERS}")
 TO_SIZE = {
     "preload_spring": r"flat wire, [\d.]+ x [\d.]+ x [\d.]+ mm, .* waves, .* free, wound to order",
-    "heater": r"to the outline of its STEP file; [\d.]+ ohm each, .* W each, at [\d.]+ V",
+    "heater": r"to the outline of its STEP file; resistance [\d.]+ ohm each, .* W each, at [\d.]+ V",
     "liner": r"[\d.]+ mm thick, to the outline of its STEP file",
     "cover_insert": r"M\d", "link_insert": r"M\d", "insert": r"M\d",
 }  # fmt: skip

@@ -1,22 +1,27 @@
 """Fits, surfaces and threads on drawings: ISO 286 against its tables, and what drawings of a milled module say."""
 
 import io
+import re
 from collections.abc import Mapping
+from dataclasses import replace
 
 import ezdxf
 import pytest
 import yaml
-from cad_designs import BEARING_BLOCKS, CASES, DRIVEN, design_of
+from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, design_of
 from support import ROOT
 from test_drawings import no_text_lies_on_another, sheet_of, texts
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
+from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.iso_286 import limit_deviations, standard_tolerance
+from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import upright_cylinders
 from tvimdesign.cad.geometry.kinds import PRODUCTION
+from tvimdesign.cad.jobs.build_plan import fits
 from tvimdesign.study.design import Design
 
 MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_ratio": 40.0}
@@ -79,12 +84,37 @@ def test_seats_and_threads_have_fits_where_milled() -> None:
     mode, overrides = CASES["paper"]
     design = design_of("paper", overrides, mode)
     asked = drawing_requirements("rotor", dimensions(design), design.choices)
-    assert [(one.about, one.fit) for one in asked.seats] == [("dowel pins", "H7")]  # reamed, in a print too
+    # Reamed, in a print too; the core goes into the bore with the play that is in the sizes as drawn.
+    assert [(seat.about, seat.fit) for seat in asked.seats] == [("core in the bore", "h9"), ("dowel pins", "H7")]
+    assert asked.seats[0].size == asked.seats[0].drawn
     assert [(one.screw, one.made) for one in asked.threads] == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
     reported = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
     words = [one["about"] for part in ("seats", "threads") for group in reported[part].values() for one in group]
     assert max(map(len, words)) <= 21  # what the table has room for
     assert {*reported["seats"], *reported["threads"]} <= {kind for kind, making in PRODUCTION.items() if making.drawn}
+
+
+@pytest.mark.parametrize(
+    ("kind", "about", "size"),
+    [("housing", "bearings' outer rings", "⌀21.1 H8"), ("rotor", "bearings' inner rings", "⌀14.9 h8")],
+)
+def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind: str, about: str, size: str) -> None:
+    design = design_of("printed", BEARINGS | {"process": "print_pc"}, "shear")
+    dims = dimensions(design)
+    asked = drawing_requirements(kind, dims, design.choices)
+    seat = next(seat for seat in asked.seats if seat.about == about)
+    assert (seat.form, seat.frames) == ("reamed or eased to size", ())
+    assert not any("run-out" in note for note in asked.notes)
+    solid, what = drawn_part(dims, kind), product(design, kind)
+    document = part_sheet(kind, solid, what, design.name, asked).document
+    no_text_lies_on_another(kind, document)
+    loose = part_sheet(kind, solid, what, design.name, replace(asked, seats=[])).document
+    numbers = [
+        text for sheet in (document, loose) for text in texts(sheet) if re.fullmatch(rf"{kind}-[0-9a-f]{{8}}", text)
+    ]
+    assert len(numbers) == len(set(numbers)) == 2  # a part with another fit is another part
+    assert size in [line.dxf.text for line in document.modelspace().query("DIMENSION")]
+    assert size.removeprefix("⌀").split()[1] in fits(design, dims)[seat.mates]
 
 
 def test_drawings_of_a_milled_module_tell_fits_threads_and_edges() -> None:

@@ -29,7 +29,17 @@ def test_the_spring_sheet_tells_the_bend_and_both_mandrels(ratio: float) -> None
 def test_no_words_of_the_spring_sheet_leave_its_frame() -> None:
     design = design_of("paper", {})
     dims = dimensions(design)
-    sheet = spring_sheet(design, dims, spring_lines(design, dims, {}))
+    lines = {line.name: line for line in spring_lines(design, dims, {})}
+    sheet = spring_sheet(design, dims, list(lines.values()))
+    shown = [text.dxf.text for text in sheet.space.query("TEXT")]
+    drawn = [f"{line.get_measurement():.2f}" for line in sheet.space.query("DIMENSION")]
+    # A length is the same in the table and in the drawing; torque follows from what is kept, the free angle.
+    for name in ("leg, tangential", "tang, parallel to the axis", "mean coil diameter D", "body length, free"):
+        assert f"{float(lines[name].value):.2f}" in drawn, name
+    torques = [line for name, line in lines.items() if name.startswith("torque")]
+    assert [line.tolerance for line in torques] == ["reference", "reference"]
+    assert all(f"({line.value}) N.mm" in shown for line in torques)
+    assert lines["free angle"].tolerance == "± 18.7"
     for text in sheet.space.query("TEXT"):
         end = sheet.scale * (text.dxf.insert.x + text_size(text).width)
         assert end <= SIZE[0] - FRAME, text.dxf.text

@@ -147,7 +147,7 @@ def _spring(design: Design, kind: str, title: str) -> str:
         return f"{title}, wound {_HANDS[kind]}; one leg cut, the other one bent down, by the spring's sheet"
     wire, coil = 1e3 * design.value("wire_diameter"), 1e3 * design.value("coil_diameter")
     turns = design.value("coil_count")
-    size = f"wire {wire:.4g} mm, mean coil {coil:.4g} mm, {turns:.4g} coils, wound {_HANDS[kind]}"
+    size = f"wire {wire:.4g} mm, mean coil {round(coil, 2):g} mm, {turns:.4g} coils, wound {_HANDS[kind]}"
     return f"Torsion spring of {title}: {size}, by the spring's sheet"
 
 

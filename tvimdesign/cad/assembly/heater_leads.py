@@ -180,7 +180,7 @@ def wire_in_words(design: Design, pads: int) -> str:
 
 def _wire(current: float) -> Wire | None:
     """Return the thinnest wire that bears a current [A]."""
-    return next((one for one in wires() if one.current >= current), None)
+    return next((wire for wire in wires() if wire.current >= current), None)
 
 
 def heater_order(design: Design) -> list[str]:
@@ -193,7 +193,7 @@ def heater_order(design: Design) -> list[str]:
     count = pad_count(design)
     area = design.value("peltier_volume") / design.value("peltier_thickness")
     ohms = design.value("peltier_resistance") * area / design.value("peltier_area") / count
-    order, leads = [f"{ohms:.3g} ohm each, ± 10 % (assumed)"], "two leads"
+    order, leads = [f"resistance {ohms:.3g} ohm each, ± 10 % (assumed)"], "two leads"
     if (current := largest(design, _STRONGEST)) and design.choices.get("heat_source") != "layer":
         amperes = current / design.values.get("heater_strings", 1.0)
         watts = amperes**2 * ohms

@@ -18,6 +18,8 @@ from tvimdesign.cad.geometry.features import Cylinder
 
 _DATA = Path(__file__).with_name("drawing_requirements.yaml")
 TAPPED = "tapped"
+_EASED = 3.2
+"""Roughness Ra [µm] of a printed seat that is reamed, or rubbed down with fine paper."""
 _ZONE = 0.05
 """Step [mm] of zones of position."""
 _SAME = 1e-5
@@ -154,13 +156,16 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         surface=general["surface"],
         notes=[
             general["edges"],
-            *([_BEARINGS] if any("bearing" in one for one in seats) else []),
+            *([_BEARINGS] if is_milled and any("bearing" in one for one in seats) else []),
             *([_POINTS.format(angle=degrees(dims.drill_point_angle))] if is_milled and threads else []),
             *([_FEET.format(radius=figure(dims.foot_fillet))] if kind == "rotor" else []),
             *_remarks(kind, dims, choices),
         ],
         printed=method == "printed" and kind not in reported["of_kind"],
-        seats=[_seat(one, dims, DATUM if index == 0 and "radius" in one else "") for index, one in enumerate(seats)],
+        seats=[
+            _seat(one if is_milled else _as_printed(one), dims, DATUM if index == 0 and "radius" in one else "")
+            for index, one in enumerate(seats)
+        ],
         threads=[_thread(one, dims, is_milled) for one in threads],
         clearance_holes=[_clearance_hole(one, dims, is_milled) for one in holes],
         general=(Frame("profile", general["profile"], GROUND + DATUM),) if is_milled else (),
@@ -213,6 +218,14 @@ def _is_there(reported: Mapping[str, Any], dims: Dimensions) -> bool:
 
 def _rows(reported: str | Sequence[str]) -> Sequence[str]:
     return [reported] if isinstance(reported, str) else reported
+
+
+def _as_printed(reported: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a printed seat asks for: a class of its own about the size as drawn, and no frames of bearings."""
+    if reported["printed"] is True:
+        return dict(reported)
+    left = {name: value for name, value in reported.items() if name not in ("gap", "bearing")}
+    return left | {"class": reported["printed"], "roughness": _EASED, "form": "reamed or eased to size"}
 
 
 def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:

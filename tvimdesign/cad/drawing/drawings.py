@@ -197,7 +197,10 @@ def _words(
         *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),
     ]  # fmt: skip
     # What decides whether a part is another one, to the figures that are printed.
-    told = [material, asked.tolerances, asked.surface, f"{volume:.1f}", *notes, *(row.text + row.asks for row in rows)]
+    told = [
+        material, asked.tolerances, asked.surface, f"{volume:.1f}", *notes, *(row.text + row.asks for row in rows),
+        *map(repr, asked.seats),
+    ]  # fmt: skip
     left = sheet.size[0] - MARGIN - TITLE_WIDTH
     sheet.column(notes, (left, sheet.size[1] - MARGIN - 2.0))
     sheet.title_block(

@@ -22,6 +22,8 @@ from tvimdesign.study.design import Design, catalog_of
 _N_MM = 1e3
 _BEND = "coils to tang; under 1.5 d it may crack (Newcomb)"
 _DIN = "DIN 2194 grade 2"
+_REFERENCE = "reference"
+"""Tolerance of what follows from the others, and is not inspected: in brackets on the sheet."""
 _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2)
 
 
@@ -43,7 +45,6 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
     spread, angle = 1e3 * design.value("coil_diameter_tolerance"), degrees(design.value("free_angle_tolerance"))
     rate = design.value("spring_rate") * _N_MM * radians(1.0)
     preload, full = degrees(dims.preload_angle), degrees(dims.spring_winding)
-    spread_torque = f"± {_figure(rate * angle)}"
     material = design.choices["spring_material"]
     half = dims.count("spring_count") // 2
     return [
@@ -51,27 +52,26 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
         SpringLine("wire", titles.get("spring_material", material), note=f"record {material}"),
         SpringLine("wire diameter d", _figure(d, 3), "mm", "of the wire's standard"),
         SpringLine("mean coil diameter D", _figure(mean), "mm", f"± {_figure(spread)}", _DIN),
-        SpringLine("inside diameter", _figure(mean - d), "mm", f"± {_figure(spread)}", "follows from D and d"),
-        SpringLine("outside diameter", _figure(mean + d), "mm", f"± {_figure(spread)}", "follows from D and d"),
+        SpringLine("inside diameter", _figure(mean - d), "mm", _REFERENCE, "follows from D and d"),
+        SpringLine("outside diameter", _figure(mean + d), "mm", _REFERENCE, "follows from D and d"),
         SpringLine("body coils n", _figure(coil.turns, 3), "", "by the free angle"),
-        SpringLine("coils that bend", _figure(design.value("active_coils"), 3), "", "", "with the share of the leg"),
+        SpringLine("coils that bend", _figure(design.value("active_coils"), 3), "", _REFERENCE, "with the leg's share"),
         SpringLine("gap between coils", _figure(coil.pitch - d), "mm", "", "coils must not rub"),
-        SpringLine("body length, free", _figure(coil.pitch * coil.turns + d), "mm"),
+        SpringLine("body length, free", _figure(coil.pitch * coil.turns + d), "mm", _REFERENCE),
         SpringLine("quantity for one module", f"{half} wound right, {half} wound left", "", "",
              "right: coils leave the eye clockwise"),
-        SpringLine("leg, tangential", _figure(coil.leg_length / cos(coil.rise)), "mm", "± 0.5", "straight; assumed"),
+        SpringLine("leg, tangential", _figure(coil.leg_length), "mm", "± 0.5", "straight, square to the axis; assumed"),
         SpringLine("tang, parallel to the axis", _figure(coil.tang_length), "mm", "+ 0 / - 0.3", "assumed"),
         SpringLine("inside radius of the bend", _figure(coil.bend_radius - 0.5 * d), "mm", "+ 0.5 / - 0", _BEND),
         SpringLine("free angle", _figure(_free_angle(coil), 1), "deg", f"± {_figure(angle, 1)}",
              f"from tang to leg around the axis; {_DIN}"),
-        SpringLine("rate", _figure(rate, 3), "N.mm/deg"),
-        SpringLine(f"torque M1 at {_figure(preload)} deg", _figure(rate * preload), "N.mm", spread_torque,
-             "preload; free-angle tolerance times rate"),
-        SpringLine(f"torque M2 at {_figure(full)} deg", _figure(rate * full), "N.mm", spread_torque,
-             "full stroke; as above"),
+        SpringLine("rate", _figure(rate, 3), "N.mm/deg", _REFERENCE, "follows from d, D and the coils that bend"),
+        SpringLine(f"torque M1 at {_figure(preload)} deg", _figure(rate * preload), "N.mm", _REFERENCE,
+             "preload: the free angle is kept, not the torque"),
+        SpringLine(f"torque M2 at {_figure(full)} deg", _figure(rate * full), "N.mm", _REFERENCE, "full stroke; as M1"),
         SpringLine("winds", "so that the coil gets smaller"),
-        SpringLine("mean coil diameter at M2", _figure(tight), "mm"),
-        SpringLine("body length at M2", _figure(1e3 * design.value("spring_body_length")), "mm"),
+        SpringLine("mean coil diameter at M2", _figure(tight), "mm", _REFERENCE),
+        SpringLine("body length at M2", _figure(1e3 * design.value("spring_body_length")), "mm", _REFERENCE),
         SpringLine("winding mandrel", _figure(1e3 * design.value("winding_mandrel"), 1), "mm", "",
              "trial size: by its strength the wire springs back to D"),
         SpringLine("measuring mandrel, at most", _figure(2.0 * dims.post_radius), "mm", "",
@@ -80,7 +80,7 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
         SpringLine("tensile strength taken", _figure(1e-6 * design.value("spring_tensile_strength"), 0), "MPa"),
         _stress_relief(design),
         SpringLine("finish", "bright, oiled", "", "", _finish(design)),
-        SpringLine("to be measured", "free angle, torque at M1 and M2", "", "", "of each, on such a mandrel"),
+        SpringLine("to be measured", "D and free angle", "", "", "of each, on such a mandrel; report the rate"),
         SpringLine("wire length", _figure(coil.wire_length, 1), "mm"),
         SpringLine("mass of one", _figure(1e3 * design.value("spring_volume") * design.value("spring_density")), "g"),
     ]  # fmt: skip
@@ -140,10 +140,11 @@ def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) 
     plan_at = (across, 45.0 + reach * scale)
     _plan(sheet, coil, plan_at)
     _side(sheet, coil, (across, plan_at[1] + (reach + coil.tang_length) * scale + 26.0))
-    sheet.text("right-hand spring, free; the left-hand one is its mirror image", (20.0, 16.0))
+    sheet.text("right-hand spring, free, at 20 °C; the left-hand one is its mirror image", (20.0, 16.0))
     for index, line in enumerate((SpringLine("", "", "", "tolerance", ""), *lines)):
         y = SIZE[1] - 18.0 - 6.2 * index
-        for x, text in ((202.0, line.name), (252.0, " ".join((line.value, line.unit))), (302.0, line.tolerance)):
+        value = f"({line.value})" if line.tolerance == _REFERENCE else line.value
+        for x, text in ((202.0, line.name), (252.0, f"{value} {line.unit}"), (302.0, line.tolerance)):
             sheet.text(text, (x, y), 2.3)
         sheet.text(line.note, (340.0, y), 1.8)
     sheet.title_block(
@@ -213,15 +214,15 @@ def _side(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
         space.add_lwpolyline([*edge, (tang + beside, low)], dxfattribs=outline)
     space.add_line((tang - half, low), (tang + half, low), dxfattribs=outline)
     space.add_line((x, low), (x, top + 0.4 * away), dxfattribs={"layer": "CENTRE"})
-    for index, (inset, said) in enumerate(((2.0 * half, "inside ⌀<>"), (half, "D <>"), (0.0, "outside ⌀<>"))):
+    for index, (inset, said) in enumerate(((2.0 * half, "(inside ⌀<>)"), (half, "D <>"), (0.0, "(outside ⌀<>)"))):
         space.add_linear_dim(
             (x, far[1] + (index + 1) * away), (left + inset, top), (right - inset, top), text=said, dimstyle="SHEET",
             dxfattribs=dimension,
         ).render()  # fmt: skip
-    for base, from_low, to_high in ((left - away, bottom, top), (left - 2.0 * away, low, y)):
+    for base, from_low, to_high, shown in ((left - away, bottom, top, "(<>)"), (left - 2.0 * away, low, y, "<>")):
         space.add_linear_dim(
             (base, y), (left if from_low == bottom else tang - half, from_low), (left, to_high), angle=90,
-            dimstyle="SHEET", dxfattribs=dimension,
+            text=shown, dimstyle="SHEET", dxfattribs=dimension,
         ).render()  # fmt: skip
 
 
