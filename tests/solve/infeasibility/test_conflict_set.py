@@ -99,7 +99,9 @@ def test_a_robust_study_is_refused_with_what_its_margins_take() -> None:
     text = HEAVY.replace(
         'spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"', 'spring_index: "<= 6", coil_pitch: "<= 2.05 mm"'
     )
-    refusal = _refusal(f"{text}tolerances: {{wire_diameter: 0.02 mm, coil_diameter: 0.1 mm}}\nrobust: {{yield: 95 %}}\n")
+    refusal = _refusal(
+        f"{text}tolerances: {{wire_diameter: 0.02 mm, coil_diameter: 0.1 mm}}\nrobust: {{yield: 95 %}}\n"
+    )
     wire = 2.05 - 0.1 - 2.5 * 0.02 / 3.0
     assert f"to <= 6.154 as drawn, to <= {12.0 / wire:.4g} with 2.5 deviations of margin" in refusal
     wire = 2.0 * (1.0 + 2.5 * math.hypot(0.02 / 2.0, 0.1 / 12.0) / 3.0)

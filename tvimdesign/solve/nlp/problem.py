@@ -105,10 +105,11 @@ class Problem:
         return Tape.of([inputs, cycle], [ca.densify(values)])
 
     @cached_property
-    def _limit_rows(self) -> tuple[NDArray[np.int64], Array]:
-        """Place of each limit's output among the wanted, and the slope of its residual."""
+    def _limit_rows(self) -> tuple[NDArray[np.int64], Array, Array]:
+        """Place of each limit's output among the wanted, the slope of its residual, and where it stands."""
         places = np.array([self.wanted.index(limit.output) for limit in self.limits], dtype=np.int64)
-        return places, np.array([(1.0 if limit.sense == "<=" else -1.0) / limit.scale for limit in self.limits])
+        factors = np.array([(1.0 if limit.sense == "<=" else -1.0) / limit.scale for limit in self.limits])
+        return places, factors, np.array([limit.limit for limit in self.limits])
 
     def place_grids(self, x: Array, parameters: Parameters) -> None:
         """Choose the steps of each phase by their errors at a point; they stay until they are placed again."""
@@ -171,21 +172,19 @@ class Problem:
             shares = [self.model.index[name] for name in mixture.shares]
             rows.append(float(np.sum(inputs[shares])) - 1.0)
             jacobian.append(np.sum(along[shares], axis=0))
-        places, factors = self._limit_rows
-        rows += [limit.residual(value) for limit, value in zip(self.limits, values[places].tolist(), strict=True)]
-        jacobian += list(factors[:, None] * slopes[places])
-        if traded:
-            rows += list(parameters.factors @ values[traded])
-            jacobian += list(parameters.factors @ slopes[traded])
+        equations, of_equations = np.array(rows), np.array(jacobian).reshape(len(rows), len(x))
+        places, factors, at_limits = self._limit_rows
+        beyond, of_beyond = factors * (values[places] - at_limits), factors[:, None] * slopes[places]
+        sums, of_sums = parameters.factors @ values[traded], parameters.factors @ slopes[traded]
         steep, of_steep = self._slopes(x)
         late, of_late = self._lateness(inputs, cycle, of_cycle)
         weights = parameters.weights
         events = dict(zip(self.model.switch_names, cycle, strict=True))
         times = {name: float(events[name]) for name in self.events}
-        every = np.concatenate([np.array(rows), steep, late, sampled])
+        every = np.concatenate([equations, beyond, sums, steep, late, sampled])
         return Point(
             float(weights @ values[chosen]), weights @ slopes[chosen], every,
-            np.concatenate([np.array(jacobian).reshape(len(jacobian), len(x)), of_steep, of_late, of_sampled]),
+            np.concatenate([of_equations, of_beyond, of_sums, of_steep, of_late, of_sampled]),
             dict(zip(self.wanted, values.tolist(), strict=True)), dict(zip(self.wanted, slopes, strict=True)), times,
             cycle, of_cycle,
         )  # fmt: skip
