@@ -9,7 +9,7 @@ import typer
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cli import options
-from tvimdesign.cli.design_commands import bench, compare, explore, robot, simulate, sweep, tolerate, verify
+from tvimdesign.cli.design_commands import compare, explore, robot, simulate, sweep, tolerate, verify
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -252,7 +252,6 @@ def fit(
     )  # fmt: skip
 
 
-app.command()(bench)
 app.command()(compare)
 app.command()(sweep)
 app.command()(explore)

@@ -32,24 +32,6 @@ def robot(
     write_robot(result, folder, step, overwrite=overwrite, as_json=json)
 
 
-def bench(
-    result: options.ResultOfRun,
-    measured: Annotated[
-        Path | None,
-        typer.Option("--measured", metavar="FOLDER", help="A folder of `bench` whose tables are filled: fit them."),
-    ] = None,
-    out: options.Out = None,
-    overwrite: options.Overwrite = False,
-    plots: options.Plots = True,
-    json: options.AsJson = False,
-) -> None:
-    """Write tests of a module for a laboratory. Protocols, blank tables and predictions go to results/<name>-bench."""
-    from tvimdesign.report.bench.bench_files import write_bench
-
-    folder = out or options.results(result, "measured" if measured else "bench")
-    write_bench(result, folder, measured, overwrite=overwrite, plots=plots, as_json=json)
-
-
 def simulate(
     study: options.StudyOrDesign,
     test: Annotated[

@@ -27,10 +27,10 @@ def solved(tmp_path: Any, factor: float = 1.0) -> dict[str, Solved]:
     spring = {"rate": float(KEPT["spring_rate"]["fe"]), "fibre_max": 1.0e3, "bend_mises": 1.0e3}
     joint = {**JOINT, "frequency": 180.0, "foot_across": 5.0, "foot_along": 0.5, "plate_mises": 0.5}
     joint["hub"] *= factor
-    told = {"unknowns": 1e5, "seconds": 40.0, "gigabytes": 0.7}
-    found = {"joint": {**joint, **told}, "spring": {**spring, **told}, "link": {"link": LINK, **told}}
-    found["screws"] = {"friction_radius": 6.0, **told}
-    return {name: Solved(one, one, tmp_path / name) for name, one in found.items()}
+    cost = {"unknowns": 1e5, "seconds": 40.0, "gigabytes": 0.7}
+    by_solver = {"joint": {**joint, **cost}, "spring": {**spring, **cost}, "link": {"link": LINK, **cost}}
+    by_solver["screws"] = {"friction_radius": 6.0, **cost}
+    return {name: Solved(values, values, tmp_path / name) for name, values in by_solver.items()}
 
 
 def test_the_rows_are_those_that_the_table_of_fe_has(tmp_path: Any) -> None:
@@ -59,7 +59,7 @@ def test_screws_feet_and_plate_are_by_statics(tmp_path: Any) -> None:
     # Its fillet of 1.5 mm bears with it over that millimetre, by the same quadrature; what FE has above that is fitted.
     fillet = float(MODULE.table.evaluate(comparison._drawn(MODULE), ["foot_fillet"])["foot_fillet"])
     lefts = [max(fillet - (r - core), 0.0) for r in radii]
-    thicker = sum(thick / (thick + fillet - math.sqrt(fillet**2 - one**2)) for one in lefts) / len(lefts)
+    thicker = sum(thick / (thick + fillet - math.sqrt(fillet**2 - left**2)) for left in lefts) / len(lefts)
     above = rows["plate_stress"].model / (math.sqrt(3.0) * shear * thicker * 1e-6)
     assert 1.03 < above < 1.03 * 1.75
     assert rows["plate_stress"].fe == pytest.approx(0.5 * held)
@@ -81,10 +81,10 @@ def test_vanes_cup_the_plate_they_hang_from() -> None:
 
 
 def test_screws_bear_what_friction_leaves(tmp_path: Any) -> None:
-    found = solved(tmp_path)
-    for one in (found["joint"].found, found["joint"].coarse):
-        one["foot_across"] = 9.0
-    rows = {row.name: row for row in comparison.compared(MODULE, found)}
+    by_solver = solved(tmp_path)
+    for values in (by_solver["joint"].found, by_solver["joint"].coarse):
+        values["foot_across"] = 9.0
+    rows = {row.name: row for row in comparison.compared(MODULE, by_solver)}
     held = float(MODULE.quantity("holding_torque"))
     # M3: 5.03 mm2 and 2.53 mm (ISO 898-1), tightened to 55 MPa over 7.07 mm2. Half of the thread's twist stays, by the
     # friction of thread and head for which the nut factor is 0.2 (VDI 2230-1:2015).

@@ -52,9 +52,9 @@ STUDY = "mode: shear\n"
 
 def test_what_finite_elements_lack_is_told_before_the_run(tmp_path: Path, tvimdesign: Command) -> None:
     (tmp_path / "mine.yaml").write_text(STUDY)
-    said = tvimdesign("run", "mine.yaml", "--verify", "--fe-python", str(tmp_path / "none"), cwd=tmp_path)
-    assert said.returncode == 2
-    assert "--fe-python" in said.stderr
+    refused = tvimdesign("run", "mine.yaml", "--verify", "--fe-python", str(tmp_path / "none"), cwd=tmp_path)
+    assert refused.returncode == 2
+    assert "--fe-python" in refused.stderr
     assert not (tmp_path / "results").exists()
 
 

@@ -1,4 +1,4 @@
-"""Figures of a tolerance analysis, a fit, a bench and a sweep."""
+"""Figures of a tolerance analysis, a fit and a sweep."""
 
 from __future__ import annotations
 
@@ -79,31 +79,6 @@ def fit(data: dict[str, Any]) -> Figure:
         below = theme.place(figure, left, bottom, wide, _LOW)
         above = theme.place(figure, left, bottom + _LOW + 0.08, wide, _HIGH)
         _fit_panel(above, below, panel, _LONGEST // across)
-    return figure
-
-
-def bench(data: dict[str, Any]) -> Figure:
-    """Draw for each test what the module predicts, with its interval, and what was measured, two panels in a row."""
-    panels = data["panels"]
-    down, across = -(-len(panels) // _PANELS_ACROSS), min(len(panels), _PANELS_ACROSS)
-    row = _HIGH + _ABOVE + _BELOW
-    figure = theme.new_figure(theme.NAME_STRIP + 0.22 + row * down)
-    theme.caption(figure, data["title"])
-    wide = (theme.WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
-    for i, panel in enumerate(panels):
-        left, bottom = _LEFT + (i % across) * (wide + _GAP), _BELOW + row * (down - 1 - i // across)
-        axes = theme.place(figure, left, bottom, wide, _HIGH)
-        theme.heading(axes, panel["title"])
-        for k, series in enumerate(panel["series"]):
-            color, name = theme.COLOURS[k % len(theme.COLOURS)], series["name"]
-            axes.plot(panel["x"], series["value"], color=color, label=f"{name}, predicted")
-            for end in (series["low"], series["high"]):
-                axes.plot(panel["x"], end, "--", color=color, linewidth=0.6)
-            if series["measured"]:
-                axes.plot(series["at"], series["measured"], "o", color=color, markersize=2.5, label=f"{name}, measured")
-        axes.set(xlabel=panel["x_label"], ylabel=panel["y_label"])
-        axes.locator_params(nbins=theme.TICKS)
-        axes.legend(loc="best", fontsize=5)
     return figure
 
 

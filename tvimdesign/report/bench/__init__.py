@@ -1,1 +1,0 @@
-"""The command `bench`: tests of a built module for a laboratory, and their data against what the model predicts."""
