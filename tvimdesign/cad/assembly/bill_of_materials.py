@@ -14,6 +14,7 @@ from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.heater_leads import (
     heater_order,
+    largest,
     lead_in_words,
     pad_count,
     rating,
@@ -296,13 +297,7 @@ def _has_lead_holes(design: Design) -> bool:
 
 def _supply(design: Design) -> list[Item]:
     """Return supply, driver and controller by what the switch asks; none where the design was not taken through it."""
-    volts, amperes = (
-        max(
-            (abs(design.values[name]) for name in names if math.isfinite(design.values.get(name, math.nan))),
-            default=0.0,
-        )
-        for names in _PEAKS
-    )
+    volts, amperes = (largest(design, names) for names in _PEAKS)
     if not volts or not amperes:
         return []
     ways = "both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else "one way round"

@@ -34,6 +34,9 @@ def _kind(colour: Rgb, material: str, density: str, volume: str) -> Kind:
 _SPRING = ("spring_material", "spring_density", "spring_volume")
 _STEEL: Rgb = (0.30, 0.31, 0.33)
 _BRASS: Rgb = (0.80, 0.66, 0.25)
+_SCREWS = ("link_screw", "retainer_screw", "adjuster_screw", "cover_screw", "motor_screw", "mount_screw")
+_INSERTS = {"link_insert": "core", "retainer_insert": "core", "adjuster_insert": "post", "cover_insert": "boss"}
+"""What each is melted into."""
 KINDS = {
     "housing": _kind((0.62, 0.68, 0.74), *_STRUCTURE, "housing_volume"),
     "rotor": _kind((0.92, 0.62, 0.20), *_STRUCTURE, "rotor_volume"),
@@ -47,30 +50,22 @@ KINDS = {
     "liner": _kind((0.55, 0.50, 0.40), "liner_material", "liner_density", "liner_volume"),
     "thermistor": _kind((0.10, 0.10, 0.12), "thermistor", "thermistor_density", "thermistor_volume"),
     "thermal_cutout": _kind((0.78, 0.74, 0.62), "heater_fuse", "cutout_density", "cutout_volume"),
-    "link_screw": _kind(_STEEL, "link_screw", "link_screw_density", "link_screw_volume"),
-    "link_insert": _kind(_BRASS, "link_insert", "link_insert_density", "link_insert_volume"),
     "link_dowel": _kind((0.72, 0.74, 0.78), "link_dowel", "link_dowel_density", "link_dowel_volume"),
-    "retainer_screw": _kind(_STEEL, "retainer_screw", "retainer_screw_density", "retainer_screw_volume"),
-    "retainer_insert": _kind(_BRASS, "retainer_insert", "retainer_insert_density", "retainer_insert_volume"),
     "bearing_inner": _kind((0.80, 0.80, 0.84), "bearing", "bearing_density", "bearing_inner_volume"),
     "bearing_outer": _kind((0.52, 0.54, 0.60), "bearing", "bearing_density", "bearing_outer_volume"),
     "preload_spring": _kind((0.24, 0.42, 0.62), "axial_preload", "preload_spring_density", "preload_spring_volume"),
     "adjuster": _kind((0.78, 0.45, 0.58), *_STRUCTURE, "adjuster_volume"),
-    "adjuster_screw": _kind(_STEEL, "adjuster_screw", "adjuster_screw_density", "adjuster_screw_volume"),
-    "adjuster_insert": _kind(_BRASS, "adjuster_insert", "adjuster_insert_density", "adjuster_insert_volume"),
     "cover": _kind((0.50, 0.56, 0.62), *_STRUCTURE, "cover_volume"),
-    "cover_screw": _kind(_STEEL, "cover_screw", "cover_screw_density", "cover_screw_volume"),
-    "cover_insert": _kind(_BRASS, "cover_insert", "cover_insert_density", "cover_insert_volume"),
     "motor_hub": _kind((0.60, 0.72, 0.42), *_STRUCTURE, "motor_hub_volume"),
     "motor_housing": _kind((0.50, 0.56, 0.64), *_STRUCTURE, "motor_housing_volume"),
     "motor_retainer": _kind((0.42, 0.28, 0.50), *_STRUCTURE, "motor_retainer_volume"),
     "motor_rotor": _kind((0.36, 0.36, 0.40), "motor", "motor_rotor_density", "motor_rotor_volume"),
     "motor_stator": _kind((0.72, 0.45, 0.20), "motor", "motor_stator_density", "motor_stator_volume"),
     "motor_bearing": _kind((0.66, 0.67, 0.72), "motor_bearing", "motor_bearing_density", "motor_bearing_volume"),
-    "motor_screw": _kind(_STEEL, "motor_screw", "motor_screw_density", "motor_screw_volume"),
-    "mount_screw": _kind(_STEEL, "mount_screw", "mount_screw_density", "mount_screw_volume"),
     "encoder_magnet": _kind((0.85, 0.75, 0.20), "encoder", "encoder_magnet_density", "encoder_magnet_volume"),
     "encoder_board": _kind((0.10, 0.42, 0.28), "encoder", "encoder_board_density", "encoder_board_volume"),
+    **{name: _kind(_STEEL, name, f"{name}_density", f"{name}_volume") for name in _SCREWS},
+    **{name: _kind(_BRASS, name, f"{name}_density", f"{name}_volume") for name in _INSERTS},
     "spring_right": _kind((0.15, 0.48, 0.38), *_SPRING),
     "spring_left": _kind((0.45, 0.70, 0.30), *_SPRING),
 }
@@ -144,15 +139,7 @@ PRODUCTION = {
         down="bottom", drawn=True, why="flange on the bed: post and slot grow upwards, the screw's hole stands upright",
     ),
     "cover": Production(down="bottom", drawn=True, why="flat: no support"),
-    "link_screw": Production(down="bought", why="a screw of the catalogue"),
-    "link_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the core"),
     "link_dowel": Production(down="bought", why="a dowel pin of the catalogue"),
-    "retainer_screw": Production(down="bought", why="a screw of the catalogue"),
-    "retainer_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the core"),
-    "adjuster_screw": Production(down="bought", why="a screw of the catalogue"),
-    "adjuster_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the post"),
-    "cover_screw": Production(down="bought", why="a screw of the catalogue"),
-    "cover_insert": Production(down="bought", why="a brass insert of the catalogue, melted into the boss"),
     "bearing_inner": Production(down="bought", why="the half of a ball bearing of the catalogue that turns"),
     "bearing_outer": Production(down="bought", why="the half of a ball bearing of the catalogue that stands"),
     "preload_spring": Production(down="bought", why="a wave spring of the catalogue, wound of flat wire to its sizes"),
@@ -167,12 +154,12 @@ PRODUCTION = {
     "motor_rotor": Production(down="bought", why="the rotor of a frameless motor of the catalogue"),
     "motor_stator": Production(down="bought", why="the stator of a frameless motor of the catalogue"),
     "motor_bearing": Production(down="bought", why="a ball bearing of the catalogue"),
-    "motor_screw": Production(down="bought", why="a screw of the catalogue"),
-    "mount_screw": Production(down="bought", why="a screw of the catalogue"),
     "encoder_magnet": Production(down="bought", why="a magnet magnetised across, as the encoder's maker asks"),
     "encoder_board": Production(down="bought", why="the encoder of the catalogue, or a board made to its size"),
-    "spring_right": Production(down="bought", why="wound to the spring maker's sheet"),
-    "spring_left": Production(down="bought", why="wound to the spring maker's sheet"),
+    **{name: Production(down="bought", why="a screw of the catalogue") for name in _SCREWS},
+    **{name: Production(down="bought", why=f"a brass insert of the catalogue, melted into the {into}")
+       for name, into in _INSERTS.items()},
+    **dict.fromkeys(SPRINGS, Production(down="bought", why="wound to the spring maker's sheet")),
 }  # fmt: skip
 """By kind of part, of all modes."""
 
