@@ -13,7 +13,9 @@ def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source() -> Non
     catalog = Catalog()
     known = {name for category in catalog.categories() for name in catalog.names(category)}
     for offer in offers():
-        assert (offer.record in known) if offer.record else (offer.kind in KINDS), offer
+        assert offer.record or offer.kind or offer.size, offer
+        assert offer.record in ("", *known), offer
+        assert offer.kind in ("", *KINDS), offer
         assert offer.source
         assert (offer.price is None) or offer.date, offer
         assert offer.high is None or offer.high >= (offer.price or 0.0)
@@ -23,6 +25,10 @@ def test_a_screw_is_ordered_by_its_length() -> None:
     ten = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 10 - A2-70")
     assert ten is not None
     assert (ten.number, ten.pack, ten.in_words) == ("92095A182", 100, "7.19 USD a pack of 100 (2025-06)")
+    spring = offer_for("spring_left", "music_wire", "Torsion spring T10160, wire 0.42 mm, wound left")
+    assert spring is not None
+    assert spring.number == "T10160"
+    assert offer_for("spring_left", "music_wire", "Torsion spring of Music wire, wire 0.42 mm") is None
     assert offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - A2-70") is None
 
 

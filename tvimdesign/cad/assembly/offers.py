@@ -60,7 +60,7 @@ def _plain(key: str, value: Any, units: Mapping[str, str]) -> Any:
 def offer_for(kind: str, record: str, title: str, volts: float = 0.0, amperes: float = 0.0) -> Offer | None:
     """Return the first offer for a line of the list of parts; supplies and drivers must give `volts` and `amperes`."""
     for offer in offers():
-        is_it = offer.record == record if offer.record else offer.kind == kind
+        is_it = offer.record in ("", record) and offer.kind in ("", kind)
         if is_it and offer.size in f"{title} " and offer.voltage >= volts and offer.current >= amperes:
             return offer
     return None
