@@ -28,6 +28,7 @@ from typing import Any
 
 from ended_commands import COMMANDS, FIRST, GOES_ON, NEEDS_FE, ROOT, SERVES
 
+from tvimdesign.base.atomic_files import UNFINISHED
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.explore.states.history import FILE, open_history, write_history, written_digest
@@ -40,7 +41,7 @@ _KILLED = 9
 _COUNTED = {name: getattr(os, name) for name in ("replace", "rename", "fsync", "unlink", "link", "rmdir")}
 _NAMES = (
     "notes.txt", "thesis/ch1.tex", "my.yaml", "results.csv", "report.html", "cad/mine.step", "plots/.a.part", "x.part",
-    "front/progress/note.txt", "unfinished/ch2.tex", "unfinished-1/old.txt", "shards/00001.jsonl", "explore.json",
+    "front/progress/note.txt", "unfinished-1/old.txt", "shards/00001.jsonl", "explore.json",
     ".cells-host-1-x/a.step", ".verify-a/b.msh", "parts/mine.stl",
 )  # fmt: skip
 _MANIFESTS = (
@@ -53,7 +54,7 @@ _MANIFESTS = (
 class User:
     """Somebody who works in the same folders; `files` holds every text they wrote, which must stay somewhere.
 
-    They leave alone what the program's own names with a dot in front are: its journals and what it has half written.
+    They leave alone the folder of an unfinished run, which is the program's.
     """
 
     draw: random.Random
@@ -83,12 +84,13 @@ class User:
 
     def act(self, out: Path) -> None:
         """Do one thing that people do."""
-        files = (path for path in out.rglob("*") if path.is_file() and not path.is_symlink())
+        inside = [path for path in out.rglob("*") if UNFINISHED not in path.relative_to(out).parts]
+        files = (path for path in inside if path.is_file() and not path.is_symlink())
         every = sorted(path for path in files if not path.name.startswith(".") or "of the user" in _text(path))
         what = self.draw.choice(["add", "add", "edit", "edit", "link", "move", "delete", "manifest"])
         path = self.draw.choice(every) if every else out / "notes.txt"
         if what == "add":
-            folders = [out, *(one for one in out.rglob("*") if one.is_dir() and not one.is_symlink())]
+            folders = [out, *(path for path in inside if path.is_dir() and not path.is_symlink())]
             self.write(self.draw.choice(folders) / self.draw.choice(_NAMES))
         elif what == "edit":
             self.write(path, _text(path)[:200] if every else "")

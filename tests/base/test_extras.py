@@ -44,4 +44,4 @@ def test_parts_without_cad_are_refused_by_the_name_of_the_extra(tmp_path: Path) 
 
 
 def test_what_is_there_is_not_missed() -> None:
-    assert [environment.how_to_install(extra) for extra in environment.MODULES] == ["", ""]
+    assert [environment.how_to_install(extra) for extra in environment.MODULES] == [""]

@@ -1,20 +1,12 @@
-"""Files that appear whole.
+"""Files that appear whole, their digests, and the folder `unfinished` that a run writes into until it is done.
 
-Journal of an unfinished run: the name and digest of each file, recorded before the file exists.
-
-A run writes into the folder `unfinished` of its results folder. Every process that writes there appends to a journal of
-its own, so that a run that is killed leaves a list of what is its own. A file counts as the run's while its bytes have
-a recorded digest. What the user adds or edits is never in a journal.
+That folder is the run's own. What a user adds to it becomes a result, or goes with what a killed run has left.
 """
 
 from __future__ import annotations
 
-import errno
 import hashlib
-import json
 import os
-import platform
-import re
 import secrets
 import stat
 from collections.abc import Collection, Iterator
@@ -35,19 +27,14 @@ def atomic_write(path: Path, data: bytes) -> None:
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """Yield a file beside, to be written by whoever needs its path, which then takes its place. Raises OutputError.
-
-    In the folder of an unfinished run both names are in its journal before their files exist.
-    """
+    """Yield a file beside, to be written by whoever needs its path, which then takes its place. Raises OutputError."""
     beside = path.with_name(f".{path.name[:100]}.{secrets.token_hex(8)}.part")
     try:
-        record(beside, ANY)
         os.close(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))  # the umask takes its part
         try:
             yield beside
             with beside.open("rb+") as stream:
                 os.fsync(stream.fileno())
-            record(path, digest_of(beside))
             beside.replace(path)
         except BaseException:
             beside.unlink(missing_ok=True)
@@ -75,45 +62,18 @@ UNFINISHED = "unfinished"
 """Folder, within a results folder, that a run writes into until it is finished."""
 RUN = ".run.json"
 """File in that folder that names the run and the process that writes."""
-JOURNALS = ".written-*.jsonl"
-ANY = "half written"
-"""Digest of a file whose content is not known beforehand: one that is half written."""
 
 
-def record(path: Path, digest: str) -> None:
-    """Record that a file is about to be written; does nothing for a file outside an unfinished run.
+def files_in(folder: Path) -> list[str]:
+    """Return the names of a run's files in its folder, without links, and without what has a dot in front.
 
-    Raises OSError, also where a link leads out of the folder.
+    Such are its claim and files that are half written.
     """
-    folder = next(
-        (parent for parent in path.absolute().parents if parent.name == UNFINISHED and (parent / RUN).exists()), None
-    )
-    if folder is None:
-        return
-    name = path.absolute().relative_to(folder).as_posix()
-    if way := folder if folder.is_symlink() else link_on_the_way(folder, name):
-        raise OSError(errno.ELOOP, f"{way} is a link")
-    host = re.sub(r"[^\w-]", "_", platform.node())
-    handle = os.open(folder / f".written-{host}-{os.getpid()}.jsonl", os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
-    try:
-        os.write(handle, (json.dumps({"name": name, "digest": digest}) + "\n").encode())
-    finally:
-        os.close(handle)
-
-
-def recorded(folder: Path) -> dict[str, set[str]]:
-    """Return the digests that the journals of an unfinished run give for each name."""
-    digests: dict[str, set[str]] = {}
-    for journal in sorted(folder.glob(JOURNALS)):
-        for line in journal.read_bytes().splitlines():
-            try:
-                entry = json.loads(line)
-                name, digest = str(entry["name"]), str(entry["digest"])
-            except (ValueError, KeyError, TypeError):
-                continue  # the process was killed within this line, before the file existed
-            if is_inside(name):
-                digests.setdefault(name, set()).add(digest)
-    return digests
+    if folder.is_symlink():
+        return []
+    there = (path for path in folder.rglob("*") if path.is_file() and not path.is_symlink())
+    names = sorted(path.relative_to(folder).as_posix() for path in there)
+    return [name for name in names if not any(part.startswith(".") for part in PurePosixPath(name).parts)]
 
 
 def is_inside(name: str) -> bool:
@@ -123,7 +83,7 @@ def is_inside(name: str) -> bool:
 
 
 def digest_of(path: Path) -> str:
-    """Return the SHA-256 digest of a file, as manifests and journals have it. Raises OSError."""
+    """Return the SHA-256 digest of a file, as manifests have it. Raises OSError."""
     with path.open("rb") as stream:
         return "sha256:" + hashlib.file_digest(stream, "sha256").hexdigest()
 
@@ -145,7 +105,7 @@ def is_as_written(folder: Path, name: str, digests: Collection[str]) -> bool:
             return False
     except FileNotFoundError:
         return False
-    return ANY in digests or digest_of(path) in digests
+    return digest_of(path) in digests
 
 
 def free_name(path: Path) -> Path:

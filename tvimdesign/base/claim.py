@@ -13,7 +13,7 @@ from typing import Any
 
 import psutil
 
-from tvimdesign.base.atomic_files import JOURNALS, RUN, UNFINISHED
+from tvimdesign.base.atomic_files import RUN, UNFINISHED
 from tvimdesign.base.errors import FolderInUseError
 
 if sys.platform != "win32":
@@ -71,11 +71,8 @@ class Claim:
         if self._handle < 0:
             return
         with suppress(OSError):  # the user may have removed it
-            names = {path.name for path in self.folder.iterdir()}
-            journals = list(self.folder.glob(JOURNALS))
-            if remove and not self.folder.is_symlink() and names <= {RUN, *(path.name for path in journals)}:
-                for path in (*journals, self._path):
-                    path.unlink(missing_ok=True)
+            if remove and not self.folder.is_symlink() and {path.name for path in self.folder.iterdir()} <= {RUN}:
+                self._path.unlink(missing_ok=True)
                 self.folder.rmdir()
         os.close(self._handle)
         self._handle = -1

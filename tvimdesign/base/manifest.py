@@ -16,7 +16,6 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from tvimdesign.base.atomic_files import (
-    JOURNALS,
     RUN,
     digest_of,
     free_name,
@@ -24,8 +23,6 @@ from tvimdesign.base.atomic_files import (
     is_inside,
     link_on_the_way,
     make_folder,
-    record,
-    recorded,
 )
 from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import InputError
@@ -134,39 +131,17 @@ def remove_own(folder: Path, names: Mapping[str, Collection[str]], say: Say) -> 
                 (folder / parent).rmdir()
 
 
-def discard_unfinished(folder: Path, say: Say, keep: Callable[[str], bool] = lambda _: False) -> None:
-    """Remove what an unfinished run wrote but what is to be kept; anything else in its folder is moved beside it."""
-    names = recorded(folder)
-    kept_names = {name for name in names if keep(name)}
-    remove_own(folder, {name: names[name] for name in names if name not in kept_names}, lambda _: None)
-    if not kept_names:
-        for journal in folder.glob(JOURNALS):
-            journal.unlink()
-    move_aside(folder, kept_names, say)
-
-
-def move_aside(folder: Path, own: Collection[str], say: Say) -> None:
-    """Move what is in an unfinished run's folder beside it, but for the files that are its own."""
-    journals = {path.name for path in folder.glob(JOURNALS)}
-    aside: Path | None = None
-    for path in sorted(folder.rglob("*")):
+def discard_unfinished(folder: Path, keep: Callable[[str], bool] = lambda _: False) -> None:
+    """Remove what is in the folder of an unfinished run, but for its claim and what is to be kept."""
+    if folder.is_symlink():
+        return
+    for path in sorted(folder.rglob("*"), reverse=True):
         name = path.relative_to(folder).as_posix()
-        if name in own or name in journals or name == RUN or (path.is_dir() and not path.is_symlink()):
-            continue
-        if link_on_the_way(folder, name):
-            continue  # what a link leads to is not here
-        if aside is None:
-            aside = free_name(folder)
-        make_folder((aside / name).parent)
-        path.rename(aside / name)
-    for path in sorted(
-        (subfolder for subfolder in folder.rglob("*") if subfolder.is_dir() and not subfolder.is_symlink()),
-        reverse=True,
-    ):
-        with suppress(OSError):
-            path.rmdir()
-    if aside:
-        say(f"{aside}: holds what else was in the folder of an unfinished run; look, and remove it")
+        if path.is_dir() and not path.is_symlink():
+            with suppress(OSError):  # it is not empty
+                path.rmdir()
+        elif name != RUN and not keep(name):
+            path.unlink(missing_ok=True)
 
 
 def seed(out: Path, folder: Path, files: Mapping[str, str], say: Say) -> None:
@@ -176,7 +151,6 @@ def seed(out: Path, folder: Path, files: Mapping[str, str], say: Say) -> None:
             say(f"{out / name}: was changed since it was written, so it is not used")
             continue
         make_folder((folder / name).parent)
-        record(folder / name, digest)
         try:
             os.link(out / name, folder / name)
         except OSError:  # a file system without links

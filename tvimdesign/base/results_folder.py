@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import platform
+import shutil
 import subprocess
 import sys
 import uuid
@@ -16,14 +17,13 @@ from typing import Any
 
 from tvimdesign import __version__
 from tvimdesign.base.atomic_files import (
-    ANY,
     TABLE_ENCODING,
     UNFINISHED,
     atomic_write,
     digest_of,
-    is_as_written,
+    files_in,
+    link_on_the_way,
     make_folder,
-    recorded,
 )
 from tvimdesign.base.claim import FORMAT, RUNNING, Claim, is_run
 from tvimdesign.base.errors import InputError, OutputError
@@ -35,7 +35,6 @@ from tvimdesign.base.manifest import (
     manifest_text,
     read_manifest,
     refuse_links,
-    remove_own,
     replace_results,
     seed,
 )
@@ -84,9 +83,9 @@ class ResultsFolder:
     def _begin(self, overwrite: bool, resume: bool) -> None:
         """Clear the folder `unfinished`, but for what the run continues from. Raises InputError."""
         refuse_links(self.out, self._earlier.files)
-        written, results = recorded(self.path), self._earlier.files
+        written, results = files_in(self.path), self._earlier.files
         if resume and any(map(self._is_continued, written)):
-            discard_unfinished(self.path, say, self._is_continued)
+            discard_unfinished(self.path, self._is_continued)
             return
         if resume and (self._earlier.content or written) and not any(map(self._is_continued, results)):
             raise InputError(f"{self.out}: there is nothing to resume in it; --overwrite to do it again")
@@ -100,7 +99,7 @@ class ResultsFolder:
                 f"{self.out}: holds results already; say --overwrite to replace them, or --out another folder; "
                 "--resume goes on with a front or a sweep that was stopped"
             )
-        discard_unfinished(self.path, say)
+        discard_unfinished(self.path)
         if resume:
             seed(self.out, self.path, {name: results[name] for name in results if self._is_continued(name)}, say)
 
@@ -172,8 +171,8 @@ class ResultsFolder:
 
     def remove(self, folder: str) -> None:
         """Remove what this run has written into a folder within its own."""
-        every, within = {} if self.path.is_symlink() else recorded(self.path), PurePosixPath(folder)
-        remove_own(self.path, {name: every[name] for name in every if within in PurePosixPath(name).parents}, say)
+        if not self.path.is_symlink() and not link_on_the_way(self.path, f"{folder}/any"):
+            shutil.rmtree(self.path / folder, ignore_errors=True)
 
     def finish(
         self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float] | None = None
@@ -191,7 +190,7 @@ class ResultsFolder:
         if not self.has_earlier:
             self._write_manifest(status, {}, {}, {})
             self._publish()
-        elif any((self.path / name).exists() for name in recorded(self.path)):
+        elif files_in(self.path):
             self._claim.write(status, self._run)
             say(f"{self.out}: the earlier results are as they were; {self.path} holds what this run has written")
 
@@ -200,7 +199,6 @@ class ResultsFolder:
     ) -> None:
         if self.path.is_symlink():
             raise OutputError(f"{self.path}: was moved while the run was writing it; what it wrote is there")
-        written = recorded(self.path)
         content = {
             "format": FORMAT,
             "run": self._run,
@@ -211,11 +209,7 @@ class ResultsFolder:
             "timing": timing,
             "seed": study.get("solver", {}).get("seed"),
             "inputs": {name: digest_of(path) for name, path in inputs.items()},
-            "files": {
-                name: digest_of(self.path / name)
-                for name, digests in sorted(written.items())
-                if name != MANIFEST and not _is_scratch(name) and is_as_written(self.path, name, digests - {ANY})
-            },
+            "files": {name: digest_of(self.path / name) for name in files_in(self.path) if name != MANIFEST},
         }
         self.write_at_the_end(MANIFEST, manifest_text(content))
         self._results = read_manifest(self.path)
@@ -228,11 +222,6 @@ class ResultsFolder:
         publish(self.out, self.path, self._results, self._earlier)
         self.path = self.out
         self._claim.release()
-
-
-def _is_scratch(name: str) -> bool:
-    """Return whether a file was only for the run itself: it, or a folder it is in, has a name with a dot in front."""
-    return any(part.startswith(".") for part in PurePosixPath(name).parts)
 
 
 def prepare(out: Path) -> None:
@@ -261,7 +250,7 @@ def publish(out: Path, new: Path, results: Manifest, earlier: Manifest) -> None:
     """Put finished results in the place of earlier ones. Raises OutputError."""
     try:
         replace_results(out, new, results, earlier, say)
-        discard_unfinished(new, say)
+        discard_unfinished(new)
     except (OSError, InputError) as error:
         reason = error.strerror or error if isinstance(error, OSError) else error
         raise OutputError(

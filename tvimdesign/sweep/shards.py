@@ -6,7 +6,6 @@ it is no cell. Whoever goes on writes a shard of its own.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from collections.abc import Iterator, Sequence
@@ -15,7 +14,7 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from tvimdesign import __version__
-from tvimdesign.base.atomic_files import make_folder, record
+from tvimdesign.base.atomic_files import make_folder
 from tvimdesign.base.errors import OutputError
 from tvimdesign.sweep.plan import CellAnswer
 
@@ -32,7 +31,7 @@ class ShardWriter:
     def __init__(self, folder: Path, columns: Sequence[str]) -> None:
         self._folder, self._columns = folder / SHARDS, list(columns)
         self._path: Path | None = None
-        self._file, self._digest = -1, hashlib.sha256()
+        self._file = -1
 
     def __enter__(self) -> ShardWriter:
         return self
@@ -63,7 +62,6 @@ class ShardWriter:
         while self._file < 0:
             number += 1
             self._path = self._folder / f"{number:05d}.jsonl"
-            record(self._path, f"sha256:{self._digest.hexdigest()}")
             try:
                 self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o666)
             except FileExistsError:
@@ -73,9 +71,7 @@ class ShardWriter:
     def _write(self, data: bytes) -> None:
         """Append all of some lines, or nothing."""
         assert self._path is not None
-        before, digest = os.fstat(self._file).st_size, self._digest.copy()
-        digest.update(data)
-        record(self._path, f"sha256:{digest.hexdigest()}")
+        before = os.fstat(self._file).st_size
         try:
             left = memoryview(data)
             while left:
@@ -84,7 +80,6 @@ class ShardWriter:
         except OSError:
             os.ftruncate(self._file, before)
             raise
-        self._digest = digest
 
 
 class StoredCell(NamedTuple):

@@ -23,10 +23,9 @@ def test_a_manifest_lists_what_the_run_wrote_and_nothing_else_is_kept(tmp_path: 
     with ResultsFolder(tmp_path) as folder:
         folder.write("results.csv", "mine")
         (tmp_path / "notes.txt").write_text("yours")
-        (folder.path / "thesis.tex").write_text("yours, too")
         folder.finish("optimal", {}, {})
     assert list(read_manifest(tmp_path).files) == ["results.csv"]
-    assert texts(tmp_path) == {"results.csv": "mine", "notes.txt": "yours", f"{UNFINISHED}-1/thesis.tex": "yours, too"}
+    assert texts(tmp_path) == {"results.csv": "mine", "notes.txt": "yours"}
     with ResultsFolder(tmp_path / "alone") as folder:
         folder.write("results.csv", "mine")
         folder.write(".cells-killed/cad/rotor.step", "half made")
@@ -117,7 +116,7 @@ def test_after_sigkill_what_the_user_added_is_the_user_s(
     if words:
         finished(out)
     killed(out, *words)
-    yours = {"thesis/ch1.tex": "one", "unfinished/thesis/ch2.tex": "two", "front/progress/note.txt": "three"}
+    yours = {"thesis/ch1.tex": "one", "front/progress/note.txt": "three"}
     for name, text in yours.items():
         write_file(out / name, text)
     with ResultsFolder(out, *flags) as folder:
@@ -125,18 +124,16 @@ def test_after_sigkill_what_the_user_added_is_the_user_s(
         folder.write("results.csv", "new")
         folder.remove("front/progress")
         folder.finish("optimal", {}, {})
-    moved = {"unfinished-1/thesis/ch2.tex" if name.startswith("unfinished") else name: t for name, t in yours.items()}
-    assert texts(out) == {**moved, "results.csv": "new"}
+    assert texts(out) == {**yours, "results.csv": "new"}
 
 
-def test_edited_files_of_a_killed_run_are_kept(tmp_path: Path) -> None:
+def test_files_of_a_killed_run_are_replaced_on_request_alone(tmp_path: Path) -> None:
     killed(tmp_path)
     with pytest.raises(InputError, match="holds what an unfinished run has written"):
         ResultsFolder(tmp_path)
     assert texts(tmp_path)["unfinished/results.csv"] == "of the killed run"
-    (tmp_path / "unfinished/results.csv").write_text("edited")
     finished(tmp_path, {"results.csv": "new"}, overwrite=True)
-    assert texts(tmp_path) == {"results.csv": "new", "unfinished-1/results.csv": "edited"}
+    assert texts(tmp_path) == {"results.csv": "new"}
 
 
 def test_a_link_is_refused_before_anything_is_removed(tmp_path: Path) -> None:
@@ -165,18 +162,6 @@ def test_a_link_that_comes_while_a_run_is_going_leaves_both_results_whole(tmp_pa
     (out / "cad").unlink()
     finished(out, {"summary.txt": "newer"}, overwrite=True)  # the results are put in place, then replaced
     assert texts(out) == {"summary.txt": "newer"}
-
-
-def test_a_link_within_an_unfinished_run_is_not_written_through(tmp_path: Path) -> None:
-    elsewhere = tmp_path / "elsewhere"
-    with ResultsFolder(tmp_path / "out") as folder:
-        folder.write("plots/heat.png", "png")
-        shutil.move(folder.path / "plots", elsewhere)
-        (folder.path / "plots").symlink_to(elsewhere)
-        with pytest.raises(OutputError, match="plots is a link"):
-            folder.write("plots/heat.png", "newer")
-        folder.finish("failed", {}, {})
-    assert (elsewhere / "heat.png").read_text() == "png"
 
 
 def test_a_link_in_place_of_a_file_is_not_followed(tmp_path: Path) -> None:
@@ -230,17 +215,6 @@ def test_a_run_that_is_killed_as_its_results_are_put_in_place_is_completed(
     with pytest.raises(InputError, match="holds results already"):
         ResultsFolder(tmp_path)
     assert texts(tmp_path) == {"a.csv": "edited meanwhile", "b.csv": "new", "c.csv": "new"}
-
-
-def test_a_manifest_that_names_a_file_outside_does_not_delete_it(tmp_path: Path) -> None:
-    (tmp_path / "outside").write_text("precious")
-    out = tmp_path / "out"
-    with ResultsFolder(out) as folder:
-        folder.write("results.csv", "x")
-        (folder.path / ".written-elsewhere-1.jsonl").write_text('{"name": "../../outside", "digest": ""}\n')
-        folder.finish("optimal", {}, {})
-    finished(out, overwrite=True)
-    assert (tmp_path / "outside").read_text() == "precious"
 
 
 @pytest.mark.parametrize("mask", [0o077, 0o022, 0o002])

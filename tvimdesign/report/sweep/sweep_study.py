@@ -17,7 +17,7 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
-from tvimdesign.base.atomic_files import recorded
+from tvimdesign.base.atomic_files import files_in
 from tvimdesign.base.claim import IN_PARTS, Claim
 from tvimdesign.base.errors import FolderInUseError, InputError
 from tvimdesign.base.manifest import seed
@@ -162,7 +162,7 @@ def _prepare_jobs(out: Path) -> None:
     claim = Claim(out)
     try:
         earlier = recovered(out, claim)
-        if not recorded(claim.folder):
+        if not files_in(claim.folder):
             own = {name: digest for name, digest in earlier.files.items() if PurePosixPath(name).parts[0] == SHARDS}
             seed(out, claim.folder, own, say)
         claim.write(IN_PARTS, "")
