@@ -1,7 +1,6 @@
 """Small campaigns: random folders, random studies, and a machine that lacks something."""
 
 import dataclasses
-import json
 import random
 from collections.abc import Iterator
 from pathlib import Path
@@ -101,18 +100,3 @@ def test_what_is_no_optimum_is_bettered() -> None:
     assert attack.improved(values, answered.solution.reference) <= random_studies.BETTER
     values["wire_diameter"] *= 1.05  # it keeps all limits, and is 1.3 % higher
     assert attack.improved(values, answered.solution.reference) > random_studies.BETTER
-
-
-def test_a_campaign_goes_on_where_it_was_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[int] = []
-
-    def judged(seed: int) -> dict[str, object]:
-        asked.append(seed)
-        return {"seed": seed, "status": "optimal", "wrong": ""}
-
-    monkeypatch.setattr(random_studies, "in_a_process", judged)
-    out = tmp_path / "answers"
-    assert len(random_studies.campaign(range(1, 4), 1, out)) == 3
-    assert len(random_studies.campaign(range(1, 6), 1, out)) == 5
-    assert asked == [1, 2, 3, 4, 5]
-    assert [json.loads(line)["seed"] for line in out.read_text().splitlines()] == asked

@@ -55,43 +55,6 @@ def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, mon
         kills.run_through("run", tmp_path)
 
 
-ENDS = """
-import json, os, pathlib, signal, sys
-def end(*_):
-    (out / "manifest.json").write_text(json.dumps({{"status": "{status}"}}))
-    os._exit({code})
-signal.signal(signal.SIGTERM, end)
-out = pathlib.Path("out")
-out.mkdir()
-while True:
-    pass
-"""
-
-
-@pytest.mark.parametrize(
-    ("code", "status", "faults"),
-    [
-        (143, "interrupted", []),
-        (0, "evaluated", []),
-        (4, "interrupted", ["exit code 4"]),
-        (4, "failed", ["exit code 4", "the folder says failed, not interrupted"]),
-        (3, "interrupted", ["exit code 3"]),
-        (143, "failed", ["the folder says failed, not interrupted"]),
-        (0, "interrupted", ["the folder says interrupted of what was through"]),
-    ],
-)
-def test_after_a_signal_a_command_is_interrupted_or_was_through(
-    code: int, status: str, faults: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def start(_: list[str], own: Path) -> subprocess.Popen[bytes]:
-        (own / "said.txt").write_text("")
-        command = [sys.executable, "-S", "-c", ENDS.format(code=code, status=status)]
-        return subprocess.Popen(command, cwd=own, env=kills.environment(own))
-
-    monkeypatch.setattr(kills, "start", start)
-    assert kills.faults_after(Try("run", signal.SIGTERM, 0.2), tmp_path) == faults
-
-
 @pytest.mark.gate
 def test_a_command_that_goes_on_as_if_nothing_had_come_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     goes_on = (

@@ -2,15 +2,14 @@
 
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 import same
-from oracle import fits, frozen_files, messages, optima, study_outputs, subjects
+from oracle import fits, frozen_files, messages, optima, study_outputs
 from oracle.compare import Renames, Value, differences, relative_difference
 from oracle.frozen_files import read_frozen, write_frozen
 
@@ -100,17 +99,6 @@ def test_frozen_numbers_keep_every_bit(tmp_path: Path) -> None:
         read_frozen(tmp_path / "y.json")
 
 
-def test_a_digest_sees_each_number() -> None:
-    value = [(1.0, 2e-9), {"a": np.array([3e9, 0.0])}, "word", None]
-    assert study_outputs.digest("x", value) == study_outputs.digest("x", ({"b": 0.0}, 3e9, 1.0, 2e-9))
-    smallest = [(1.0, 2e-9 * (1.0 + 1e-6)), {"a": np.array([3e9, 0.0])}]
-    found = list(
-        differences("x", study_outputs.digest("x", value), study_outputs.digest("x", smallest), tolerance=1e-9)
-    )
-    assert [one.quantity for one in found] == ["x[log]"]
-    assert study_outputs.digest("x", 2) == {"x": 2.0}
-
-
 @pytest.mark.parametrize(
     ("change", "quantities"),
     [
@@ -141,53 +129,6 @@ def test_objectives_places_and_fits_are_compared_without_wording() -> None:
     assert "fit:parameters[stiffness].si.value" in once
     assert not any("meaning" in name for name in once)
     assert fits.fit(replace(case, data=b"nothing")) == {"read:refused": "InputError", "fit:refused": "InputError"}
-
-
-Answers = Callable[..., None]
-
-
-@pytest.fixture
-def answers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Answers:
-    """Put values of now and frozen ones in place of those of the fits."""
-    monkeypatch.setitem(subjects.FILES, "fit", tmp_path / "fits.json")
-    write_frozen(tmp_path / "fits.json", {"commit": "", "values": {"a": {"x": 1.0}, "b": {"x": 2.0}}})
-
-    def put(**now: Any) -> None:
-        def compute(value: Any) -> Callable[[], dict[str, Value]]:
-            return lambda: {"x": 1.0 / value["x"]} if value.get("x") == 0.0 else value
-
-        listed = [(name, compute(value)) for name, value in now.items()]
-        monkeypatch.setattr(same, "subjects", lambda *_: iter(listed))
-
-    return put
-
-
-@pytest.mark.parametrize(
-    ("now", "line"),
-    [
-        ({"a": {"x": 1.5}, "b": {"x": 2.0}}, "a  x  1.0  1.5  3.33e-01"),
-        ({"a": {"x": 1.0}}, "b  fit  1 values  lost  -"),
-        ({"a": {"x": 1.0}, "b": {"x": 2.0}, "c": {"x": 1.0}}, "c  fit  not frozen  1 values  -"),
-        ({"a": {"x": 1.0}, "b": {"x": 0.0}}, "b  fit  values  ZeroDivisionError: float division by zero  -"),
-    ],
-)
-def test_a_difference_is_a_line_and_exit_code_1(
-    answers: Answers, capsys: pytest.CaptureFixture[str], now: dict[str, Any], line: str
-) -> None:
-    answers(**now)
-    assert same.main(["--only", "fit"]) == 1
-    printed = capsys.readouterr().out.splitlines()
-    assert printed[:-1] == [line]
-    assert printed[-1].startswith("DIFFERENT  fit: ")
-    assert printed[-1].endswith("values, 1 differ")
-
-
-def test_freeze_then_same(answers: Answers, capsys: pytest.CaptureFixture[str]) -> None:
-    answers(a={"x": 1.5}, c={"x": 3.0})
-    assert same.main(["--only", "fit"]) == 1
-    assert same.main(["--only", "fit", "--freeze"]) == 0
-    assert same.main(["--only", "fit"]) == 0
-    assert capsys.readouterr().out.splitlines()[-1] == "same  fit: 2 compared, 2 values, 0 differ"
 
 
 def test_every_study_is_frozen() -> None:
