@@ -128,7 +128,8 @@ def test_every_start_of_the_readme_s_study_converges() -> None:
     ids=["quick", "all"],
 )
 def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path, left_out: set[str]) -> None:
-    lines = [line.split("#")[0] for line in _blocks("sh")[2].splitlines()]
+    (size,) = [block for block in _blocks("console") if "tvimdesign size" in block]
+    lines = [line.split("#")[0] for line in (size + _blocks("sh")[2]).splitlines()]
     commands = [shlex.split(line)[1:] for line in lines if line.strip()]
     named = ["size", "new", "check", "run", "cad", "rows", "simulate", "explore", "fit", "paper-check"]
     assert [words[0] for words in commands] == named

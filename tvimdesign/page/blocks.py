@@ -134,6 +134,8 @@ class Folded:
     macro: ClassVar[str] = "folded"
     title: str
     blocks: Sequence[Block]
+    file: str = ""
+    """Where in the folder of results it is: text names that in place of the blocks."""
 
 
 Block = Grid | Facts | Words | Points | Steps | Warned | Listing | Picture | Drawn | Folded

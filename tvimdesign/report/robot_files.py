@@ -33,27 +33,20 @@ def unit_of(column: str) -> str:
     return UNITS.get(column.removesuffix("_low").removesuffix("_high"), "1")
 
 
+_STATE = ("temperature", "frequency", "stiffness", "damping", "springs", "friction")
+
+
 def states(model: JointModel) -> Columns:
     """Tabulate for each state the whole joint's stiffness and damping by frequency, and its friction."""
-    return {
-        "temperature": [state.temperature - ZERO_CELSIUS for state in model.states],
-        "frequency": [state.frequency for state in model.states],
-        "stiffness": [state.stiffness for state in model.states],
-        "damping": [state.damping for state in model.states],
-        "springs": [state.springs for state in model.states],
-        "friction": [state.friction for state in model.states],
-    }
+    columns = {name: [getattr(state, name) for state in model.states] for name in _STATE}
+    return {**columns, "temperature": [value - ZERO_CELSIUS for value in columns["temperature"]]}
 
 
 def elements(model: JointModel) -> Columns:
     """Return a row for each Maxwell element of each state, beside the springs: all of the joint's linear behaviour."""
-    rows = [(state.temperature, time, k) for state in model.states for time, k in state.modes]
-    temperatures, times, stiffnesses = (list(column) for column in zip(*rows, strict=True))
-    return {
-        "temperature": [value - ZERO_CELSIUS for value in temperatures],
-        "relaxation_time": times,
-        "stiffness": stiffnesses,
-    }
+    rows = [(state.temperature - ZERO_CELSIUS, time, k) for state in model.states for time, k in state.modes]
+    columns = map(list, zip(*rows, strict=True))
+    return dict(zip(("temperature", "relaxation_time", "stiffness"), columns, strict=True))
 
 
 def over_temperature(resolved: ResolvedModule, model: JointModel) -> Columns:
@@ -99,14 +92,9 @@ def write_models(
     for state in model.states:
         folder.write(f"joint_{state.point}.xml", mjcf(model, state))
         folder.write(f"joint_{state.point}.urdf", urdf(model, state))
-    tables = {
-        "states": states(model),
-        "elements": elements(model),
-        "temperatures": over_temperature(resolved, model),
-    }
-    for name, columns in tables.items():
-        units = {column: unit_of(column) for column in columns}
-        folder.write(f"{name}.csv", curves_csv(columns, units, "1"))
+    swept = over_temperature(resolved, model)
+    for name, columns in (("states", states(model)), ("elements", elements(model)), ("temperatures", swept)):
+        folder.write(f"{name}.csv", curves_csv(columns, {column: unit_of(column) for column in columns}, "1"))
     progress("building the FMU")
     fmu = write_fmu(resolved, folder.path / "joint.fmu")
     folder.write_json("joint.json", plain_model(model, fmu))
@@ -126,12 +114,7 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
         "masses": {body.name: body.mass for body in (model.base, model.moving)},
         "states": {
             state.point: {
-                "temperature": state.temperature,
-                "frequency": state.frequency,
-                "stiffness": state.stiffness,
-                "damping": state.damping,
-                "springs": state.springs,
-                "friction": state.friction,
+                **{name: getattr(state, name) for name in _STATE},
                 "files": [f"joint_{state.point}.xml", f"joint_{state.point}.urdf"],
             }
             for state in model.states
@@ -143,9 +126,9 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
 
 def model_blocks(model: JointModel, fmu: WrittenFmu) -> list[Block]:
     """Return the states, what the models leave out, and the FMU."""
-    rows = []
-    for row, state in zip(zip(*states(model).values(), strict=True), model.states, strict=True):
-        temperature, frequency, stiffness, damping = row[:4]
-        rows.append((state.point, *map(number, (temperature, stiffness, damping, frequency))))
+    rows = [
+        (state.point, *map(number, (state.temperature - ZERO_CELSIUS, state.stiffness, state.damping, state.frequency)))
+        for state in model.states
+    ]
     heads = ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz")
     return [grid("", heads, rows, right=(1, 2, 3, 4)), Points([*model.left_out, fmu.summary])]

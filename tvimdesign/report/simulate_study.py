@@ -128,24 +128,13 @@ def figure_data(trial: Trial) -> dict[str, Any]:
 
 
 def _panel(panel: Panel, sheets: dict[str, CurveTable]) -> dict[str, Any]:
-    return {
-        "title": panel.title,
-        "x_label": panel.x_label,
-        "y_label": panel.y_label,
-        "log_x": panel.log_x,
-        "log_y": panel.log_y,
-        "lines": [_line(line, sheets[line.sheet]) for line in panel.lines],
-    }
+    return {**vars(panel), "lines": [_line(line, sheets[line.sheet]) for line in panel.lines]}
 
 
 def _line(line: PlottedLine, sheet: CurveTable) -> dict[str, Any]:
-    return {
-        "x": _shown(sheet.column(line.x)),
-        "y": _shown(sheet.column(line.y)),
-        "band": [_shown(sheet.column(name)) for name in line.band] if line.band else None,
-        "label": line.label,
-        "dashed": line.dashed,
-    }
+    band = [_shown(sheet.column(name)) for name in line.band] if line.band else None
+    return {"x": _shown(sheet.column(line.x)), "y": _shown(sheet.column(line.y)), "band": band,
+            "label": line.label, "dashed": line.dashed}  # fmt: skip
 
 
 def findings_table(trial: Trial) -> Grid:

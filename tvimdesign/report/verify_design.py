@@ -11,7 +11,6 @@ import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
-from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.cad.fe.model_comparison import SOLVERS, Compared, compared
 from tvimdesign.cad.fe.run_solvers import Solved, export_parts, require_fe, run_solvers
 from tvimdesign.page.blocks import Block, Page, Points
@@ -82,17 +81,6 @@ def _solved(
     return compared(module, solved), solved
 
 
-def _write(
-    command: Command, data: dict[str, Any], rows: list[Compared], solved: dict[str, Solved], work: Path
-) -> None:  # fmt: skip
-    folder = command.folder
-    folder.write_json("verify.json", data)
-    folder.write("verify.csv", table_csv(rows))
-    command.progress("verify: drawing the fields")
-    for solver, solution in solved.items():
-        _draw(folder, work, solver, solution)
-
-
 def _export(design: Design, folder: Path) -> None:
     from tvimdesign.cad.jobs.main import load_kernel
 
@@ -100,11 +88,17 @@ def _export(design: Design, folder: Path) -> None:
     export_parts(design, folder)
 
 
-def _draw(folder: ResultsFolder, work: Path, name: str, solved: Solved) -> None:
+def _write(
+    command: Command, data: dict[str, Any], rows: list[Compared], solved: dict[str, Solved], work: Path
+) -> None:  # fmt: skip
     from tvimdesign.cad.render.render import write_field_picture
 
-    with np.load(solved.field) as field:
-        points, triangles, values, ways = (field[part] for part in ("points", "triangles", "values", "ways"))
-    picture = work / f"{name}.png"
-    write_field_picture(picture, points, triangles, values, ways, TITLES[name])
-    folder.write(picture.name, picture.read_bytes())
+    command.folder.write_json("verify.json", data)
+    command.folder.write("verify.csv", table_csv(rows))
+    command.progress("verify: drawing the fields")
+    for name, solution in solved.items():
+        with np.load(solution.field) as field:
+            points, triangles, values, ways = (field[part] for part in ("points", "triangles", "values", "ways"))
+        picture = work / f"{name}.png"
+        write_field_picture(picture, points, triangles, values, ways, TITLES[name])
+        command.folder.write(picture.name, picture.read_bytes())

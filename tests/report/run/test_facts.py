@@ -1,4 +1,4 @@
-"""Facts of a result: what measurements buy, what was chosen of what is listed, and a layer that stalls."""
+"""Facts of a result: what was chosen of what is listed, and a layer that stalls."""
 
 from types import SimpleNamespace
 from typing import Any, cast
@@ -9,8 +9,6 @@ import pytest
 from tvimdesign.report.run.blocks.facts import (
     chosen_fact,
     heater_voltage,
-    measured_fact,
-    shrunk,
     stalling_in_words,
     time_over_rise,
 )
@@ -22,27 +20,6 @@ from tvimdesign.study.design import Design
 def entry(value: float, now: tuple[float, float], before: tuple[float, float | None] | None) -> dict[str, Any]:
     earlier = None if before is None else {"low": before[0], "high": before[1]}
     return {"value": value, "low": now[0], "high": now[1], "unit": "s", "before": earlier}
-
-
-INTERVALS = {
-    "softening_time": entry(100.0, (90.0, 120.0), (40.0, 240.0)),
-    "frozen_time": entry(300.0, (280.0, 330.0), (200.0, None)),
-    "peak_power": entry(9.0, (8.0, 10.0), (8.0, 10.02)),
-    "peak_current": entry(1.5, (1.5, 1.5), (1.5, 1.5)),
-    "module_mass": entry(230.0, (229.0, 231.0), None),
-}
-
-
-def test_values_that_shrink_have_both_intervals_and_name_the_measurement() -> None:
-    assert [(name, before, now) for name, before, now, _ in shrunk(INTERVALS)] == [
-        ("frozen_time", "200 to never", "280 to 330 s"),
-        ("softening_time", "40 to 240", "90 to 120 s"),
-    ]
-    unmeasured = [{"name": "peltier_seebeck", "status": "measured"}, {"name": "rotor_contact", "status": "handbook"}]
-    (fact,) = measured_fact({"intervals": INTERVALS, "unmeasured": unmeasured})
-    assert fact.text.startswith("peltier_seebeck: frozen_time 280 to 330 s, before 200 to never; softening")
-    assert "rotor_contact" not in fact.text
-    assert measured_fact({"intervals": INTERVALS, "unmeasured": unmeasured[1:]}) == []
 
 
 RANKED = ((1.0e-3, 0.6339), (1.1e-3, 0.6426), (1.2e-3, 0.6541))
@@ -65,15 +42,12 @@ def chosen(own: float, robust: dict[str, Any] | None, spring: str = "none") -> s
 
 def test_a_design_s_own_choices_are_told_beside_the_ranking() -> None:
     text = chosen(1.0e-3, None)
-    assert text.startswith("wire diameter 1 mm · stock spring none · best of 20 combinations · the next is 1.4 %")
-    assert "1.4 % worse: wire diameter 1.1 mm" in text
-    assert "margins" not in text
+    assert text == "wire diameter 1 mm · stock spring none · best of 20 combinations"
     robust = {"share": 0.95, "sigma": None}
     assert "the best is stock spring none" in chosen(1.0e-3, robust, "central_t10160")
     assert "best of 20 combinations, ranked without margins" in chosen(1.0e-3, robust)
     text = chosen(1.1e-3 * (1 + 1e-12), {"share": None, "sigma": 2.0})
     assert "ranked without margins, the best is wire diameter 1 mm" in text
-    assert "the next is 1.4 % worse: the one chosen" in text
 
 
 def warmed(share: np.ndarray) -> dict[str, list[float]]:

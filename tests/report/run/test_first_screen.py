@@ -244,9 +244,13 @@ def test_a_run_prints_the_screen_without_warnings_and_keeps_tables(whole_run: Wh
     lines, folder = whole_run.done.stdout.splitlines(), whole_run.folder
     assert len(lines) <= LINES
     assert lines[-1].lstrip().endswith("summary.txt")
+    summary = (folder / "summary.txt").read_text()
     for table in TABLES:
         assert table not in whole_run.done.stdout
-        assert table in (folder / "summary.txt").read_text()
+        assert table in summary
+    assert len(summary.splitlines()) <= 400
+    assert "What depends on assumed values: report.html\n" in summary
+    assert "Unmeasured inputs: results.csv, results.json and report.html\n" in summary
     reported = json.loads((folder / "results.json").read_text())
     assert reported["format"] == 1
     soft = reported["uncertainty"]["intervals"]["softening_time"]

@@ -10,7 +10,7 @@ import pytest
 import sample_pages
 from support import Command
 
-from tvimdesign.page.blocks import Facts, Folded, Grid
+from tvimdesign.page.blocks import Folded, Grid
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.sections import assumptions_section
 from tvimdesign.report.run.blocks.tables import moves
@@ -94,11 +94,10 @@ def test_an_input_is_named_with_the_outputs_it_moves(answered: AnsweredStudy) ->
 def test_a_page_tells_how_sure_it_is_and_what_a_measurement_bought(answered: AnsweredStudy) -> None:
     assert "was not computed" in str(assumptions_section(answered).blocks[0])
     assert all("Manufacturing" not in str(block) for block in glance(answered))
-    one = {"value": 100.0, "low": 90.0, "high": 120.0, "unit": "s", "before": {"low": 40.0, "high": 240.0}}
-    told = {"intervals": {"stiffening_rate": one}, "unmeasured": [{"name": "peltier_seebeck", "status": "measured"}],
-            "tolerances": "usual", "parts_yield": None, "ranges_hold": None}  # fmt: skip
-    folded = glance(replace(answered, uncertainty=told))[-1]
-    assert isinstance(folded, Folded)
-    (facts,) = folded.blocks
-    assert isinstance(facts, Facts)
-    assert dict(facts.rows)["Measured"] == "peltier_seebeck: stiffening_rate 90 to 120 s, before 40 to 240"
+    one = {"value": 100.0, "low": 90.0, "high": 120.0, "unit": "s", "before": {"low": 40.0, "high": 240.0},
+           "one_at_a_time": {"low": 95.0, "high": 110.0}, "shares": {}, "to_halve": []}  # fmt: skip
+    told = {"intervals": {"stiffening_rate": one}, "unmeasured": [], "held": {}}
+    table = assumptions_section(replace(answered, uncertainty=told)).blocks[0]
+    assert isinstance(table, Grid)
+    shown = dict(zip((head.text for head in table.heads), (cell.text for cell in table.rows[0]), strict=True))
+    assert (shown["low"], shown["high"], shown["before measuring"]) == ("90", "120", "40 to 240")

@@ -13,7 +13,7 @@ from tvimdesign.base.deadline import NEVER
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.run.uncertainty_data import below_yield, cost_of_margins, yield_of
+from tvimdesign.report.run.uncertainty_data import below_yield, changes, yield_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.solver_run import Run
@@ -103,7 +103,7 @@ def test_what_a_yield_costs_is_told() -> None:
     assert reached.nominal["springs_mass"] == pytest.approx(plain.design.values["springs_mass"], rel=1e-6)
     assert reached.nominal_together == pytest.approx(0.5, abs=0.02)
     assert 0.9 <= reached.together <= min(reached.shares.values())
-    (line,) = cost_of_margins(asked, reached, read_study_text(ALGEBRAIC, "a test").table)
+    (line,) = changes(asked, reached.nominal, asked.design.values, read_study_text(ALGEBRAIC, "a test").table)
     share = 100.0 * (asked.design.values["springs_mass"] / plain.design.values["springs_mass"] - 1.0)
     assert line.endswith(f"({share:+.2g} %)")
 

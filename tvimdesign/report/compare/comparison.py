@@ -16,7 +16,6 @@ from tvimdesign.report.compare.comparison_table import (
     conditions,
     plain,
     standing,
-    wins,
 )
 from tvimdesign.report.output.numbers import csv_text, head
 from tvimdesign.solve.pareto.front_shape import leads
@@ -167,9 +166,8 @@ class Outcome:
 
     @property
     def sentence(self) -> str:
-        """The answer with its conditions: how the others stand against the first, and for what each of them wins."""
+        """The answer with its conditions: how the others stand against the first."""
         reported = [*self._without_design(), *self._against(self.which)]
-        reported += [wins(label, self.contests) for label in self.entrants] if self.contests else []
         alike = ", ".join(conditions(self.entrants))
         count = f"{len(self.differences)} different conditions (below)"
         return f"With {count if self.differences else alike}, {COMPARISONS[self.which]}: {'; '.join(reported)}."

@@ -231,19 +231,3 @@ def _range(lead: Lead, unit: str) -> str:
 def _span(lead: Lead) -> str:
     least, most = (number(100.0 * (ratio - 1.0), 2) for ratio in (lead.least, lead.most))
     return f"{least} %" if least == most else f"{least} to {most} %"
-
-
-def wins(label: str, contests: Sequence[ParetoComparison]) -> str:
-    """Say for which requirements a study wins, from the fronts."""
-    every = [(contest, lead) for contest in contests for lead in contest.leads]
-    mine = [(contest, lead) for contest, lead in every if lead.best == label]
-    if len(mine) == len(every):
-        return f"{label} wins everywhere on the fronts computed"
-    if not mine:
-        return f"{label} wins nowhere on the fronts computed"
-    won = [
-        f"{'has the only designs' if lead.alone else f'does best in {contest.gained}'} "
-        f"with {contest.limited} limited {_range(lead, contest.limited_unit)}"
-        for contest, lead in mine
-    ]
-    return f"{label} wins where it {', '.join(dict.fromkeys(won))}"

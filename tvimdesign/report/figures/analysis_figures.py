@@ -72,12 +72,9 @@ def fit(data: dict[str, Any]) -> Figure:
     lines = 1 + data["title"].count("\n")
     figure = theme.new_figure(theme.NAME_STRIP + 0.08 + 0.14 * lines + row * down)
     theme.caption(figure, data["title"])
-    wide = (theme.WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
-    for i, panel in enumerate(panels):
-        left = _LEFT + (i % across) * (wide + _GAP)
-        bottom = _BELOW + row * (down - 1 - i // across)
-        below = theme.place(figure, left, bottom, wide, _LOW)
-        above = theme.place(figure, left, bottom + _LOW + 0.08, wide, _HIGH)
+    for panel, left, up, wide in theme.in_rows(panels, across, _LEFT, _GAP, row):
+        below = theme.place(figure, left, _BELOW + up, wide, _LOW)
+        above = theme.place(figure, left, _BELOW + up + _LOW + 0.08, wide, _HIGH)
         _fit_panel(above, below, panel, _LONGEST // across)
     return figure
 

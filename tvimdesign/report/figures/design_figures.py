@@ -18,11 +18,9 @@ def front(data: dict[str, Any]) -> Figure:
     pairs = list(itertools.combinations(range(len(labels)), 2))
     key = 0.62 if len(labels) > 2 else 0.0  # inches below the panels: the scale of colours
     figure = theme.new_figure(2.85 + key)
-    gap, left = 0.65, 0.62
-    wide = min((theme.WIDTH - left - 0.15 - gap * (len(pairs) - 1)) / len(pairs), 4.5)
     scale = Normalize(min(point[0] for point in points), max(point[0] for point in points))
-    for i, (x, y) in enumerate(pairs):
-        axes = theme.place(figure, left + i * (wide + gap), 0.45 + key, wide, 1.85)
+    for (x, y), left, _, wide in theme.in_rows(pairs, len(pairs), 0.62, 0.65):
+        axes = theme.place(figure, left, 0.45 + key, min(wide, 4.5), 1.85)
         across, up = [point[x] for point in points], [point[y] for point in points]
         if len(labels) == 2:
             axes.plot(across, up, marker="o", label="front", **theme.style_of(0))
@@ -53,11 +51,10 @@ def _marks(axes: Any, data: dict[str, Any], x: int, y: int) -> None:
 
 def fronts(data: dict[str, Any]) -> Figure:
     """Draw fronts of all studies, a panel for each pair of outputs; the optimum of each study is filled."""
-    figure, left, gap = theme.new_figure(3.25), 0.62, 0.65
+    figure = theme.new_figure(3.25)
     theme.caption(figure, data["title"])
-    wide = (theme.WIDTH - left - 0.15 - gap * (len(data["panels"]) - 1)) / len(data["panels"])
-    for k, panel in enumerate(data["panels"]):
-        axes = theme.place(figure, left + k * (wide + gap), 0.72, wide, 1.9)
+    for panel, left, _, wide in theme.in_rows(data["panels"], len(data["panels"]), 0.62, 0.65):
+        axes = theme.place(figure, left, 0.72, wide, 1.9)
         for i, line in enumerate(panel["lines"]):
             style = {"marker": theme.MARKERS[i % len(theme.MARKERS)], **theme.style_of(i)}
             axes.plot(line["x"], line["y"], markerfacecolor="white", label=line["label"], **style)
@@ -96,16 +93,12 @@ def torque(data: dict[str, Any]) -> Figure:
     loops = data["loops"]
     figure = theme.new_figure(2.6)
     theme.caption(figure, data["title"])
-    gap, left = 0.62, 0.55
-    wide = (theme.WIDTH - left - 0.15 - gap * (len(loops) - 1)) / len(loops)
-    for i, loop in enumerate(loops):
-        axes = theme.place(figure, left + i * (wide + gap), 0.42, wide, 1.55)
+    for loop, left, _, wide in theme.in_rows(loops, len(loops), 0.55, 0.62):
+        axes = theme.place(figure, left, 0.42, wide, 1.55)
         axes.plot(loop["angle"], loop["torque"], label="joint", **theme.style_of(0))
         axes.plot(loop["angle"], loop["springs"], label="springs alone", **theme.style_of(1))
         axes.set(xlabel=data["labels"]["angle"], ylabel=data["labels"]["torque"])
         theme.heading(axes, loop["title"])
         axes.locator_params(nbins=theme.TICKS)
-        if i == 0:
-            handles = axes.get_legend_handles_labels()
-    figure.legend(*handles, loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    figure.legend(*axes.get_legend_handles_labels(), loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     return figure

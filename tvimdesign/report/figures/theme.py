@@ -152,6 +152,15 @@ def place(figure: Figure, left: float, bottom: float, width: float, height: floa
     return figure.add_axes((left / across, bottom / up, width / across, height / up), **more)
 
 
+def in_rows(
+    panels: Sequence[Any], across: int, left: float, gap: float, row: float = 0.0
+) -> Iterator[tuple[Any, float, float, float]]:  # fmt: skip
+    """Yield panels side by side in rows, the first above: left end, height above the lowest row, width [inches]."""
+    wide, down = (WIDTH - left - 0.15 - gap * (across - 1)) / across, -(-len(panels) // across)
+    for i, panel in enumerate(panels):
+        yield panel, left + (i % across) * (wide + gap), row * (down - 1 - i // across), wide
+
+
 def caption(figure: Figure, text: str) -> None:
     """Draw a title of the whole figure, below the study's name."""
     up = figure.get_figheight()

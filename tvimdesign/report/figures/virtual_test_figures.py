@@ -79,10 +79,8 @@ def trial(data: dict[str, Any]) -> Figure:
     row = _HIGH + _ABOVE + _BELOW
     figure = theme.new_figure(theme.NAME_STRIP + 0.22 + row * down + key)
     theme.caption(figure, textwrap.shorten(data["title"], 100, placeholder=" …"))
-    wide = (theme.WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
-    for i, panel in enumerate(panels):
-        bottom = key + _BELOW + row * (down - 1 - i // across)
-        _panel(theme.place(figure, _LEFT + (i % across) * (wide + _GAP), bottom, wide, _HIGH), panel, styles)
+    for panel, left, up, wide in theme.in_rows(panels, across, _LEFT, _GAP, row):
+        _panel(theme.place(figure, left, key + _BELOW + up, wide, _HIGH), panel, styles)
     handles = {
         label: handle for axes in figure.axes for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
     }

@@ -153,17 +153,22 @@ def _entry(estimate: Estimate) -> dict[str, Any]:
     }
 
 
+def _channels(fit: Fit) -> Iterator[tuple[Any, Any, Any, Any, Any]]:
+    """Yield each channel with its places, what was measured and fitted, in units, and its residuals over the noise."""
+    for channel, predicted, noise in zip(fit.problem.channels, fit.predicted, fit.noise, strict=True):
+        left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
+        measured, fitted = (from_si_array(values, channel.unit) for values in (channel.measured, predicted))
+        yield channel, from_si_array(channel.at, channel.at_unit), measured, fitted, left / noise
+
+
 def residuals_csv(fit: Fit) -> str:
     """Return every value with what the fit predicts, in the units of the data; a row each."""
     lines = ["channel,over,over unit,at,unit,measured,fitted,residual over noise"]
-    for channel, predicted, noise in zip(fit.problem.channels, fit.predicted, fit.noise, strict=True):
-        over = from_si_array(channel.at, channel.at_unit)
-        measured, fitted = (from_si_array(values_si, channel.unit) for values_si in (channel.measured, predicted))
-        left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
+    for channel, *columns in _channels(fit):
         name = channel.name.replace(",", ";")
         lines += [
             f"{name},{channel.at_name},{channel.at_unit},{x:.8g},{channel.unit},{y:.8g},{z:.8g},{r:.4g}"
-            for x, y, z, r in zip(over, measured, fitted, left / noise, strict=True)
+            for x, y, z, r in zip(*columns, strict=True)
         ]
     return "\n".join(lines) + "\n"
 
@@ -186,17 +191,11 @@ def figure_data(measured: Measured) -> dict[str, Any]:
 
 def _panels(fit: Fit) -> Iterator[dict[str, Any]]:
     """Yield a panel for every channel, the first few of many."""
-    for channel, predicted, noise in list(zip(fit.problem.channels, fit.predicted, fit.noise, strict=True))[
-        :_MOST_PANELS
-    ]:
-        left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
+    for channel, x, measured, fitted, residual in list(_channels(fit))[:_MOST_PANELS]:
         words, _, where = channel.name.partition(" of ")
-        x = from_si_array(channel.at, channel.at_unit)
-        y = from_si_array(channel.measured, channel.unit)
         yield {
             "title": where.replace("\\", "/").rpartition("/")[-1],  # the file, without its folders
             "x_label": f"{channel.at_name} / {pretty(channel.at_unit)}", "y_label": f"{words} / {pretty(channel.unit)}",
             "log_x": bool(np.min(x) > 0.0 and np.max(x) > _DECADES * np.min(x)), "log_y": channel.relative,
-            "x": x.tolist(), "measured": y.tolist(), "fitted": from_si_array(predicted, channel.unit).tolist(),
-            "residual": (left / noise).tolist(),
+            "x": x.tolist(), "measured": measured.tolist(), "fitted": fitted.tolist(), "residual": residual.tolist(),
         }  # fmt: skip

@@ -86,48 +86,24 @@ def choices_with_margins(answer: StudyResult) -> dict[str, str | float] | None:
 
 def tally_in_words(choosing: Choosing) -> str:
     """Return how many combinations there are, what became of them, and how far that can be trusted."""
-    work = choosing.work
-    runs = work.warm + work.cold
-    sentences = [f"{_count(choosing.combinations, 'combination')}: {_fates(choosing)}."]
-    if runs:
-        each = f"{(work.warm_iterations + work.cold_iterations) / runs:.0f} iterations each"
-        without = f"; {_count(work.screened, 'set')} of sizes needed none, by arithmetic alone" if work.screened else ""
-        sentences.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}{without}.")
-    if choosing.bound is not None and choosing.best:
-        above = max(choosing.best[0].objective / choosing.bound - 1.0, 0.0)
-        sentences.append(
-            f"Records were divided as sizes are: the best combination is {above:.2%} worse than the best mixture of "
-            "all, with sizes in between."
-        )
-    if runs and choosing.proven and choosing.improved > _BETTER:
-        sentences.append(
+    runs = choosing.work.warm + choosing.work.cold
+    fates = [f"{choosing.solved} solved in {_count(runs, 'run')} of the solver"]
+    fates += [f"{choosing.pruned} ruled out by their bounds"] if choosing.pruned else []
+    fates.append(f"{choosing.without_design} without a design that satisfies the limits")
+    fates += [f"{choosing.not_searched} left as the time was over"] if choosing.not_searched else []
+    tally = f"{_count(choosing.combinations, 'combination')}: {', '.join(fates)}."
+    if not runs:
+        return tally
+    if not choosing.proven:
+        trust = "That none left out is better is as sure as the bounds; `--prove` solves every combination."
+    elif choosing.improved > _BETTER:
+        trust = (
             f"Every combination was then solved, and one is {choosing.improved:.2%} better than branch and bound "
             "found: it is the answer. More `solver.starts` make branch and bound better."
         )
-    elif runs and choosing.proven:
-        proof = choosing.proof
-        sentences.append(
-            f"Every combination was then solved ({_count(proof.warm + proof.cold, 'run')}; {proof.screened} needed "
-            "none, by arithmetic alone): the same best."
-        )
-    elif runs:
-        if choosing.inside > _BETTER:
-            sentences.append(f"A design in a box of sizes was {choosing.inside:.1%} better than the bound of the box.")
-        sentences.append(
-            "Each design told was solved exactly. That none left out is better is as sure as the bounds: local optima, "
-            "good as far as the starts go. `--prove` solves every combination."
-        )
-    return " ".join(sentences)
-
-
-def _fates(choosing: Choosing) -> str:
-    parts = [f"{choosing.solved} solved"]
-    if choosing.pruned:
-        parts.append(f"{choosing.pruned} ruled out by their bounds")
-    parts.append(f"{choosing.without_design} without a design that satisfies the limits")
-    if choosing.not_searched:
-        parts.append(f"{choosing.not_searched} left as the time was over")
-    return ", ".join(parts)
+    else:
+        trust = "Every combination was then solved: the same best."
+    return f"{tally} {trust}"
 
 
 def choosing_data(

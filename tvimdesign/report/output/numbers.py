@@ -62,11 +62,14 @@ def axis_label(name: str, unit: str) -> str:
 FORMAT: Literal[1] = 1
 """Version of results.json, compare.json, findings.json and tolerances.json; a change that breaks a reader raises it."""
 UNITS: Literal["SI"] = "SI"
-closed = with_config(ConfigDict(extra="forbid"))
-"""For an entry that has no other keys than its own."""
 
 
-class Head(TypedDict):
+@with_config(ConfigDict(extra="forbid"))
+class Entry(TypedDict):
+    """An entry that has no other keys than its own."""
+
+
+class Head(Entry):
     """The first entries of every JSON file of results."""
 
     format: Literal[1]
@@ -78,8 +81,7 @@ def head() -> Head:
     return {"format": FORMAT, "units": UNITS}
 
 
-@closed
-class InSi(TypedDict):
+class InSi(Entry):
     """A number and what it may lie between, in SI."""
 
     value: float | None
@@ -88,8 +90,7 @@ class InSi(TypedDict):
     unit: str
 
 
-@closed
-class NumberEntry(TypedDict):
+class NumberEntry(Entry):
     """A number in the unit people read, and in SI. `low` and `high` are None where no range is known."""
 
     value: float | None

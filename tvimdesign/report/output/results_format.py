@@ -9,14 +9,12 @@ from __future__ import annotations
 from typing import Any, Literal, NotRequired
 
 from pydantic import TypeAdapter
-from typing_extensions import TypedDict
 
-from tvimdesign.report.output.numbers import Head, NumberEntry, closed
+from tvimdesign.report.output.numbers import Entry, Head, NumberEntry
 
 Shares = dict[str, float | None]
 
 
-@closed
 class IntervalEntry(NumberEntry):
     """The range of an output over unmeasured inputs: between `low` and `high` with 95 %, all moved together."""
 
@@ -30,7 +28,6 @@ class IntervalEntry(NumberEntry):
     """The same by the ranges that inputs had before a user's records measured them; none where none did."""
 
 
-@closed
 class UnmeasuredEntry(NumberEntry):
     """An unmeasured input, and the range it was moved in."""
 
@@ -38,8 +35,7 @@ class UnmeasuredEntry(NumberEntry):
     status: str
 
 
-@closed
-class ShareEntry(TypedDict):
+class ShareEntry(Entry):
     """A share of what was drawn, and between what it lies with 95 %."""
 
     share: float
@@ -47,8 +43,7 @@ class ShareEntry(TypedDict):
     high: float
 
 
-@closed
-class UncertaintyEntry(TypedDict):
+class UncertaintyEntry(Entry):
     """The uncertainty of a design: what varies from part to part and, apart from it, unmeasured inputs."""
 
     parts_yield: ShareEntry | None
@@ -70,7 +65,6 @@ Stands = Literal["binds", "touches", "slack"]
 """How a limit stands at the optimum."""
 
 
-@closed
 class ValueEntry(NumberEntry):
     """An input or an output: where it comes from, how well it is known, and what it means.
 
@@ -86,7 +80,6 @@ class ValueEntry(NumberEntry):
     idealized: str
 
 
-@closed
 class CheckEntry(NumberEntry):
     """A limit and the design's value; the margin is a share, or in `margin_unit` where the limit has no size."""
 
@@ -98,8 +91,7 @@ class CheckEntry(NumberEntry):
     origin: str
 
 
-@closed
-class IdealizationEntry(TypedDict):
+class IdealizationEntry(Entry):
     """A word of the study that leaves out something of the drawn module, and the values that come out without it."""
 
     choice: str
@@ -109,8 +101,7 @@ class IdealizationEntry(TypedDict):
     as_drawn: dict[str, NumberEntry]
 
 
-@closed
-class CoolingEntry(TypedDict):
+class CoolingEntry(Entry):
     """Cooling by current: if the heater can and does, and the times of the way back with its pads unpowered."""
 
     able: bool
@@ -118,24 +109,21 @@ class CoolingEntry(TypedDict):
     unpowered: dict[str, NumberEntry]
 
 
-@closed
-class BestConstant(TypedDict):
+class BestConstant(Entry):
     """The best design with constant currents, where the study lets them follow a profile."""
 
     objective: float
     values: dict[str, ValueEntry]
 
 
-@closed
-class CurrentProfileEntry(TypedDict):
+class CurrentProfileEntry(Entry):
     """A current that is not constant: straight between these moments."""
 
     moments: list[float]
     currents: list[float]
 
 
-@closed
-class LostTo(TypedDict):
+class LostTo(Entry):
     """A limit that too many modules break, the share that keeps it, and what carries its spread [shares]."""
 
     text: str
@@ -143,8 +131,7 @@ class LostTo(TypedDict):
     carriers: dict[str, float]
 
 
-@closed
-class Yield(TypedDict):
+class Yield(Entry):
     """Yield of a design with margins, and of the one without margins, by random modules."""
 
     asked: float
@@ -156,8 +143,7 @@ class Yield(TypedDict):
     nominal: dict[str, NumberEntry]
 
 
-@closed
-class Listed(TypedDict):
+class Listed(Entry):
     """One combination of what is listed: its choices, words or numbers, and what it comes to."""
 
     choices: dict[str, str | NumberEntry]
@@ -165,8 +151,7 @@ class Listed(TypedDict):
     outputs: dict[str, str | NumberEntry]
 
 
-@closed
-class ChoosingEntry(TypedDict):
+class ChoosingEntry(Entry):
     """The search over listed choices."""
 
     combinations: int
@@ -186,8 +171,7 @@ class ChoosingEntry(TypedDict):
     cost_of_standard_sizes: dict[str, float]
 
 
-@closed
-class StartEntry(TypedDict):
+class StartEntry(Entry):
     """One run of the solver."""
 
     number: int
@@ -204,8 +188,7 @@ class StartEntry(TypedDict):
     crossed: bool
 
 
-@closed
-class ActiveConstraintEntry(TypedDict):
+class ActiveConstraintEntry(Entry):
     """A limit or an end of a range at the optimum, and what a step of it costs, in percent."""
 
     name: str
@@ -220,8 +203,7 @@ class ActiveConstraintEntry(TypedDict):
     sensitivity: Shares
 
 
-@closed
-class Search(TypedDict):
+class Search(Entry):
     """The search for the optimum."""
 
     objective: float | None
@@ -231,8 +213,7 @@ class Search(TypedDict):
     active_constraints: list[ActiveConstraintEntry]
 
 
-@closed
-class LimitEntry(TypedDict):
+class LimitEntry(Entry):
     """A limit at the optimum in the words of why.csv: how it stands, its margin, and what a step of it costs."""
 
     limit: str
@@ -245,16 +226,14 @@ class LimitEntry(TypedDict):
     sensitivity: dict[str, float]
 
 
-@closed
-class Why(TypedDict):
+class Why(Entry):
     """Reasons for this design."""
 
     limits: list[LimitEntry]
     sentences: list[str]
 
 
-@closed
-class Optimum(TypedDict):
+class Optimum(Entry):
     """One optimum: its objective, the first start that found it, how many did, and its free numbers (SI)."""
 
     objective: float
@@ -263,8 +242,7 @@ class Optimum(TypedDict):
     at: dict[str, float]
 
 
-@closed
-class Starts(TypedDict):
+class Starts(Entry):
     """The starts of the search, and how they ended."""
 
     count: int
@@ -274,8 +252,7 @@ class Starts(TypedDict):
     not_converged: list[dict[str, Any]]
 
 
-@closed
-class SideEntry(TypedDict):
+class SideEntry(Entry):
     """One limit of a conflict."""
 
     limit: str
@@ -285,8 +262,7 @@ class SideEntry(TypedDict):
     not_enough_for: list[str]
 
 
-@closed
-class Conflict(TypedDict):
+class Conflict(Entry):
     """Limits that cannot hold together, and what the design that comes closest breaks."""
 
     cannot_hold_together: list[SideEntry]
@@ -294,24 +270,19 @@ class Conflict(TypedDict):
     ends_of_ranges: list[str]
 
 
-class _FrontPoint(TypedDict):
+class FrontPoint(Entry):
+    """A point of a front: its outputs and variables in their units and in SI, and the file of its design."""
+
     number: int
     status: str
     design: str
     values: Shares
     si: Shares
-
-
-@closed
-class FrontPoint(_FrontPoint):
-    """A point of a front: its outputs and variables in their units and in SI, and the file of its design."""
-
     yield_share: NotRequired[float]
     above_rating: NotRequired[list[str]]
 
 
-@closed
-class FrontEntry(TypedDict):
+class FrontEntry(Entry):
     """A front; `units_of_values` are those of the points' `values`, `knee` is the number of a point."""
 
     of: list[str]
@@ -326,8 +297,7 @@ class FrontEntry(TypedDict):
     notes: list[str]
 
 
-@closed
-class Parts(TypedDict):
+class Parts(Entry):
     """The parts: checks on the solids, files, and what is to be said of them."""
 
     checks: list[dict[str, Any]]
@@ -359,7 +329,6 @@ class Answered(Head):
     solution: Search | None
 
 
-@closed
 class RunResults(Answered):
     """The result of a run: results.json, and with `folder` and `not_done` the output of `run --json`."""
 
@@ -376,7 +345,6 @@ class RunResults(Answered):
     not_done: NotRequired[list[str]]
 
 
-@closed
 class RefusedRun(Head):
     """A run whose study was refused before there was any design, with the reason."""
 

@@ -6,7 +6,7 @@ Meaning of "soft" and "stiff" in a module, in words: an impedance at a frequency
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict
 from typing import Any, cast
 
@@ -153,6 +153,9 @@ def results(answer: StudyResult, table: Table) -> Answered:
     def entries(values: Mapping[str, float]) -> dict[str, ValueEntry]:
         return {name: _entry(name, value, answer, table, find_record) for name, value in values.items()}
 
+    def rows(checks: Iterable[ConstraintCheck]) -> list[CheckEntry]:
+        return [check_row(check, table, ends.get(check.output)) for check in checks]
+
     constant = answer.solution.constant if answer.solution else None
     best: BestConstant | None = (
         {"objective": constant.objective, "values": entries(constant.values)} if constant else None
@@ -165,14 +168,10 @@ def results(answer: StudyResult, table: Table) -> Answered:
         "feasible": answer.feasible,
         "choices": design.choices,
         "values": entries(design.values),
-        "checks": [check_row(check, table, ends.get(check.output)) for check in answer.checks],
-        "warnings": [check_row(check, table, ends.get(check.output)) for check in answer.warnings],
-        "above_rating": [
-            check_row(check, table, ends.get(check.output))
-            for check in answer.warnings
-            if check.output in design.above_rating
-        ],
-        "accepting": [check_row(check, table, ends.get(check.output)) for check in answer.accepted],
+        "checks": rows(answer.checks),
+        "warnings": rows(answer.warnings),
+        "above_rating": rows(check for check in answer.warnings if check.output in design.above_rating),
+        "accepting": rows(answer.accepted),
         "accepted_in_vain": list(answer.accepted_in_vain),
         "idealizations": [
             {

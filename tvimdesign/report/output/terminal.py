@@ -106,6 +106,8 @@ def print_block(item: Block, console: Console) -> None:
     elif isinstance(item, Warned):
         for text, cure in item.rows:
             console.print(f"[yellow]Warning[/yellow] {escape(text)}" + (f"; {escape(cure)}" if cure else ""))
+    elif isinstance(item, Folded) and item.file:
+        console.print(f"{item.title}: {item.file}", markup=False)
     elif isinstance(item, Folded):
         for within in item.blocks:
             print_block(within, console)

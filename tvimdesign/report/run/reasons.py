@@ -20,7 +20,6 @@ from tvimdesign.solve.result import ConstraintCheck, StudyResult
 PRICE_SHOWN = 1e-3
 """Percent of the objective below which a step of a limit is not worth a line."""
 _SAVING_SHOWN = 5e-3
-_RULES_SHOWN = 5
 
 
 def binding(answer: StudyResult) -> list[ActiveConstraint]:
@@ -60,17 +59,6 @@ def _sentence(held: ActiveConstraint) -> str:
 
 
 _WHY_NOT = "it belongs to the supply, or stands in the same way as another limit"
-
-
-def slack_in_words(answer: StudyResult, table: Table) -> str:
-    """Return the study's slack requirements with their margin, and the machine's rules that have the least."""
-    slack_limits = slack(answer)
-    own = [limit for limit in slack_limits if limit.origin == "require"]
-    rules = [limit for limit in slack_limits if limit.origin not in ("require", "vary")]
-    shown = [f"{limit.text} (margin {margin_text(limit, table)})" for limit in (*own, *rules[:_RULES_SHOWN])]
-    left = len(slack_limits) - len(shown)
-    more = f"; {left} other rules and ends of ranges have more, or are in why.csv" if left else ""
-    return f"Slack: {'; '.join(shown)}{more}." if shown else ""
 
 
 def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:

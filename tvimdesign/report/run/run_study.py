@@ -29,8 +29,7 @@ from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Section, Words
 from tvimdesign.report.output.command import Command, done_in_part, noting
 from tvimdesign.report.output.terminal import Progress, print_lines, print_section, progress_output, wide_console
-from tvimdesign.report.run.parts_of_design import BackgroundPartsJob, in_short, plain_report, refuse_failed, worst_first
-from tvimdesign.report.run.parts_sections import checks_grid
+from tvimdesign.report.run.parts_of_design import BackgroundPartsJob, in_short, plain_report, refuse_failed
 from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study, read_tree
@@ -47,9 +46,6 @@ if TYPE_CHECKING:
     from tvimdesign.solve.nlp.solution import Solution
     from tvimdesign.solve.result import Designed
     from tvimdesign.study.design import Design
-
-_CHECKS = 15
-"""Checks that are printed; checks.json has all."""
 
 
 def run_study(
@@ -113,7 +109,7 @@ def run_study(
         if not as_json:
             _print_result(answered, time.perf_counter() - began, with_parts=making is not None, full=full)
         if making and result.found:
-            _add_parts(making, answered, command, full=full)
+            _add_parts(making, answered, command)
         elif making:
             making.stop()
         command.add_plot(lambda: summary_sheet(folder, answered), study.name, "pdf")
@@ -190,13 +186,13 @@ def _print_result(answered: AnsweredStudy, seconds: float, *, with_parts: bool, 
         print_first_screen(answered, wide_console(), seconds, 2 if with_parts and answered.result.found else 1)
 
 
-def _add_parts(making: BackgroundPartsJob, answered: AnsweredStudy, command: Command, *, full: bool) -> None:
+def _add_parts(making: BackgroundPartsJob, answered: AnsweredStudy, command: Command) -> None:
     """Wait for the parts, report and print their checks; a failure is noted."""
     with noting(command.failures):
         report = making.finish(command.progress)
         answered.reported["cad"] = plain_report(report)
         if not command.as_json:
-            print_section(parts_section(report, full=full), wide_console())
+            print_section(parts_section(report), wide_console())
         refuse_failed(report)
 
 
@@ -233,18 +229,16 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         with noting(command.failures), BackgroundPartsJob(design.mode, gives_way=False) as making:
             making.begin_with(written, command.folder.path)
             report = making.finish(command.progress)
-            data, command.shown = plain_report(report), [parts_section(report, full=True)]
+            data, command.shown = plain_report(report), [parts_section(report)]
             refuse_failed(report)
         status = "parts failed" if command.failures else design.status
         command.folder.finish(status, {"design": source}, design.study)
     command.report(data, "Parts are")
 
 
-def parts_section(report: CadReport, *, full: bool) -> Section:
-    """Return how many checks passed; in full, the worst that did not first."""
-    failed = [check.plain() for check in worst_first(report.checks)]
-    failures = [checks_grid("Checks on the solids that did not pass", failed[:_CHECKS])] if full else []
-    return Section("parts", "", [*failures, Words([f"Parts: {in_short(report.checks)}"])])
+def parts_section(report: CadReport) -> Section:
+    """Return how many checks passed, and which was missed most; checks.json has all."""
+    return Section("parts", "", [Words([f"Parts: {in_short(report.checks)}"])])
 
 
 DESIGN = "design.json"

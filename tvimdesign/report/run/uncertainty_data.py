@@ -171,27 +171,8 @@ def yield_of(answer: StudyResult) -> YieldReached | None:
     return answer.solution.yield_reached if answer.solution and answer.found else None
 
 
-def reached_in_words(reached: YieldReached) -> str:
-    """Return the yield of modules, its target, and its value without margins."""
-    return (
-        f"yield {percent(reached.together)} of {reached.modules} random modules (target {percent(reached.asked)}); "
-        f"without margins {percent(reached.nominal_together)}"
-    )
-
-
-def cost_of_margins(answer: StudyResult, reached: YieldReached, table: Table) -> list[str]:
-    """Return what each minimised output is without the margins, and with them."""
-    return _changes(answer, reached.nominal, answer.design.values, table)
-
-
-def gain_without_margins(
-    answer: StudyResult, constant: Mapping[str, float], reached: YieldReached, table: Table
-) -> list[str]:
-    """Return what each minimised output is with the best constant currents, and with those that follow a profile."""
-    return _changes(answer, constant, reached.nominal, table)
-
-
-def _changes(answer: StudyResult, before: Mapping[str, float], after: Mapping[str, float], table: Table) -> list[str]:
+def changes(answer: StudyResult, before: Mapping[str, float], after: Mapping[str, float], table: Table) -> list[str]:
+    """Return what each minimised output is before a change, such as margins, and after it."""
     return [_change(name, before[name], after[name], table) for name in answer.design.study["minimize"]]
 
 

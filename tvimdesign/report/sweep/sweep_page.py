@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from tvimdesign.base.units import pretty
 from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Page, Section, Tone
 from tvimdesign.report.output.command import Command
@@ -24,7 +26,7 @@ def cells_grid(plan: SweepPlan, seen: CellTable) -> Grid:
     outputs = [column for column in every if column.kind == "output"]
     shown = [column for column in every if column.kind in {"cell", "axis"} or column.name in {"status", "broken"}]
     shown += outputs[:MOST_OUTPUTS]
-    return Grid("Cells", _heads(shown), [_row(row, shown) for row in seen.listed], _left_out(plan, seen, len(outputs)))
+    return Grid("Cells", _heads(shown), _cells(seen.listed, shown), _left_out(plan, seen, len(outputs)))
 
 
 def failed_grid(plan: SweepPlan, seen: CellTable) -> Grid:
@@ -33,7 +35,7 @@ def failed_grid(plan: SweepPlan, seen: CellTable) -> Grid:
     shown = [column for column in columns(plan) if column.kind in {"cell", "axis"} or column.name in shown_columns]
     left = seen.failures - len(seen.failed)
     note = f"The first {len(seen.failed)} of {seen.failures}; `reason` in cells.csv has all." if left else ""
-    return Grid("Cells without an answer", _heads(shown), [_row(row, shown) for row in seen.failed], note)
+    return Grid("Cells without an answer", _heads(shown), _cells(seen.failed, shown), note)
 
 
 def _left_out(plan: SweepPlan, seen: CellTable, outputs: int) -> str:
@@ -54,22 +56,19 @@ def _heads(shown: list[Column]) -> list[Head]:
     return [Head(name, bool(column.unit)) for name, column in zip(names, shown, strict=True)]
 
 
-def _row(row: dict[str, Value], shown: list[Column]) -> list[Cell]:
-    return [_cell(row[column.name], column) for column in shown]
+def _cells(rows: Iterable[dict[str, Value]], shown: list[Column]) -> list[list[Cell]]:
+    return [[_cell(row[column.name], column) for column in shown] for row in rows]
 
 
 def _cell(value: Value, column: Column) -> Cell:
     if value is None:
         return Cell("")
     if isinstance(value, str):
-        return Cell(value.replace("_", " ") if column.name == "status" else value, tone=_tone(value, column))
+        tone = _TONES.get(value, "") if column.name == "status" else ""
+        return Cell(value.replace("_", " ") if column.name == "status" else value, tone=tone)
     if column.name in {"cell", "broken"}:
         return Cell(str(int(value)), value, "warn" if column.name == "broken" and value else "")
     return number_cell(value)
-
-
-def _tone(value: str, column: Column) -> Tone:
-    return _TONES.get(value, "") if column.name == "status" else ""
 
 
 _FILES = {

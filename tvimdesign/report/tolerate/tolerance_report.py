@@ -18,7 +18,6 @@ from tvimdesign.report.output.numbers import ends_text, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.tolerate.tolerance_data import spreads
 from tvimdesign.solve.nlp.constraints import in_words
-from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.uncertainty.tolerance import Kept, Preload, Spread
 
 
@@ -111,19 +110,8 @@ def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str
     """Return what people should know, the most important first."""
     worst = [limit_yield for limit_yield in spread.kept if _broken_at_worst(spread, limit_yield)]
     corners = "no limit is broken" if not worst else f"{len(worst)} of {len(spread.kept)} limits are broken"
-    lines = [
-        f"What varies from part to part: {_percent(spread.together)} of the modules satisfy every limit; in the worst "
-        f"case {corners}."
-    ]
-    lines += _what_first(spread, table)
-    if preload is not None:
-        lines.append(free_angle(preload))
-    lines += _caveats(spread)
-    return lines
-
-
-def _percent(share: Yield) -> str:
-    return f"{100 * share.share:.3g} % ({100 * share.low:.3g} to {100 * share.high:.3g} %)"
+    angle = [] if preload is None else [free_angle(preload)]
+    return [f"In the worst case {corners}.", *_what_first(spread, table), *angle, *_caveats(spread)]
 
 
 def _broken_at_worst(spread: Spread, limit_yield: Kept) -> bool:

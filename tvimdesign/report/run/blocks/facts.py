@@ -24,10 +24,9 @@ from tvimdesign.report.output.numbers import (
 )
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.output.terminal import DOT
-from tvimdesign.report.run.blocks.tables import torque_path
 from tvimdesign.report.run.blocks.verdict import SURE, measure_first, most_in_doubt
 from tvimdesign.report.run.reasons import binding
-from tvimdesign.report.run.uncertainty_data import cost_of_margins, gain_without_margins, reached_in_words, yield_of
+from tvimdesign.report.run.uncertainty_data import changes, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
 
@@ -36,11 +35,6 @@ _GOOD = 0.9973
 """Yield from which a module is no concern: three standard deviations to either side."""
 STALLS = 3.5
 """Per cent of time for one per cent of the temperature's rise: 1 if a layer warms evenly, 2 as the root of time."""
-_LEAST_GAIN = 0.05
-"""Share of an interval that a measurement must remove to be reported."""
-_NOTHING = 1e-3
-"""Width of an interval, as a share of its value, that is none."""
-_SHOWN = 3
 
 
 class Fact(NamedTuple):
@@ -196,13 +190,12 @@ def _manufacturing(uncertainty: Mapping[str, Any]) -> list[Fact]:
     if not uncertainty:
         return []
     share = uncertainty["parts_yield"]
-    tolerances = "the study's tolerances" if uncertainty["tolerances"] == "study" else "the usual tolerances"
     if share is None:
-        return [Fact("Manufacturing", [f"no limit depends on {tolerances}"])]
+        return [Fact("Manufacturing", [f"no limit depends on {_tolerances(uncertainty)}"])]
     whole = math.floor(100.0 * share["share"] + 1e-9)
     count = "fewer than 1" if whole == 0 and share["share"] > 0.0 else f"{whole}"
     text = f"{count} of 100 modules meet every limit if assumed values hold"
-    return [Fact("Manufacturing", [text], f"by {tolerances}")]
+    return [Fact("Manufacturing", [text], f"by {_tolerances(uncertainty)}")]
 
 
 def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
@@ -218,28 +211,24 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
 
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
-    """Return what `--full` and the page add: thresholds, cooling, idealizations, choices, margins."""
+    """Return what `--full` and the page add: thresholds, cooling, idealizations, choices, yield."""
     table = table_for(answer.design.mode)
     facts = [
-        Fact("Soft", list(_soft(answer, uncertainty))),
+        Fact("Soft", _soft(answer)),
         Fact("Stiff", list(_stiff(answer, uncertainty))),
-        Fact("Frozen torque", list(_weakest(answer))),
         Fact("Accepts", list(_accepts(answer))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *_lost_motion(_Values(answer, uncertainty), much=False),
-        *chosen_fact(answer), *_current(answer, table), *front_fact(front, table), *measured_fact(uncertainty),
-        *_margins(answer, table), *_yield(answer, uncertainty),
+        *chosen_fact(answer), *_current(answer, table), *front_fact(front, table),
+        *_yield(answer, uncertainty, table),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
 
 
-def _soft(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]:
-    """Say what soft means, whether the layer stalls on the way, and what to measure first."""
-    time = answer.design.values["softening_time"]
-    yield soft_in_words(answer.design, table_for(answer.design.mode))
-    yield from filter(None, [stalling_in_words(answer.histories.get("softening"), time)])
-    shares = uncertainty.get("intervals", {}).get("softening_time", {}).get("shares", {})
-    yield from (f"measure first: {name}, {100.0 * share:.0f} %" for name, share in list(shares.items())[:1])
+def _soft(answer: StudyResult) -> list[str]:
+    """Say what soft means, and whether the layer stalls on the way."""
+    stalling = stalling_in_words(answer.histories.get("softening"), answer.design.values["softening_time"])
+    return [soft_in_words(answer.design, table_for(answer.design.mode)), *filter(None, [stalling])]
 
 
 def _stiff(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]:
@@ -275,13 +264,6 @@ def stalling_in_words(softening: Curves | None, time: float) -> str:
     if math.isinf(steep):
         return "it stalls: a little less heat and it is never soft"
     return f"it stalls: 1 % less heat takes {steep:.0f} % longer"
-
-
-def _weakest(answer: StudyResult) -> Iterator[str]:
-    """Name the weakest part between link and ground, and the next."""
-    parts = torque_path(answer)[:2]
-    for words, (name, torque) in zip(("weakest", "next"), parts, strict=False):
-        yield f"{words}: {label(name)}, {number(torque, _DIGITS)} N·m"
 
 
 def _accepts(answer: StudyResult) -> Iterator[str]:
@@ -321,34 +303,22 @@ def front_fact(front: Any, table: Table) -> list[Fact]:
 
 
 def chosen_fact(answer: StudyResult) -> list[Fact]:
-    """Return what was chosen of what is listed, and by how much the next two are worse, with what they have instead.
-
-    Combinations are ranked without margins. With margins, the design's own choice can differ from the best of the
-    ranking: the fact names the design's, and says how the ranking was made.
-    """
+    """Return what was chosen of what is listed; with margins, what is best of the ranking, which has none."""
     choosing = answer.solution.choosing if answer.solution else None
     if choosing is None or not choosing.best:
         return []
-    table, best = table_for(answer.design.mode), choosing.best[0]
-    own = {name: choice_text(name, _of_design(answer, name, word), table) for name, word in best.choices.items()}
-
-    def instead(choices: Mapping[str, str | float]) -> list[str]:
-        shown = {name: choice_text(name, word, table) for name, word in choices.items()}
-        return [f"{label(name)} {word}" for name, word in shown.items() if word != own[name]]
-
-    count, first = f"of {choosing.combinations} combinations", instead(best.choices)
+    table, ranked = table_for(answer.design.mode), choosing.best[0].choices
+    own = {name: choice_text(name, _of_design(answer, name, word), table) for name, word in ranked.items()}
+    shown = {name: choice_text(name, word, table) for name, word in ranked.items()}
+    first = [f"{label(name)} {word}" for name, word in shown.items() if word != own[name]]
+    count = f"of {choosing.combinations} combinations"
     if not answer.design.study.get("robust"):
-        others = [f"best {count}"]
+        how = [f"best {count}"]
     elif first:
-        others = [f"with margins, {count}", f"ranked without margins, the best is {', '.join(first)}"]
+        how = [f"with margins, {count}", f"ranked without margins, the best is {', '.join(first)}"]
     else:
-        others = [f"best {count}, ranked without margins"]
-    for place, combination in zip(("next", "third"), choosing.best[1:], strict=False):
-        worse = 100.0 * (combination.objective / best.objective - 1.0)
-        others.append(
-            f"the {place} is {worse:.2g} % worse: {', '.join(instead(combination.choices)) or 'the one chosen'}"
-        )
-    return [Fact("Chosen", [*(f"{label(name)} {word}" for name, word in own.items()), *others], listing=True)]
+        how = [f"best {count}, ranked without margins"]
+    return [Fact("Chosen", [*(f"{label(name)} {word}" for name, word in own.items()), *how], listing=True)]
 
 
 def _of_design(answer: StudyResult, name: str, listed: str | float) -> str | float:
@@ -367,62 +337,30 @@ def _current(answer: StudyResult, table: Table) -> list[Fact]:
     if reached is None:
         worse = 100.0 * (best.objective / answer.solution.objective - 1.0)
         return [Fact("Current", [f"{text}; the best constant current is {worse:.2g} % worse"])]
-    gain = ", ".join(gain_without_margins(answer, best.values, reached, table))
+    gain = ", ".join(changes(answer, best.values, reached.nominal, table))
     return [Fact("Current", [f"{text}; without margins, from the best constant current to it: {gain}"])]
 
 
-def measured_fact(uncertainty: Mapping[str, Any]) -> list[Fact]:
-    """Return what was measured, and the intervals that shrink most by it, before and after."""
-    names = [
-        unmeasured_input["name"]
-        for unmeasured_input in uncertainty.get("unmeasured", ())
-        if unmeasured_input["status"] == "measured"
-    ]
-    gains = shrunk(uncertainty.get("intervals", {}))
-    if not names or not gains:
-        return []
-    parts = [f"{name} {now}, before {before}" for name, before, now, _ in gains[:_SHOWN]]
-    return [Fact("Measured", [f"{', '.join(names)}: {'; '.join(parts)}"])]
-
-
-def shrunk(intervals: Mapping[str, Any]) -> Sequence[tuple[str, str, str, float]]:
-    """Return (output, interval before, now, share of its width that is gone) of those that shrink, the most first."""
-    gains = []
-    for name, entry in intervals.items():
-        before = entry.get("before")
-        if before is None or None in (entry["low"], entry["high"]):
-            continue
-        wide = math.inf if before["high"] is None else float(before["high"] - before["low"])
-        gone = 1.0 - float(entry["high"] - entry["low"]) / wide if wide > _NOTHING * abs(entry["value"]) else 0.0
-        if gone >= _LEAST_GAIN:
-            now = f"{ends_text(entry['low'], entry['high'])} {entry['unit']}".rstrip()
-            gains.append((name, ends_text(before["low"], before["high"]), now, gone))
-    return sorted(gains, key=lambda gain: -gain[3])
-
-
-def _margins(answer: StudyResult, table: Table) -> list[Fact]:
-    """Return whether a yield that is asked for is reached, and what the margins cost in what is minimised."""
-    reached = yield_of(answer)
-    if reached is None:
-        return []
-    cost = ", ".join(cost_of_margins(answer, reached, table))
-    return [Fact("Margins", [f"{reached_in_words(reached)}; the margins cost {cost}"])]
-
-
-def _yield(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
-    """Return the yield with its confidence interval, what it covers, and what raises it."""
-    share = uncertainty.get("parts_yield")
-    if share is None:
-        return []
-    tolerances = "the study's tolerances" if uncertainty["tolerances"] == "study" else "the usual tolerances"
-    low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
-    text = f"{percent(share['share'])} ({low} to {high}) of {uncertainty['modules']} modules meet the"
-    parts = [f"{text} {uncertainty['limits']} limits that {tolerances} can move"]
-    if uncertainty["left_out"]:
-        parts.append(f"{len(uncertainty['left_out'])} that never happen or follow a profile are not counted")
+def _yield(answer: StudyResult, uncertainty: Mapping[str, Any], table: Table) -> list[Fact]:
+    """Return the yield: what it covers, what margins cost if it was asked for, and what raises it."""
+    share, reached, parts = uncertainty.get("parts_yield"), yield_of(answer), []
     robust = answer.design.study.get("robust") or {}
-    if share["share"] < _GOOD and robust.get("share") is None:
+    if share is not None:
+        low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
+        text = f"{percent(share['share'])} ({low} to {high}) of {uncertainty['modules']} modules meet the"
+        parts.append(f"{text} {uncertainty['limits']} limits that {_tolerances(uncertainty)} can move")
+        if uncertainty["left_out"]:
+            parts.append(f"{len(uncertainty['left_out'])} that never happen or follow a profile are not counted")
+    if reached is not None:
+        cost = ", ".join(changes(answer, reached.nominal, answer.design.values, table))
+        parts.append(f"target {percent(reached.asked)}, without margins {percent(reached.nominal_together)}")
+        parts.append(f"the margins cost {cost}")
+    elif share is not None and share["share"] < _GOOD and robust.get("share") is None:
         standard = "" if uncertainty["tolerances"] == "study" else "`tolerances: standard` and "
         raise_it = f"to raise it: {standard}`robust: {{yield: 95 %}}`"
         parts.append(raise_it if answer.solution else "which limit loses most: `tvimdesign tolerate`")
     return [Fact("Yield", parts)]
+
+
+def _tolerances(uncertainty: Mapping[str, Any]) -> str:
+    return "the study's tolerances" if uncertainty["tolerances"] == "study" else "the usual tolerances"

@@ -5,23 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from tvimdesign.base.units import format_quantity
-from tvimdesign.device import Input, table_for
+from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
+from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
 from tvimdesign.report.output.numbers import in_labels, percent
 from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
-from tvimdesign.report.run.blocks.verdict import objective_in_words
-from tvimdesign.report.run.reasons import complaint, sentences, slack_in_words
+from tvimdesign.report.run.reasons import complaint, sentences
 from tvimdesign.report.run.uncertainty_data import lost_in_words, yield_of
-from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import StudyResult
 
 COSTS = 5
-"""Active constraints that are shown as sentences, the costliest first; the table has all."""
+"""Active constraints that are shown unfolded, the costliest first."""
 
 
 def text_sections(answered: AnsweredStudy) -> list[Section]:
@@ -60,15 +58,17 @@ def module_section(answered: AnsweredStudy) -> Section:
 def search_section(answered: AnsweredStudy) -> list[Section]:
     """Return how the design was found: optima, margins, listed choices and currents; none of an evaluation."""
     answer = answered.result
-    blocks: list[Block] = []
-    if lines := [*objective_in_words(answer), *_robustness(answer)]:
-        blocks.append(Points(lines))
+    lines = _robustness(answer)
+    if answer.solution is not None and answer.found:
+        at_start = sum(answer.design.study["minimize"].values())
+        lines.insert(0, f"Objective {answer.solution.objective:.5g}, at the study's own start {at_start:.5g}.")
+    blocks: list[Block] = [Points(lines)] if lines else []
     choosing, table = answer.solution.choosing if answer.solution else None, table_for(answer.design.mode)
     if choosing is not None and choosing.best:
         price = price_in_words(choosing, table, choices_with_margins(answer))
         blocks += [tables.choices_grid(choosing, table), Words([*filter(None, [price]), tally_in_words(choosing)])]
     if answer.design.current_profiles:
-        blocks += [tables.currents_grid(answer), tables.profile_grid(answer), Words(_constant_currents(answer))]
+        blocks += [tables.currents_grid(answer), tables.profile_grid(answer)]
     return [Section("search", "How it was found", blocks)] if blocks else []
 
 
@@ -84,50 +84,19 @@ def _robustness(answer: StudyResult) -> list[str]:
     return [f"Most is lost to {worst}."] if worst else []
 
 
-def _constant_currents(answer: StudyResult) -> list[str]:
-    """Say which currents the best constant design and the default have."""
-    table = table_for(answer.design.mode)
-    driven = [table.phase(phase).current_input for phase in answer.design.current_profiles]
-
-    def currents(values: Mapping[str, float]) -> str:
-        return ", ".join(f"{name} {format_quantity(values[name], table.unit(name))}" for name in driven)
-
-    lines, best = [], answer.solution.constant if answer.solution else None
-    if best and answer.solution:
-        beside = constant_against(best.objective, answer.solution)
-        lines.append(f"Best constant: a design of its own, {currents(best.values)}; {beside}.")
-    rows = [table.quantity(name) for name in driven]
-    defaults = {row.name: row.default or 0.0 for row in rows if isinstance(row, Input)}
-    return [*lines, f"Default: this module at {currents(defaults)}; the paper heats with 1.5 A."]
-
-
-def constant_against(objective: float, solution: Solution) -> str:
-    """Compare the objective of the best constant current with that of the profile's module.
-
-    They are unlike if that has margins for a yield; the fact "Current" compares both without.
-    """
-    if solution.yield_reached is not None:
-        return "it has no margins for the yield, the profile's module has"
-    worse = objective / solution.objective - 1.0
-    return f"its objective is {abs(worse):.1%} {'higher' if worse > 0.0 else 'lower'}"
-
-
 def reasons_section(answered: AnsweredStudy) -> Section:
     """Return the active constraints in words, with what easing each would buy."""
     answer = answered.result
     costs = [in_labels(line) for line in sentences(answer)]
+    why = "No constraint is active: easing any of them changes nothing."
     if answer.solution is None:
-        return Section(
-            "why", "Active constraints", [Words(["The study varies nothing: its one module was evaluated."])]
-        )
-    if not costs:
-        blocks: list[Block] = [Words(["No constraint is active: easing any of them changes nothing."])]
-    else:
-        blocks = [Points(costs[:COSTS])]
-    slack = slack_in_words(answer, answered.study.table)
-    more: list[Block] = [*([tables.prices_grid(answer)] if costs else []), *([Words([slack])] if slack else [])]
-    others = f", {len(costs) - COSTS} more" if len(costs) > COSTS else ""
-    return Section("why", "Active constraints", [*blocks, Folded(f"Prices as a table{others}, and slack limits", more)])
+        why = "The study varies nothing: its one module was evaluated."
+    blocks: list[Block] = [Points(costs[:COSTS]) if costs else Words([why])]
+    if costs[COSTS:]:
+        blocks.append(Folded(f"{len(costs) - COSTS} more active constraints", [Points(costs[COSTS:])]))
+    if answer.solution:
+        blocks.append(Words(["Every limit with its margin and shadow price: why.csv."]))
+    return Section("why", "Active constraints", blocks)
 
 
 def assumptions_section(answered: AnsweredStudy) -> Section:
@@ -137,11 +106,11 @@ def assumptions_section(answered: AnsweredStudy) -> Section:
         words = "How sure the design is was not computed in this run."
         return Section("assumptions", "Assumptions", [Words([words])])
     more = [
-        tables.held_grid(uncertainty),
-        tables.assumptions_grid(uncertainty.get("assumptions", {})),
-        tables.unmeasured_grid(uncertainty, answered.reported["values"]),
+        (tables.held_grid(uncertainty), ""),
+        (tables.assumptions_grid(uncertainty.get("assumptions", {})), PAGE),
+        (tables.unmeasured_grid(uncertainty, answered.reported["values"]), f"results.csv, results.json and {PAGE}"),
     ]
-    folded = [Folded(grid.caption, [grid]) for grid in more if grid.rows]
+    folded = [Folded(grid.caption, [grid], file) for grid, file in more if grid.rows]
     return Section("assumptions", "Assumptions", [tables.intervals_grid(uncertainty["intervals"]), *folded])
 
 

@@ -14,7 +14,7 @@ from tvimdesign.report.output.numbers import ends_text, in_unit, number, range_t
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
 from tvimdesign.report.run.blocks.warnings import unreached_points
-from tvimdesign.report.run.reasons import binding, is_active
+from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
@@ -79,34 +79,24 @@ def module_grid(answer: StudyResult) -> Grid:
     return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
 
 
-def _parts_of_path(answer: StudyResult) -> list[str]:
-    """Return the torques that the parts between link and floor bear, by name."""
-    table = table_for(answer.design.mode)
-    return [
-        name for name in table.output("holding_torque").least_of if table.output(name).exists(answer.design.choices)
-    ]
-
-
-def torque_path(answer: StudyResult) -> list[tuple[str, float]]:
+def torque_path_grid(answer: StudyResult) -> Grid:
     """Return the parts on the way of the frozen torque from link to ground, and the torque that each bears [N*m].
 
-    The weakest is first. Feet bear what their safety leaves beside the others.
+    The weakest is first. Feet bear what their safety leaves beside the others. The safety is against the torque the
+    study asks for, or against the one that is held.
     """
-    values = answer.design.values
-    borne = {name: values[name] for name in _parts_of_path(answer) if name in values}
+    table, limits, values = table_for(answer.design.mode), answer.design.study["require"], answer.design.values
+    least = [limit["limit"] for limit in limits if (limit["output"], limit["sense"]) == ("holding_torque", ">=")]
+    against = max(least, default=0.0) or values["holding_torque"]
+    parts = [
+        name for name in table.output("holding_torque").least_of if table.output(name).exists(answer.design.choices)
+    ]
+    borne = {name: values[name] for name in parts if name in values}
     if "foot_safety" in values:
         borne["foot_safety"] = values["foot_safety"] * values["holding_torque"]
-    return sorted(borne.items(), key=lambda part: part[1])
-
-
-def torque_path_grid(answer: StudyResult) -> Grid:
-    """Return those parts with their safety against the torque the study asks for, or against the one that is held."""
-    table, limits = table_for(answer.design.mode), answer.design.study["require"]
-    least = [limit["limit"] for limit in limits if (limit["output"], limit["sense"]) == ("holding_torque", ">=")]
-    against = max(least, default=0.0) or answer.design.values["holding_torque"]
     rows = [
         (name, number(torque), number(torque / against, 3) if against else "", table.output(name).description)
-        for name, torque in torque_path(answer)
+        for name, torque in sorted(borne.items(), key=lambda part: part[1])
     ]
     title = f"Way of the frozen torque from link to ground, the weakest first, against {number(against)} N·m"
     return grid(title, ("part", "bears [N·m]", "safety", "meaning"), rows, right=(1, 2))
@@ -114,31 +104,25 @@ def torque_path_grid(answer: StudyResult) -> Grid:
 
 def currents_grid(answer: StudyResult) -> Grid:
     """Return the currents that follow a profile, moment by moment; the current is linear between these moments."""
-    table, rows = table_for(answer.design.mode), []
-    for name, profile in answer.design.current_profiles.items():
-        vary = answer.design.study["vary"].get(table.phase(name).current_input)
-        largest = vary["upper"] if vary else max(map(abs, profile["currents"]))
-        for i, (seconds, exact) in enumerate(zip(profile["moments"], profile["currents"], strict=True)):
-            current = exact if abs(exact) > 1e-4 * largest else 0.0
-            end = _end_of_range(abs(exact), vary) if vary else ""
-            rows.append((name if i == 0 else "", number(seconds, 3), number(current, 3), end))
-    return grid("Currents, linear between these moments", ("phase", "s", "A", "of its range"), rows, right=(1, 2))
-
-
-def _end_of_range(size: float, vary: Mapping[str, float]) -> str:
-    if 1.001 * vary["lower"] + 1e-3 * vary["upper"] < size < 0.999 * vary["upper"]:
-        return ""
-    return "at its upper end" if size > 0.999 * vary["upper"] else "at its lower end"
+    rows = [
+        (name if i == 0 else "", number(seconds, 3), number(round(current, 4), 3))
+        for name, profile in answer.design.current_profiles.items()
+        for i, (seconds, current) in enumerate(zip(profile["moments"], profile["currents"], strict=True))
+    ]
+    return grid("Currents, linear between these moments", ("phase", "s", "A"), rows, right=(1, 2))
 
 
 def profile_grid(answer: StudyResult) -> Grid:
-    """Return what a current profile buys: the module at its default current, and the best constant current's."""
+    """Return what a current profile buys: this module at its default current, and the best constant current's own."""
     table, best = table_for(answer.design.mode), answer.solution.constant if answer.solution else None
+    driven = [table.phase(phase).current_input for phase in answer.design.current_profiles]
+    defaults = {name: getattr(table.quantity(name), "default", None) or 0.0 for name in driven}
     rows = []
-    for name, default in answer.constant_current.items():
+    for name, default in {**defaults, **answer.constant_current}.items():
         unit = table.unit(name)
-        values = (answer.design.value(name), *([best.values[name]] if best else []), default)
-        texts = (in_unit(value, unit) for value in values)
+        values = [*([best.values[name]] if best else []), default]
+        own = "profile" if name in defaults else in_unit(answer.design.value(name), unit)
+        texts = (own, *(in_unit(value, unit) for value in values))
         rows.append((name, *texts, pretty(unit), meaning(name, answer.design, table)))
     heads = ("", "profile", *(["best constant"] if best else []), "default", "unit", "meaning")
     return grid("What letting the current change buys", heads, rows, right=(1, 2, 3) if best else (1, 2))
@@ -163,23 +147,6 @@ def _check_row(check: ConstraintCheck, answer: StudyResult, table: Table) -> tup
     margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least
     value = value_text(answer, check.output, table, rounded=True)
     return stands, check.text, value, pretty(table.unit(check.output)), margin, because
-
-
-def prices_grid(answer: StudyResult) -> Grid:
-    """Return the active constraints, with what relaxing each saves of the objective and of each output."""
-    outputs = list(answer.design.study["minimize"])
-    rows = [
-        (row.text, row.step, _saved(row.shadow_price),
-         *(_saved(row.sensitivity[name]) if name in row.sensitivity else "" for name in outputs))
-        for row in binding(answer)
-    ]  # fmt: skip
-    heads = ("limit", "relaxed by", "lowers the objective by", *outputs)
-    return grid("Active constraints", heads, rows, right=range(1, len(heads)))
-
-
-def _saved(percent: float) -> str:
-    """Return a saving for people: less than a millionth is none."""
-    return f"{percent:.2g} %" if abs(percent) >= 1e-4 else "0 %"
 
 
 def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:

@@ -21,10 +21,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Tone
-from tvimdesign.report.output.numbers import in_labels, label, number, percent
+from tvimdesign.report.output.numbers import in_labels, label, percent
 from tvimdesign.report.output.tables import margin_text
 from tvimdesign.report.run.blocks.warnings import RunWarning, missed_points
 from tvimdesign.report.run.uncertainty_data import yield_of
@@ -217,17 +217,3 @@ def starts_in_words(answer: StudyResult) -> list[str]:
         return ["one start: others may be better"]
     agree = answer.solution.reached(optima[0])
     return [f"found by 1 of {len(free)} starts" if agree == 1 else f"{agree} of {len(free)} starts agree"]
-
-
-def objective_in_words(answer: StudyResult) -> list[str]:
-    """Compare the objective with that of the study's own start, and name other optima that starts ended at."""
-    solution, table = answer.solution, table_for(answer.design.mode)
-    if solution is None or not answer.found:
-        return []
-    at_start = sum(answer.design.study["minimize"].values())
-    lines = [f"Objective {solution.objective:.5g}, at the study's own start {at_start:.5g}."]
-    for start in solution.distinct_optima()[1:]:
-        where = ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in start.end.items())
-        count = f"{solution.reached(start)} of {len(solution.free_starts)} starts"
-        lines.append(f"Another optimum, objective {number(start.objective, 5)}, reached by {count}: {where}.")
-    return lines
