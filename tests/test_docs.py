@@ -10,6 +10,8 @@ from answers import shipped_answer
 from support import ROOT, STUDIES, Command
 
 from tvimdesign.catalog import Catalog, check_records
+from tvimdesign.device import table_for
+from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study, read_study_text
@@ -174,6 +176,19 @@ def test_the_glossary_is_in_order_and_has_the_words_of_the_screen() -> None:
     )
     assert [word for word in words if word not in screen or word not in known] == []
     assert {"verdict", "yield", "nominal optimum", "assumed value"} <= known
+    quantities = " ".join(f"{label(row.name)} {row.description}" for row in table_for("shear").quantities)
+    of_parts = (
+        "adjuster",
+        "post",
+        "backlash",
+        "cut-out",
+        "liner",
+        "melt lip",
+        "memory temperature",
+        "spreader",
+        "tang",
+    )
+    assert [word for word in of_parts if word not in quantities or word not in known] == []
 
 
 def test_links_lead_somewhere() -> None:
