@@ -161,7 +161,8 @@ def _impedance(value: _Values) -> list[Fact]:
         f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
         for name in ("joint_stiffness@cold", "softened_stiffness")
     )
-    return [Fact("Impedance", [f"frozen {frozen}, soft {soft} {pretty(unit)}", value("softened_damping")])]
+    damping = with_unit(value.values["softened_damping"], value.table.unit("softened_damping"), _DIGITS)
+    return [Fact("Impedance", [f"frozen {frozen}, soft {soft} {pretty(unit)}", damping])]
 
 
 def _task(value: _Values, choices: Mapping[str, str]) -> list[Fact]:
