@@ -113,7 +113,7 @@ def test_a_warm_run_cut_short_leaves_several_combinations_open(
     asked: list[str] = []
 
     def ending(status: str) -> Callable[..., Any]:
-        def ended(*_: Any) -> Run:
+        def ended(*_: Any, **_begin: Any) -> Run:
             asked.append(status)
             return replace(near, start=replace(near.start, status=status, converged=False))
 
@@ -121,7 +121,7 @@ def test_a_warm_run_cut_short_leaves_several_combinations_open(
 
     monkeypatch.setattr(relaxation, "_screened", lambda *_: False)
     monkeypatch.setattr(relaxation, "_beside", ending(OVER))
-    monkeypatch.setattr(relaxation, "_searched", ending(cold))
+    monkeypatch.setattr(relaxation, "_solved", ending(cold))
     assert relaxation.best_within(box, near) == (None, certain)
     assert asked == [OVER] + [cold] * searches
 

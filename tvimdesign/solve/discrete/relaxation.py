@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
@@ -26,7 +26,7 @@ from tvimdesign.solve.nlp.solver_run import FEASIBLE, NO_DESIGN, NO_MODULE, Arra
 from tvimdesign.solve.optimizer.multistart import FEW
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.refinements import BoxSearch, ConstantCurrentOptimum, ending_in_time
+from tvimdesign.solve.optimizer.refinements import ConstantCurrentOptimum, ending_in_time
 
 _CLOSE = 0.02
 """Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
@@ -52,8 +52,6 @@ class Relaxation:
     """A run for each different optimum that the starts came to with every size free, the best first."""
     best: Run | None = field(init=False, default=None)
     """The best run so far that converged with every size from its list."""
-    found_in_boxes: bool = field(init=False, default=False)
-    """Whether no start came to an optimum, and only searches in boxes did."""
     ends: list[Run] = field(init=False, default_factory=list)
     """Where the starts came to instead, if none of them came to an optimum."""
     _runs: dict[tuple[Any, ...], Run] = field(init=False, default_factory=dict)
@@ -99,21 +97,20 @@ class Relaxation:
         return runs
 
     def from_all_over(self) -> list[Run]:
-        """Searches in boxes from designs all over the ranges that keep the arithmetic limits, then from the start."""
+        """Return runs from designs all over the ranges that keep the arithmetic limits, until two end alike."""
         runs: list[Run] = []
         self.optimizer.progress("no start satisfies the limits: searching the whole ranges")
         designs = designs_all_over(self.optimizer, lambda inputs: self._mixed(inputs, {}))
-        for begin in [*designs, self.optimizer.model.start] if designs else []:
+        for begin in designs:
             optima = [run.start for run in runs if run.start.converged]
             if self.optimizer.deadline.passed or any(map(same_optimum, optima, optima[1:])):
                 break
-            run = self._in_boxes({}, begin, self._late)
+            run = self._solved({}, begin=begin)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
             if self._late(run):  # the whole search begins again, with a limit
                 break
-        self.found_in_boxes = any(run.start.converged for run in runs)
-        if self.found_in_boxes:
+        if any(run.start.converged for run in runs):
             self._take(runs)
         return runs
 
@@ -227,9 +224,9 @@ class Relaxation:
                 statuses.append(run.start.status)
         if close and self._screened(ends, begins):
             return None, True
-        for begin in self._modules(begins[:-1] if self.found_in_boxes else begins):
+        for begin in self._modules(begins):
             divided = not is_one(box) and not {NO_DESIGN, NO_MODULE}.issuperset(statuses)
-            run = self._searched(ends, begin)
+            run = self._solved(ends, begin=begin)
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
@@ -339,18 +336,6 @@ class Relaxation:
             unknowns[i] = free.to_unknown(point[index[free.name]])
         run = self.optimizer.solve(ends, begin=point, unknowns=unknowns, beginning="near")
         self.work.count(run.start, warm=True)
-        return run
-
-    def _searched(self, ends: Mapping[str, Ends], begin: Array) -> Run:
-        """Return a new search within some ends."""
-        return self._in_boxes(ends, begin) if self.found_in_boxes else self._solved(ends, begin=begin)
-
-    def _in_boxes(
-        self, ends: Mapping[str, Ends], begin: Array, leads_away: Callable[[Run], bool] = lambda _: False
-    ) -> Run:
-        """Return a search in boxes, if no start reached an optimum; it ends where it leads away."""
-        run = BoxSearch(self.optimizer, ends, leads_away).run(begin)
-        self.work.count(run.start, warm=False)
         return run
 
     def _solved(

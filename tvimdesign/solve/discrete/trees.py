@@ -152,13 +152,12 @@ class SearchState(NamedTuple):
     sizes: Sizes
     optima: list[Run]
     ends: list[Run]
-    found_in_boxes: bool
 
     @classmethod
     def of(cls, trees: Sequence[Relaxation]) -> list[SearchState]:
         """That of each tree."""
-        return [cls(tree.sizes, tree.optima, tree.ends, tree.found_in_boxes) for tree in trees]
+        return [cls(tree.sizes, tree.optima, tree.ends) for tree in trees]
 
     def take(self, tree: Relaxation) -> None:
         """Let a tree that was built go on from there."""
-        tree.sizes, tree.optima, tree.ends, tree.found_in_boxes = self
+        tree.sizes, tree.optima, tree.ends = self

@@ -1,4 +1,4 @@
-"""Searches in boxes lead from a feasible design to an optimum of the whole problem."""
+"""Searches from designs all over the ranges, where no start satisfies the limits."""
 
 import pytest
 
@@ -7,8 +7,7 @@ from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.feasibility_screen import designs_all_over
 from tvimdesign.solve.nlp.solution import SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array
-from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
-from tvimdesign.solve.optimizer.refinements import BoxSearch
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import read_study_text
 
@@ -64,45 +63,30 @@ def broken(optimizer: Optimizer, inputs: Array) -> float:
 
 
 @pytest.mark.gate
-def test_boxes_lead_from_a_design_to_an_optimum(optimizer: Optimizer, design: Array) -> None:
+def test_a_design_leads_to_an_optimum(optimizer: Optimizer, design: Array) -> None:
     assert broken(optimizer, design) <= 0.0
-    found = BoxSearch(optimizer).run(design)
-    assert found.start.converged
-    assert broken(optimizer, found.inputs) <= CYCLE_TOLERANCE
-    heights = [optimizer.model.values(x, optimizer.multistart.cycle)["envelope_height"]
-               for x in (design, found.inputs)]  # fmt: skip
+    run = optimizer.solve(begin=design)
+    assert run.start.converged
+    assert broken(optimizer, run.inputs) <= CYCLE_TOLERANCE
+    heights = [optimizer.model.values(x, optimizer.multistart.cycle)["envelope_height"] for x in (design, run.inputs)]
     assert heights[1] < 0.95 * heights[0]
-    # IPOPT alone went astray from here while states were unknowns.
-    assert found.start.objective <= optimizer.solve(begin=design).start.objective * (1.0 + SETTLED)
-    assert not found.within  # an optimum of the whole problem, no side of a box holds it
 
 
 @pytest.mark.gate
-def test_boxes_keep_what_is_to_be_within_ends(optimizer: Optimizer, design: Array) -> None:
-    ends = {"placement_radius": (0.0452, 0.0452), "coil_diameter": (0.012, 0.02)}
-    found = BoxSearch(optimizer, ends).run(design)
-    assert found.start.converged
-    assert found.start.end["placement_radius"] == pytest.approx(0.0452, rel=1e-7)
-    assert found.start.end["coil_diameter"] == pytest.approx(0.02, rel=1e-6)  # without the ends it goes to 32 mm
-    assert broken(optimizer, found.inputs) <= CYCLE_TOLERANCE
+def test_what_is_to_be_within_ends_stays_there(optimizer: Optimizer, design: Array) -> None:
+    run = optimizer.solve({"placement_radius": (0.0452, 0.0452), "coil_diameter": (0.012, 0.02)}, begin=design)
+    assert run.start.converged
+    assert run.start.end["placement_radius"] == pytest.approx(0.0452, rel=1e-7)
+    assert run.start.end["coil_diameter"] == pytest.approx(0.02, rel=1e-6)  # without the ends it goes to 32 mm
+    assert broken(optimizer, run.inputs) <= CYCLE_TOLERANCE
 
 
 @pytest.mark.gate
-def test_a_search_ends_where_boxes_lead_nowhere(optimizer: Optimizer, design: Array) -> None:
-    """Ends that no module is within: the last word is that of the solver, and boxes are few."""
-    search = BoxSearch(optimizer, {"core_radius": (0.0158, 0.016), "pcl_inner_radius": (0.009, 0.0095)})
-    found = search.run(design)
-    assert not found.start.converged
-    assert len(search.runs) <= 20
-
-
-@pytest.mark.gate
-def test_a_study_without_a_feasible_start_is_searched_in_boxes(optimizer: Optimizer) -> None:
+def test_a_study_without_a_feasible_start_is_searched_all_over(optimizer: Optimizer) -> None:
     """From designs all over the ranges, until two come to the same optimum."""
     study = optimizer.study
     tree = Relaxation(0, optimizer, {}, discrete_sizes(study, study.table), SolverEffort())
     runs = tree.from_all_over()
-    assert tree.found_in_boxes
     assert [run.start.converged for run in runs] == [True, True]
     assert same_optimum(runs[0].start, runs[1].start)
     assert len(tree.optima) == 1
