@@ -100,7 +100,8 @@ TO_SIZE = {
 """Kinds that are made to sizes the bill tells, as no table of a maker was to be read."""
 RATED = {
     "thermal_grease", "heat_conducting_adhesive", "polyimide_film", "thread_locker", "motor_adhesive", "mould_release",
-    "supply", "driver", "controller", "wire_sleeve", "crimp_splice", "grease",
+    "supply", "driver", "controller", "controller_supply", "wire_sleeve", "crimp_splice", "grease",
+    "divider_resistor",
 }  # fmt: skip
 """Kinds that any shop has, by a rating that the bill tells."""
 FIGURE = re.compile(r"\d+(\.\d+)? (°C|V|A)\b")

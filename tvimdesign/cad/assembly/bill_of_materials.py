@@ -47,6 +47,8 @@ _SEALED = (*_RINGS, "motor_bearing")
 """Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
 _SHEETS = ("spreader", "liner")
 """Kinds cut from a sheet."""
+DIVIDER = "10 kohm, 1 %"
+"""Resistor between 3.3 V and a thermistor: that of the NTC at 25 °C. A smaller one would warm a hot bead."""
 _BY_RATING = ("supply", "driver", "controller")
 """Kinds whose type the builder chooses where no offer is known."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
@@ -305,7 +307,9 @@ def _supply(design: Design) -> list[Item]:
     asks = bears = (volts, amperes)
     asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
     driver, supply = f"H-bridge, current controlled {ways}, {asked}", f"DC supply, {asked}"
+    from_volts = f"{up(volts)} V or more"
     if (given := design.supply_voltage) is not None:
+        from_volts = f"{given:.4g} V"
         bears = given, volts * amperes / given / _EFFICIENCY  # power is what stays
         supply = f"DC supply of {given:.4g} V, at least {up(bears[1])} A"
         driver = f"Step-down driver, current controlled {ways}, from {given:.4g} V, {asked}"
@@ -317,6 +321,8 @@ def _supply(design: Design) -> list[Item]:
         Item("supply", 1, False, "", supply, 0.0, (), asks=bears),
         Item("driver", 1, False, "", driver, 0.0, (), asks=asks),
         Item("controller", 1, False, "", controller, 0.0, ()),
+        Item("controller_supply", 1, False, "", f"Step-down converter for the controller, from {from_volts}", 0.0, ()),
+        Item("divider_resistor", sensors, False, "", f"Resistor, {DIVIDER}, from 3.3 V to a thermistor", 0.0, ()),
     ]
 
 

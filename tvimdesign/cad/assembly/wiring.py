@@ -1,11 +1,11 @@
-"""The wiring diagram of a module: supply, driver, cut-out and heaters as they are wired, and the thermistors."""
+"""The wiring diagram of a module: supply, driver, cut-out, heaters, the controller and the thermistors' dividers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
 
-from tvimdesign.cad.assembly.bill_of_materials import Item
+from tvimdesign.cad.assembly.bill_of_materials import DIVIDER, Item
 from tvimdesign.cad.assembly.heater_leads import pad_count
 from tvimdesign.study.design import Design
 
@@ -29,45 +29,70 @@ def strings(design: Design) -> list[list[int]]:
 
 
 def wiring_svg(design: Design, extra: Sequence[Item]) -> bytes:
-    """Return the diagram as SVG; `extra` are the lines of the list of parts that name supply and driver."""
+    """Return the diagram as SVG; `extra` are the lines of the list of parts that name what feeds and controls.
+
+    The heaters' return comes to the driver from the right and its signal from below, so that no lines cross.
+    """
     rows = strings(design)
-    ordered = {
-        item.kind: item.offer.number if item.offer else "" for item in extra if item.kind in ("supply", "driver")
-    }
-    feed = [("DC supply", ordered.get("supply", "")), ("driver", ordered.get("driver", ""))]
+    number = {item.kind: item.offer.number if item.offer else "" for item in extra}
+    feed = [("DC supply", number.get("supply", "")), ("driver", number.get("driver", ""))]
     if design.values.get("cutout_diameter", 0.0) > 0.0:
         feed.append(("thermal cut-out", ""))
-    step = _BOX + _GAP
-    first = _LEFT + len(feed) * step
-    width = first + max(map(len, rows)) * step + _GAP
-    sensors = round(design.values.get("thermistor_count", 1.0))
-    height = 70 + max(len(rows), 1) * (_HIGH + 30) + 90
-    top, back = 40, 70 + len(rows) * (_HIGH + 30)
-    shapes = []
-    for index, (name, number) in enumerate(feed):
-        shapes += _box(_LEFT + index * step, top, name, number)
-        shapes.append(_line([(_LEFT + index * step + _BOX, top + 22), (_LEFT + (index + 1) * step, top + 22)], _RED))
+    step, deep = _BOX + _GAP, _HIGH + 30
+    first, driver = _LEFT + len(feed) * step, _LEFT + step
+    right = max(first + max(map(len, rows)) * step, driver + 2 * step)
+    top, level, back, low = 40, 54, 70 + len(rows) * deep, 110 + len(rows) * deep
+    shapes = [_line([(_LEFT + _BOX, 72), (driver, 72)], _BLACK)]
+    for index, (name, words) in enumerate(feed):
+        shapes += _box(_LEFT + index * step, top, name, words)
+        end = first - 0.5 * _GAP if index == len(feed) - 1 else _LEFT + (index + 1) * step
+        shapes.append(_line([(_LEFT + index * step + _BOX, level), (end, level)], _RED))
     for row, heaters in enumerate(rows):
-        level = top + row * (_HIGH + 30) + 22
-        shapes.append(_line([(first - 0.5 * _GAP, top + 22), (first - 0.5 * _GAP, level), (first, level)], _RED))
+        at = level + row * deep
+        shapes.append(_line([(first - 0.5 * _GAP, level), (first - 0.5 * _GAP, at), (first, at)], _RED))
         for place, heater in enumerate(heaters):
-            shapes += _box(first + place * step, level - 22, f"heater {heater}", "")
+            shapes += _box(first + place * step, at - 14, f"heater {heater}", "")
             if place:
-                shapes.append(_line([(first + place * step - _GAP, level), (first + place * step, level)], _BLACK))
-        end = first + len(heaters) * step - _GAP
-        shapes.append(_line([(end, level), (width - 20, level), (width - 20, back), (_LEFT + step + 65, back)], _BLACK))
-    shapes.append(_line([(_LEFT + step + 65, back), (_LEFT + step + 65, top + _HIGH)], _BLACK))
-    shapes.append(_line([(_LEFT + 65, top + _HIGH), (_LEFT + 65, top + 66), (_LEFT + step + 30, top + 66),
-                         (_LEFT + step + 30, top + _HIGH)], _BLACK))  # fmt: skip
-    low = height - 60
-    shapes += _box(_LEFT, low, "controller", "")
-    shapes += _box(_LEFT + step, low, f"{sensors} thermistor{'s' if sensors > 1 else ''}", "NTC 10 kohm")
-    for beside in (14, 30):
-        shapes.append(_line([(_LEFT + _BOX, low + beside), (_LEFT + step, low + beside)], _GREY))
-    shapes.append(_line([(_LEFT + 20, low), (_LEFT + 20, back + 12), (_LEFT + step + 100, back + 12),
-                         (_LEFT + step + 100, top + _HIGH)], _GREY))  # fmt: skip
-    key = "red: + while it heats; black: return; grey: signals. A driver that turns the current round cools."
-    shapes.append(_words(_LEFT, 20, key, "start"))
+                shapes.append(_line([(first + place * step - _GAP, at), (first + place * step, at)], _BLACK))
+        shapes.append(_line([(first + len(heaters) * step - _GAP, at), (right, at), (right, back)], _BLACK))
+    shapes.append(_line([(right, back), (driver + 100, back), (driver + 100, top + _HIGH)], _BLACK))
+    shapes.append(_line([(driver + 30, top + _HIGH), (driver + 30, low)], _GREY))
+    for beside, across, colour in ((30, 14, _RED), (100, 30, _BLACK)):
+        shapes.append(_line([(_LEFT + beside, top + _HIGH), (_LEFT + beside, low)], colour))
+        shapes.append(_line([(_LEFT + _BOX, low + across), (driver, low + across)], colour))
+    shapes += _box(_LEFT, low, "step-down converter", "for the controller")
+    shapes += _box(driver, low, "controller", number.get("controller", "").partition("(")[2].rstrip(")"), 2 * deep - 30)
+    return _drawing(right + _LEFT, low + 2 * deep, [*shapes, *_dividers(design, driver + _BOX, low), _key(design)])
+
+
+def _dividers(design: Design, left: float, low: float) -> list[str]:
+    """Return a thermistor's divider, right of the controller: 3.3 V, resistor, input, thermistor, ground."""
+    sensors = round(design.values.get("thermistor_count", 1.0))
+    each = f"{sensors} inputs, a divider each" if sensors > 1 else "input"
+    x, deep = left + 60, _HIGH + 30
+    middle, half = x + 0.5 * _BOX, 0.5 * _HIGH
+    return [
+        *_box(x, low, f"{sensors} resistor{'s' if sensors > 1 else ''}", DIVIDER),
+        *_box(x, low + deep, f"{sensors} thermistor{'s' if sensors > 1 else ''}", "NTC 10 kohm"),
+        _line([(left, low + half), (x, low + half)], _RED),
+        _line([(middle, low + _HIGH), (middle, low + deep)], _GREY),
+        _line([(left, low + _HIGH + 15), (middle, low + _HIGH + 15)], _GREY),
+        _line([(left, low + deep + half), (x, low + deep + half)], _BLACK),
+        _words(left + 30, low + half - 5, "3.3 V", "middle"),
+        _words(middle + 8, low + _HIGH + 19, each, "start"),
+        _words(left + 30, low + deep + half - 5, "ground", "middle"),
+    ]
+
+
+def _key(design: Design) -> str:
+    """Return what the colours are; a driver that turns the current round cools only what pumps heat."""
+    cools = design.values.get("cooling_current", 0.0) > 0.0
+    key = f"red: +{' while it heats' if cools else ''}; black: return; grey: signals."
+    key += " A driver that turns the current round cools." if cools else ""
+    return _words(_LEFT, 20, key, "start")
+
+
+def _drawing(width: float, height: float, shapes: Sequence[str]) -> bytes:
     size = f'width="{width:g}" height="{height:g}" viewBox="0 0 {width:g} {height:g}"'
     body = "\n".join(shapes)
     return (
@@ -76,11 +101,11 @@ def wiring_svg(design: Design, extra: Sequence[Item]) -> bytes:
     ).encode()
 
 
-def _box(x: float, y: float, name: str, number: str) -> list[str]:
+def _box(x: float, y: float, name: str, number: str, high: float = _HIGH) -> list[str]:
     middle = x + 0.5 * _BOX
-    frame = f'<rect x="{x:g}" y="{y:g}" width="{_BOX}" height="{_HIGH}" fill="#f4f6f8" stroke="{_BLACK}"/>'
+    frame = f'<rect x="{x:g}" y="{y:g}" width="{_BOX}" height="{high:g}" fill="#f4f6f8" stroke="{_BLACK}"/>'
     lines = [text for text in (name, number) if text]
-    first = y + 0.5 * _HIGH + 4 - 8 * (len(lines) - 1)
+    first = y + 0.5 * high + 4 - 8 * (len(lines) - 1)
     return [frame, *(_words(middle, first + 16 * index, text, "middle") for index, text in enumerate(lines))]
 
 
