@@ -9,7 +9,7 @@ from cad_designs import TILES, design_of
 
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly.assembly import MODULES
-from tvimdesign.cad.assembly.bill_of_materials import beside, bill, fixtures
+from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, fixtures
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words, heater_order, thermistor_in_words, thermistors, wires
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
@@ -27,12 +27,17 @@ def switched(changes: dict[str, Any], hottest: float = 105.2, mode: str = "shear
     return design
 
 
-def listed(design: Design) -> dict[str, str]:
-    """Return the titles by kind: what is beside the parts, and the cut-out where the module has one."""
+def lines(design: Design) -> list[Item]:
+    """Return what is beside the parts, and the cut-out where the module has one."""
     titles = _titles(design)
     drawn = "thermal_cutout" in MODULES[design.mode].drawn(dimensions(design))
     placed = {"thermal_cutout": cq.Solid.makeCylinder(2.1, 11.2)} if drawn else {}
-    return {item.kind: item.title for item in [*bill(design, titles, placed), *beside(design, titles)]}
+    return [*bill(design, titles, placed), *beside(design, titles)]
+
+
+def listed(design: Design) -> dict[str, str]:
+    """Return the titles by kind."""
+    return {item.kind: item.title for item in lines(design)}
 
 
 @pytest.mark.parametrize(("changes", "mode"), [({}, "shear"), (TILES, "shear"), ({}, "compression")])
@@ -59,6 +64,7 @@ def test_cut_outs_and_beads_say_only_what_they_can() -> None:
     assert listed(low)["thermal_cutout"].startswith(
         "Does not fit: it has no room; choose one that opens between 88 and"
     )
+    assert all(not line.offer for line in lines(low) if line.kind == "thermal_cutout")
     assert "ask the maker" not in cutout
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
     assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
@@ -127,6 +133,20 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
     other = design.model_copy(update={"choices": design.choices | {"tang_adhesive": "another"}})
     (item,) = (one for one in beside(other, {}) if one.kind == "liner_adhesive")
     assert item.mass == 0.0
+
+
+def test_a_small_foil_on_a_strong_supply_is_ordered_by_its_working_voltage() -> None:
+    design = switched({"peltier_module": "polyimide_foil_24v"})
+    large = "; ".join(heater_order(design))
+    assert "which the driver" not in large
+    assert "flat tail" not in large
+    design.study["require"] = [{"output": "peak_voltage", "limit": 24.0}]
+    for name in ("peltier_volume", "peltier_area"):
+        design.values[name] *= 0.2
+    small = "; ".join(heater_order(design))
+    assert " V and 2.1 A, which the driver makes from 24 V, " in small
+    each = 1e4 * design.values["peltier_volume"] / design.values["peltier_thickness"] / 4.0  # cm2
+    assert f"only {each:.2g} cm² each: ask whether such leads have room, or for a flat tail" in small
 
 
 def test_a_wire_is_ordered_by_the_thinnest_section_that_bears_the_current() -> None:

@@ -6,6 +6,7 @@ from tvimdesign.cad.assembly.offers import QUOTE, offer_for, offers, total
 from tvimdesign.catalog import Catalog
 
 KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
+KINDS |= {"spring_right", "spring_left", "preload_spring", "heater", "thermal_cutout"}
 BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"
 
 
@@ -17,6 +18,7 @@ def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source() -> Non
         assert offer.record in ("", *known), offer
         assert offer.kind in ("", *KINDS), offer
         assert offer.source
+        assert bool(offer.number) != bool(offer.pattern), offer
         assert (offer.price is None) or offer.date, offer
         assert offer.high is None or offer.high >= (offer.price or 0.0)
 
@@ -28,8 +30,30 @@ def test_a_screw_is_ordered_by_its_length() -> None:
     spring = offer_for("spring_left", "music_wire", "Torsion spring T10160, wire 0.42 mm, wound left")
     assert spring is not None
     assert spring.number == "T10160"
-    assert offer_for("spring_left", "music_wire", "Torsion spring of Music wire, wire 0.42 mm") is None
     assert offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - A2-70") is None
+
+
+@pytest.mark.parametrize(
+    ("kind", "record", "title", "supplier", "number"),
+    [
+        ("link_dowel", "iso_8734_2", "Dowel pin ISO 8734 - 2 m6 x 8 - A, hardened steel", "any fastener shop",
+         "ISO 8734 - 2 m6 x 8 - A"),
+        ("thermal_cutout", "microtemp_g4a", "Thermal cut-out MICROTEMP G4A, G4A01104C: opens", "Therm-O-Disc",
+         "G4A01104C"),
+        ("thermal_cutout", "ultimheat_5ma3", "Thermal cut-out 5MA3 of Ultimheat, 5MA3SPF152019340: opens", "Ultimheat",
+         "5MA3SPF152019340"),
+        ("heater", "cp30138", "Thermoelectric module CP30138 of Same Sky, 15 x 15 mm", "Same Sky", "CP30138"),
+        ("heater", "polyimide_foil_24v", "Etched-foil heater in polyimide, to the outline of its STEP file",
+         "any maker of foil heaters", "to drawings/heater.pdf"),
+        ("spring_left", "music_wire", "Torsion spring of Music wire", "any spring maker", "to springs/spring.pdf"),
+    ],
+)  # fmt: skip
+def test_the_number_is_a_standards_a_makers_or_that_of_a_drawing(
+    kind: str, record: str, title: str, supplier: str, number: str
+) -> None:
+    offer = offer_for(kind, record, title)
+    assert offer is not None
+    assert (offer.supplier, offer.number) == (supplier, number)
 
 
 @pytest.mark.parametrize(

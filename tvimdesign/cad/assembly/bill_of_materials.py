@@ -13,6 +13,7 @@ import cadquery as cq
 from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.heater_leads import (
+    NOT_TO_BE_ORDERED,
     heater_order,
     largest,
     lead_in_words,
@@ -49,7 +50,7 @@ _SHEETS = ("spreader", "liner")
 """Kinds cut from a sheet."""
 DIVIDER = "10 kohm, 1 %"
 """Resistor between 3.3 V and a thermistor: that of the NTC at 25 °C. A smaller one would warm a hot bead."""
-_BY_RATING = ("supply", "driver", "controller")
+_BY_RATING = ("supply", "driver", "controller", "controller_supply", "divider_resistor")
 """Kinds whose type the builder chooses where no offer is known."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
 
@@ -86,7 +87,9 @@ class Item:
     @property
     def offer(self) -> Offer | None:
         """Its number, pack and price, where a public list gives them."""
-        return offer_for(self.kind, self.material, self.title, *self.asks) if self.is_ordered else None
+        if not self.is_ordered or NOT_TO_BE_ORDERED in self.title:
+            return None
+        return offer_for(self.kind, self.material, self.title, *self.asks)
 
     @property
     def price(self) -> str:

@@ -27,6 +27,9 @@ _BEARS = {
 """What stands beside the heater, and the quantity that says what it bears."""
 _ROOM = ("cutout_ground_gap", "cutout_retainer_gap")
 """Quantities that say whether a cut-out has room; negative where it has none."""
+NOT_TO_BE_ORDERED = "Not to be ordered"
+_SMALL_FOIL = 2e-4
+"""Area [m^2] below which the note asks whether a foil has room for its leads, assumed."""
 _ROUNDING = 1e-6
 _WIRES = Path(__file__).with_name("wire_ratings.yaml")
 _THERMISTORS = Path(__file__).with_name("thermistors.yaml")
@@ -81,7 +84,7 @@ def _misfit(record: Record, design: Design, fuse: HeaterFuse, hottest: float, be
     between = f"one that opens between {up(low - ZERO_CELSIUS)} and {min(bears.values()) - ZERO_CELSIUS:.3g} °C"
     beyond = f"a cooler heater, or parts that bear {up(low + record.value('opening_band') - ZERO_CELSIUS)} °C"
     other = f"{between}, {beyond}" if low < min(bears.values()) else beyond
-    return f"Does not fit: {'; '.join(why)}; choose {other}. Not to be ordered: "
+    return f"Does not fit: {'; '.join(why)}; choose {other}. {NOT_TO_BE_ORDERED}: "
 
 
 def _ratings(design: Design) -> dict[str, float]:
@@ -198,11 +201,16 @@ def heater_order(design: Design) -> list[str]:
         amperes = current / design.values.get("heater_strings", 1.0)
         watts = amperes**2 * ohms
         dense = 1e-4 * watts * count / area
-        order.append(f"at most {watts:.3g} W each, at {amperes * ohms:.3g} V and {amperes:.3g} A, {dense:.2g} W/cm²")
+        given = f", which the driver makes from {design.supply_voltage:.4g} V" if design.supply_voltage else ""
+        works = f"{amperes * ohms:.3g} V and {amperes:.3g} A{given}"
+        order.append(f"at most {watts:.3g} W each, at {works}, {dense:.2g} W/cm²")
         leads += f" of {wire.gauge} or thicker" if (wire := _wire(amperes)) else f" for {up(amperes)} A"
     long, ledge = (1e3 * design.value(name) for name in ("envelope_diameter", "window_ledge"))
     exits = f"at least {long:.0f} mm long, off one face, {ledge:.3g} mm or more inside the outline"
-    return [*order, f"{leads}, insulated for {rating(design)}", f"leads {exits}"]
+    order += [f"{leads}, insulated for {rating(design)}", f"leads {exits}"]
+    if area < _SMALL_FOIL * count:
+        order.append(f"only {1e4 * area / count:.2g} cm² each: ask whether such leads have room, or for a flat tail")
+    return order
 
 
 def _own_leads(design: Design) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -22,9 +23,11 @@ class Offer:
     """An entry of the data file; a price is that of a pack [USD]."""
 
     supplier: str
-    number: str
     pack: int
     source: str
+    number: str = ""
+    pattern: str = ""
+    """Of the number, where the title has it."""
     record: str = ""
     kind: str = ""
     size: str = ""
@@ -61,8 +64,9 @@ def offer_for(kind: str, record: str, title: str, volts: float = 0.0, amperes: f
     """Return the first offer for a line of the list of parts; supplies and drivers must give `volts` and `amperes`."""
     for offer in offers():
         is_it = offer.record in ("", record) and offer.kind in ("", kind)
-        if is_it and offer.size in f"{title} " and offer.voltage >= volts and offer.current >= amperes:
-            return offer
+        named = re.search(offer.pattern, title)
+        if is_it and named and offer.size in f"{title} " and offer.voltage >= volts and offer.current >= amperes:
+            return replace(offer, number=named[0]) if offer.pattern else offer
     return None
 
 
