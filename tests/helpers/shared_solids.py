@@ -51,7 +51,7 @@ def _shared_solids() -> Iterator[None]:
         *more, dims = draw.args
         if type(dims.by_name) is not dict:  # they note what is read themselves
             return usual(name, draw, progress)
-        variants = parts.setdefault((draw.func, *more, shear_parts._pocket), [])  # which a test replaces
+        variants = parts.setdefault((draw.func, *more, dims.mode, shear_parts._pocket), [])  # a test replaces this
         for read, solid in variants:
             if all(dims.by_name.get(row) == value for row, value in read.items()):
                 return solid.copy()
