@@ -59,7 +59,9 @@ def comparison_sections(outcome: Outcome, texts: Mapping[str, str]) -> list[Sect
         *([Section("differ", "Different conditions", [Points(outcome.differences)])] if outcome.differences else []),
         Section("searches", "How they were found", [Points(list(_searches(outcome)))]),
         *([Section("not-done", "Not done", [Points(troubles)])] if troubles else []),
-        _studies(texts),
+        Section(
+            "study", "Studies", [Folded(label, [Listing(f"Study of {label}", text)]) for label, text in texts.items()]
+        ),
     ]
 
 
@@ -100,11 +102,6 @@ def _figures(outcome: Outcome) -> list[Section]:
         for drawing in drawings(outcome)
     ]
     return [Section("curves", "Fronts", drawn)] if drawn else []
-
-
-def _studies(texts: Mapping[str, str]) -> Section:
-    listed = [Folded(label, [Listing(f"Study of {label}", text)]) for label, text in texts.items()]
-    return Section("study", "Studies", listed)
 
 
 def reported_rows(outcome: Outcome) -> list[Grid]:

@@ -17,17 +17,6 @@ _BETTER = 1e-5
 """Share by which a design must be better to count as better."""
 
 
-def best_rows(choosing: Choosing, table: Table) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """Return columns, and a row for each of the best combinations: choices, objective and outputs against the best."""
-    best = choosing.best[0]
-    rows = []
-    for combination in choosing.best:
-        choices = (choice_text(name, value, table) for name, value in combination.choices.items())
-        shares = (combination.objective / best.objective - 1.0, *_shares(combination, best).values())
-        rows.append((*choices, *(f"{share:+.1%}" for share in shares)))
-    return (*best.choices, "objective", *best.values), rows
-
-
 def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | float] | None = None) -> str:
     """Return what standard sizes cost against the best design in between; empty where none is known.
 
@@ -52,9 +41,9 @@ def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | flo
             moved.append(f"{name} {choice_text(name, value, table)} instead of {_between(name, free, table)}")
     if not moved:
         return "Going standard costs nothing: the best design has listed sizes anyway."
-    shares = ", ".join(f"{name} {share:+.1%}" for name, share in _shares(best, between).items())
+    cost = ", ".join(f"{name} {share:+.1%}" for name, share in shares(best, between).items())
     whole = best.objective / between.objective - 1.0
-    return f"The price of going standard: {', '.join(moved)}: {shares}; objective {whole:+.1%}{margins}."
+    return f"The price of going standard: {', '.join(moved)}: {cost}; objective {whole:+.1%}{margins}."
 
 
 def _own(choosing: Choosing, own: Mapping[str, str | float] | None) -> Standard | None:
@@ -113,7 +102,7 @@ def choosing_data(
     if choosing is None:
         return None
     best, between = _own(choosing, own), choosing.between
-    shares = _shares(best, between) if best and between else {}
+    costs = shares(best, between) if best and between else {}
     return {
         "combinations": choosing.combinations,
         "solved": choosing.solved,
@@ -129,7 +118,7 @@ def choosing_data(
         "iterations": choosing.work.warm_iterations + choosing.work.cold_iterations,
         "best": [_plain(combination, table) for combination in choosing.best],
         "between_sizes": _plain(between, table) if between else None,
-        "cost_of_standard_sizes": shares
+        "cost_of_standard_sizes": costs
         | ({"objective": best.objective / between.objective - 1.0} if best and between else {}),
     }
 
@@ -144,7 +133,7 @@ def _plain(standard: Standard, table: Table) -> Listed:
     return {"choices": numbers(standard.choices), "objective": standard.objective, "outputs": numbers(standard.values)}
 
 
-def _shares(standard: Standard, other: Standard) -> dict[str, float]:
+def shares(standard: Standard, other: Standard) -> dict[str, float]:
     """Return how much more of each minimised output a design has than another, as a share."""
     return {name: value / other.values[name] - 1.0 for name, value in standard.values.items()}
 

@@ -39,11 +39,6 @@ def wrapped(text: str, width: int, begin: str = "", indent: str = "") -> list[st
     )
 
 
-def block(label: str, text: str, width: int, column: int = LABEL) -> list[str]:
-    """Return a paragraph that begins with its label, in a column of its own."""
-    return wrapped(text, width, label.ljust(column), " " * column)
-
-
 def joined(parts: Iterable[str], width: int, indent: str = "") -> list[str]:
     """Return short parts with dots between them; a line ends between two parts if they are more than it holds."""
     lines: list[str] = []
@@ -99,7 +94,7 @@ def print_block(item: Block, console: Console) -> None:
     elif isinstance(item, Facts):
         column = max([LABEL, *(len(label) + 1 for label, _ in item.rows)])
         for label, text in item.rows:
-            print_lines(block(label, text, console.width, column), console)
+            print_lines(wrapped(text, console.width, label.ljust(column), " " * column), console)
     elif isinstance(item, Words | Points):
         for line in item.lines:
             console.print(escape(line))

@@ -152,9 +152,8 @@ def _rows(output: str, swings: Sequence[Swing], nominal: float, table: Table) ->
         if swing.size < _LEAST * abs(nominal):
             continue
         rows.append({
-            "input": moved.name, "unit": pretty(unit), "description": table.quantity(moved.name).description,
+            "input": moved.name, "unit": pretty(unit), "output_unit": pretty(table.unit(output)),
             **{key: from_si(getattr(moved, key), unit) for key in ("value", "low", "high")},
-            "status": moved.status, "output_unit": pretty(table.unit(output)),
             "output_at_low": finite(from_si(swing.at_low, table.unit(output))),
             "output_at_high": finite(from_si(swing.at_high, table.unit(output))),
         })  # fmt: skip

@@ -9,7 +9,7 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Output, Table, table_for
 from tvimdesign.page.blocks import Grid
-from tvimdesign.report.output.choices_tables import best_rows
+from tvimdesign.report.output.choices_tables import choice_text, shares
 from tvimdesign.report.output.numbers import ends_text, in_unit, number, range_text
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
@@ -45,7 +45,12 @@ def variables_grid(answer: StudyResult) -> Grid:
 
 def choices_grid(choosing: Choosing, table: Table) -> Grid:
     """Return the best combinations of what is listed, against the first."""
-    heads, rows = best_rows(choosing, table)
+    best, rows = choosing.best[0], []
+    for combination in choosing.best:
+        choices = (choice_text(name, value, table) for name, value in combination.choices.items())
+        worse = (combination.objective / best.objective - 1.0, *shares(combination, best).values())
+        rows.append((*choices, *(f"{share:+.1%}" for share in worse)))
+    heads = (*best.choices, "objective", *best.values)
     return grid("The best of what is listed, against the first", heads, rows, right=range(len(heads)), code=())
 
 
