@@ -52,10 +52,14 @@ FILES = {"summary.txt": "all of this as text", "compare.csv": "every output", "f
 def comparison_sections(outcome: Outcome, texts: Mapping[str, str]) -> list[Section]:
     """Return what follows, the tables it follows from, figures and the studies; `texts` are the studies' files."""
     follows, troubles = outcome.conclusions[1:], outcome.failures
+    fronts: list[Block] = [
+        Drawn("fronts", "lines.js", "The fronts: each point is a whole design.", drawing.data, libraries=["echarts"])
+        for drawing in drawings(outcome)
+    ]
     return [
         *([Section("follows", "What follows", [Points(follows)])] if follows else []),
         _side_by_side(outcome),
-        *_figures(outcome),
+        *([Section("curves", "Fronts", fronts)] if fronts else []),
         *([Section("differ", "Different conditions", [Points(outcome.differences)])] if outcome.differences else []),
         Section("searches", "How they were found", [Points(list(_searches(outcome)))]),
         *([Section("not-done", "Not done", [Points(troubles)])] if troubles else []),
@@ -93,15 +97,6 @@ def _side_by_side(outcome: Outcome) -> Section:
     every = [side_by_side(COMPARISONS[which], rows) for which, rows in outcome.rows.items()]
     blocks: list[Block] = [*lines, *([Folded("Every output that all studies have", every)] if every else [])]
     return Section("side-by-side", "Side by side", blocks)
-
-
-def _figures(outcome: Outcome) -> list[Section]:
-    """Return the fronts, where there are any, their points marked."""
-    drawn: list[Block] = [
-        Drawn("fronts", "lines.js", "The fronts: each point is a whole design.", drawing.data, libraries=["echarts"])
-        for drawing in drawings(outcome)
-    ]
-    return [Section("curves", "Fronts", drawn)] if drawn else []
 
 
 def reported_rows(outcome: Outcome) -> list[Grid]:

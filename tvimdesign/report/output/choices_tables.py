@@ -61,16 +61,18 @@ def _same(choices: Mapping[str, str | float], own: Mapping[str, str | float]) ->
     )
 
 
-def choices_with_margins(answer: StudyResult) -> dict[str, str | float] | None:
-    """Return the design's own choices from lists, if margins may have led to another than the best combination."""
-    choosing = answer.solution.choosing if answer.solution else None
-    if choosing is None or not choosing.best or not answer.design.study.get("robust"):
-        return None
-    design = answer.design
+def own_choices(answer: StudyResult) -> dict[str, str | float]:
+    """Return the design's own choices from lists; empty where nothing is listed."""
+    choosing, design = answer.solution.choosing if answer.solution else None, answer.design
     return {
         name: design.choices.get(name, word) if isinstance(word, str) else design.values.get(name, word)
-        for name, word in choosing.best[0].choices.items()
+        for name, word in (choosing.best[0].choices if choosing and choosing.best else {}).items()
     }
+
+
+def choices_with_margins(answer: StudyResult) -> dict[str, str | float] | None:
+    """Return the design's own choices from lists, if margins may have led to another than the best combination."""
+    return own_choices(answer) or None if answer.design.study.get("robust") else None
 
 
 def tally_in_words(choosing: Choosing) -> str:

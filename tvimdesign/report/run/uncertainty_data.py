@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 import math
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -84,18 +83,14 @@ class Uncertainty:
         return self.model.at(resolved, modules, draws)
 
     def data(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> dict[str, Any]:
-        """Return the entry for results.json, with the assumptions for the screen and the seconds."""
-        began = time.perf_counter()
+        """Return the entry for results.json, with the assumptions for the screen."""
         uncertainty = self.of(design, modules, draws)
         rows = {
             name: _rows(name, interval.swings, interval.nominal, self.table)
             for name, interval in uncertainty.intervals.items()
         }
-        return {
-            **self.entry(uncertainty, modules, draws),
-            "assumptions": {name: rows.get(name, []) for name in self.asked},
-            "seconds": time.perf_counter() - began,
-        }
+        assumptions = {name: rows.get(name, []) for name in self.asked}
+        return {**self.entry(uncertainty, modules, draws), "assumptions": assumptions}
 
     def entry(self, uncertainty: DesignUncertainty, modules: int, draws: int) -> UncertaintyEntry:
         """Return plain data for results.json."""

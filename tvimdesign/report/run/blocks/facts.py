@@ -11,7 +11,7 @@ import numpy as np
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.device.core.task import ARM
-from tvimdesign.report.output.choices_tables import choice_text
+from tvimdesign.report.output.choices_tables import choice_text, own_choices
 from tvimdesign.report.output.numbers import (
     ends_text,
     in_labels,
@@ -309,8 +309,10 @@ def chosen_fact(answer: StudyResult) -> list[Fact]:
     if choosing is None or not choosing.best:
         return []
     table, ranked = table_for(answer.design.mode), choosing.best[0].choices
-    own = {name: choice_text(name, _of_design(answer, name, word), table) for name, word in ranked.items()}
-    shown = {name: choice_text(name, word, table) for name, word in ranked.items()}
+    own, shown = (
+        {name: choice_text(name, word, table) for name, word in choices.items()}
+        for choices in (own_choices(answer), ranked)
+    )
     first = [f"{label(name)} {word}" for name, word in shown.items() if word != own[name]]
     count = f"of {choosing.combinations} combinations"
     if not answer.design.study.get("robust"):
@@ -320,12 +322,6 @@ def chosen_fact(answer: StudyResult) -> list[Fact]:
     else:
         how = [f"best {count}, ranked without margins"]
     return [Fact("Chosen", [*(f"{label(name)} {word}" for name, word in own.items()), *how], listing=True)]
-
-
-def _of_design(answer: StudyResult, name: str, listed: str | float) -> str | float:
-    """Return the design's own choice of a record or a size, which is `listed` in the ranking."""
-    own = answer.design.choices.get(name) if isinstance(listed, str) else answer.design.values.get(name)
-    return listed if own is None else own
 
 
 def _current(answer: StudyResult, table: Table) -> list[Fact]:
