@@ -52,7 +52,7 @@ def run(
         typer.Option("--resume", help="Continue the front of an earlier run in that folder that was stopped."),
     ] = False,
     prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
-    full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="Print the tables, too, as summary.txt has them.")] = False,
     time_limit: options.TimeLimit = "",
     verified: Annotated[
         bool, typer.Option("--verify", help="Check the design against finite elements after it, as `verify` does.")

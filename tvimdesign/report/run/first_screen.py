@@ -190,4 +190,4 @@ def write_summary(answered: AnsweredStudy, folder: ResultsFolder) -> None:
 
 def look_first(folder: str, width: int) -> list[str]:
     """Return where to look first: the page of the folder, and the tables."""
-    return joined([f"Look first: {folder}/{PAGE}", f"all tables and warnings: {FILE}"], width)
+    return joined([f"Look first: {folder}/{PAGE}", f"tables and warnings: {FILE}"], width)

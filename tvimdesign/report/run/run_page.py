@@ -58,7 +58,7 @@ from tvimdesign.study.design import write_design
 from tvimdesign.study.tree import StudyTree, study_file, study_text
 
 _FILES = {
-    "summary.pdf": "this screen as one page", "summary.txt": "all tables as text", "results.csv": "every value",
+    "summary.pdf": "this screen as one page", "summary.txt": "tables as text", "results.csv": "every value",
     "why.csv": "shadow prices", "front.csv": "the front",
     "cad/assembly.step": "the assembly as STEP", "cad/bom.csv": "bill of materials",
     "cad/springs/spring.pdf": "spring sheet", "cad/checks.json": "checks on the solids",
