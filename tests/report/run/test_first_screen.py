@@ -131,7 +131,7 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
     value, text = case(name).result.design.value, " ".join(line.strip() for line in first_screen(case(name), width))
     lost = value("lost_motion") / value("stroke")
     rubs = value("friction_torque") / value("spring_torque_full_stroke")
-    for share, whole in ((lost, "the stroke"), (rubs, "spring torque")):
+    for share, whole in ((lost, r"the ±[\d.]+° stroke"), (rubs, "spring torque")):
         shown = re.search(rf"(\d+) % (\(\d+ to \d+\) )?of {whole}", text)
         assert bool(shown) == (share > 0.1), (whole, share)
         assert not shown or float(shown[1]) / 100.0 == pytest.approx(share, abs=0.006)

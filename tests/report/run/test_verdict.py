@@ -74,6 +74,8 @@ def sides(*texts: str) -> ConflictSet:
          "Build it"),
         (answer(), SURE, [],
          "Build it; on the first module measure the structure layer strength"),
+        (answer(), SURE, [RunWarning("cutout margin is -8 K", but="no listed cut-out fits")],
+         "Build it, but no listed cut-out fits; on the first module measure the structure layer strength"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip

@@ -134,7 +134,7 @@ def test_a_run_has_each_warning_that_compare_has(extra: str) -> None:
     assert ("hot_point_margin" in of_compare) == bool(extra)
     if extra:
         assert missed_points(found) == {}
-        assert warned[of_compare["hot_point_margin"]][1:] == ("", "")
+        assert warned[of_compare["hot_point_margin"]][1:] == ("", "", "")
 
 
 def _said(text: str, **module: float) -> str:

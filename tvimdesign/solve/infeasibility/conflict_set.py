@@ -151,7 +151,7 @@ def _conflict_set(
             _moved(optimizer, limits[k], float(least.slacks[k]), float(least.slacks[k]) if len(broken) == 1 else None)
             for k in sorted(broken, key=lambda place: -least.slacks[place])
         ),
-        sides=tuple(sides),
+        sides=tuple(sorted(sides, key=lambda side: (not side.move_words, side.origin != "require"))),
         ends=tuple(_ends_in_words(optimizer, ends)),
     )
 
@@ -195,7 +195,9 @@ def conflict_in_words(conflict_set: ConflictSet) -> list[str]:
         lines = [f"{_named(side)} cannot hold within the ranges, {seen}: {_place(side)}."]
     else:
         lines = [f"These cannot hold together, {seen}:"]
-        lines += [f"  {_named(side)}: {_place(side)}" for side in conflict_set.sides]
+        stuck = [side for side in conflict_set.sides if side.beside and not side.move_words]
+        lines += [f"  {_named(side)}: {_place(side)}" for side in conflict_set.sides if side not in stuck]
+        lines += [f"  moving only one of these is not enough: {', '.join(map(_named, stuck))}"] if stuck else []
     if conflict_set.ends:
         lines.append(f"Ends of ranges that keep {'it' if alone else 'them'} from it: {', '.join(conflict_set.ends)}.")
     return lines

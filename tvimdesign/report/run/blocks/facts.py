@@ -134,7 +134,7 @@ def _lost_motion(value: _Values, *, much: bool = True) -> list[Fact]:
     """
     shares = {"lost_motion": value.values["lost_motion"] / value.values["stroke"]}
     shares["friction_share"] = value.values["friction_share"]
-    wholes = {"lost_motion": f"the stroke, ±{from_si(value.values['stroke'], 'deg'):.3g}°"}
+    wholes = {"lost_motion": f"the ±{from_si(value.values['stroke'], 'deg'):.3g}° stroke"}
     wholes["friction_share"] = "spring torque"
     shown = [name for name, share in shares.items() if (share > _LARGE) is much]
     if not shown:

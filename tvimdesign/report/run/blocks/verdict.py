@@ -10,7 +10,8 @@
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
-9. *Build it*; with what to measure on the first module where that limit is met in less than `SURE` of the cases.
+9. *Build it*; with what to measure on the first module where that limit is met in less than `SURE` of the cases, and
+   with a bought part that is not to be had.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
 
@@ -83,7 +84,7 @@ def verdict(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Seque
         or _add_margins(answer, uncertainty)
         or _not_yet(warnings)
         or _measure(uncertainty)
-        or _fit(answer, uncertainty)
+        or _fit(answer, uncertainty, warnings)
     )
 
 
@@ -195,12 +196,14 @@ def measure_first(output: str, uncertainty: Mapping[str, Any]) -> str:
     return next(iter(uncertainty.get("intervals", {}).get(output, {}).get("shares", {})), "")
 
 
-def _fit(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict:
+def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence[RunWarning]) -> Verdict:
+    but = "".join(f", but {warning.but}" for warning in warnings if warning.but)
     if uncertainty:
         name, share = most_in_doubt(uncertainty)
         first = measure_first(name, uncertainty) if name and share < SURE else ""
-        return Verdict("build", f"Build it; on the first module measure the {label(first)}" if first else "Build it")
-    return Verdict("unassessed", "Every limit is met" if answer.solution is None else "Optimum found")
+        measured = f"; on the first module measure the {label(first)}" if first else ""
+        return Verdict("build", f"Build it{but}{measured}")
+    return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:

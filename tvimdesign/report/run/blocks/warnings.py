@@ -38,6 +38,8 @@ class RunWarning(NamedTuple):
     cure: str = ""
     """A line of the study behind *write* if it was tried, behind *try* if it was not."""
     level: str = ""
+    but: str = ""
+    """What the verdict *Build it* says besides, of a part that is not to be had."""
 
     @property
     def grave(self) -> bool:
@@ -102,7 +104,8 @@ def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
             cure = f"{_VARY} {remedy.line}"
         if check.output in above:
             cure = f"{cure} or accept: [{check.output}]".removeprefix(" or ")
-        yield RunWarning(advice_text(check.output, check.value, check.origin, table), cure, levels[check.output])
+        text, but = advice_text(check.output, check.value, check.origin, table), _hint(check.output).get("but", "")
+        yield RunWarning(text, cure, levels[check.output], but)
 
 
 def advice_text(output: str, value: float, origin: str, table: Table) -> str:
