@@ -1,14 +1,16 @@
 """Solids of keys, cover and inserts: they fit where the rows say, and what is wrong with them on purpose is found."""
 
 from collections.abc import Mapping
-from math import cos, pi, sin
+from math import cos, hypot, pi, sin
 
 import cadquery as cq
 import pytest
 from cad_designs import broken_rules, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_part
+from tvimdesign.cad.export.print_files import with_wider_holes
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.inspection.inspect import thread_checks
@@ -39,6 +41,16 @@ def drawn(dims: Dimensions) -> dict[str, cq.Solid]:
     kinds = ("housing", "rotor", "pcl_arc", "heater", "cover", "cover_screw", "cover_insert", "link_insert",
              "retainer_insert", "link_screw", "retainer_screw")  # fmt: skip
     return {kind: drawn_part(dims, kind) for kind in kinds}
+
+
+def test_the_cover_keeps_the_least_wall_between_its_widened_holes() -> None:
+    dims = dimensions(design_of("screwed", {"cover": "plate"}))
+    printed = with_wider_holes(drawn_part(dims, "cover"), dims.hole_compensation)
+    ahead = [hole for hole in holes(printed) if hole.x > 1.0 and abs(hole.x - hole.y) < 1.0]
+    foot, screw = sorted(ahead, key=lambda hole: hole.x)
+    assert dims.hole_compensation > 0.0
+    wall = hypot(screw.x - foot.x, screw.y - foot.y) - foot.radius - screw.radius
+    assert wall == pytest.approx(dims.minimum_wall + dims.cover_mount_gap)
 
 
 def shared(placed: Mapping[str, cq.Shape], *kinds: str) -> dict[str, float]:

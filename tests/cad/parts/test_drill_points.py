@@ -1,16 +1,20 @@
 """Drill points of blind holes and dots of scales, and the closed jig around the parts that are cast in it."""
 
-from math import atan2, degrees, hypot, radians, tan
+from math import atan2, degrees, hypot, radians, sin, tan
 
 import cadquery as cq
 import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, DRIVEN_BLOCKS, design_of
+from sample_solids import of
 
 from tvimdesign.cad.assembly.assembly import drawn_part, drawn_parts, place
+from tvimdesign.cad.export.mesh import solid_mesh
+from tvimdesign.cad.export.print_files import with_wider_holes
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.features import Cylinder, holes
 from tvimdesign.cad.geometry.spring_solids import installed_coil
-from tvimdesign.cad.inspection.inspect import casting_checks, casting_gap
+from tvimdesign.cad.inspection.inspect import casting_checks, casting_gap, part_checks
+from tvimdesign.cad.inspection.rays import Triangles, wall_checks
 from tvimdesign.cad.inspection.size_checks import size_checks
 from tvimdesign.cad.parts import jigs
 
@@ -65,6 +69,20 @@ def test_the_scale_has_dots_every_thirty_degrees_and_a_mark() -> None:
     assert len(marks) == dims.count("spring_count")
     for azimuth, (x, y) in zip(dims.azimuths("spring_count"), _in_order(marks), strict=True):
         assert (degrees(atan2(y, x) - azimuth) + 180.0) % 360.0 - 180.0 > 0.0
+
+
+def test_dots_of_a_scale_leave_no_thin_wall() -> None:
+    changes = {"preload_adjuster": "rotary", "coil_diameter": 6.1e-3, "wire_diameter": 1.1e-3}
+    design = design_of("small scale", changes | {"adjuster_screw": "iso_4762_m2", "adjuster_screw_length": 6e-3})
+    dims = dimensions(design)
+    adjuster = drawn_part(dims, "adjuster")
+    apart = 2.0 * dims.scale_circle_radius * sin(radians(15.0)) - dims.scale_dot_diameter - dims.hole_compensation
+    assert apart < dims.minimum_wall
+    printed = Triangles(solid_mesh(with_wider_holes(adjuster, dims.hole_compensation)))
+    assert wall_checks("adjuster", printed, dims.minimum_wall, 0.8)[0].value == pytest.approx(apart, abs=0.02)
+    wall = of(part_checks(design, dims, "adjuster", adjuster))["wall"]
+    assert wall.value >= dims.minimum_wall - 0.02
+    assert "but for the scale's dots" in wall.text
 
 
 def _in_order(marks: list[Cylinder]) -> list[tuple[float, float]]:

@@ -16,6 +16,7 @@ from scipy.spatial import KDTree
 
 from tvimdesign.cad.cad_report import Level, SolidCheck, at_least, finding
 from tvimdesign.cad.export.mesh import CHORD, Array, Mesh
+from tvimdesign.cad.geometry.features import Cylinder
 
 Index = NDArray[np.int64]
 LEAF = 4
@@ -272,19 +273,42 @@ Faces that meet at a wider angle make an edge, such as that of a driver's slot w
 """
 
 
-def wall_checks(part: str, triangles: Triangles, minimum_wall: float, thinnest_wall: float) -> list[SolidCheck]:
-    """Compare the walls of a part with the process [mm], and report edges that taper to nothing."""
+def wall_checks(
+    part: str, triangles: Triangles, minimum_wall: float, thinnest_wall: float, dots: Sequence[Cylinder] = ()
+) -> list[SolidCheck]:
+    """Compare the walls of a part with the process [mm], and report edges that taper to nothing.
+
+    What is left between the `dots` of a scale is no wall: it is lower than it is thick.
+    """
     everywhere = samples(triangles, SPACING)
+    everywhere = everywhere.of(_beside(everywhere.point, dots))
     coarse = wall_thickness(triangles, everywhere)
     thin = coarse < minimum_wall
     thin[np.argsort(coarse)[:_AROUND]] = True
     where = samples(triangles, SPACING / _CLOSER, np.unique(everywhere.triangle[thin]))
+    where = where.of(_beside(where.point, dots))
     thickness = wall_thickness(triangles, where)
     tapering = _tapering(where, thickness, minimum_wall)
     return [
-        _thinnest(part, where.of(~tapering), thickness[~tapering], minimum_wall, thinnest_wall),
+        _thinnest(
+            part,
+            where.of(~tapering),
+            thickness[~tapering],
+            minimum_wall,
+            thinnest_wall,
+            "wall but for the scale's dots" if dots else "wall",
+        ),
         _edges(part, where.of(tapering), thickness[tapering], minimum_wall),
     ]
+
+
+def _beside(points: Array, dots: Sequence[Cylinder]) -> NDArray[np.bool_]:
+    """Return which points lie in no dot, its point included."""
+    outside = np.ones(len(points), dtype=bool)
+    for dot in dots:
+        near = np.hypot(points[:, 0] - dot.x, points[:, 1] - dot.y) < dot.radius + CHORD
+        outside &= ~(near & (points[:, 2] > dot.bottom - dot.radius) & (points[:, 2] < dot.top - CHORD))
+    return outside
 
 
 def slot_check(part: str, triangles: Triangles, least_gap: float) -> SolidCheck:
@@ -332,11 +356,13 @@ def _tapering(where: Samples, thickness: Array, minimum_wall: float) -> NDArray[
     return tapering
 
 
-def _thinnest(part: str, where: Samples, thickness: Array, minimum_wall: float, thinnest_wall: float) -> SolidCheck:
+def _thinnest(
+    part: str, where: Samples, thickness: Array, minimum_wall: float, thinnest_wall: float, what: str
+) -> SolidCheck:
     # The mesh lies within CHORD of the part: a round wall of just the least thickness comes out thinner by as much.
     at = int(np.argmin(thickness))
     least = float(thickness[at])
-    text = f"the thinnest wall is {least:.3g} mm; the process makes {minimum_wall:.3g} mm"
+    text = f"the thinnest {what} is {least:.3g} mm; the process makes {minimum_wall:.3g} mm"
     return finding(
         part, "wall", least, minimum_wall, "mm", at_least(least, minimum_wall - CHORD, thinnest_wall - 1e-6), text,
         place=where.point[at] - 0.5 * least * where.normal[at], resolution=SPACING,
