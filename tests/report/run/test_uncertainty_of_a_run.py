@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from comparable import COARSE
 
+from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import table_for
+from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult, answer
@@ -69,6 +71,24 @@ def test_the_assumed_input_shown_moves_its_output_most(
     assert swing.moved.name in TABLE.ancestors(output)
     assert swing.at_low == pytest.approx(at(swing.moved.name, swing.moved.low), rel=1e-9)
     assert swing.at_high == pytest.approx(at(swing.moved.name, swing.moved.high), rel=1e-9)
+
+
+@pytest.mark.gate
+def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(
+    found: StudyResult, module: ResolvedModule, model: UncertaintyModel
+) -> None:
+    data = Uncertainty(STUDY).data(found.design, 0)
+    limit = next(limit for limit in model.limits if limit.name == next(iter(data["held"])))
+    main = next(iter(data["intervals"][limit.output]["shares"]))
+    sense, number = data["needs"].removeprefix(f"{label(main)} ").split(" ", 1)
+
+    def met(factor: float) -> bool:
+        value = factor * parse_quantity(number, TABLE.unit(main))
+        reached = TABLE.evaluate({**module.values, main: value}, [limit.output])[limit.output]
+        return bool(limit.residual(float(reached)) <= 0.0)
+
+    assert met(0.97) is (sense == "<=")
+    assert met(1.03) is (sense == ">=")
 
 
 def test_limits_on_what_follows_a_profile_are_left_out_and_named(found: StudyResult) -> None:

@@ -11,13 +11,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.output.numbers import finite, in_unit, number_entry, percent, with_unit
+from tvimdesign.report.output.numbers import finite, in_unit, label, number_entry, percent, with_unit
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.nlp.spread import Yield
@@ -90,7 +93,28 @@ class Uncertainty:
             for name, interval in uncertainty.intervals.items()
         }
         assumptions = {name: rows.get(name, []) for name in self.asked}
-        return {**self.entry(uncertainty, modules, draws), "assumptions": assumptions}
+        entry = self.entry(uncertainty, modules, draws)
+        return {**entry, "assumptions": assumptions, "needs": self._needs(uncertainty)}
+
+    def _needs(self, uncertainty: DesignUncertainty) -> str:
+        """Return the values of the main unmeasured input that the limit most in doubt is met with, alone; or nothing.
+
+        In words, linear between the ends of its range and the value as drawn.
+        """
+        limit = next((limit for limit in self.model.limits if limit.name in list(uncertainty.held)[:1]), None)
+        interval = uncertainty.intervals.get(limit.output) if limit else None
+        main = next(iter(interval.shares), "") if interval else ""
+        swing = next((swing for swing in interval.swings if swing.moved.name == main), None) if interval else None
+        if limit is None or interval is None or swing is None:
+            return ""
+        at = np.array([swing.moved.low, swing.moved.value, swing.moved.high])
+        residuals = limit.residual(np.array([swing.at_low, interval.nominal, swing.at_high])) - ALGEBRAIC_TOLERANCE
+        rising = residuals[0] < residuals[2]
+        if not np.all(np.isfinite(residuals)) or np.min(residuals) > 0.0 or np.max(residuals) <= 0.0:
+            return ""
+        order = slice(None) if rising else slice(None, None, -1)
+        end = float(np.interp(0.0, residuals[order], at[order]))
+        return f"{label(main)} {'<=' if rising else '>='} {with_unit(end, self.table.unit(main), 3)}"
 
     def entry(self, uncertainty: DesignUncertainty, modules: int, draws: int) -> UncertaintyEntry:
         """Return plain data for results.json."""

@@ -24,7 +24,7 @@ from tvimdesign.report.output.numbers import (
 )
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.output.terminal import DOT
-from tvimdesign.report.run.blocks.verdict import SURE, measure_first, most_in_doubt
+from tvimdesign.report.run.blocks.verdict import most_in_doubt
 from tvimdesign.report.run.reasons import binding
 from tvimdesign.report.run.uncertainty_data import changes, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
@@ -206,9 +206,8 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     name, share = most_in_doubt(uncertainty)
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
-    first = measure_first(name, uncertainty) if share >= SURE else ""  # the verdict names it
     text = f"if not, {label(name)} fails first, in {100.0 * (1.0 - share):.0f} % of cases"
-    return [Fact("Model", [text, *([f"measure {label(first)}"] if first else [])])]
+    return [Fact("Model", [text], f"needs {uncertainty['needs']}" if uncertainty.get("needs") else "")]
 
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
