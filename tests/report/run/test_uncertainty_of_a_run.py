@@ -95,7 +95,7 @@ def test_limits_on_what_follows_a_profile_are_left_out_and_named(found: StudyRes
     profiled = STUDY.model_copy(update={"profile": STUDY.profile.model_copy(update={"softening": 2})})
     study = profiled.model_copy(update={"tolerances": standard_tolerances(TABLE)})
     resolved = ResolvedModule(study, resolve_design(found.design).values)
-    said = UncertaintyModel(resolved, ASKED).at(resolved, 256, 8)
-    assert said.left_out == ("response_time <=",)
-    assert "response_time" not in said.intervals
-    assert np.isfinite(said.together.share)
+    profiled_uncertainty = UncertaintyModel(resolved, ASKED).at(resolved, 256, 8)
+    assert profiled_uncertainty.left_out == ("response_time <=",)
+    assert "response_time" not in profiled_uncertainty.intervals
+    assert np.isfinite(profiled_uncertainty.together.share)
