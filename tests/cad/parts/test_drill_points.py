@@ -82,7 +82,7 @@ def test_dots_of_a_scale_leave_no_thin_wall() -> None:
     assert wall_checks("adjuster", printed, dims.minimum_wall, 0.8)[0].value == pytest.approx(apart, abs=0.02)
     wall = of(part_checks(design, dims, "adjuster", adjuster))["wall"]
     assert wall.value >= dims.minimum_wall - 0.02
-    assert "but for the scale's dots" in wall.text
+    assert "beside its scale" in wall.text
 
 
 def _in_order(marks: list[Cylinder]) -> list[tuple[float, float]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from math import atan2, cos, hypot, pi, sin
 
 import cadquery as cq
@@ -16,9 +15,9 @@ from tvimdesign.cad.cad_report import SolidCheck, at_least, at_most, finding
 from tvimdesign.cad.export.mesh import Mesh, solid_mesh
 from tvimdesign.cad.export.print_files import with_wider_holes
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.features import Cylinder, boxes_meet, holes, tight_box
+from tvimdesign.cad.geometry.features import boxes_meet, holes, tight_box
 from tvimdesign.cad.geometry.kinds import PRODUCTION, kind_of, supported_levels
-from tvimdesign.cad.geometry.solids import cylinder, polar, turned
+from tvimdesign.cad.geometry.solids import cylinder, join, polar, turned
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil
 from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling_checks
 from tvimdesign.cad.inspection.order import order_checks
@@ -28,6 +27,7 @@ from tvimdesign.cad.inspection.size_checks import TOUCHING, interference_checks
 from tvimdesign.cad.parts import jigs
 from tvimdesign.cad.parts.common_parts import between_springs, link_dowels, link_screws, mounts, stop_azimuths
 from tvimdesign.cad.parts.fasteners import insert_length, insert_places
+from tvimdesign.cad.parts.fittings import scale
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
 
@@ -181,17 +181,6 @@ def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:
     return cq.Vector(-side * sin(around), side * cos(around), -1.0 if kind == "liner" else 1.0)
 
 
-def _dots(dims: Dimensions, adjuster: cq.Solid) -> list[Cylinder]:
-    """Return the dots of an adjuster's scale, as wide as they are printed."""
-    wider = 0.5 * dims.hole_compensation
-    return [
-        replace(hole, radius=hole.radius + wider)
-        for hole in holes(adjuster)
-        if abs(hole.radius - 0.5 * dims.scale_dot_diameter) < _ROUNDING
-        and abs(hole.top - hole.bottom - dims.scale_dot_depth) < _ROUNDING
-    ]
-
-
 def part_checks(
     design: Design, dims: Dimensions, kind: str, solid: cq.Solid, mesh: Mesh | None = None
 ) -> list[SolidCheck]:  # fmt: skip
@@ -200,9 +189,12 @@ def part_checks(
     triangles, bed = Triangles(mesh), (dims.bed_length, dims.bed_width, dims.bed_height)
     made = with_wider_holes(solid, dims.hole_compensation, link_dowels(dims))
     walls = triangles if made is solid else Triangles(solid_mesh(made))
-    dots = _dots(dims, solid) if kind == "adjuster" else []
-    found = [solid_check(kind, solid), *wall_checks(kind, walls, dims.minimum_wall, dims.thinnest_wall, dots)]
-    found.append(slot_check(kind, walls, dims.minimum_running_clearance))
+    found = [solid_check(kind, solid), slot_check(kind, walls, dims.minimum_running_clearance)]
+    what = "wall"
+    if kind == "adjuster":  # what is left between the dots of its scale is lower than it is thick
+        plain = join(solid, scale(dims)).Solids()[0]
+        walls, what = Triangles(solid_mesh(with_wider_holes(plain, dims.hole_compensation))), "wall beside its scale"
+    found += wall_checks(kind, walls, dims.minimum_wall, dims.thinnest_wall, what)
     if design.choices.get("making_method") == "milled":
         drilled = holes(solid)
         found += milling_checks(kind, triangles, drilled, dims.pocket_depth_ratio)

@@ -16,7 +16,6 @@ from scipy.spatial import KDTree
 
 from tvimdesign.cad.cad_report import Level, SolidCheck, at_least, finding
 from tvimdesign.cad.export.mesh import CHORD, Array, Mesh
-from tvimdesign.cad.geometry.features import Cylinder
 
 Index = NDArray[np.int64]
 LEAF = 4
@@ -274,41 +273,20 @@ Faces that meet at a wider angle make an edge, such as that of a driver's slot w
 
 
 def wall_checks(
-    part: str, triangles: Triangles, minimum_wall: float, thinnest_wall: float, dots: Sequence[Cylinder] = ()
+    part: str, triangles: Triangles, minimum_wall: float, thinnest_wall: float, what: str = "wall"
 ) -> list[SolidCheck]:
-    """Compare the walls of a part with the process [mm], and report edges that taper to nothing.
-
-    What is left between the `dots` of a scale is no wall: it is lower than it is thick.
-    """
+    """Compare the walls of a part with the process [mm], and report edges that taper to nothing."""
     everywhere = samples(triangles, SPACING)
-    everywhere = everywhere.of(_beside(everywhere.point, dots))
     coarse = wall_thickness(triangles, everywhere)
     thin = coarse < minimum_wall
     thin[np.argsort(coarse)[:_AROUND]] = True
     where = samples(triangles, SPACING / _CLOSER, np.unique(everywhere.triangle[thin]))
-    where = where.of(_beside(where.point, dots))
     thickness = wall_thickness(triangles, where)
     tapering = _tapering(where, thickness, minimum_wall)
     return [
-        _thinnest(
-            part,
-            where.of(~tapering),
-            thickness[~tapering],
-            minimum_wall,
-            thinnest_wall,
-            "wall but for the scale's dots" if dots else "wall",
-        ),
+        _thinnest(part, where.of(~tapering), thickness[~tapering], minimum_wall, thinnest_wall, what),
         _edges(part, where.of(tapering), thickness[tapering], minimum_wall),
     ]
-
-
-def _beside(points: Array, dots: Sequence[Cylinder]) -> NDArray[np.bool_]:
-    """Return which points lie in no dot, its point included."""
-    outside = np.ones(len(points), dtype=bool)
-    for dot in dots:
-        near = np.hypot(points[:, 0] - dot.x, points[:, 1] - dot.y) < dot.radius + CHORD
-        outside &= ~(near & (points[:, 2] > dot.bottom - dot.radius) & (points[:, 2] < dot.top - CHORD))
-    return outside
 
 
 def slot_check(part: str, triangles: Triangles, least_gap: float) -> SolidCheck:

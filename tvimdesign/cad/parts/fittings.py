@@ -46,10 +46,10 @@ def adjuster(dims: Dimensions) -> cq.Shape:
     pilot = blind_hole(dims.adjuster_screw_hole, bottom, bottom + dims.adjuster_screw_depth, dims.drill_point_ratio)
     across = (-dims.adjuster_radius, dims.adjuster_radius)
     slot = block(across, dims.driver_slot_width, top - dims.driver_slot_depth, top)
-    return body.cut(tang, *pilot, slot, *_scale(dims))
+    return body.cut(tang, *pilot, slot, *scale(dims))
 
 
-def _scale(dims: Dimensions) -> list[cq.Shape]:
+def scale(dims: Dimensions) -> list[cq.Shape]:
     """Draw the dots of a flange, from its tang on around the axis."""
     tang = atan2(*reversed(installed_coil(dims).tang_position))
     places = [
