@@ -201,8 +201,8 @@ def heater_order(design: Design) -> list[str]:
         amperes = current / design.values.get("heater_strings", 1.0)
         watts = amperes**2 * ohms
         dense = 1e-4 * watts * count / area
-        given = f", which the driver makes from {design.supply_voltage:.4g} V" if design.supply_voltage else ""
-        works = f"{amperes * ohms:.3g} V and {amperes:.3g} A{given}"
+        works = f"{amperes * ohms:.3g} V and {amperes:.3g} A"
+        works += f", which the driver makes from {design.supply_voltage:.4g} V" if design.supply_voltage else ""
         order.append(f"at most {watts:.3g} W each, at {works}, {dense:.2g} W/cm²")
         leads += f" of {wire.gauge} or thicker" if (wire := _wire(amperes)) else f" for {up(amperes)} A"
     long, ledge = (1e3 * design.value(name) for name in ("envelope_diameter", "window_ledge"))

@@ -62,18 +62,25 @@ def wiring_svg(design: Design, extra: Sequence[Item]) -> bytes:
         shapes.append(_line([(_LEFT + _BOX, low + across), (driver, low + across)], colour))
     shapes += _box(_LEFT, low, "step-down converter", "for the controller")
     shapes += _box(driver, low, "controller", number.get("controller", "").partition("(")[2].rstrip(")"), 2 * deep - 30)
-    return _drawing(right + _LEFT, low + 2 * deep, [*shapes, *_dividers(design, driver + _BOX, low), _key(design)])
+    shapes += _dividers(design, driver + _BOX, low)
+    cools = design.values.get("cooling_current", 0.0) > 0.0
+    key = " while it heats, return while it cools" if cools else ""
+    body = "\n".join([*shapes, _words(_LEFT, 20, f"red: +{key}; black: return; grey: signals.", "start")])
+    size = 'width="{0:g}" height="{1:g}" viewBox="0 0 {0:g} {1:g}"'.format(right + _LEFT, low + 2 * deep)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="sans-serif" font-size="12">\n'
+        f'<rect width="100%" height="100%" fill="white"/>\n{body}\n</svg>\n'
+    ).encode()
 
 
 def _dividers(design: Design, left: float, low: float) -> list[str]:
     """Return a thermistor's divider, right of the controller: 3.3 V, resistor, input, thermistor, ground."""
     sensors = round(design.values.get("thermistor_count", 1.0))
-    each = f"{sensors} inputs, a divider each" if sensors > 1 else "input"
-    x, deep = left + 60, _HIGH + 30
-    middle, half = x + 0.5 * _BOX, 0.5 * _HIGH
+    plural, each = ("s", f"{sensors} inputs, a divider each") if sensors > 1 else ("", "input")
+    x, deep, middle, half = left + 60, _HIGH + 30, left + 60 + 0.5 * _BOX, 0.5 * _HIGH
     return [
-        *_box(x, low, f"{sensors} resistor{'s' if sensors > 1 else ''}", DIVIDER),
-        *_box(x, low + deep, f"{sensors} thermistor{'s' if sensors > 1 else ''}", "NTC 10 kohm"),
+        *_box(x, low, f"{sensors} resistor{plural}", DIVIDER),
+        *_box(x, low + deep, f"{sensors} thermistor{plural}", "NTC 10 kohm"),
         _line([(left, low + half), (x, low + half)], _RED),
         _line([(middle, low + _HIGH), (middle, low + deep)], _GREY),
         _line([(left, low + _HIGH + 15), (middle, low + _HIGH + 15)], _GREY),
@@ -82,23 +89,6 @@ def _dividers(design: Design, left: float, low: float) -> list[str]:
         _words(middle + 8, low + _HIGH + 19, each, "start"),
         _words(left + 30, low + deep + half - 5, "ground", "middle"),
     ]
-
-
-def _key(design: Design) -> str:
-    """Return what the colours are; a driver that turns the current round cools only what pumps heat."""
-    cools = design.values.get("cooling_current", 0.0) > 0.0
-    key = f"red: +{' while it heats' if cools else ''}; black: return; grey: signals."
-    key += " A driver that turns the current round cools." if cools else ""
-    return _words(_LEFT, 20, key, "start")
-
-
-def _drawing(width: float, height: float, shapes: Sequence[str]) -> bytes:
-    size = f'width="{width:g}" height="{height:g}" viewBox="0 0 {width:g} {height:g}"'
-    body = "\n".join(shapes)
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="sans-serif" font-size="12">\n'
-        f'<rect width="100%" height="100%" fill="white"/>\n{body}\n</svg>\n'
-    ).encode()
 
 
 def _box(x: float, y: float, name: str, number: str, high: float = _HIGH) -> list[str]:

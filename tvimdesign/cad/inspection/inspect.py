@@ -194,7 +194,7 @@ def part_checks(
     if kind == "adjuster":  # what is left between the dots of its scale is lower than it is thick
         plain = join(solid, scale(dims)).Solids()[0]
         walls, what = Triangles(solid_mesh(with_wider_holes(plain, dims.hole_compensation))), "wall beside its scale"
-    found += wall_checks(kind, walls, dims.minimum_wall, dims.thinnest_wall, what)
+    found.extend(wall_checks(kind, walls, dims.minimum_wall, dims.thinnest_wall, what))
     if design.choices.get("making_method") == "milled":
         drilled = holes(solid)
         found += milling_checks(kind, triangles, drilled, dims.pocket_depth_ratio)
