@@ -6,7 +6,7 @@ from tvimdesign.cad.assembly.offers import QUOTE, offer_for, offers, total
 from tvimdesign.catalog import Catalog
 
 KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
-KINDS |= {"spring_right", "spring_left", "preload_spring", "heater", "thermal_cutout"}
+KINDS |= {"preload_spring", "heater", "thermal_cutout"}
 BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"
 
 

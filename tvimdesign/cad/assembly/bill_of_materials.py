@@ -310,13 +310,11 @@ def _supply(design: Design) -> list[Item]:
     asks = bears = (volts, amperes)
     asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
     driver, supply = f"H-bridge, current controlled {ways}, {asked}", f"DC supply, {asked}"
-    from_volts = f"{up(volts)} V or more"
     if (given := design.supply_voltage) is not None:
-        from_volts = f"{given:.4g} V"
         bears = given, volts * amperes / given / _EFFICIENCY  # power is what stays
         supply = f"DC supply of {given:.4g} V, at least {up(bears[1])} A"
         driver = f"Step-down driver, current controlled {ways}, from {given:.4g} V, {asked}"
-    sensors = round(design.values.get("thermistor_count", 1.0))
+    sensors, given = round(design.values.get("thermistor_count", 1.0)), given or float(up(volts))
     controller = (
         f"Controller with an output that sets the driver's current, and 3.3 V inputs for thermistors: {sensors}"
     )
@@ -324,7 +322,7 @@ def _supply(design: Design) -> list[Item]:
         Item("supply", 1, False, "", supply, 0.0, (), asks=bears),
         Item("driver", 1, False, "", driver, 0.0, (), asks=asks),
         Item("controller", 1, False, "", controller, 0.0, ()),
-        Item("controller_supply", 1, False, "", f"Step-down converter for the controller, from {from_volts}", 0.0, ()),
+        Item("controller_supply", 1, False, "", f"Step-down converter for the controller, from {given:.4g} V", 0.0, ()),
         Item("divider_resistor", sensors, False, "", f"Resistor, {DIVIDER}, from 3.3 V to a thermistor", 0.0, ()),
     ]
 

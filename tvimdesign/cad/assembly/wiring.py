@@ -29,10 +29,7 @@ def strings(design: Design) -> list[list[int]]:
 
 
 def wiring_svg(design: Design, extra: Sequence[Item]) -> bytes:
-    """Return the diagram as SVG; `extra` are the lines of the list of parts that name what feeds and controls.
-
-    The heaters' return comes to the driver from the right and its signal from below, so that no lines cross.
-    """
+    """Return the diagram as SVG, no lines crossing; `extra` are lines of the list of parts: what feeds and controls."""
     rows = strings(design)
     number = {item.kind: item.offer.number if item.offer else "" for item in extra}
     feed = [("DC supply", number.get("supply", "")), ("driver", number.get("driver", ""))]
