@@ -3,11 +3,14 @@
 import math
 import re
 from functools import cache
+from types import SimpleNamespace
+from typing import Any, cast
 
+import numpy as np
 import pytest
 
 from tvimdesign.base.errors import InfeasibleError
-from tvimdesign.solve.infeasibility.conflict_set import SecondTry
+from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import StudyResult, answer
@@ -107,6 +110,22 @@ def test_a_robust_study_is_refused_with_what_its_margins_take() -> None:
     wire = 2.0 * (1.0 + 2.5 * math.hypot(0.02 / 2.0, 0.1 / 12.0) / 3.0)
     assert f"to <= 2.1 mm as drawn, to <= {wire + 0.1:.4g} mm with 2.5 deviations of margin" in refusal
     assert "deviations" not in _refusal(text)
+
+
+def test_where_runs_end_nowhere_what_is_broken_stands_for_the_conflict() -> None:
+    asked: list[int] = []
+    limits = [SimpleNamespace(origin="require", name=str(i)) for i in range(9)]
+    run = SimpleNamespace(inputs=np.zeros(1), unknowns=np.zeros(1))
+    slacks, ends = np.where(np.arange(9) == 4, 0.5, 0.0), np.array([1.0])
+    least = SimpleNamespace(run=run, pressing=np.ones(9), slacks=slacks, ends=ends)
+
+    def settle(*_: Any) -> Any:
+        asked.append(len(asked))
+        return SimpleNamespace(converged=len(asked) == 1, conflict_search=False, pressing=np.ones(9), ends=ends)
+
+    elastic = SimpleNamespace(limits=limits, count=9, settle=settle)
+    assert _conflicting(cast(Any, elastic), cast(Any, least)) == ([4], ends)
+    assert len(asked) < 9
 
 
 def test_every_limit_that_the_fixed_inputs_break_is_told_at_once() -> None:

@@ -27,6 +27,8 @@ _HEAVY = 100.0
 _FAINT = 1e-3
 """Multiplier below which a limit or the end of a range has no part in it: the trace of the objective leaves less."""
 _MOST_STARTS = 5
+_MOST_UNKNOWN = 3
+"""Runs without a limit that may end nowhere; then the limits that the least violation breaks are named alone."""
 
 
 @dataclass(frozen=True)
@@ -110,12 +112,17 @@ def _begin(optimizer: Optimizer, run: Run) -> Array:
 
 
 def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int], Array]:
-    """Return an irreducible set of limits that conflict, and the part that the ends of ranges have in it."""
-    limits, weights = elastic.limits, np.ones(elastic.count)
+    """Return an irreducible set of limits that conflict, and the part that the ends of ranges have in it.
+
+    Where too many runs end nowhere the set would not be small: what is broken then stands for it.
+    """
+    limits, weights, unknown = elastic.limits, np.ones(elastic.count), 0
 
     def kept_apart(within: Collection[int]) -> ElasticSolution | None:
         """Return the elastic solution if the limits conflict; None if they do not, or if that is unknown."""
+        nonlocal unknown
         settled = elastic.settle(weights, least.run.inputs, least.run.unknowns, within)
+        unknown += not settled.converged
         return None if settled.conflict_search or not settled.converged else settled
 
     candidates = [int(k) for k in np.flatnonzero((least.pressing > _FAINT) | (least.slacks > FEASIBILITY_TOL))]
@@ -130,6 +137,8 @@ def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int
     ):
         fewer = [other for other in candidates if other != k]
         without = kept_apart(fewer) if fewer else None
+        if unknown > _MOST_UNKNOWN:
+            return [int(k) for k in np.flatnonzero(least.slacks > FEASIBILITY_TOL)], least.ends
         if without is not None:
             candidates, settled = fewer, without
     return candidates, settled.ends

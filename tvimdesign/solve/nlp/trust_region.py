@@ -65,6 +65,7 @@ class TrustRegion:
         """
         x = self.reached = np.clip(x, self._ends["lbx"], self._ends["ubx"])
         self._radius, self._filter, self.iterations = FIRST_RADIUS if self._problem.events else np.inf, [], 0
+        ends_here = beginning in ("near", "warm")  # where such a run fails, the cycle itself seldom leads on
         model = self._model(x)
         if model is not None:
             self._filter.append((self._programme.at(x).objective, self._breach(self._programme.at(x))))
@@ -87,6 +88,8 @@ class TrustRegion:
                 return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
             if not error <= POOR or not self._better(there):
                 if length < LEAST_RADIUS or not self._better(expected):
+                    if ends_here and not stats["success"]:
+                        return {**answer, "x": x, "f": here.objective}, stats
                     return None
                 self._radius, model = 0.3 * min(radius, length), replace(model, curvatures=self._curvatures.matrices)
                 continue
