@@ -86,12 +86,10 @@ def _numbers(study: str) -> dict[str, str]:
     }
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("study", "head", "column"),
-    [
-        ("paper_reconstructed", "| | paper |", 2),
-        pytest.param("paper_shear", "| | paper |", 3, marks=pytest.mark.gate),
-    ],
+    [("paper_reconstructed", "| | paper |", 2), ("paper_shear", "| | paper |", 3)],
 )
 def test_the_tables_in_the_readme_are_the_results(study: str, head: str, column: int) -> None:
     expected = _numbers(study)

@@ -22,6 +22,7 @@ require: {spring_stiffness: [">= 5.3 N.m/rad", "<= 6 N.m/rad"]}
 """
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("code", "reason"),
     [
