@@ -129,9 +129,11 @@ def melting(cells: Array, pads: float) -> Any:
     """Return how well a polymer conducts that conducts a fifth less once it is warmer than 330 K, as a smooth
     function."""
 
+    def share(other: Any, temperature: Any) -> Any:
+        return 1.0 - 0.1 * np.tanh((0.5 * (other + temperature) - 330.0) / 15.0)
+
     def at(temperature: Any) -> tuple[Any, Any]:
-        mean = [0.5 * (one + temperature) for one in (cells, pads)]
-        return tuple(1.0 - 0.1 * np.tanh((one - 330.0) / 15.0) for one in mean)  # type: ignore[return-value]  # two places, two shares
+        return share(cells, temperature), share(pads, temperature)
 
     return at
 

@@ -107,7 +107,7 @@ def magnet(dims: Dimensions) -> cq.Shape:
 
 
 def board(dims: Dimensions) -> cq.Shape:
-    """Draw the encoder's board with its chip as a disc, flush with the base below, or over a torque sensor's spigot."""
+    """Draw the encoder's board with its chip as a disc, flush with the base below."""
     bottom = dims.encoder_board_level
     return cylinder(dims.encoder_board_radius, bottom, bottom + dims.encoder_board_height)
 

@@ -93,7 +93,7 @@ class Problem:
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
         self._cycle_model: CycleModel | None = None
         self._last: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
-        self._last_modelled: deque[tuple[bytes, Point]] = deque(maxlen=REMEMBERED)
+        self._last_modelled: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
 
     # --- evaluation ---
 
@@ -127,18 +127,12 @@ class Problem:
     def at(self, x: Array, parameters: Parameters) -> Point:
         """Evaluate the problem at a point; NaN where the cycle has no end. The last points are remembered."""
         key = x.tobytes() + b"".join(part.tobytes() for part in vars(parameters).values())
-        if self._cycle_model is not None:
-            for known, point in self._last_modelled:
-                if known == key:
-                    return point
-            point = self._evaluated(x, parameters)
-            self._last_modelled.append((key, point))
-            return point
-        for known, grids, point in self._last:
+        memory = self._last if self._cycle_model is None else self._last_modelled
+        for known, grids, point in memory:
             if known == key and grids is self.grids:
                 return point
         point = self._evaluated(x, parameters)
-        self._last.append((key, self.grids, point))
+        memory.append((key, self.grids, point))
         return point
 
     @contextmanager

@@ -61,11 +61,12 @@ class TrustRegion:
     ) -> tuple[dict[str, Any], dict[str, Any]] | None:
         """Return the solver's answer and statistics at an optimum from x; None where models do not lead to one.
 
-        A run that begins "feasible" ends at the first point that satisfies the limits.
+        A run that begins "feasible" ends at the first point that satisfies the limits. One that begins near an optimum,
+        or warm, is returned as it failed where no step of its models is better.
         """
         x = self.reached = np.clip(x, self._ends["lbx"], self._ends["ubx"])
         self._radius, self._filter, self.iterations = FIRST_RADIUS if self._problem.events else np.inf, [], 0
-        ends_here = beginning in ("near", "warm")  # where such a run fails, the cycle itself seldom leads on
+        may_fail = beginning in ("near", "warm")  # where models fail such a run, the cycle itself seldom leads on
         model = self._model(x)
         if model is not None:
             self._filter.append((self._programme.at(x).objective, self._breach(self._programme.at(x))))
@@ -82,13 +83,13 @@ class TrustRegion:
             error = np.inf if reached is None else _error(expected, there)
             stats = {**stats, "iter_count": self.iterations}
             if not stats["success"] and beginning in ("near", "warm"):
-                multipliers, beginning = {}, "cold"  # which says sooner that there is nothing
+                multipliers, beginning = {}, "cold"  # a cold run detects sooner that there is no design
             fails = not stats["success"] and error <= EXACT and length < 0.99 * radius
             if (length < LEAST_RADIUS and not stats["success"]) or (fails and not self._better(there, -NOISE)):
                 return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
             if not error <= POOR or not self._better(there):
                 if length < LEAST_RADIUS or not self._better(expected):
-                    if ends_here and not stats["success"]:
+                    if may_fail and not stats["success"]:
                         return {**answer, "x": x, "f": here.objective}, stats
                     return None
                 self._radius, model = 0.3 * min(radius, length), replace(model, curvatures=self._curvatures.matrices)
