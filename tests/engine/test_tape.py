@@ -14,9 +14,10 @@ from tvimdesign.engine import tape as tape_module
 from tvimdesign.engine.tape import Tape
 
 STEPS = (
-    lambda a, b: a + b, lambda a, b: a - b, lambda a, b: a * b, lambda a, b: a / (1.0 + b * b), lambda a, _: ca.sin(a),
-    lambda a, _: ca.exp(-a * a), lambda a, b: ca.fmin(a, ca.cos(b) + 0.1234),
-    lambda a, b: ca.if_else(a < b, a, 0.3 * b),
+    lambda a, b, _: a + b, lambda a, b, _: a - b, lambda a, b, _: a * b, lambda a, b, _: a / (1.0 + b * b),
+    lambda a, *_: ca.sin(a), lambda a, *_: ca.exp(-a * a),
+    # another offset each time: where two equal values meet in fmin, its derivative is anybody's choice
+    lambda a, b, place: ca.fmin(a, ca.cos(b) + 0.1234 * place), lambda a, b, _: ca.if_else(a < b, a, 0.3 * b),
 )  # fmt: skip
 steps = st.lists(
     st.tuples(st.integers(0, len(STEPS) - 1), st.integers(0, 10**6), st.integers(0, 10**6)), min_size=1, max_size=60
@@ -28,7 +29,7 @@ def grown(taken: list[tuple[int, int, int]]) -> tuple[Any, Any, Any]:
     x = ca.SX.sym("x", 3)
     values = [x[0], x[1], x[2], ca.SX(0.7)]
     for kind, one, other in taken:
-        values.append(STEPS[kind](values[one % len(values)], values[other % len(values)]))
+        values.append(STEPS[kind](values[one % len(values)], values[other % len(values)], len(values)))
     return x, ca.vertcat(*values[-5:]), values[len(values) // 2]
 
 
