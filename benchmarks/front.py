@@ -59,7 +59,7 @@ class ManyDesigns:
         self._pace = Pace({"softening": pace}, {})
 
     def __call__(self, designs: Array) -> tuple[Array, Array]:
-        """Outputs and residuals; a switch that never ends takes as long as is simulated, and breaks a limit by one."""
+        """Outputs and residuals; a switch that never ends takes as long as is simulated, and violates a limit."""
         times = self._switch(designs, self._pace)
         rows = self._arithmetic(np.concatenate([designs, np.minimum(times, LONGEST)]))
         residuals = [limit.residual(row) for limit, row in zip(self._limits, rows[self.count :], strict=True)]

@@ -3,7 +3,7 @@
 Every contender gets the study `reference.yaml`: eight variables, its requirements and the machine's limits, the sum of
 envelope volume, mass and response time, each over its value at the start. All are given the same compiled equations
 and the same starts, and stop where they think they are done; a row counts as right where its objective, with its time
-simulated at 1e-9, is within 1e-4 of tvimdesign's and no limit is broken by more than 1e-4. Those that solve symbols
+simulated at 1e-9, is within 1e-4 of tvimdesign's and no limit is violated by more than 1e-4. Those that solve symbols
 (tvimdesign, AeroSandbox) pay for building them; those that call numbers get theirs compiled, for nothing. The ways
 themselves are in `contenders.py`. Random starts are modules: points at which there is none, or whose switch never ends,
 are passed over for all alike.
@@ -27,7 +27,7 @@ from reference_problem import Reference, study
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-4
-"""Share by which an objective may be off, and of its scale by which a limit may be broken, in a row that is right."""
+"""Share by which an objective may be off, and of its scale by which a limit may be violated, in a row that is right."""
 QUICK, AGAIN = 2.0, 5
 """Seconds under which a row is timed so many times more, for the median."""
 

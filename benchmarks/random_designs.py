@@ -1,8 +1,8 @@
-"""Random designs within a study's bounds: each breaks a named rule and is refused, or its parts are sound.
+"""Random designs within a study's bounds: each violates a named rule and is refused, or its parts are sound.
 
-Designs are drawn from the study's ranges (seeded); what a study does not vary is as it says. Those that break a rule of
-the table are counted by rule. The others are built, each in a process of its own with a time limit, and held to: one
-valid solid a part, a watertight mesh, the volumes of the model, nothing in each other's way at rest and through the
+Designs are drawn from the study's ranges (seeded); what a study does not vary is as it says. Those that violate a
+rule of the table are counted by rule. The others are built, each in a process of its own with a time limit and checked:
+one valid solid a part, a watertight mesh, the volumes of the model, nothing in each other's way at rest and through the
 stroke; with `--inspect` also all that the process wants. Ends with code 1 where one that keeps the rules fails.
 """
 

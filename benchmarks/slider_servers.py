@@ -37,11 +37,11 @@ class Module:
         self._engine.wait()
 
     def text(self, value: float) -> str:
-        """What is shown of it: broken limits and all values."""
+        """What is shown of it: violated limits and all values."""
         state = State(way="evaluate", at={**self._source.first.at, VARIABLE: f"{value:.7g} {self.unit}"})
         with self.lock:
             shown = self._engine.answer(state, "quick").shown
-        return f"{value:.7g}: {sum(one['stands'] == 'broken' for one in shown['limits'])} broken; {shown['values']}"
+        return f"{value:.7g}: {sum(one['stands'] == 'violated' for one in shown['limits'])} violated; {shown['values']}"
 
 
 def trame(module: Module, port: int) -> None:

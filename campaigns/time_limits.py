@@ -2,7 +2,7 @@
 
     python campaigns/time_limits.py [--limits 5,20,60] [--only WORD] [--out FILE]
 
-A limit is kept if the command, with the start of Python, takes at most a tenth and two seconds more by the clock. The
+A limit holds if the command, with the start of Python, takes at most a tenth and two seconds more by the clock. The
 processor time is that of the command with its children. Every shipped study has a design: a run that says anything
 else, but for the time limit, is wrong about why. Other work on the machine makes the clock's time longer.
 """

@@ -45,7 +45,7 @@ def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result[tvim.St
     assert list(table.columns)[:4] == ["value", "unit", "meaning", "status"]
     assert set(table.index) == set(result.design.values)
     assert table.loc["module_mass", ["value", "unit"]].tolist() == [result["module_mass"].magnitude, "g"]
-    assert table.loc["spring_stiffness", "status"] == "binds"
+    assert table.loc["spring_stiffness", "status"] == "active"
     assert table.loc["wire_diameter", "status"] == "found"
     assert table.loc["stroke", "status"] == "set"
     assert table.loc["spring_density", "status"] == "default"
@@ -67,7 +67,7 @@ def test_requirements_and_reasons_are_those_of_the_study(result: tvim.Result[tvi
             assert (f"{part}{at}{point}" in said) == shear.output(part).exists(result.design.choices)
     # Ten limits: two are on the least of several, which are told one by one, and two on the stiffness, at five angles.
     assert (len(asked), table.kept.all()) == (27, True)  # so are the places that the core and the pads' seats yield at
-    assert result.table().loc["holding_torque", "status"] == "binds"
+    assert result.table().loc["holding_torque", "status"] == "active"
     assert result.feasible
     assert result.status == "optimal"
     assert result.accepting == ("structure_temperature_margin",)
@@ -75,8 +75,8 @@ def test_requirements_and_reasons_are_those_of_the_study(result: tvim.Result[tvi
     why = result.why()
     assert any("spring_stiffness" in sentence and "costs" in sentence for sentence in why.sentences)
     table = why.table()
-    binds = table[table.stands == "binds"]
-    assert len(binds) == len(why.sentences)
+    active = table[table.stands == "active"]
+    assert len(active) == len(why.sentences)
     assert {"module_mass", "response_time"} <= set(table.columns)
     assert "<p>" in why._repr_html_()
 
@@ -157,7 +157,7 @@ def test_no_design_is_an_error_that_has_the_closest_one() -> None:
     assert isinstance(caught.value, tvim.InfeasibleError)
     closest = caught.value.result
     assert not closest.feasible
-    assert (closest.table().status == "broken").any()
+    assert (closest.table().status == "violated").any()
     assert closest.plots == []
 
 

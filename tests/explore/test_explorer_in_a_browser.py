@@ -36,9 +36,9 @@ def test_dragging_a_requirement_moves_the_optimum(explorer: Explorer) -> None:
     for _ in range(40):
         page.keyboard.press("ArrowLeft")
     explorer.answered(number + 1)
-    power.locator(".stands").filter(has_text="binds").wait_for()
+    power.locator(".stands").filter(has_text="active").wait_for()
     assert current.input_value() != before
-    assert page.locator("#limits tr.binds").count() >= 1
+    assert page.locator("#limits tr.active").count() >= 1
     assert explorer.complaints == []
 
 
@@ -98,7 +98,7 @@ def test_a_dragged_slider_is_answered_quickly_then_exactly(explorer: Explorer) -
     assert watts == sorted(watts, reverse=True)
     assert len(set(watts)) == 3
     assert field.input_value() == texts[-1]
-    assert power.locator(".stands").inner_text().startswith("binds")
+    assert power.locator(".stands").inner_text().startswith("active")
     assert explorer.complaints == []
 
 

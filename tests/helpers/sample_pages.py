@@ -21,7 +21,8 @@ from tvimdesign.study.tree import tree_of_file
 
 STUDY = ROOT / "studies/paper_reconstructed.yaml"
 REQUIREMENTS = (
-    "joint_stiffness@hot=<= 20 N.m/rad", "holding_torque=>= 1 N.m", "envelope_diameter=<= 160 mm",
+    "joint_stiffness@hot=['>= 1.25 N.m/rad', '<= 20.5 N.m/rad']", "holding_torque=>= 1 N.m",
+    "envelope_diameter=<= 160 mm",
     "envelope_height=<= 40 mm", "response_time=<= 100 s", "peak_voltage=<= 24 V", "peak_current=<= 3 A",
     "module_mass=<= 300 g", "stiffening_time=<= 400 s", "spring_stiffness=>= 2 N.m/rad",
 )  # fmt: skip

@@ -120,6 +120,7 @@ def test_no_table_is_cut_and_hidden_columns_are_named(opened: Open, report: Path
     cut = "[...document.querySelectorAll('.grid, .listing')].filter((one) => one.scrollHeight > one.clientHeight + 1)"
     assert page.evaluate(f"{cut}.map((one) => one.ariaLabel)") == []
     table = page.get_by_role("table", name="Requirements")
+    assert table.evaluate("(one) => one.parentElement.scrollWidth - one.parentElement.clientWidth") <= 0
     hidden = table.get_by_role("columnheader", name="plausible range")
     box = page.get_by_role("checkbox", name="Show hidden columns: plausible range, depends most on")
     assert hidden.is_visible() == (wide > 1000)

@@ -37,7 +37,7 @@ def test_cells_are_those_of_single_evaluations(one_process: Path) -> None:
     for name in ("module_mass", "response_time", "spring_stiffness"):
         assert float(table[2][name]) == pytest.approx(result[name].magnitude, rel=1e-11)
     kept = result.requirements()["kept"]
-    assert int(table[2]["broken"]) == int((~kept).sum())
+    assert int(table[2]["violated"]) == int((~kept).sum())
 
 
 def test_the_data_base_has_the_table_s_numbers(one_process: Path) -> None:
@@ -52,7 +52,7 @@ def test_the_data_base_has_the_table_s_numbers(one_process: Path) -> None:
     told = json.loads((one_process / "sweep.json").read_text())
     assert {column["name"]: column["unit"] for column in told["columns"]} == units
     assert told["statuses"] == {"evaluated": 3, "refused": 3}
-    least = min(float(row["module_mass"]) for row in rows(one_process) if row["broken"] == "0")
+    least = min(float(row["module_mass"]) for row in rows(one_process) if row["violated"] == "0")
     assert told["best"]["module_mass"]["value"] == least
 
 

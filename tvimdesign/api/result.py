@@ -42,7 +42,7 @@ class NoDesignError(InfeasibleError):
 
 @dataclass(frozen=True)
 class Reasons:
-    """Reasons for a design: what the binding limits cost, in sentences and as a table of every limit."""
+    """Reasons for a design: what the active limits cost, in sentences and as a table of every limit."""
 
     sentences: tuple[str, ...]
     rows: tuple[LimitEntry, ...]
@@ -56,7 +56,9 @@ class Reasons:
         )
 
     def __str__(self) -> str:
-        return "\n".join(self.sentences) or "Nothing binds: the study was evaluated, or every limit has some margin."
+        return (
+            "\n".join(self.sentences) or "No limit is active: the study was evaluated, or every limit has some margin."
+        )
 
     def _repr_html_(self) -> str:
         return "".join(f"<p>{line}</p>" for line in str(self).splitlines())
@@ -303,7 +305,7 @@ class Result(Generic[StudyT]):
     def _repr_html_(self) -> str:
         result, table = self._answered.result, self._answered.study.table
         rows = [
-            (check.text, value_text(result, check.output, table), "kept" if check.kept else "broken", margin)
+            (check.text, value_text(result, check.output, table), "met" if check.kept else "violated", margin)
             for check in result.checks if check.origin == "require" for margin in (margin_text(check, table),)
         ]  # fmt: skip
         names = [*self.design.study["vary"], *self.design.study["minimize"]]

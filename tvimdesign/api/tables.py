@@ -94,14 +94,14 @@ def _never(number: float | None) -> float:
 
 
 def _stands(answered: AnsweredStudy) -> dict[str, str]:
-    """Return how each output stands that the study limits: `broken`, `binds` or `kept`, the worst of its limits."""
-    order = ("kept", "binds", "broken")
+    """Return how each output stands that the study limits: `violated`, `active` or `met`, the worst of its limits."""
+    order = ("met", "active", "violated")
     states: dict[str, str] = {}
     for check in answered.result.checks:
         if check.origin != "require":
             continue
-        stand = "broken" if not check.kept else "binds" if check.margin <= NOTHING else "kept"
-        states[check.output] = max(stand, states.get(check.output, "kept"), key=order.index)
+        stand = "violated" if not check.kept else "active" if check.margin <= NOTHING else "met"
+        states[check.output] = max(stand, states.get(check.output, "met"), key=order.index)
     for limit in answered.study.require:  # a limit on what is the least of several is put on each of them
         several = [states[name] for name in _all_of(limit.output, answered.study) if name in states]
         states |= {limit.output: max(several, key=order.index)} if several else {}

@@ -42,7 +42,7 @@ def simulate(
     settings: options.Settings = None,
     json: options.AsJson = False,
 ) -> None:
-    """Simulate creep, release, sine or step. Writes curves and a figure into results/<study>-<test>."""
+    """Simulate creep, relaxation, release or a sine. Writes curves and a figure into results/<study>-<test>."""
     from tvimdesign.report.simulate_study import simulate_study
 
     folder = out or options.results(study, test)

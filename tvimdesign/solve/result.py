@@ -104,7 +104,7 @@ class StudyResult:
 
     @property
     def undecided(self) -> tuple[ConstraintCheck, ...]:
-        """The requirements and rules that are kept as nominally heated, and broken with another history."""
+        """The requirements and rules that are met as nominally heated, and broken with another history."""
         return tuple(check for check in self.checks if check.kept and check.worst < -CYCLE_TOLERANCE)
 
     @property

@@ -80,7 +80,7 @@ class Tolerance(_Part):
 
 
 class Robust(_Part):
-    """By how many standard deviations each limit must be kept, or which share of the modules must keep all of them."""
+    """By how many standard deviations each limit must be met, or which share of the modules must meet all of them."""
 
     sigma: float | None = None
     share: float | None = None

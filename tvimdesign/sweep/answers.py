@@ -98,12 +98,12 @@ class CellAnswers:
 
     def _answer_of(self, status: str, study: Study, values: dict[str, float], chosen: dict[str, Any]) -> CellAnswer:
         limits = constraints_of(study, study.table, chosen)
-        broken = [limit for limit in limits if not kept(limit, values[limit.output], study.table)]
+        violated = [limit for limit in limits if not kept(limit, values[limit.output], study.table)]
         margins = [-float(limit.residual(values[limit.output])) for limit in limits]
         return CellAnswer(
             status=status,
-            reason=_short("; ".join(f"breaks {in_words(limit, study.table)}" for limit in broken)),
-            broken=len(broken), margin=_number(min(margins, default=math.nan)),
+            reason=_short("; ".join(f"violates {in_words(limit, study.table)}" for limit in violated)),
+            violated=len(violated), margin=_number(min(margins, default=math.nan)),
             values=tuple(_value(name, study, values, chosen) for name in self._job.columns),
         )  # fmt: skip
 

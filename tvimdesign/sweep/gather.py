@@ -17,7 +17,7 @@ from tvimdesign.sweep.plan import SweepPlan, is_words, rounded, senses
 from tvimdesign.sweep.shards import Shards, StoredCell
 
 Value = float | int | str | None
-_STATUS_COLUMNS = ("status", "broken", "margin", "reason")
+_STATUS_COLUMNS = ("status", "violated", "margin", "reason")
 
 
 class Column(NamedTuple):
@@ -36,12 +36,12 @@ def columns(plan: SweepPlan) -> list[Column]:
     axes = [Column(axis.name, "" if is_words(axis) else axis.unit, "axis", _meaning(plan, axis)) for axis in plan.axes]
     about = {
         "status": "evaluated, optimal, above_rating, infeasible, refused, ...",
-        "broken": "limits that are not kept",
+        "violated": "limits that are violated",
         "margin": "the least margin over all limits, as a share of the limit",
-        "reason": "why there is no design, or what it breaks",
+        "reason": "why there is no design, or what it violates",
     }
     status_columns = [
-        Column(name, "1" if name in {"broken", "margin"} else "", "told", about[name]) for name in _STATUS_COLUMNS
+        Column(name, "1" if name in {"violated", "margin"} else "", "told", about[name]) for name in _STATUS_COLUMNS
     ]
     outputs = [Column(_apart(name, plan), plan.unit(name), "output", _about(plan, name)) for name in plan.columns]
     return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *status_columns, *outputs]
@@ -74,7 +74,7 @@ def status_values(cell: StoredCell, units: Sequence[str]) -> list[Value]:
     answer = cell.answer
     values = [_in_unit(value, unit) for value, unit in zip(answer.values, units, strict=True)]
     margin = None if answer.margin is None else rounded(answer.margin)
-    return [answer.status, answer.broken, margin, answer.reason, *values]
+    return [answer.status, answer.violated, margin, answer.reason, *values]
 
 
 def _in_unit(value: float | str | None, unit: str) -> Value:

@@ -276,9 +276,9 @@ class CellAnswer(NamedTuple):
     status: str
     """`evaluated`, `optimal`, `above_rating`, ... or `infeasible`, `refused`, `crashed`."""
     reason: str
-    """Why there is no design, or what it breaks; empty where there is nothing to say."""
-    broken: int | None
-    """Count of limits that are not kept; None where there is no design."""
+    """Why there is no design, or what it violates; empty where there is nothing to say."""
+    violated: int | None
+    """Count of limits that are violated; None where there is no design."""
     margin: float | None
     """The least margin over all limits, as a share."""
     values: tuple[float | str | None, ...]

@@ -132,8 +132,8 @@ class Shards:
 
 
 def _line(key: str, answer: CellAnswer, seconds: float) -> str:
-    status, reason, broken, margin, values, warm = answer
-    return json.dumps([key, status, reason, broken, margin, values, int(warm), round(seconds, 4)])
+    status, reason, violated, margin, values, warm = answer
+    return json.dumps([key, status, reason, violated, margin, values, int(warm), round(seconds, 4)])
 
 
 def _columns_of(head: bytes) -> list[str] | None:
@@ -146,5 +146,7 @@ def _columns_of(head: bytes) -> list[str] | None:
 
 
 def _stored_cell(line: list[Any], places: Sequence[int]) -> StoredCell:
-    _, status, reason, broken, margin, values, warm, seconds = line
-    return StoredCell(CellAnswer(status, reason, broken, margin, tuple(values[i] for i in places), bool(warm)), seconds)
+    _, status, reason, violated, margin, values, warm, seconds = line
+    return StoredCell(
+        CellAnswer(status, reason, violated, margin, tuple(values[i] for i in places), bool(warm)), seconds
+    )

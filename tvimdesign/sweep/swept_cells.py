@@ -78,8 +78,8 @@ class CellTable:
 
     def _note_end(self, row: dict[str, Value]) -> None:
         """Count a cell by whether it has an answer, and whether it is feasible."""
-        self.keeping += row["broken"] == 0
-        if row["broken"] is not None:
+        self.keeping += row["violated"] == 0
+        if row["violated"] is not None:
             return
         self.failures += 1
         if len(self.failed) < MOST_FAILED:
@@ -87,7 +87,7 @@ class CellTable:
 
     def _compare(self, name: str, row: dict[str, Value]) -> None:
         value = row[name]
-        if row["broken"] != 0 or not isinstance(value, float) or not math.isfinite(value):
+        if row["violated"] != 0 or not isinstance(value, float) or not math.isfinite(value):
             return
         if name not in self.best or value < self.best[name]["value"]:
             self.best[name] = {"cell": row["cell"], "value": value, "unit": self._units[name]}
@@ -142,7 +142,7 @@ class SweptCells:
         texts = self.plan.points.texts(number - 1)
         changes = {axis.name: text for axis, text in zip(self.plan.axes, texts, strict=True)}
         tree = self.plan.cell_tree(texts)
-        study, answered = read_tree(tree), row["broken"] is not None
+        study, answered = read_tree(tree), row["violated"] is not None
         return CellFound(number, changes, tree, study, answered, _at(row, study, self.plan) if answered else {})
 
     def _rows(self, which: str, values: Sequence[Any]) -> list[dict[str, Value]]:
@@ -162,7 +162,7 @@ def open_cells(folder: Path) -> SweptCells:
     plan = plan_of(set_in(tree, ["catalog"], [records]) if records else tree)
     if plan.count != count:
         raise InputError(f"{folder}: study.yaml asks for {plan.count} cells and the table has {count}; sweep it again")
-    answered = _rows(folder, "WHERE broken IS NOT NULL ORDER BY cell LIMIT 1", [])
+    answered = _rows(folder, "WHERE violated IS NOT NULL ORDER BY cell LIMIT 1", [])
     return SweptCells(folder, plan, tuple(dict.fromkeys(_number(row) for row in least or answered)))
 
 

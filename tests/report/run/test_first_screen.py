@@ -19,7 +19,7 @@ from tvimdesign.report.output.numbers import ends_text, label
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.requirements import Requirement, requirements
 from tvimdesign.report.run.first_screen import LINES, NARROW_LINES, first_screen, requirement_lines, verdict_of
-from tvimdesign.report.run.reasons import binding
+from tvimdesign.report.run.reasons import active
 from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.solve.result import answer
 from tvimdesign.study import drawn, read_study, read_study_text
@@ -199,7 +199,7 @@ def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s() -> None:
     assert rows["peak_power"].stands == f"{100.0 * (1.0 - values['peak_power'] / 15.0):.2g} %"
     assert rows["peltier_temperature_margin"].got == "0"
     (line,) = [line for line in first_screen(one, 140) if line.startswith("Active constraints: ")]
-    first = max(binding(one.result), key=lambda held: held.shadow_price)
+    first = max(active(one.result), key=lambda held: held.shadow_price)
     assert line.startswith(f"Active constraints: {label(first.output)} ")
 
 

@@ -73,9 +73,10 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
          "Build it"),
         (answer(), SURE, [],
-         "Build it; on the first module measure the structure layer strength"),
+         "Build it: one first, and measure the structure layer strength"),
         (answer(), SURE, [RunWarning("cutout margin is -8 K", but="no listed cut-out fits")],
-         "Build it, but no listed cut-out fits; on the first module measure the structure layer strength"),
+         "Build it, but no listed cut-out fits: one first, and measure the structure layer strength"),
+        (answer(), SURE | {"intervals": {}}, [], "Build it: one first, and check the retainer thread"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip
@@ -96,12 +97,12 @@ def test_each_rule_decides(
     ],
 )
 def test_a_hot_point_that_is_not_needed_is_no_matter(values: dict[str, float], require: tuple[Any, ...]) -> None:
-    assert verdict(answer(values, require), SURE, []).kind == "build"
+    assert verdict(answer(values, require), SURE, []).kind == "build_one"
 
 
 def test_a_study_with_margins_is_no_nominal_optimum() -> None:
     low = SURE | {"parts_yield": {"share": TARGET - 0.05}}
-    assert verdict(answer(robust={"share": 0.9}), low, []).kind == "build"
+    assert verdict(answer(robust={"share": 0.9}), low, []).kind == "build_one"
     assert verdict(answer(), low, []).kind == "add_margins"
 
 

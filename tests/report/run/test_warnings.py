@@ -121,8 +121,8 @@ def test_the_gravest_warning_comes_first() -> None:
     found = _published("  cooling_current: 1 A\n")
     said = warnings_of(found, ["a sheet contradicts itself."])
     assert "never gets stiff again" in said[0][0]
-    assert said[0][1] == "try module: {cooling_current: 0.2 A, cold_side: sink}"
-    assert said[-1][:2] == ("a sheet contradicts itself", "try catalog: my_records")
+    assert said[0][1] == "untried: module: {cooling_current: 0.2 A, cold_side: sink}"
+    assert said[-1][:2] == ("a sheet contradicts itself", "untried: catalog: my_records")
 
 
 @pytest.mark.parametrize("extra", ["", "  response_criterion: softening\n  softening_band: 2\n"])

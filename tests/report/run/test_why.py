@@ -10,7 +10,7 @@ from small_studies import FOUR_SIZES_IN_SHEAR
 from tvimdesign.device import table_for
 from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.blocks.tables import checks_grid
-from tvimdesign.report.run.reasons import binding, sentences, slack, why_csv, why_rows
+from tvimdesign.report.run.reasons import active, sentences, slack, why_csv, why_rows
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
@@ -28,7 +28,7 @@ def found() -> StudyResult:
 
 
 def test_more_stiffness_costs_mass_and_less_power_time(found: StudyResult) -> None:
-    held = next(held for held in binding(found) if held.name == "spring_stiffness_full_stroke >=")  # the least
+    held = next(held for held in active(found) if held.name == "spring_stiffness_full_stroke >=")  # the least
     cost = held.sensitivity["module_mass"]
     assert 0.0 < cost < 1.0
     begin = "1 % more spring_stiffness_full_stroke (now >= 5 N·m/rad) costs"
@@ -39,11 +39,11 @@ def test_more_stiffness_costs_mass_and_less_power_time(found: StudyResult) -> No
     assert "response_time" in said
 
 
-def test_each_limit_binds_touches_or_has_room_in_its_order(found: StudyResult) -> None:
+def test_each_limit_is_active_touches_or_has_room_in_its_order(found: StudyResult) -> None:
     rows = why_rows(found, TABLE)
     assert len(rows) == len(found.solution.held)
     by_text = {row["limit"]: row for row in rows}
-    assert by_text["spring_stiffness_full_stroke >= 5 N·m/rad"]["stands"] == "binds"
+    assert by_text["spring_stiffness_full_stroke >= 5 N·m/rad"]["stands"] == "active"
     assert by_text["spring_stiffness >= 5 N·m/rad"]["stands"] == "slack"  # at rest the springs are stiffer
     upper = by_text["spring_stiffness <= 8 N·m/rad"]
     assert upper["stands"] == "slack"
@@ -57,14 +57,14 @@ def test_each_limit_binds_touches_or_has_room_in_its_order(found: StudyResult) -
     room = found.design.value("spring_stiffness_seven_tenths_stroke") / 5.0 - 1.0
     assert by_text["spring_stiffness_seven_tenths_stroke >= 5 N·m/rad"]["margin"] == pytest.approx(room, rel=1e-3)
     rows = list(csv.DictReader(io.StringIO(why_csv(found, TABLE))))
-    first = binding(found)[0]
+    first = active(found)[0]
     assert rows[0]["limit"] == first.text
     for name, saving in first.sensitivity.items():
         assert float(rows[0][f"sensitivity of {name} [%]"]) == pytest.approx(saving, rel=1e-5, abs=1e-12)
 
 
 def test_a_limit_active_at_its_tolerance_margin_is_so_everywhere(found: StudyResult) -> None:
-    costly = {held.text for held in binding(found)}
+    costly = {held.text for held in active(found)}
     assert "peak_power <= 9 W" in costly
     checks = tuple(replace(each, margin=0.05, worst=0.05) for each in found.checks if each.text in costly)
     with_margins = replace(found, checks=checks)

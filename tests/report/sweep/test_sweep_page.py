@@ -30,7 +30,7 @@ def plan(section: dict[str, Any]) -> SweepPlan:
 
 
 def seen(asked: SweepPlan, masses: Iterable[float | None]) -> CellTable:
-    """Cells with these masses, refused where there is none; every even one breaks a limit, and none is ever soft."""
+    """Cells with these masses, refused where there is none; every even one violates a limit, and none is ever soft."""
     table = CellTable(asked)
     list(table.seeing(row(asked, number, mass) for number, mass in enumerate(masses, start=1)))
     return table

@@ -227,7 +227,7 @@ def _with(*settings: str) -> Study:
 
 
 MOVED = {
-    "a limit that binds": ["require.peak_power=<= 9 W"],
+    "an active limit": ["require.peak_power=<= 9 W"],
     "ends of a range": ["vary.current=[0.8 A, 1.2 A]"],
     "a weight": ["minimize.module_mass=4"],
     "a fixed number": ["core_radius=9.4 mm"],
@@ -256,9 +256,9 @@ def test_a_moved_problem_has_the_optimum_of_one_built_for_it(built: ParametricOp
         assert abs(value / first.run.start.end[variable] - 1.0) > 1e-6 or name != "all of them"
 
 
-def test_what_binds_is_told_with_the_ends_of_ranges(built: ParametricOptimizer) -> None:
+def test_active_limits_and_ends_of_ranges(built: ParametricOptimizer) -> None:
     bound = built.solve(_with("require.peak_power=<= 9 W"))
-    assert "peak_power <=" in bound.binding
+    assert "peak_power <=" in bound.active
     ended = built.solve(_with("vary.current=[0.8 A, 1.1 A]"))
     assert ended.ends["current"] == "upper"
     # What is built in does not fit.

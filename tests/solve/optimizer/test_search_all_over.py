@@ -56,7 +56,7 @@ def design(optimizer: Optimizer) -> Array:
 
 
 def broken(optimizer: Optimizer, inputs: Array) -> float:
-    """Return the most by which a design, simulated, breaks a limit."""
+    """Return the most by which a design, simulated, violates a limit."""
     cycle = optimizer.problem.simulated(inputs)
     values = optimizer.model.values(inputs, cycle)
     return max(float(limit.residual(values[limit.output])) for limit in optimizer.problem.limits)

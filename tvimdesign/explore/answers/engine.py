@@ -96,7 +96,7 @@ class Engine:
         optimum = {name: float(moved.run.inputs[self._problem_index(name)]) for name in study.vary}
         known = given(study)
         evaluated = self._evaluated(study, known, optimum)
-        shown = shown_design(study, free, known, evaluated.values, moved.binding, moved.ends)
+        shown = shown_design(study, free, known, evaluated.values, moved.active, moved.ends)
         shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in optimum.items()}}
         shown["curves"] = finite_data(evaluated.curves)
         return Answer({"status": "", **shown}, None, _module(study, evaluated.values, evaluated.words))

@@ -22,18 +22,17 @@ Shown = dict[str, Any]
 
 
 def shown_design(
-    study: Study, free: Study, known: Mapping[str, Any], values: Mapping[str, float], binding: Collection[str] = (),
+    study: Study, free: Study, known: Mapping[str, Any], values: Mapping[str, float], active: Collection[str] = (),
     ends: Mapping[str, str] | None = None,
 ) -> Shown:  # fmt: skip
     """Return a module's values (SI, by full name) for the page; `free` is the study with its variables.
 
-    `known` is what the study gives, `binding` are limits that press, `ends` variables that press against an end of
-    their range.
+    `known` is what the study gives, `active` are the active limits, `ends` variables at an end of their range.
     """
     table = study.table
     return {
         "values": [_finite(from_si(values[name], table.unit(name))) for name in value_names(free)],
-        "limits": limits_shown(study, known, values, binding),
+        "limits": limits_shown(study, known, values, active),
         "warnings": ratings_shown(study, values),
         "variables": {
             name: {"value": _finite(from_si(values[name], table.unit(name))), "end": (ends or {}).get(name, "")}
@@ -49,37 +48,37 @@ def value_names(study: Study) -> list[str]:
 
 
 def limits_shown(
-    study: Study, known: Mapping[str, Any], values: Mapping[str, float], binding: Collection[str]
+    study: Study, known: Mapping[str, Any], values: Mapping[str, float], active: Collection[str]
 ) -> list[Shown]:
     """Return every requirement and the active or violated rules, violated ones first.
 
     Of the limits that one requirement puts on several outputs, and that are met, the closest is shown.
     """
     stand = [
-        (limit, _stands(limit, values[limit.output], study.table, limit.name in binding))
+        (limit, _stands(limit, values[limit.output], study.table, limit.name in active))
         for limit in constraints_of(study, study.table, known)
     ]
-    order = ("broken", "binds", "kept")
+    order = ("violated", "active", "met")
     stand.sort(key=lambda pair: (order.index(pair[1]), -float(pair[0].residual(values[pair[0].output]))))
     limits = [
         _limit(limit, values[limit.output], study.table, stands) for limit, stands in stand
-        if limit.origin == "require" or stands != "kept"
+        if limit.origin == "require" or stands != "met"
     ]  # fmt: skip
     first = {(row["of"], row["sense"]): row for row in reversed(limits)}
-    return [row for row in limits if row["stands"] != "kept" or first[row["of"], row["sense"]] is row]
+    return [row for row in limits if row["stands"] != "met" or first[row["of"], row["sense"]] is row]
 
 
 def _stands(limit: Constraint, value: float, table: Table, presses: bool) -> str:
     if not kept(limit, value, table):
-        return "broken"
-    return "binds" if presses or -float(limit.residual(value)) <= NOTHING else "kept"
+        return "violated"
+    return "active" if presses or -float(limit.residual(value)) <= NOTHING else "met"
 
 
 def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
     margin = -float(limit.residual(value))
     check = ConstraintCheck(
         text=in_words(limit, table), output=limit.output, value=value, margin=margin, scale=limit.scale,
-        absolute=limit.absolute, kept=stands != "broken", worst=margin, origin=limit.origin, part_of=limit.part_of,
+        absolute=limit.absolute, kept=stands != "violated", worst=margin, origin=limit.origin, part_of=limit.part_of,
     )  # fmt: skip
     unit = table.unit(limit.output)
     got = value if abs(margin) > _ROUNDING else limit.limit

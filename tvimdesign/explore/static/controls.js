@@ -2,8 +2,6 @@
 import { make } from "page/dom.js";
 import { choiceKnob, numberKnob, withUnit } from "explore/knob.js";
 
-const WORDS = { binds: "binds", broken: "violated", kept: "" };
-
 /** Build the panel; `send` takes messages. */
 export function controlPanel(place, send) {
   const knobs = new Map();
@@ -96,19 +94,19 @@ export function controlPanel(place, send) {
       for (const one of [...controls.choices, ...controls.inputs]) knobs.get(one.name)?.show(one.text, one.value);
       for (const one of controls.weights) knobs.get(`weight ${one.name}`)?.show(String(one.value), one.value);
     },
-    /** Light up what binds and what is broken; in the way of optimising, move the variables to the optimum. */
+    /** Light up what is active and what is violated; in the way of optimising, move the variables to the optimum. */
     answer(shown) {
       for (const one of state.controls.requirements) {
         const of = shown.limits.filter((limit) => limit.of === one.name && limit.sense === one.sense);
-        const how = ["broken", "binds", "kept"].find((word) => of.some(({ stands }) => stands === word)) ?? "kept";
+        const how = ["violated", "active", "met"].find((word) => of.some(({ stands }) => stands === word)) ?? "met";
         const worst = of.find(({ stands }) => stands === how);
-        knobs.get(`${one.name} ${one.sense}`)?.light(how, [WORDS[how], worst ? `got ${worst.got}` : ""].filter(Boolean).join(", "));
+        knobs.get(`${one.name} ${one.sense}`)?.light(how, [how === "met" ? "" : how, worst ? `got ${worst.got}` : ""].filter(Boolean).join(", "));
       }
       for (const one of state.controls.variables) {
         const found = shown.variables[one.name];
         if (!found || one.options) continue;
         if (state.way === "optimize") knobs.get(one.name)?.show(withUnit(found.value, one.unit), found.value);
-        knobs.get(one.name)?.light(found.end ? "binds" : "", found.end ? `at its ${found.end} end` : "");
+        knobs.get(one.name)?.light(found.end ? "active" : "", found.end ? `at its ${found.end} end` : "");
       }
     },
     /** Say why what was typed is refused, beside where it was typed. */

@@ -44,10 +44,10 @@ export function numberKnob({ label, name: key, means, unit, text, value, low, hi
       one.slider.setAttribute("aria-valuetext", words);
     }
   };
-  /** Light up: `binds`, `broken`, or nothing. */
+  /** Light up: `active`, `violated`, or nothing. */
   one.light = (how, words) => {
-    row.classList.toggle("binds", how === "binds");
-    row.classList.toggle("broken", how === "broken");
+    row.classList.toggle("active", how === "active");
+    row.classList.toggle("violated", how === "violated");
     stands.textContent = words;
   };
   return one;

@@ -12,16 +12,14 @@ export function liveTable(place, caption, heads) {
     ...cells.map((cell, i) => make(i ? "td" : "th", i ? {} : { scope: "row" }, cell)))));
 }
 
-const WORDS = { broken: "violated", binds: "binds", kept: "met" };
-
-/** The study's requirements, then the machine's rules that bind or are violated; what is violated stands first. */
+/** The study's requirements, then the machine's rules that are active or violated; what is violated stands first. */
 export function limitsTable(place) {
   const fill = liveTable(place, "Requirements, then active and violated rules", ["limit", "got", "margin", ""]);
   return (shown) => {
-    const row = ({ stands, text, got, margin }) => [[text, got, margin, WORDS[stands]], stands === "kept" ? "" : stands];
+    const row = ({ stands, text, got, margin }) => [[text, got, margin, stands], stands === "met" ? "" : stands];
     const own = shown.limits.filter(({ origin }) => origin === "require");
     fill([
-      ...shown.warnings.filter(({ accepted }) => !accepted).map(({ text }) => [[text, "", "", "rating"], "broken"]),
+      ...shown.warnings.filter(({ accepted }) => !accepted).map(({ text }) => [[text, "", "", "rating"], "violated"]),
       ...own.map(row), ...shown.limits.filter((one) => !own.includes(one)).map(row),
     ]);
   };

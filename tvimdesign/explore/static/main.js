@@ -104,13 +104,13 @@ function listed(names) {
 }
 
 function show(shown) {
-  const broken = [...new Set((shown.limits ?? []).filter(({ stands }) => stands === "broken").map(({ label }) => label))];
-  const words = shown.status || (broken.length ? `Violated: ${listed(broken)}` : shown.verdict || "All limits are met");
+  const violated = [...new Set((shown.limits ?? []).filter(({ stands }) => stands === "violated").map(({ label }) => label))];
+  const words = shown.status || (violated.length ? `Violated: ${listed(violated)}` : shown.verdict || "All limits are met");
   const [first, ...reasons] = words.split("\n");
   if (status.textContent !== first) status.textContent = first;
   at("reasons").hidden = !reasons.length;
   at("reasons-text").textContent = reasons.join("\n");
-  status.className = `status ${shown.found === false || broken.length ? "bad" : shown.status ? "warn" : shown.tone || "good"}`;
+  status.className = `status ${shown.found === false || violated.length ? "bad" : shown.status ? "warn" : shown.tone || "good"}`;
   if (!shown.values) return;
   controls.answer(shown);
   limits(shown);

@@ -112,7 +112,7 @@ function varies(values) {
   return high - low > SAME * Math.max(Math.abs(low), Math.abs(high));
 }
 
-/** The colour of a point: a knee stands out, one that breaks a limit steps back. */
+/** The colour of a point: a knee stands out, one that violates a limit steps back. */
 function colourOf(point, look) {
   return point.status === "knee" ? look.accent : point.hollow ? look.quiet : look.colours[0];
 }

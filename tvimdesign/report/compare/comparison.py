@@ -152,7 +152,7 @@ class Outcome:
         for which in self.rows:
             texts = self._against(which) if which != self.which else []
             broken = [
-                f"{label} as drawn does not keep {', '.join(self.found[label][which]['broken'])}"
+                f"{label} as drawn does not meet {', '.join(self.found[label][which]['broken'])}"
                 for label in self.designs[which] if self.found[label][which]["broken"]
             ]  # fmt: skip
             sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in (*texts, *broken)]

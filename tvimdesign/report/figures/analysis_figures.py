@@ -131,7 +131,7 @@ def sweep(data: dict[str, Any]) -> Figure:
                 *axes.get_legend_handles_labels(), loc="upper right", title=data["legend"], title_fontsize=theme.SMALL
             )
     if any(not all(series["kept"]) for panel in panels for series in panel["series"]):
-        theme.caption(figure, "Hollow: a limit is broken.")
+        theme.caption(figure, "Hollow: a limit is violated.")
     return figure
 
 

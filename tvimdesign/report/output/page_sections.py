@@ -16,7 +16,7 @@ NEVER = 1e300
 """Number that `never` is sorted by."""
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
 _TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
-    ("bad", re.compile(r"\bviolated\b|\bbroken\b|\bfailure\b|\bworse\b")),
+    ("bad", re.compile(r"\bviolated\b|\bfailure\b|\bworse\b")),
     ("warn", re.compile(r"\bactive\b|\bopen\b|\bwarning\b|partly done")),
     ("good", re.compile(r"^ok$|^pass$|\bbetter\b")),
 )

@@ -61,7 +61,7 @@ class UncertaintyEntry(Entry):
     unmeasured: list[UnmeasuredEntry]
 
 
-Stands = Literal["binds", "touches", "slack"]
+Stands = Literal["active", "touches", "slack"]
 """How a limit stands at the optimum."""
 
 
@@ -263,7 +263,7 @@ class SideEntry(Entry):
 
 
 class Conflict(Entry):
-    """Limits that cannot hold together, and what the design that comes closest breaks."""
+    """Limits that cannot hold together, and what the design that comes closest violates."""
 
     cannot_hold_together: list[SideEntry]
     least_violation: list[SideEntry]

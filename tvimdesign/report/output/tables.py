@@ -73,7 +73,7 @@ def _at(sense: str, which: str, point: str, value: Value, table: Table) -> str:
 
 
 NOTHING = 5e-4
-"""Margin, as a share, below which a limit binds."""
+"""Margin, as a share, below which a limit is active."""
 _ROUND = 1e-5
 
 
@@ -91,7 +91,7 @@ def value_text(answer: StudyResult, name: str, table: Table, *, rounded: bool = 
 
 
 def on_limit(check: ConstraintCheck, unit: str) -> float:
-    """Return the value of a limit that binds, put exactly on the limit, in `unit`."""
+    """Return the value of an active limit, put exactly on the limit, in `unit`."""
     beyond = -check.margin * check.scale if ">=" in check.text else check.margin * check.scale
     return _rounded(from_si(check.value + beyond, unit))
 

@@ -149,7 +149,7 @@ def warning_lines(warnings: Sequence[RunWarning], width: int, count: int) -> lis
 def _warning(warning: RunWarning, width: int) -> list[str]:
     """Return what is wrong, and on the same line what cures it if it fits: what is to be copied stays in one piece."""
     indent, cure = " " * 9, warning.cure
-    if not cure.startswith(("write ", "try ")):
+    if not cure.startswith(("write ", "untried: ")):
         return wrapped(f"Warning: {'; '.join(filter(None, (warning.text, cure)))}", width, indent=indent)
     lines = wrapped(f"Warning: {warning.text};", width, indent=indent)
     if len(lines[-1]) + len(cure) + 1 <= width:

@@ -95,7 +95,7 @@ def refuse_failed(report: CadReport) -> None:
     raise GeometryError(
         f"the parts are written, but {len(report.failed)} of {len(report.checks)} checks fail, the worst:\n"
         + "\n".join(lines)
-        + "\nSee checks.json beside the parts, and which rules the design breaks."
+        + "\nSee checks.json beside the parts, and which rules the design violates."
     )
 
 

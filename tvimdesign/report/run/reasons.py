@@ -1,4 +1,4 @@
-"""Reasons for a design, or for none: what binds and costs how much, what conflicts, and how each start ended."""
+"""Reasons for a design, or for none: active limits and their costs, what conflicts, and how each start ended."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ PRICE_SHOWN = 1e-3
 _SAVING_SHOWN = 5e-3
 
 
-def binding(answer: StudyResult) -> list[ActiveConstraint]:
-    """Return the limits that hold the design, the costliest first."""
+def active(answer: StudyResult) -> list[ActiveConstraint]:
+    """Return the active limits, the costliest first."""
     held = answer.solution.held if answer.solution and answer.found else ()
     return sorted((limit for limit in held if limit.shadow_price > PRICE_SHOWN), key=lambda limit: -limit.shadow_price)
 
 
 def is_active(check: ConstraintCheck, answer: StudyResult) -> bool:
     """Return whether a limit is active: the design is at it, or at its margin for tolerances."""
-    return abs(check.margin) <= NOTHING or any(check.text == limit.text for limit in binding(answer))
+    return abs(check.margin) <= NOTHING or any(check.text == limit.text for limit in active(answer))
 
 
 def slack(answer: StudyResult) -> list[ActiveConstraint]:
@@ -41,8 +41,8 @@ def slack(answer: StudyResult) -> list[ActiveConstraint]:
 
 
 def sentences(answer: StudyResult) -> list[str]:
-    """Return what each binding limit costs, in words."""
-    return [_sentence(held) for held in binding(answer)]
+    """Return what each active limit costs, in words."""
+    return [_sentence(held) for held in active(answer)]
 
 
 def _sentence(held: ActiveConstraint) -> str:
@@ -64,11 +64,11 @@ _WHY_NOT = "it belongs to the supply, or stands in the same way as another limit
 def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
     """Return every limit and end of a range at the optimum: how it stands, its margin, and what a step of it costs."""
     rows: list[LimitEntry] = []
-    tight, loose = binding(answer), slack(answer)
+    tight, loose = active(answer), slack(answer)
     held = answer.solution.held if answer.solution and answer.found else ()
     others = [limit for limit in held if limit not in tight and limit not in loose]
     groups: tuple[tuple[Stands, list[ActiveConstraint]], ...] = (
-        ("binds", tight), ("touches", others), ("slack", loose)
+        ("active", tight), ("touches", others), ("slack", loose)
     )  # fmt: skip
     for stands, group in groups:
         for limit in group:
@@ -122,9 +122,9 @@ def complaint(answer: StudyResult, table: Table) -> str:
     broken = _worst_of_each(check for check in answer.checks if not check.kept)
     if broken:
         lines.append(
-            "The design that comes closest breaks these:"
+            "The design that comes closest violates these:"
             if conflict_set
-            else "Where the solver ended, these are broken:"
+            else "Where the solver ended, these are violated:"
         )
         lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-')}" for check in broken]
     if not conflict_set:
@@ -133,7 +133,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
     if math.isinf(answer.design.value("response_time")):
         lines.append("The switch does not end there within `horizon`.")
     if (answer.design.study.get("robust") or {}).get("sigma") is not None:
-        lines.append("Limits are to be kept by so many standard deviations (`robust`): ask for fewer, or spread less.")
+        lines.append("Limits must be met by so many standard deviations (`robust`): ask for fewer, or spread less.")
     if conflict_set:
         lines.append(
             "Ease a limit, or widen a range under `vary`. The design.json written is the one that comes closest."

@@ -63,11 +63,11 @@ def _series(label: str, rows: list[dict[str, Value]], x: str, up: str, name: str
     return {
         "label": label, "x": [row[x] for row in there], "y": [row[up or name] for row in there],
         "colour": [row[name] for row in there] if up else [],
-        "kept": [row["broken"] == 0 for row in there],
+        "kept": [row["violated"] == 0 for row in there],
     }  # fmt: skip
 
 
-_HOLLOW = "Hollow: a limit is broken."
+_HOLLOW = "Hollow: a limit is violated."
 _MOST_OUTPUTS = 6
 """Outputs that are axes of the figure to brush."""
 CELL_WORDS = {"title": "Cells", "one": "cell", "many": "cells"}
@@ -88,15 +88,15 @@ def cell_points(plan: SweepPlan, listed: Iterable[dict[str, Value]]) -> dict[str
     numbers = [column for column in columns(plan) if column.unit]
     axes = [column for column in numbers if column.kind == "axis"] or numbers[:1]
     outputs = [column for column in numbers if column.kind == "output"]
-    rows = [row for row in listed if row["broken"] is not None]
+    rows = [row for row in listed if row["violated"] is not None]
     drawn = [column for column in outputs if any(_finite(row[column.name]) is not None for row in rows)][:_MOST_OUTPUTS]
     if not drawn:
         return None
     names = [column.name for column in (*axes, *drawn)]
     labels = [*map(axis_words, axes), *(axis_label(column.name, column.unit) for column in drawn)]
     points = [
-        {"number": row["cell"], "status": "between" if row["broken"] == 0 else "breaks a limit",
-         "hollow": row["broken"] != 0, "values": [_finite(row[name]) for name in names]}
+        {"number": row["cell"], "status": "between" if row["violated"] == 0 else "violates a limit",
+         "hollow": row["violated"] != 0, "values": [_finite(row[name]) for name in names]}
         for row in rows
     ]  # fmt: skip
     across = {"of": [drawn[0].name, axes[0].name], "names": names, "labels": labels}
@@ -116,8 +116,8 @@ def _lines(data: dict[str, Any]) -> Drawn | None:
     if data["y"] or not panels:
         return None
     of = f" Lines: {data['legend']}." if data["legend"] else ""
-    broken = any(any(line["hollow"]) for panel in panels for line in panel["lines"])
-    says = f"Outputs over what is swept.{of} {_HOLLOW if broken else ''}".strip()
+    violated = any(any(line["hollow"]) for panel in panels for line in panel["lines"])
+    says = f"Outputs over what is swept.{of} {_HOLLOW if violated else ''}".strip()
     return Drawn("curves", "lines.js", says, {"panels": panels}, libraries=["echarts"])
 
 

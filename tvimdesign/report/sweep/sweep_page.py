@@ -24,7 +24,7 @@ def cells_grid(plan: SweepPlan, seen: CellTable) -> Grid:
     """Return a row a cell; of many cells every second, third, ... and of many outputs the first."""
     every = columns(plan)
     outputs = [column for column in every if column.kind == "output"]
-    shown = [column for column in every if column.kind in {"cell", "axis"} or column.name in {"status", "broken"}]
+    shown = [column for column in every if column.kind in {"cell", "axis"} or column.name in {"status", "violated"}]
     shown += outputs[:MOST_OUTPUTS]
     return Grid("Cells", _heads(shown), _cells(seen.listed, shown), _left_out(plan, seen, len(outputs)))
 
@@ -66,8 +66,8 @@ def _cell(value: Value, column: Column) -> Cell:
     if isinstance(value, str):
         tone = _TONES.get(value, "") if column.name == "status" else ""
         return Cell(value.replace("_", " ") if column.name == "status" else value, tone=tone)
-    if column.name in {"cell", "broken"}:
-        return Cell(str(int(value)), value, "warn" if column.name == "broken" and value else "")
+    if column.name in {"cell", "violated"}:
+        return Cell(str(int(value)), value, "warn" if column.name == "violated" and value else "")
     return number_cell(value)
 
 
@@ -101,14 +101,14 @@ def swept_facts(plan: SweepPlan, seen: CellTable) -> Facts:
     seed = f", seed {plan.block.seed}" if plan.block.count else ""
     rows = [("Swept", "; ".join(_axis(plan, place) for place in range(len(plan.axes))))]
     rows += [("Method", f"{plan.block.method.replace('_', ' ')}{seed}; {task}"), ("Cells", f"{plan.count}: {ended}")]
-    rows += [("Every limit kept", f"in {seen.keeping} of {plan.count} cells")]
+    rows += [("Every limit met", f"in {seen.keeping} of {plan.count} cells")]
     for name, best in seen.best.items():
         value = f"{number(best['value'])} {pretty(best['unit'])}".strip()
         texts = plan.points.texts(int(best["cell"]) - 1)
         at = ", ".join(f"{axis.name} {text}" for axis, text in zip(plan.axes, texts, strict=True))
         rows += [(f"Least {name}", f"{value} in cell {best['cell']:g} ({at}), among the feasible cells")]
     if not seen.best:
-        rows += [("Feasible", "no cell: `reason` in the table says which limits each breaks")]
+        rows += [("Feasible", "no cell: `reason` in the table says which limits each violates")]
     return Facts(rows)
 
 

@@ -108,13 +108,13 @@ _CARRIED = 0.2
 
 def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str]:
     """Return what people should know, the most important first."""
-    worst = [limit_yield for limit_yield in spread.kept if _broken_at_worst(spread, limit_yield)]
-    corners = "no limit is broken" if not worst else f"{len(worst)} of {len(spread.kept)} limits are broken"
+    worst = [limit_yield for limit_yield in spread.kept if _violated_at_worst(spread, limit_yield)]
+    corners = "no limit is violated" if not worst else f"{len(worst)} of {len(spread.kept)} limits are violated"
     angle = [] if preload is None else [free_angle(preload)]
     return [f"In the worst case {corners}.", *_what_first(spread, table), *angle, *_caveats(spread)]
 
 
-def _broken_at_worst(spread: Spread, limit_yield: Kept) -> bool:
+def _violated_at_worst(spread: Spread, limit_yield: Kept) -> bool:
     i = spread.outputs.index(limit_yield.limit.output)
     end = spread.worst.high[i] if limit_yield.limit.sense == "<=" else spread.worst.low[i]
     return not float(limit_yield.limit.residual(end)) <= 1e-9
@@ -132,14 +132,14 @@ def _what_first(spread: Spread, table: Table) -> Iterator[str]:
     """Yield what to tighten, limit by limit; where the mean stands on the limit, that tightening does not help."""
     concern = of_concern(spread)
     if not concern:
-        yield f"Every limit is kept by {100 * _GOOD:g} % of the modules and more: nothing needs to be tightened."
+        yield f"Every limit is met by {100 * _GOOD:g} % of the modules and more: nothing needs to be tightened."
         return
     on_limit = [limit_yield for limit_yield in concern if limit_yield.capability < _ON_THE_LIMIT]
     if on_limit:
         names = ", ".join(in_words(limit_yield.limit, table) for limit_yield in on_limit[:_NAMED])
         more = f" and {len(on_limit) - _NAMED} more" if len(on_limit) > _NAMED else ""
         yield (
-            f"The mean stands on or beyond {names}{more}: no tolerance mends that. Move the design away from the "
+            f"The mean stands on or beyond {names}{more}: no tolerance cures that. Move the design away from the "
             "limit, as a study with `robust: {sigma: 3}` does."
         )
     mendable = [limit_yield for limit_yield in concern if limit_yield not in on_limit] or concern
@@ -170,7 +170,7 @@ def _halved(spread: Spread, limit_yield: Kept, j: int, table: Table) -> str:
     share = float(spread.shares[i, j])
     carried = (
         f"it carries {100 * share:.0f} % of the variance behind {in_words(limit_yield.limit, table)}, which "
-        f"{100 * limit_yield.share.share:.3g} % keep"
+        f"{100 * limit_yield.share.share:.3g} % meet"
     )
     if limit_yield.capability < _ON_THE_LIMIT:
         return carried
@@ -186,7 +186,7 @@ def free_angle(preload: Preload) -> str:
     return (
         f"The free-angle tolerance of these springs (±{math.degrees(preload.as_bought):.1f}°{by}) is "
         f"{preload.over_stroke:.1f} times the stroke: as bought, {100 * preload.yield_as_bought.share:.3g} % of the "
-        f"modules keep all limits that hang on the preload; with the preload adjusted {adjusted}, "
+        f"modules meet all limits that depend on the preload; with the preload adjusted {adjusted}, "
         f"{100 * preload.yield_adjusted.share:.3g} % do."
     )
 

@@ -1,6 +1,6 @@
 """The records a study lists, as families that share one problem: in one they differ in numbers, not in structure.
 
-Records that break a limit whatever else is chosen, left out before anything is solved: arithmetic alone says so.
+Records that violate a limit whatever else is chosen, left out before anything is solved: arithmetic alone says so.
 """
 
 from __future__ import annotations

@@ -29,8 +29,8 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.refinements import ConstantCurrentOptimum, ending_in_time
 
 _CLOSE = 0.02
-"""Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
-whether the limits can be kept there at all."""
+"""Share of its scale by which the run nearby may violate a limit in the box for a warm run to be tried before it is
+asked whether the limits can be met there at all."""
 
 
 _SAME_RECORDS = 0.5

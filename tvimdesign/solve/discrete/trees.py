@@ -42,7 +42,7 @@ class Trees:
     def of(self, families: Sequence[Family]) -> list[Relaxation]:
         """Return the problem of each family, built once for all families that differ in numbers alone.
 
-        Raises InfeasibleError where every family breaks a limit that nothing free can mend, TimeOverError where the
+        Raises InfeasibleError where every family violates a limit that nothing free can cure, TimeOverError where the
         time is over before the first problem is built.
         """
         trees: list[Relaxation] = []

@@ -8,7 +8,7 @@ worst a dozen limits give alike, at edges where the geometry's own rules change,
 
 Designs all over the ranges that keep what depends on no working cycle: where to look before a study is infeasible.
 
-Searches that begin at a few starts can end in a valley in which some limits cannot be kept, though they can elsewhere.
+Searches that begin at a few starts can end in a valley in which some limits cannot be met, though they can elsewhere.
 For this reason two of 200 random studies were reported infeasible; eighty random designs held a feasible one.
 Source: R. Storn, K. Price, Differential evolution, Journal of Global Optimization 11 (1997) 341-359, by scipy.
 """

@@ -96,7 +96,7 @@ def on_cycle(table: Table, output: str) -> bool:
 
 
 def unchangeable(limit: Constraint, table: Table, value: float, study: Study) -> str:
-    """Say of a limit that is broken by a value and stands on nothing free what could be freed."""
+    """Say of a limit that is violated by a value and stands on nothing free what could be freed."""
     is_now = format_quantity(value, table.output(limit.output).unit)
     behind = [row for row in table.inputs if row.name in table.ancestors(limit.output)]
     brought = brought_along_by(study)

@@ -61,7 +61,7 @@ _FEASIBLE = {
     "acceptable_obj_change_tol": 1e20,
 }
 Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
-"""Where a run begins: anywhere; anywhere, to end where all limits are kept; near another optimum, none of whose
+"""Where a run begins: anywhere; anywhere, to end where all limits are met; near another optimum, none of whose
 multipliers hold; at an optimum, with them; at the optimum
 itself, which is sought more exactly."""
 _SETTINGS: dict[Beginning, dict[str, Any]] = {

@@ -142,7 +142,7 @@ class Choosing:
 
 @dataclass(frozen=True)
 class Side:
-    """One limit that is broken, or conflicts."""
+    """One limit that is violated, or conflicts."""
 
     text: str
     origin: str

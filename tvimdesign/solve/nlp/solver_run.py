@@ -114,7 +114,7 @@ MEANINGS = {
     ),
     FEASIBLE: Meaning("a feasible design was found, not the best one", _BETTER_START),
     "Infeasible_Problem_Detected": Meaning(
-        "ended where no small change brings the broken limits closer to holding",
+        "ended where no small change brings the violated limits closer to being met",
         "ease one of the limits it names, or widen a range that stands in the way",
     ),
     "Search_Direction_Becomes_Too_Small": Meaning("stalled: the next step is smaller than rounding", _BETTER_START),

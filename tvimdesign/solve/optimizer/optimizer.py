@@ -62,8 +62,8 @@ class Optimizer:
         of the same device saves compiling it again. Outputs among the `objectives` can be weighed and bounded by an
         `Objective` whether the study minimises them or not. `without_cycle` leaves out the limits that depend on a
         working cycle, so that none is simulated. Runs end at the `deadline`, the study's time limit from now on unless
-        given. Records in `mixtures` are free, too, by their shares. Raises InfeasibleError where a limit is broken that
-        nothing free can mend, InputError from the table.
+        given. Records in `mixtures` are free, too, by their shares. Raises InfeasibleError where a limit is violated
+        that nothing free can cure, InputError from the table.
         """
         self.study, self.table, self.progress = study, study.table, progress
         self.deadline = deadline or Deadline(study.solver.time_limit)

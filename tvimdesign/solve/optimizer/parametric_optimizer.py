@@ -29,7 +29,7 @@ class Moved:
     """Optimum of a moved problem and its active constraints."""
 
     run: Run
-    binding: tuple[str, ...]
+    active: tuple[str, ...]
     """Limits that press, by name (`holding_torque >=`), each with the requirement it is part of, if it is of one."""
     ends: dict[str, str]
     """Variables that press against an end of their range: `lower` or `upper`."""

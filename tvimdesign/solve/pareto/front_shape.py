@@ -190,7 +190,7 @@ class Lead:
 
     lower: float
     upper: float
-    """Infinite for the last one: a front stays where it ends, as a limit that does not bind costs nothing."""
+    """Infinite for the last one: a front stays where it ends, as a limit that is not active costs nothing."""
     best: str | None
     """None where the best two are alike."""
     alone: bool

@@ -50,7 +50,7 @@ class DesignUncertainty:
     """Of each asked output, and of the limit most in doubt: its range, parts as drawn and unmeasured inputs anywhere in
     their ranges."""
     holds: spread.Yield | None = None
-    """Share of those ranges in which every limit is kept, parts as drawn; None where no limit depends on them."""
+    """Share of those ranges in which every limit is met, parts as drawn; None where no limit depends on them."""
     held: dict[str, float] = field(default_factory=dict)
     """That share for each limit that is not kept all over the ranges, the least first."""
     unmeasured: tuple[UnmeasuredInput, ...] = ()
@@ -161,7 +161,7 @@ class UncertaintyModel:
     def _of_ranges(
         self, resolved: ResolvedModule, limits: Sequence[Constraint], draws: int, workers: int
     ) -> tuple[dict[str, Interval], spread.Yield | None, dict[str, float], tuple[UnmeasuredInput, ...]]:
-        """Intervals of the asked outputs, and where in the ranges the limits are kept."""
+        """Intervals of the asked outputs, and where in the ranges the limits are met."""
         moved = tuple(quantity for quantity in unmeasured_inputs(resolved) if quantity.name in self.names)
         if not moved:
             return {}, None, {}, ()

@@ -36,7 +36,7 @@ MODULES, FEW_MODULES = 1 << 12, 1 << 10
 class Drawn:
     """The limits of one design in many modules: residuals, a row a limit, a column a module.
 
-    A limit is kept where its residual is at most the solver's tolerance: an active one that nothing spreads has that.
+    A limit is met where its residual is at most the solver's tolerance: an active one that nothing spreads has that.
     """
 
     limits: tuple[Constraint, ...]

@@ -25,7 +25,7 @@ from tvimdesign.report.output.numbers import (
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.run.blocks.verdict import most_in_doubt
-from tvimdesign.report.run.reasons import binding
+from tvimdesign.report.run.reasons import active
 from tvimdesign.report.run.uncertainty_data import changes, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
@@ -176,7 +176,7 @@ def _task(value: _Values, choices: Mapping[str, str]) -> list[Fact]:
 
 def _active_constraints(answer: StudyResult) -> list[Fact]:
     """Return the active constraints in words, the costliest first, with what a step of the first is worth."""
-    held = binding(answer)
+    held = active(answer)
     if not held:
         return []
     outputs = list(answer.design.study["minimize"])

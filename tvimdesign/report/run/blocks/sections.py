@@ -50,7 +50,7 @@ def module_section(answered: AnsweredStudy) -> Section:
             tables.points_grid(answer),
             Folded("Way of the frozen torque", [tables.torque_path_grid(answer)]),
             Folded("What the module is", [tables.module_grid(answer)]),
-            Folded("Every limit that binds or is required", [tables.checks_grid(answer)]),
+            Folded("Every limit that is active or required", [tables.checks_grid(answer)]),
         ]
     return Section("module", "Module", blocks)
 

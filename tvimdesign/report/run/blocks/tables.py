@@ -134,7 +134,7 @@ def profile_grid(answer: StudyResult) -> Grid:
 
 
 def checks_grid(answer: StudyResult) -> Grid:
-    """Return every requirement, and the machine's own rules that bind or are violated; a note counts the others."""
+    """Return every requirement, and the machine's own rules that are active or violated; a note counts the others."""
     table = table_for(answer.design.mode)
     shown = [check for check in answer.checks
              if check.origin == "require" or check.worst <= NOTHING or is_active(check, answer)]  # fmt: skip

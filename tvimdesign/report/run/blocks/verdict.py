@@ -10,8 +10,8 @@
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
-9. *Build it*; with what to measure on the first module where that limit is met in less than `SURE` of the cases, and
-   with a bought part that is not to be had.
+9. That limit is met in less than `SURE` of the cases: *Build it: one first, and measure X*.
+10. *Build it*; here and in 9 with a bought part that is not to be had.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
 
@@ -37,15 +37,16 @@ TARGET = 0.95
 DOUBT = 0.25
 """Share of the plausible cases in which the limit most in doubt must be met."""
 SURE = 0.75
-"""Share below which the first module is to be measured."""
+"""Share below which one module is to be built and measured before others."""
 
 Kind = Literal[
-    "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build",
-    "unassessed",
+    "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build_one",
+    "build", "unassessed",
 ]  # fmt: skip
 _TONES: dict[Kind, Tone] = {
     "infeasible": "bad", "unfit": "bad", "rating": "bad", "margins_missed": "bad", "temperature": "warn",
-    "add_margins": "warn", "not_yet": "warn", "measure": "warn", "build": "good", "unassessed": "good",
+    "add_margins": "warn", "not_yet": "warn", "measure": "warn", "build_one": "warn", "build": "good",
+    "unassessed": "good",
 }  # fmt: skip
 
 
@@ -198,12 +199,14 @@ def measure_first(output: str, uncertainty: Mapping[str, Any]) -> str:
 
 def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence[RunWarning]) -> Verdict:
     but = "".join(f", but {warning.but}" for warning in warnings if warning.but)
-    if uncertainty:
-        name, share = most_in_doubt(uncertainty)
-        first = measure_first(name, uncertainty) if name and share < SURE else ""
-        measured = f"; on the first module measure the {label(first)}" if first else ""
-        return Verdict("build", f"Build it{but}{measured}")
-    return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
+    if not uncertainty:
+        return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
+    name, share = most_in_doubt(uncertainty)
+    if not name or share >= SURE:
+        return Verdict("build", f"Build it{but}")
+    first = measure_first(name, uncertainty)
+    what = f"measure the {label(first)}" if first else f"check the {label(name)}"
+    return Verdict("build_one", f"Build it{but}: one first, and {what}")
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:

@@ -36,7 +36,7 @@ class RunWarning(NamedTuple):
 
     text: str
     cure: str = ""
-    """A line of the study behind *write* if it was tried, behind *try* if it was not."""
+    """A line of the study behind *write* if it was tried, behind *untried:* if it was not."""
     level: str = ""
     but: str = ""
     """What the verdict *Build it* says besides, of a part that is not to be had."""
@@ -78,7 +78,7 @@ def filled(text: str, places: Mapping[str, str]) -> str:
 
 def _other(kind: str, **places: str) -> RunWarning:
     entry = hints()["others"][kind]
-    text, cure = filled(entry["say"], places).rstrip("."), f"try {filled(entry['mend'], places)}"
+    text, cure = filled(entry["say"], places).rstrip("."), f"untried: {filled(entry['mend'], places)}"
     return RunWarning(text, cure, entry.get("level", ""))
 
 
@@ -99,7 +99,7 @@ def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
     for place, check in enumerate(sorted(answer.warnings, key=lambda check: _LEVELS.index(levels[check.output]))):
         lines = [] if check.output == harmless else lines_of(check.output, answer)
         remedy = remedies.of(check, lines, cheap=place >= SHOWN)
-        cure = f"{'write' if remedy.tried else 'try'} {remedy.line}" if remedy.line else remedy.words
+        cure = f"{'write' if remedy.tried else 'untried:'} {remedy.line}" if remedy.line else remedy.words
         if answer.solution is None and remedy.line.startswith("require:"):
             cure = f"{_VARY} {remedy.line}"
         if check.output in above:
