@@ -18,6 +18,11 @@ end."""
 _PR_SET_PDEATHSIG = 1
 
 
+def own_processors() -> int:
+    """Return how many processors this process may use: one in a child process, which shares them with others."""
+    return 1 if PARENT in os.environ else os.cpu_count() or 1
+
+
 def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> subprocess.Popen[Any]:
     """Start a module of this package as a process that speaks UTF-8 and ends with this one; `options` are Popen's."""
     here = str(Path(__file__).parents[2])

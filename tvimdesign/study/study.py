@@ -105,7 +105,7 @@ class SolverOptions(_Part):
         description="time after which the search ends with the best design found, such as 10 min",
     )  # fmt: skip
     alternatives: int = Field(
-        5, ge=1, le=100, description="combinations of listed choices that are reported, best first"
+        3, ge=1, le=100, description="combinations of listed choices that are reported, best first"
     )
     prove: bool = Field(
         False, description="solve every combination of listed choices, not only those that branch and bound leaves"

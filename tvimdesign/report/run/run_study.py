@@ -6,6 +6,7 @@ Backup of a run that is interrupted before it is written: a study that goes on f
 from __future__ import annotations
 
 import json
+import os
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
 
     from tvimdesign.cad.cad_report import CadReport
     from tvimdesign.report.run.answered_study import AnsweredStudy
-    from tvimdesign.report.run.uncertainty_process import UncertaintyProcess
     from tvimdesign.solve.nlp.solution import Solution
     from tvimdesign.solve.result import Designed
     from tvimdesign.study.design import Design
@@ -79,11 +79,9 @@ def run_study(
             write_results,
             write_run_page,
         )
-        from tvimdesign.report.run.uncertainty_process import uncertainty_process
         from tvimdesign.solve.search import optimize
 
         best = stack.enter_context(keeping_best(folder))
-        uncertainty = stack.enter_context(uncertainty_process(study))
         with write_failure(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
                 tree,
@@ -92,7 +90,7 @@ def run_study(
                 folder=folder,
                 search=partial(optimize, deadline=deadline, checked=True),
                 early=best.note,
-                designed=_asked_of_design(making, folder, uncertainty),
+                designed=_parts_of_design(making, folder),
                 deadline=deadline,
             )
         result, command.failures = answered.result, answered.failures
@@ -100,8 +98,8 @@ def run_study(
             vector = bool(making) or study.write.vector
             command.begin_plots(drawings(answered), study.name, vector=vector, folder="plots")
             command.missing = [f"parts: {without}"] if without else []
-        write_answer(folder, answered)  # before this run waits for other processes
-        _wait_for_uncertainty(answered, uncertainty, progress)
+        write_answer(folder, answered)  # nothing that follows can lose it
+        _add_uncertainty(answered, progress)
         answered.reported["verdict"] = verdict_of(answered).text
         write_results(folder, answered)
         write_summary(answered, folder)
@@ -140,40 +138,45 @@ def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
         raise
 
 
-def _asked_of_design(
-    making: BackgroundPartsJob | None, folder: ResultsFolder, uncertainty: UncertaintyProcess | None
-) -> Designed:  # fmt: skip
-    """Return a function that begins the parts and the uncertainty of a design as soon as it is there."""
+def _parts_of_design(making: BackgroundPartsJob | None, folder: ResultsFolder) -> Designed:
+    """Return a function that begins the parts of a design as soon as it is there."""
 
-    def asked(design: Design, solution: Solution | None) -> None:
+    def begin(design: Design, _solution: Solution | None) -> None:
         if making:
             making.begin(design, folder.path / "cad")
-        if uncertainty:
-            uncertainty.begin(design, yield_known=solution is not None and solution.yield_reached is not None)
 
-    return asked
+    return begin
 
 
-def _wait_for_uncertainty(
-    answered: AnsweredStudy, process: UncertaintyProcess | None, progress: Progress
-) -> None:  # fmt: skip
+_SPREAD = "TVIMDESIGN_SPREAD"
+"""Variable of the environment: `off` leaves yield and ranges out, where many runs share few processors."""
+_STEP = "yield and intervals"
+
+
+def _add_uncertainty(answered: AnsweredStudy, progress: Progress) -> None:
+    """Add yield and intervals to an answer with a design; a yield that the study asks for is known from its search."""
     from tvimdesign.report.run.answered_study import note_left_out, note_no_uncertainty, note_uncertainty
-    from tvimdesign.report.run.uncertainty_process import STEP
+    from tvimdesign.report.run.uncertainty_data import MODULES, Uncertainty
     from tvimdesign.solve.nlp.spread import yield_of
 
-    if process is None or not process.begun:
+    if os.environ.get(_SPREAD) == "off" or not answered.result.found:
         return
-    progress(f"computing {STEP} over the assumed values")
+    progress(f"computing {_STEP} over the assumed values")
+    reached = answered.result.solution and answered.result.solution.yield_reached
     try:
-        data, solution = process.finish(answered.deadline), answered.result.solution
-        if solution and (reached := solution.yield_reached):
+        answered.deadline.check(_STEP)
+        uncertainty = Uncertainty(answered.study)
+        data = uncertainty.data(answered.result.design, 0 if reached else MODULES, deadline=answered.deadline)
+        if reached:
             data |= {"parts_yield": asdict(yield_of(reached.together, reached.modules)), "modules": reached.modules}
         note_uncertainty(answered, data)
     except TimeOverError:
-        answered.deadline.leave_out(STEP)
+        answered.deadline.leave_out(_STEP)
         note_left_out(answered)
     except TvimError as error:
-        note_no_uncertainty(answered, error)
+        how = "run the study again, or `tvimdesign tolerate` with the results folder for the yield alone"
+        message = f"the uncertainty of the design could not be computed: {error}; {how}"
+        note_no_uncertainty(answered, TvimError(message))
 
 
 def _print_result(answered: AnsweredStudy, seconds: float, *, with_parts: bool, full: bool) -> None:

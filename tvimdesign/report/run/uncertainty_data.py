@@ -5,7 +5,6 @@ A yield that was asked for, in words: what is reached, what the margins cost, an
 
 from __future__ import annotations
 
-import contextlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -13,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.base.errors import SimulationError
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import finite, in_unit, label, number_entry, percent, with_unit
@@ -25,9 +24,9 @@ from tvimdesign.solve.nlp.solution import LostTo, YieldReached
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel, sobol_points
+from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.intervals import Interval, Swing
-from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, contributors_of
+from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
 
@@ -66,28 +65,28 @@ class Uncertainty:
         self._start = self._tolerant(resolve_study(study))
         self.model = UncertaintyModel(self._start, self.asked, list(study.vary))
 
-    def prepare(self) -> None:
-        """Do what needs no design: record the cycle, choose its steps and draw the modules as shares of what varies."""
-        with contextlib.suppress(SimulationError):
-            self.model.prepare()
-        if contributors := contributors_of(self._start):
-            sobol_points(len(contributors), MODULES, self.study.solver.seed)
-
     def _tolerant(self, resolved: ResolvedModule) -> ResolvedModule:
         """Return a module with the tolerances that count."""
         tolerances = resolved.study.tolerances if self.own else standard_tolerances(self.table)
         return replace(resolved, study=resolved.study.model_copy(update={"tolerances": tolerances}))
 
-    def of(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> DesignUncertainty:
-        """Return the uncertainty of one design; `modules` and `draws` are powers of two, without `modules` no yield."""
+    def of(
+        self, design: Design, modules: int = MODULES, draws: int = DRAWS, deadline: Deadline = NEVER
+    ) -> DesignUncertainty:  # fmt: skip
+        """Return the uncertainty of one design; `modules` and `draws` are powers of two, without `modules` no yield.
+
+        Raises TimeOverError at the deadline.
+        """
         resolved = self._tolerant(resolve_design(design))
         if not self.model.fits(resolved):  # another record was chosen
             self.model = UncertaintyModel(resolved, self.asked)
-        return self.model.at(resolved, modules, draws)
+        return self.model.at(resolved, modules, draws, deadline=deadline)
 
-    def data(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> dict[str, Any]:
-        """Return the entry for results.json, with the assumptions for the screen."""
-        uncertainty = self.of(design, modules, draws)
+    def data(
+        self, design: Design, modules: int = MODULES, draws: int = DRAWS, deadline: Deadline = NEVER
+    ) -> dict[str, Any]:  # fmt: skip
+        """Return the entry for results.json, with the assumptions for the screen. Raises TimeOverError."""
+        uncertainty = self.of(design, modules, draws, deadline)
         rows = {
             name: _rows(name, interval.swings, interval.nominal, self.table)
             for name, interval in uncertainty.intervals.items()

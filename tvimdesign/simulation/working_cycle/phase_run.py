@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -69,7 +69,7 @@ class PhaseRun:
         nothing will change any more. Raises SimulationError where not even the first step can be taken.
         """
         start = replace(start, current=float(profile.at(np.zeros(1))[0]))
-        found = {name: start for name in sought if self.value(name, start.state, start.current) >= 0.0}
+        found = dict.fromkeys(self._due(sought, start.state, start.current), start)
         self.instants, h = [start], FIRST * pace
         y, ahead, one = start.state.copy(), np.zeros(start.state.size), start
         nothing, settled = np.zeros((y.size, self.lanes)), False
@@ -93,9 +93,8 @@ class PhaseRun:
             current = one.current + slope * length
             other = Instant(one.time + length, one.of_time, y.copy(), nothing, current, one.of_current, one.step + 1)
             self.instants.append(other)
-            for name in sought:
-                if name not in found and self.value(name, other.state, current) >= 0.0:
-                    found[name] = self._crossing(name, one, other, slope) if seek else other
+            for name in self._due([name for name in sought if name not in found], other.state, current):
+                found[name] = self._crossing(name, one, other, slope) if seek else other
             if slope == 0.0 and not throughout and np.isinf(profile.next_corner(other.time)):
                 settled = bool(np.max(np.abs(self.rates(other)[: self.of.size])) * (horizon - other.time) < STALLED)
             one = other
@@ -109,14 +108,20 @@ class PhaseRun:
         self.instants = [start]
         steps = _Steps(start, shares * pace, shares[:, None] * dpace)
         found: dict[str, Instant] = {}
+
+        @cache
+        def gaps(group: tuple[str, ...], k: int) -> Array:
+            return self._values(group, self.instants[k].state, self.instants[k].current)
+
         for name in sorted(sought, key=grid.events.__getitem__):
+            group, place = self.of.together[name]
             k = grid.events[name]
             while 0 <= k < len(shares):
                 if not self._advanced(steps, k + 1):
                     return found
-                if self._gap_at(name, k) >= 0.0:
+                if gaps(group, k)[place] >= 0.0:
                     k -= 1
-                elif self._gap_at(name, k + 1) < 0.0:
+                elif gaps(group, k + 1)[place] < 0.0:
                     k += 1
                 else:
                     found[name] = self._crossing(name, self.instants[k], self.instants[k + 1])
@@ -164,6 +169,12 @@ class PhaseRun:
         group, place = self.of.together[name]
         return float(self._values(group, y, current)[place])
 
+    def _due(self, names: list[str], y: Array, current: float) -> list[str]:
+        """Return the events that have happened at an instant."""
+        together = self.of.together
+        values = {group: self._values(group, y, current) for group in {together[name][0] for name in names}}
+        return [name for name in names if values[together[name][0]][together[name][1]] >= 0.0]
+
     def values(self, group: tuple[str, ...], passed: Sequence[Instant]) -> Array:
         """Return quantities that are recorded together, a column each, at some instants, a row each."""
         return np.array([self._values(group, one.state, one.current) for one in passed])
@@ -191,9 +202,6 @@ class PhaseRun:
         return self._given[group]
 
     # --- events ---
-
-    def _gap_at(self, name: str, k: int) -> float:
-        return self.value(name, self.instants[k].state, self.instants[k].current)
 
     def rates(self, now: Instant) -> Array:
         """Return the time derivative of the state."""

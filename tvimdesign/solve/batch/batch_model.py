@@ -49,20 +49,26 @@ class BatchModel:
     @cached_property
     def _pace(self) -> Pace | None:
         """That of the module as drawn, for who gives none."""
-        return self.pace_at(self._simulator.model.start)
+        start = self._simulator.model.start
+        return self.fitted(self.pace_at(start), start)
 
-    def pace_at(self, inputs: Array, beside: Pace | None = None) -> Pace | None:
-        """Return how the design with these inputs goes through its cycle; None if nothing depends on it.
-
-        Its steps are those of a design `beside` it, if given, and chosen anew otherwise.
-        """
+    def pace_at(self, inputs: Array) -> Pace | None:
+        """Return how the design with these inputs goes through its cycle; None if nothing depends on it."""
         if self.cycle is None:
             return None
         model = self._simulator.model
         cycle = self._simulator.run(inputs, phases=list(self.cycle.phases))
         slow = SLOW * float(inputs[model.index["horizon"]])
         ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
-        pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+        return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+
+    def fitted(self, pace: Pace | None, inputs: Array, beside: Pace | None = None) -> Pace | None:
+        """Return a pace with steps as coarse as modules of its design bear.
+
+        The steps are those of a design `beside` it, if given, and chosen anew otherwise.
+        """
+        if self.cycle is None or pace is None:
+            return None
         column = inputs[self._places]
         if beside is None:
             return self.cycle.fitted(pace, column)

@@ -299,7 +299,11 @@ class BranchAndBound:
         ]
 
     def _division(self, node: Node) -> Division:
-        """Return the best division of a box by pseudo-costs; if every number has one size, divide the longest list."""
+        """Return the best division of a box by pseudo-costs; if every number has one size, divide the longest list.
+
+        That is cut beside the size, as what lies beyond is likely worse than the best combinations; without a design,
+        in its middle.
+        """
         sizes, best, most = node.relaxation.sizes, None, 0.0
         values = node.relaxation.values(node.run) if node.run is not None else {}
         for axis, (name, listed, (first, last)) in enumerate(zip(sizes.names, sizes.sizes, node.box, strict=True)):
@@ -313,7 +317,9 @@ class BranchAndBound:
                 best, most = Division(axis, below, moves), score
         if best is None:
             axis = max(range(len(node.box)), key=lambda i: node.box[i][1] - node.box[i][0])
-            best = Division(axis, sum(node.box[axis]) // 2, (0.0, 0.0))
+            first, last = node.box[axis]
+            place = sizes.nearest(values, node.box)[axis][0] if values else (first + last) // 2
+            best = Division(axis, min(place, last - 1), (0.0, 0.0))
         return best
 
     def _pseudo_costs_of(self, node: Node) -> PseudoCosts:

@@ -19,7 +19,7 @@ from functools import partial
 from types import TracebackType
 from typing import Any, NamedTuple
 
-from tvimdesign.base.child_process import PARENT, follow_parent, start_child
+from tvimdesign.base.child_process import follow_parent, own_processors, start_child
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task, answer
 from tvimdesign.solve.discrete.discrete_choices import Box
@@ -161,7 +161,7 @@ def second_process(
     combinations: int,
 ) -> contextlib.AbstractContextManager[ParallelSolver | None]:
     """Return a second process if it pays off; none in a child process, which shares the processors with others."""
-    if combinations < WORTH or (os.cpu_count() or 1) < 2 or PARENT in os.environ:
+    if combinations < WORTH or own_processors() < 2:
         return contextlib.nullcontext()
     return ParallelSolver(ProblemSpec(study.model_dump_json(), reference, list(objectives), deadline.remaining))
 

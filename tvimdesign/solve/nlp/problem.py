@@ -93,6 +93,7 @@ class Problem:
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
         self._cycle_model: CycleModel | None = None
         self._last: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
+        self._placed: deque[tuple[bytes, dict[str, Grid]]] = deque(maxlen=REMEMBERED)
         self._last_modelled: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
 
     # --- evaluation ---
@@ -112,13 +113,23 @@ class Problem:
         return places, factors, np.array([limit.limit for limit in self.limits])
 
     def place_grids(self, x: Array, parameters: Parameters) -> None:
-        """Choose the steps of each phase by their errors at a point; they stay until they are placed again."""
+        """Choose the steps of each phase by their errors at a point; they stay until they are placed again.
+
+        Those of the last points are remembered.
+        """
+        key = x.tobytes() + parameters.inputs.tobytes()
+        for known, grids in self._placed:
+            if known == key:
+                self.grids = grids
+                return
         self.grids = {}
+        self._placed.append((key, self.grids))
         inputs, _ = self.inputs_at(x, parameters.inputs)
         try:
             self.engine.run(inputs, np.zeros((len(inputs), 0)), self._needed, self.grids, self._drives(x, 0))
         except SimulationError:
             self.grids = {}
+            self._placed.pop()
 
     def forget(self) -> None:
         """Forget the last points."""

@@ -5,13 +5,16 @@ Scrambled Sobol points, kept from one run to the next: to load scipy's takes 0.4
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+from functools import partial
 from importlib.metadata import version
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.child_process import own_processors
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.user_cache import find_code, keep_code
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
@@ -30,6 +33,7 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import (
 )
 
 Array = NDArray[np.float64]
+Rows = Callable[..., Array]
 
 DRAWS = 1 << 9
 """Modules drawn from the ranges of unmeasured inputs."""
@@ -84,16 +88,7 @@ class UncertaintyModel:
         drawn = bool(self.outputs and self.names)
         self._model = BatchModel(resolved.functions, self.names, self.outputs) if drawn else None
         self._pace: Pace | None = None
-
-    def prepare(self) -> None:
-        """Choose the steps of the cycle at the recorded module; designs beside it take them."""
-        if self._model is not None:
-            self._pace = self._pace_at(self._resolved)
-
-    def _pace_at(self, resolved: ResolvedModule) -> Pace | None:
-        assert self._model is not None
-        inputs = np.array([float(value) for value in resolved.values.values() if isinstance(value, int | float)])
-        return self._model.pace_at(inputs, beside=self._pace)
+        """The pace of the last design whose modules were drawn, with its steps."""
 
     def fits(self, resolved: ResolvedModule) -> bool:
         """Return whether a module differs from the recorded one only in inputs that may change."""
@@ -101,39 +96,44 @@ class UncertaintyModel:
         same = self._resolved.study.tolerances == resolved.study.tolerances and before.keys() == now.keys()
         return same and all(before[name] == now[name] for name in before if name not in self.names)
 
-    def at(self, resolved: ResolvedModule, modules: int, draws: int = DRAWS, workers: int = 1) -> DesignUncertainty:
+    def at(
+        self, resolved: ResolvedModule, modules: int, draws: int = DRAWS, deadline: Deadline = NEVER
+    ) -> DesignUncertainty:  # fmt: skip
         """Draw `modules` (a power of two) of a design by the study's tolerances, `draws` from the ranges.
 
-        Without `modules` there is no yield.
+        Without `modules` there is no yield. Raises TimeOverError at the deadline.
         """
         if self._model is None:
             return DesignUncertainty(None, 0, tuple(limit.name for limit in self.limits), {})
-        self._pace = self._pace_at(resolved)
-        as_drawn = dict(zip(self.outputs, self._rows(resolved, np.zeros((0, 1)), (), workers)[:, 0], strict=True))
+        inputs = np.array([float(value) for value in resolved.values.values() if isinstance(value, int | float)])
+        pace = self._model.pace_at(inputs)
+        # Steps that are fitted to modules are too coarse for what lies far off over the ranges of assumed values.
+        rows = partial(self._rows, resolved, pace, deadline)
+        as_drawn = dict(zip(self.outputs, rows(np.zeros((0, 1)), ())[:, 0], strict=True))
         counted = [limit for limit in self.limits if np.isfinite(as_drawn.get(limit.output, np.nan))]
         spreading = [limit for limit in counted if _behind(resolved.table, limit.output, self._spreading)]
         names = {limit.name for limit in counted}
         left_out = tuple(limit.name for limit in self.limits if limit.name not in names)
-        result = self._of_ranges(resolved, counted, draws, workers)
-        parts = self._yield(resolved, spreading, modules, workers) if modules else None
-        return DesignUncertainty(parts, len(spreading), left_out, *result, self._before(resolved, draws, workers))
+        result = self._of_ranges(resolved, counted, draws, rows)
+        parts = None
+        if modules:
+            self._pace = self._model.fitted(pace, inputs, beside=self._pace)
+            parts = self._yield(resolved, spreading, modules, partial(self._rows, resolved, self._pace, deadline))
+        return DesignUncertainty(parts, len(spreading), left_out, *result, self._before(resolved, draws, rows))
 
     def _rows(
-        self, resolved: ResolvedModule, columns: Array, places: Sequence[str], workers: int,
-        only: Collection[str] | None = None, *, modules: bool = False,
+        self, resolved: ResolvedModule, pace: Pace | None, deadline: Deadline, columns: Array, places: Sequence[str],
+        only: Collection[str] | None = None,
     ) -> Array:  # fmt: skip
-        """Rows for `outputs` of designs, or of `modules` of one, all inputs but those in `places` as the design has
-        them."""
+        """Rows for `outputs` of designs, all inputs but those in `places` as the design has them."""
         assert self._model is not None
         drawn = np.array([float(resolved.values[name]) for name in self.names])
         every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
         every[[self.names.index(name) for name in places]] = columns
-        # Steps that are fitted to modules are too coarse for what lies far off over the ranges of assumed values.
-        pace = self._pace if modules or self._pace is None else replace(self._pace, fits={})
-        return self._model(every, workers, pace, only)
+        return self._model(every, own_processors(), pace, only, deadline)
 
     def _yield(
-        self, resolved: ResolvedModule, limits: Sequence[Constraint], modules: int, workers: int
+        self, resolved: ResolvedModule, limits: Sequence[Constraint], modules: int, rows: Rows
     ) -> spread.Yield | None:
         """Modules that keep all of some limits, parts within their tolerances.
 
@@ -144,22 +144,20 @@ class UncertaintyModel:
             return None
         places = [contributor.name for contributor in contributors]
         points = sobol_points(len(contributors), modules, resolved.study.solver.seed)
-        drawn = self._rows(
-            resolved, spread.inputs_at(contributors, points.T), places, workers, self._early, modules=True
-        )
+        drawn = rows(spread.inputs_at(contributors, points.T), places, self._early)
         return spread.share_kept(np.all(_satisfied(limits, self.outputs, drawn), axis=0))
 
-    def _before(self, resolved: ResolvedModule, draws: int, workers: int) -> dict[str, tuple[float, float]]:
+    def _before(self, resolved: ResolvedModule, draws: int, rows: Rows) -> dict[str, tuple[float, float]]:
         """Intervals of the asked outputs by the ranges that measured inputs had before."""
         moved = [quantity for quantity in unmeasured_inputs(resolved) if quantity.name in self.names]
         if all(quantity.before is None for quantity in moved):
             return {}
         drawn = draw(before_measuring(moved), draws, resolved.study.solver.seed)
-        values = self._rows(resolved, drawn, [quantity.name for quantity in moved], workers)
+        values = rows(drawn, [quantity.name for quantity in moved])
         return {name: covered(values[self.outputs.index(name)]) for name in self.asked}
 
     def _of_ranges(
-        self, resolved: ResolvedModule, limits: Sequence[Constraint], draws: int, workers: int
+        self, resolved: ResolvedModule, limits: Sequence[Constraint], draws: int, rows: Rows
     ) -> tuple[dict[str, Interval], spread.Yield | None, dict[str, float], tuple[UnmeasuredInput, ...]]:
         """Intervals of the asked outputs, and where in the ranges the limits are met."""
         moved = tuple(quantity for quantity in unmeasured_inputs(resolved) if quantity.name in self.names)
@@ -168,7 +166,7 @@ class UncertaintyModel:
         places = [quantity.name for quantity in moved]
 
         def every(columns: Array) -> Array:
-            return self._rows(resolved, columns, places, workers)
+            return rows(columns, places)
 
         drawn = draw(moved, draws, resolved.study.solver.seed)
         values = every(drawn)

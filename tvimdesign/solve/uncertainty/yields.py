@@ -14,6 +14,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.child_process import own_processors
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
@@ -170,14 +171,14 @@ class Yields:
         places = [self._moving.index(contributor.name) for contributor in contributors]
         drawn = np.array([inputs[model.index[name]] for name in self._moving])
         many = self._many
-        self._pace = pace = many.pace_at(inputs, beside=self._pace)
+        self._pace = pace = many.fitted(many.pace_at(inputs), inputs, beside=self._pace)
         columns_drawn: list[Array] = []
 
         def outputs(columns: Array) -> Array:
             every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
             every[places] = columns
             columns_drawn.append(columns)
-            return many(every, pace=pace, deadline=deadline)
+            return many(every, own_processors(), pace, deadline=deadline)
 
         seed = self._study.solver.seed if seed is None else seed
         values = spread.drawn_values(outputs, contributors, len(which), seed, which.start)
