@@ -1,12 +1,17 @@
 """Offers for bought parts: real records, supplies that are enough, whole packs in the sum, and quotes for the rest."""
 
+import itertools
+import re
+
 import pytest
 
 from tvimdesign.cad.assembly.offers import QUOTE, offer_for, offers, total
 from tvimdesign.catalog import Catalog
 
 KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
-KINDS |= {"preload_spring", "heater", "thermal_cutout"}
+KINDS |= {"preload_spring", "heater", "thermal_cutout", "controller_supply", "divider_resistor", "heater_wire"}
+KINDS |= {"crimp_splice", "wire_sleeve", "polyimide_film", "thermal_grease", "grease", "mould_release", "spreader"}
+DATE, UNDATED = re.compile(r"20\d\d-\d\d(-\d\d)?"), "not stated"
 BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"
 
 
@@ -19,18 +24,38 @@ def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source() -> Non
         assert offer.kind in ("", *KINDS), offer
         assert offer.source
         assert bool(offer.number) != bool(offer.pattern), offer
-        assert (offer.price is None) or offer.date, offer
+        assert offer.price is None or offer.date == UNDATED or DATE.fullmatch(offer.date), offer
         assert offer.high is None or offer.high >= (offer.price or 0.0)
 
 
 def test_a_screw_is_ordered_by_its_length() -> None:
     ten = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 10 - A2-70")
     assert ten is not None
-    assert (ten.number, ten.pack, ten.in_words) == ("92095A182", 100, "7.19 USD a pack of 100 (2025-06)")
+    assert (ten.number, ten.pack, ten.in_words) == ("92095A182", 100, "7.19 to 7.91 USD a pack of 100 (2025-06)")
     spring = offer_for("spring_left", "music_wire", "Torsion spring T10160, wire 0.42 mm, wound left")
     assert spring is not None
     assert spring.number == "T10160"
-    assert offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - A2-70") is None
+    eleven = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - A2-70")
+    assert eleven is not None
+    assert (eleven.supplier, eleven.number) == ("any fastener shop", "ISO 7380-1 - M3 x 11 - A2-70")
+
+
+def test_a_price_of_a_neighbour_is_an_interval_and_says_whose_it_is() -> None:
+    pin = offer_for("link_dowel", "iso_8734_2", "Dowel pin ISO 8734 - 2 m6 x 8 - A, hardened steel")
+    assert pin is not None
+    assert (pin.price, pin.high) == pytest.approx((12.70 / 2.2, 12.70 * 2.2))
+    assert pin.in_words == "5.77 to 27.94 USD a pack of 50 (2026-09-30, of 91595A018)"
+    twenty = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 20 - A2-70")
+    assert twenty is not None
+    assert (twenty.price, twenty.high) == pytest.approx((7.19 / 2 / 2.2, 7.91 / 2 * 2.2))
+
+
+def test_the_spread_holds_all_prices_of_one_screw_whatever_its_length() -> None:
+    screws = [offer for offer in offers() if offer.record.startswith("iso_") and not offer.like]
+    spans = [(screw.record, screw.price, screw.high or screw.price, screw.pack) for screw in screws if screw.price]
+    assert len(spans) >= 8
+    for (first, low, _, many), (second, _, high, few) in itertools.permutations(spans, 2):
+        assert first != second or (high / few) / (low / many) <= 2.2, first
 
 
 @pytest.mark.parametrize(
@@ -65,8 +90,11 @@ def test_the_number_is_a_standards_a_makers_or_that_of_a_drawing(
         ("driver", f"{DOWN} both ways round", (10.6, 2.9), "TEC-1091"),
         ("driver", f"{DOWN} both ways round", (10.6, 4.1), None),
         ("driver", f"{DOWN} one way round", (1.2, 1.9), "DPS5005"),
-        ("supply", "", (9.5, 2.6), "LRS-50-12"),
-        ("supply", "", (13.0, 2.6), "LRS-100-24"),
+        ("supply", "", (9.5, 1.9), "B0DZGTTBGZ"),
+        ("supply", "", (9.5, 2.6), "IRM-90-12ST (MEAN WELL)"),
+        ("supply", "", (13.0, 2.6), "B0D2XZCGL5"),
+        ("supply", "", (13.0, 4.1), "LRS-150-24"),
+        ("supply", "", (13.0, 6.6), None),
     ],
 )
 def test_the_first_that_bears_volts_and_amperes_is_taken(
@@ -79,9 +107,9 @@ def test_the_first_that_bears_volts_and_amperes_is_taken(
 def test_the_sum_is_of_whole_packs_and_counts_what_has_no_price() -> None:
     screws = offer_for("", "iso_7380_m3", "M3 x 10 ")
     inserts = offer_for("", "heat_set_m3", "")
-    supply = offer_for("supply", "", "", 12.0, 1.0)
-    assert supply is not None
-    assert supply.in_words == QUOTE
-    sums = total([(screws, 101), (inserts, 8), (supply, 1), (None, 3)])
+    polymer = offer_for("polymer", "pcl_50k", "")
+    assert polymer is not None
+    assert polymer.in_words == QUOTE
+    sums = total([(screws, 101), (inserts, 8), (polymer, 1), (None, 3)])
     assert (sums.low, sums.high) == pytest.approx((2 * 7.19 + 10.90, 2 * 7.91 + 10.90))
     assert (sums.priced, sums.lines) == (2, 4)

@@ -260,7 +260,7 @@ def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     )
     assert supply.title == "DC supply of 24 V, at least 0.3 A"  # 4.01 V and 1.5 A, a tenth lost
     assert supply.offer is not None
-    assert supply.offer.number == "LRS-50-24"
+    assert supply.offer.number == "B0D2XZCGL5"
     assert driver.title.startswith(
         "Step-down driver, current controlled both ways round, from 24 V, at least 4.1 V and 1.5 A"
     )

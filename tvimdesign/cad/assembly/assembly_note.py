@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.bill_of_materials import Item, cost
+from tvimdesign.cad.assembly.offers import between
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
 from tvimdesign.cad.parts.heater_parts import fits_in_window
@@ -58,9 +59,9 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
 def _cost(items: Sequence[Item]) -> str:
     """Return the sum of what has a price, and how much has none."""
     sums = cost(items)
-    between = f"{sums.low:.2f} USD" if sums.high == sums.low else f"{sums.low:.2f} to {sums.high:.2f} USD"
     return (
-        f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list: {between} for whole packs. "
+        f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list, some of them a neighbour's: "
+        f"{between(sums.low, sums.high)} for whole packs. "
         "Ask suppliers for quotes of the others."
     )
 

@@ -81,22 +81,20 @@ class Item:
 
     @property
     def is_ordered(self) -> bool:
-        """True for what one orders: neither made, nor part of what is ordered."""
-        return not self.made and self.kind != "heater_lead"
+        """True for what one orders: neither made, nor part of what is ordered, nor a part that does not fit."""
+        return not self.made and self.kind != "heater_lead" and NOT_TO_BE_ORDERED not in self.title
 
     @property
     def offer(self) -> Offer | None:
         """Its number, pack and price, where a public list gives them."""
-        if not self.is_ordered or NOT_TO_BE_ORDERED in self.title:
-            return None
-        return offer_for(self.kind, self.material, self.title, *self.asks)
+        return offer_for(self.kind, self.material, self.title, *self.asks) if self.is_ordered else None
 
     @property
     def price(self) -> str:
         """Price of a pack in words, or how else one comes by it."""
-        if not self.is_ordered:
-            return "made" if self.made else "with its module"
-        return self.offer.in_words if self.offer else QUOTE
+        if self.is_ordered:
+            return self.offer.in_words if self.offer else QUOTE
+        return "made" if self.made else "with its module" if self.kind == "heater_lead" else NOT_TO_BE_ORDERED.lower()
 
 
 def bill(

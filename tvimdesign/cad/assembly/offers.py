@@ -36,21 +36,45 @@ class Offer:
     date: str = ""
     price: float | None = None
     high: float | None = None
+    like: str = ""
+    """Number of the neighbour whose price per piece was taken."""
     voltage: float = math.inf
     current: float = math.inf
 
     @property
     def in_words(self) -> str:
-        """Price of the pack, and its date."""
-        return f"{self.price:.2f} USD a pack of {self.pack} ({self.date})" if self.price is not None else QUOTE
+        """Price of the pack or its interval, its date, and the neighbour it is of."""
+        if self.price is None:
+            return QUOTE
+        dated = f"{self.date}, of {self.like}" if self.like else self.date
+        return f"{between(self.price, self.high or self.price)} a pack of {self.pack} ({dated})"
+
+
+def between(low: float, high: float) -> str:
+    """Return a price or an interval of prices in words."""
+    return f"{low:.2f} USD" if low == high else f"{low:.2f} to {high:.2f} USD"
 
 
 @cache
 def offers() -> tuple[Offer, ...]:
-    """Return the offers of the data file, the first choice first."""
-    entries = plain_data(_OFFERS.read_text("utf-8"))["offers"]
+    """Return the offers of the data file, the first choice first, each with its own or its neighbour's price."""
+    data = plain_data(_OFFERS.read_text("utf-8"))
+    references, own = (_offers(data[key]) for key in ("references", "offers"))
+    priced = {offer.number: offer for offer in (*references, *own) if offer.price is not None}
+    spread = float(data["spread"]["value"])
+    return tuple(_like(offer, priced[offer.like], spread) if offer.like else offer for offer in own)
+
+
+def _offers(entries: Iterable[Mapping[str, Any]]) -> list[Offer]:
     units = {"voltage": "V", "current": "A"}
-    return tuple(Offer(**{key: _plain(key, value, units) for key, value in entry.items()}) for entry in entries)
+    return [Offer(**{key: _plain(key, value, units) for key, value in entry.items()}) for entry in entries]
+
+
+def _like(offer: Offer, neighbour: Offer, spread: float) -> Offer:
+    """Return the offer with the neighbour's price per piece, over and times the spread of such prices."""
+    packs, least = offer.pack / neighbour.pack, neighbour.price or 0.0
+    low, high = packs * least / spread, packs * (neighbour.high or least) * spread
+    return replace(offer, price=low, high=high, date=neighbour.date)
 
 
 def _plain(key: str, value: Any, units: Mapping[str, str]) -> Any:
