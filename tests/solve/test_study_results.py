@@ -15,7 +15,7 @@ from tvimdesign.device import MODES, table_for
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve import anchored_search, result, search
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.nlp.constraints import refuse_impossible
+from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible, unchangeable
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, Array, Run
 from tvimdesign.solve.result import answer
 from tvimdesign.study import Study, given, read_study_text
@@ -193,3 +193,14 @@ def test_each_cure_that_is_advised_cures(text: str) -> None:
     for name, value in cures:
         module = {**study.module, name: parse_quantity(value, "mm")}
         refuse_impossible(study.model_copy(update={"module": module, "vary": {}, "minimize": {}}))
+
+
+def test_a_cure_of_one_limit_violates_no_other_that_is_met() -> None:
+    wire = "module: {spring_material: music_wire}\nvary: {pcl_outer_radius: [12 mm, 30 mm]}\nminimize: module_mass\n"
+    study = study_of(wire)
+    start, table = given(study), study.table
+    web = next(limit for limit in constraints_of(study, table, start) if limit.output == "core_web")
+    advice = unchangeable(web, table, 0.4e-3, study).partition("is enough: ")[2]
+    # Springs further out leave the core its web, but their pins would stand beside the rotor plate.
+    assert "link_thickness" in advice
+    assert "placement_radius" not in advice

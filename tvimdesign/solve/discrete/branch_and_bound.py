@@ -332,11 +332,11 @@ class BranchAndBound:
 
     def _say(self, relaxation: Relaxation) -> None:
         """Report the progress of the search and the best objective so far."""
-        left = len(self._open)
+        solved, left = (f"{count} {what}{'s' if count != 1 else ''}" for count, what in
+                        ((len(self.found), "combination"), (len(self._open), "group")))  # fmt: skip
         best = min((run.start.objective for run in self.found.values()), default=None)
-        so_far = "" if best is None else f", objective {best:.5g} so far"
-        message = f"{len(self.found)} combinations solved, groups of combinations left: {left}{so_far}"
-        relaxation.optimizer.progress(message)
+        so_far = "" if best is None else f": objective {best:.5g} so far"
+        relaxation.optimizer.progress(f"{solved} solved, {left} of combinations left{so_far}")
 
 
 def _slices(box: Box) -> tuple[slice, ...]:

@@ -96,17 +96,26 @@ def on_cycle(table: Table, output: str) -> bool:
 
 
 def unchangeable(limit: Constraint, table: Table, value: float, study: Study) -> str:
-    """Say of a limit that is violated by a value and stands on nothing free what could be freed."""
+    """Say of a limit that is violated by a value and stands on nothing free what could be freed.
+
+    A change is named if with it the limit is met, and all others that depend on no cycle and are met at the start.
+    """
     is_now = format_quantity(value, table.output(limit.output).unit)
     behind = [row for row in table.inputs if row.name in table.ancestors(limit.output)]
     brought = brought_along_by(study)
     variable = [row for row in behind if row.variable and row.name not in brought and not row.per_point]
     start = given(study)
 
+    def satisfied(values: Mapping[str, Any], limits: Sequence[Constraint]) -> list[bool]:
+        outputs = table.evaluate(values, list(dict.fromkeys(each.output for each in limits)))
+        return [bool(each.residual(float(outputs[each.output])) <= ALGEBRAIC_TOLERANCE) for each in limits]
+
     def satisfies(values: Mapping[str, Any]) -> bool:
-        return bool(limit.residual(float(table.evaluate(values, [limit.output])[limit.output])) <= ALGEBRAIC_TOLERANCE)
+        return all(satisfied(values, [limit])) and all(satisfied(values, met))
 
     with np.errstate(invalid="ignore", divide="ignore"):
+        arithmetic = [each for each in constraints_of(study, table, start) if not on_cycle(table, each.output)]
+        met = [each for each, holds in zip(arithmetic, satisfied(start, arithmetic), strict=True) if holds]
         cures = _cures(study, start, variable, satisfies)
     enough = f"one of these is enough: {', '.join(cures)}" if cures else ""
     if bought := sorted({brought[row.name] for row in behind if row.name in brought}):
