@@ -7,10 +7,13 @@ from pathlib import Path
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import format_quantity
+from tvimdesign.report.output.terminal import progress_output
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.resolve import record_checks
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import swept_cells
+
+CHECKING = "checking whether the requirements conflict"
 
 
 def check_study(path: Path, settings: Sequence[str] = (), *, as_json: bool) -> None:
@@ -19,7 +22,9 @@ def check_study(path: Path, settings: Sequence[str] = (), *, as_json: bool) -> N
 
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
-    refuse_what_cannot_be(study)
+    with progress_output() as progress:
+        progress(CHECKING)
+        refuse_what_cannot_be(study)
     cells = swept_cells(tree)
     print(study.model_dump_json(indent=2) if as_json else describe(study))
     if cells and not as_json:

@@ -30,6 +30,7 @@ from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Section, Words
 from tvimdesign.report.output.command import Command, done_in_part, noting
 from tvimdesign.report.output.terminal import Progress, print_lines, print_section, progress_output, wide_console
+from tvimdesign.report.run.check_study import CHECKING
 from tvimdesign.report.run.parts_of_design import BackgroundPartsJob, in_short, plain_report, refuse_failed
 from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.result import StudyResult
@@ -128,7 +129,7 @@ def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
 
     try:
         with progress_output() as progress:
-            progress("checking whether the requirements conflict")
+            progress(CHECKING)
             refuse_what_cannot_be(study, deadline=deadline)
     except InfeasibleError as error:
         if as_json:
