@@ -30,6 +30,17 @@ def test_quantities_are_pints_and_mix_with_a_users_own() -> None:
         torque.to("kg")
 
 
+def test_units_are_written_in_the_order_of_the_table() -> None:
+    assert f"{quantity(8.0, 'N*m'):.4g~P}" == "8 N·m"
+    assert f"{quantity(8.0, 'N*m*s/rad'):.4g~P}" == "8 N·m·s/rad"
+    formatter = pint.get_application_registry().formatter
+    formatter.default_sort_func = lambda items, _: sorted(items, key=lambda item: item[2])
+    try:
+        assert f"{quantity(8.0, 'N*m'):.4g~P}" == "8 m·N"
+    finally:
+        formatter.default_sort_func = None
+
+
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 def test_pint_reads_every_unit_of_the_table_alike(mode: str) -> None:
     units = {row.unit for row in table_for(mode).quantities if not isinstance(row, Choice)}

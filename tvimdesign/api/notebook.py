@@ -71,10 +71,10 @@ def _png(figure: Figure) -> bytes:
 
 @contextmanager
 def shown_progress(wanted: bool) -> Iterator[Progress]:
-    """Say what is going on where somebody sees it: nothing in a pipe, in a thread, or where it is not wanted."""
+    """Say what is going on below a notebook's cell, else on standard error as the commands do; nothing in a thread."""
     if wanted and in_notebook():
         yield from _notebook_line()
-    elif wanted and sys.stderr.isatty() and threading.current_thread() is threading.main_thread():
+    elif wanted and threading.current_thread() is threading.main_thread():
         with progress_output() as progress:
             yield progress
     else:

@@ -82,7 +82,9 @@ def size(
     from tvimdesign.report.run.study_files import sized_text
     from tvimdesign.study.sizing import JointTask
 
-    text = sized_text(JointTask.read(torque, stiffness, diameter, time, supply, stroke, stiff_time), name)
+    task = JointTask.read(torque, stiffness, diameter, time, supply, stroke, stiff_time)
+    with shown_progress(progress) as say:
+        text = sized_text(task, name, say)
     return Study._of(tree_of_text(text, f"{name}.yaml", name, Path())).run(progress=progress)
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.units import from_si
 from tvimdesign.report.output.tables import NOTHING, check_row
@@ -21,10 +22,24 @@ if TYPE_CHECKING:
 
 
 def quantity(value_si: float, unit: str) -> Quantity[float]:
-    """Return a number in SI as a quantity of pint's application registry, in `unit`."""
-    from pint import Quantity  # takes a tenth of a second, which no command pays
+    """Return a number in SI as a quantity of pint's application registry, in `unit`.
 
-    return Quantity(from_si(value_si, unit), unit)
+    Units are written in the table's order, N·m: in pint's own, by the alphabet, m·N reads as millinewton. An order that
+    the user has set stays.
+    """
+    import pint  # takes a tenth of a second, which no command pays
+
+    formatter = pint.application_registry.formatter
+    if formatter.default_sort_func is _pint_order():
+        formatter.default_sort_func = None
+    return pint.Quantity(from_si(value_si, unit), unit)
+
+
+@cache
+def _pint_order() -> Any:
+    import pint
+
+    return pint.UnitRegistry(None).formatter.default_sort_func
 
 
 def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
