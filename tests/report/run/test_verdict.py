@@ -76,6 +76,8 @@ def sides(*texts: str) -> ConflictSet:
          "Build it: one first, and measure the structure layer strength"),
         (answer(), SURE, [RunWarning("cutout margin is -8 K", but="no listed cut-out fits")],
          "Build it, but no listed cut-out fits: one first, and measure the structure layer strength"),
+        (answer(), SURE, [RunWarning("-8 K", but="no listed cut-out fits"), RunWarning("14.1", but="friction holds it")],
+         "Build it, but no listed cut-out fits and friction holds it: one first, and measure the structure layer strength"),
         (answer(), SURE | {"intervals": {}}, [], "Build it: one first, and check the retainer thread"),
         (answer(), {}, [], "Optimum found"),
     ],

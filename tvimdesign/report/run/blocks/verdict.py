@@ -198,7 +198,8 @@ def measure_first(output: str, uncertainty: Mapping[str, Any]) -> str:
 
 
 def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence[RunWarning]) -> Verdict:
-    but = "".join(f", but {warning.but}" for warning in warnings if warning.but)
+    what_else = " and ".join(warning.but for warning in warnings if warning.but)
+    but = f", but {what_else}" if what_else else ""
     if not uncertainty:
         return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
     name, share = most_in_doubt(uncertainty)
