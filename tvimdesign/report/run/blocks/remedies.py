@@ -36,6 +36,8 @@ class Remedy:
 
     line: str
     tried: bool = False
+    failed: bool = False
+    """True if the line does not cure at the numbers of the design."""
     words: str = ""
 
 
@@ -49,7 +51,7 @@ class Remedies:
         self._study = Study.model_validate(answer.design.study)
 
     def of(self, check: ConstraintCheck, lines: Sequence[str], *, cheap: bool = False) -> Remedy:
-        """Return the first line that cures; else the last, untried, or why it does not; empty without lines.
+        """Return the first line that cures; else the last one, or why it does not cure; empty without lines.
 
         Parameters
         ----------
@@ -61,6 +63,7 @@ class Remedies:
             Leave out what needs a search.
         """
         refusal: str | None = ""
+        failed: set[str] = set()
         for line in lines:
             entry = plain_data(line)
             if changes := _changes(entry, self._table):
@@ -69,13 +72,16 @@ class Remedies:
                     if self._answer.solution is None or cheap or self._least(changed, "module_mass") is not None:
                         self._study = changed
                         return Remedy(line, tried=True)
+                failed.add(line)
             elif "require" in entry and not (cheap or self._answer.solution is None or self._deadline.passed):
                 if on_cycle(self._table, check.output):
                     continue
                 refusal = self._misses(line)
                 if refusal is None:
                     return Remedy(line, tried=True)
-        return Remedy("", words=refusal or "") if refusal or not lines else Remedy(lines[-1])
+        if refusal or not lines:
+            return Remedy("", words=refusal or "")
+        return Remedy(lines[-1], failed=lines[-1] in failed)
 
     def _misses(self, line: str) -> str | None:
         """Return what is possible instead of a requirement; None, and the requirement is adopted, if it is possible.

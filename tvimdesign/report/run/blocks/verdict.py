@@ -168,7 +168,7 @@ def _add_margins(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict
     if share is None or share["share"] >= TARGET or answer.design.study.get("robust"):
         return None
     what = "optimum: add margins" if answer.solution is not None else "design without margins"
-    return Verdict("add_margins", f"Nominal {what} (yield {percent(share['share'], 2)})")
+    return Verdict("add_margins", f"Nominal {what} (yield {percent(share['share'])})")
 
 
 def _not_yet(warnings: Sequence[RunWarning]) -> Verdict | None:

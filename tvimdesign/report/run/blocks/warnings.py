@@ -29,6 +29,8 @@ SHOWN = 3
 _LEVELS = ("grave", "serious", "")
 _VARY = "vary the current or a size, and try"
 """What a study that varies nothing is advised, if a requirement is the cure."""
+_OTHER_SIZES = "with other sizes, try"
+"""What is advised if a part or material does not cure with the sizes of the design."""
 
 
 class RunWarning(NamedTuple):
@@ -36,7 +38,7 @@ class RunWarning(NamedTuple):
 
     text: str
     cure: str = ""
-    """A line of the study behind *write* if it was tried, behind *untried:* if it was not."""
+    """A line of the study behind *write* if it was tried, behind *untried:* if it was not, else in words."""
     level: str = ""
     but: str = ""
     """What the verdict *Build it* says besides, of a part that is not to be had."""
@@ -99,7 +101,8 @@ def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
     for place, check in enumerate(sorted(answer.warnings, key=lambda check: _LEVELS.index(levels[check.output]))):
         lines = [] if check.output == harmless else lines_of(check.output, answer)
         remedy = remedies.of(check, lines, cheap=place >= SHOWN)
-        cure = f"{'write' if remedy.tried else 'untried:'} {remedy.line}" if remedy.line else remedy.words
+        how = "write" if remedy.tried else _OTHER_SIZES if remedy.failed else "untried:"
+        cure = f"{how} {remedy.line}" if remedy.line else remedy.words
         if answer.solution is None and remedy.line.startswith("require:"):
             cure = f"{_VARY} {remedy.line}"
         if check.output in above:
