@@ -10,7 +10,8 @@ from tvimdesign.catalog import Catalog
 
 KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
 KINDS |= {"preload_spring", "heater", "thermal_cutout", "controller_supply", "divider_resistor", "heater_wire"}
-KINDS |= {"crimp_splice", "wire_sleeve", "polyimide_film", "thermal_grease", "grease", "mould_release", "spreader"}
+KINDS |= {"crimp_splice", "wire_sleeve", "polyimide_film", "thermal_grease", "grease"}
+KINDS |= {"mould_release", "spreader", "liner"}
 DATE, UNDATED = re.compile(r"20\d\d-\d\d(-\d\d)?"), "not stated"
 BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"
 
@@ -70,6 +71,7 @@ def test_the_spread_holds_all_prices_of_one_screw_whatever_its_length() -> None:
         ("heater", "cp30138", "Thermoelectric module CP30138 of Same Sky, 15 x 15 mm", "Same Sky", "CP30138"),
         ("heater", "polyimide_foil_24v", "Etched-foil heater in polyimide, to the outline of its STEP file",
          "any maker of foil heaters", "to drawings/heater.pdf"),
+        ("bearing", "ball_6803", "Thin deep-groove ball bearing 6803, 17 x 26 x 5 mm", "any bearing shop", "6803"),
         ("spring_left", "music_wire", "Torsion spring of Music wire", "any spring maker", "to springs/spring.pdf"),
     ],
 )  # fmt: skip
