@@ -1,18 +1,30 @@
 """Notes on putting modules together, as in notes/ (UPDATE_NOTES=1 rewrites them), and what every step must have."""
 
+import csv
+import io
 import os
 from math import radians
 from pathlib import Path
 from typing import Any
 
+import cadquery as cq
 import pytest
 from cad_designs import BLOCKS, CASES, TILES, VANE_TILES, design_of
 
 from tvimdesign.cad.assembly.assembly import MODULES
-from tvimdesign.cad.assembly.assembly_note import all_steps, assembly_note, preload_tolerance, steps_of
-from tvimdesign.cad.assembly.bill_of_materials import Item
+from tvimdesign.cad.assembly.assembly_note import (
+    WrittenStep,
+    all_steps,
+    assembly_note,
+    preload_tolerance,
+    steps_of,
+    written_steps,
+)
+from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, bill_csv
+from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import is_of_structure
+from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.study.design import Design
 
 NOTES = Path(__file__).with_name("notes")
@@ -96,7 +108,66 @@ def test_modules_never_switched_or_with_a_profile_say_how_to_bond() -> None:
     assert "until the rotor turns by hand" in note_of(design_of("never switched", {}))
 
 
-def test_a_kind_that_no_step_takes_has_one_of_its_own() -> None:
-    design = design_of("paper", {})
-    items = [Item("retainer_screw", 1, False, "", "", 1.0, ())]
-    assert "Fit the retainer screw" in assembly_note(design, dimensions(design), items).decode()
+def steps_with(design: Design, *items: Item) -> list[WrittenStep]:
+    """Return the steps of a design, some of its kinds of part being given."""
+    dims, given = dimensions(design), {item.kind: item for item in items}
+    kinds = dict.fromkeys([*MODULES[design.mode].kinds(dims), *given])
+    return written_steps(design, dims, [given.get(kind, Item(kind, 1, False, "", "", 1.0, ())) for kind in kinds])
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_every_part_comes_into_its_place_before_the_steps_that_open(name: str) -> None:
+    steps = steps_with(made(name), Item("unheard_of", 1, False, "", "", 1.0, ()))
+    fallen_through = [step.text for step in steps if step.text.startswith("Fit the ") and not step.needs]
+    assert fallen_through == ["Fit the unheard of (1)."]
+    opening = [step.opens for step in steps]
+    assert opening == sorted(opening)
+    assert any(opening)
+    texts = [step.text for step in steps]
+    power = next(i for i, text in enumerate(texts) if "wiring diagram" in text)
+    assert all(i > power for i, text in enumerate(texts) if "two minutes" in text)
+
+
+@pytest.mark.parametrize("friction", [0.15, 0.25, 0.7])
+@pytest.mark.parametrize("name", MADE)
+def test_steps_grease_what_the_list_of_parts_has_grease_for(name: str, friction: float) -> None:
+    design = made(name)
+    design.values.update(bore_friction=friction, pin_friction=friction)
+    texts = [step.text for step in steps_with(design)]
+    wanted = {"reamer": "grease its flutes", "wave spring": "Grease the wave spring", "retainer": "Grease the retainer",
+              "bore": "Grease the hub's bore", "pins": "Grease the rotor's pins"}  # fmt: skip
+    greasing = [place for place, words in wanted.items() if any(words in text for text in texts)]
+    listed = [item.title for item in beside(design, {}) if item.kind == "grease"]
+    assert [title.partition("°C: ")[2].split(", ") for title in listed] == ([greasing] if greasing else [])
+    plastic, plain = design.choices["making_method"] != "milled", design.choices.get("bearing", "none") == "none"
+    assert ("pins" in greasing) == (friction < (0.2 if plastic else 0.6))
+    assert ("bore" in greasing) == (plain and friction < 0.2)
+
+
+def test_parts_are_treated_as_the_specimens_before_all_else() -> None:
+    design = design_of("annealed", {"process": "print_pc_bambu"})
+    titles = _titles(design)
+    (housing,) = bill(design, titles, {"housing": cq.Solid.makeBox(1.0, 1.0, 1.0)})
+    assert housing.title.endswith("at 270 degC; dried and annealed at 80 °C")
+    first = steps_with(design, housing)[0].text
+    assert "these parts by the maker's sheet of the material: housing." in first
+    assert "were dried and annealed at 80 °C" in first
+    assert not any("specimens" in step.text for step in steps_with(design_of("petg", {})))
+
+
+def test_a_part_that_does_not_fit_is_not_fitted() -> None:
+    design = design_of("misfit", {})
+    misfit = Item("thermal_cutout", 1, False, "", f"Does not fit. {NOT_TO_BE_ORDERED}: 5MA3", 0.6, ())
+    (step,) = (step.text for step in steps_with(design, misfit) if "Crimp the thermal cut-out" in step.text)
+    assert step.startswith("No listed thermal cutout fits: leave this step until one is found")
+    assert not any("No listed" in step.text for step in steps_with(design))
+
+
+def test_what_is_made_to_order_is_asked_for_first() -> None:
+    design = design_of("ordered", {})
+    spring = Item("spring_left", 4, False, "music_wire", "Torsion spring of Music wire", 1.0, ())
+    screw = Item("link_screw", 4, False, "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 10 - A2-70", 1.0, ())
+    housing = Item("housing", 1, True, "petg", "PETG", 1.0, ())
+    rows = csv.DictReader(io.StringIO(bill_csv([spring, screw, housing]).decode("utf-8-sig")))
+    assert [row["lead_time"] for row in rows] == ["made to order: ask first", "unknown", ""]
+    assert "which no list says: spring left." in assembly_note(design, dimensions(design), [spring, screw]).decode()

@@ -45,9 +45,10 @@ def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, An
     found = listed(switched(changes, mode=mode))
     cutout = found["thermal_cutout"]
     assert cutout.startswith("Does not fit: it opens above the 60 °C that the structure bears")
-    assert "choose a cooler heater, or parts that bear 120.2 °C. Not to be ordered: Thermal cut-out 5MA3" in cutout
+    # No listed type opens below 60 °C, and that which stays closed at 105.2 °C opens at 122 °C.
+    assert "choose parts that bear 122 °C. Not to be ordered: Thermal cut-out 5MA3" in cutout
     assert "5MA3SPF121019340: opens from 112 to 122 °C; the heater has 105.2 °C at most" in cutout
-    assert "holds 94 °C at its rated current, less than the heater's peak: ask the maker" in cutout
+    assert "holds 94 °C for a week at its rated current, less than the heater's peak: ask the maker" in cutout
     assert "it opens above the 60 °C that the structure bears; it opens above the 120 °C that the heater" in cutout
     assert found["thermistor"].startswith("Thermistor, for 120 °C")
     assert "for 2.1 A and 120 °C" in found["heater_wire"]
@@ -62,13 +63,18 @@ def test_cut_outs_and_beads_say_only_what_they_can() -> None:
     low = switched(bears, hottest=83.0)
     low.values["cutout_ground_gap"] = -1e-3
     assert listed(low)["thermal_cutout"].startswith(
-        "Does not fit: it has no room; choose one that opens between 88 and"
+        "Does not fit: it has no room; choose one with room that opens only between 88 and"
     )
     assert all(not line.offer for line in lines(low) if line.kind == "thermal_cutout")
     assert "ask the maker" not in cutout
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
     assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
-    assert fuse_in_words(FUSE, switched({}, 226.0)).startswith("none fits: ")
+    assert fuse_in_words(FUSE, switched({}, 226.0)).startswith("None fits: ")
+    (item,) = (item for item in lines(switched({}, 226.0)) if item.kind == "thermal_cutout")
+    assert not item.is_ordered
+    # 91.5 °C of 105: 99 °C less 10 and 5 is what the best type that opens in time lets a heater reach.
+    warm = listed(switched({"process": "print_pc_bambu"}, 91.5))["thermal_cutout"]
+    assert "only between 96.5 and 105 °C or a heater of at most 84 °C or parts that bear 108 °C. Not to" in warm
     design = switched({"thermistor_diameter": 1.8e-3})
     assert "thermistor" not in listed(design)
     (item,) = bill(design, _titles(design), {"thermistor_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})

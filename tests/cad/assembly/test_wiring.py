@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 import pytest
 from cad_designs import TILES, design_of
 
-from tvimdesign.cad.assembly.bill_of_materials import beside
+from tvimdesign.cad.assembly.bill_of_materials import Item, beside
+from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
 from tvimdesign.cad.assembly.wiring import strings, wiring_svg
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -39,9 +40,12 @@ def words(picture: ElementTree.Element) -> set[str]:
 
 
 def test_the_diagram_names_what_is_bought() -> None:
-    bought = {"LRS-50-12", "2992 (G2 24v13)", "thermal cut-out", "heater 6", "3 thermistors", "3 resistors"}
-    bought |= {"10 kohm, 1 %", "step-down converter", "Seeed XIAO ESP32C6"}
+    bought = {"IRM-90-12ST (MEAN WELL)", "2992 (G2 24v13)", "thermal cut-out", "heater 6", "3 thermistors"}
+    bought |= {"3 resistors", "10 kohm, 1 %", "step-down converter", "Seeed XIAO ESP32C6"}
     assert bought <= words(drawn(TILES))
+    design = design_of("wired", TILES)
+    misfit = Item("thermal_cutout", 1, False, "", f"Does not fit. {NOT_TO_BE_ORDERED}: 5MA3", 0.6, ())
+    assert "to be chosen" in words(ElementTree.fromstring(wiring_svg(design, [misfit])))
 
 
 def test_only_peltiers_come_with_a_note_on_cooling() -> None:

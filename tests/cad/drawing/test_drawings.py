@@ -238,14 +238,6 @@ def test_the_bill_counts_and_weighs_the_module(module: tuple[Design, Solids]) ->
     assert sum(float(row["mass_all_g"]) for row in rows) == pytest.approx(1e3 * design.values["module_mass"], rel=1e-3)
 
 
-def test_a_bore_with_the_friction_of_grease_is_greased() -> None:
-    design = design_of("greased", {})
-    for friction, greased in ((0.3, False), (0.15, True)):
-        moved = design.model_copy(update={"values": design.values | {"bore_friction": friction}})
-        grease = next(item for item in beside(moved, {}) if item.kind == "grease")
-        assert (", bore," in grease.title) == greased
-
-
 def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     design = design_of("fed", {})
     switch = {"peak_voltage": 3.21, "stiffening_peak_voltage": -4.01, "peak_current": 1.5, "cooling_current": 0.2}

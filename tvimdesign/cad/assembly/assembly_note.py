@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from math import degrees
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad import cad_report
-from tvimdesign.cad.assembly.bill_of_materials import Item, cost
+from tvimdesign.cad.assembly.bill_of_materials import MADE_TO_ORDER, Item, cost, greased
 from tvimdesign.cad.assembly.offers import between
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
@@ -47,7 +47,10 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     lines += ["", _cost([*items, *extra])]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
-    for number, step in enumerate(written_steps(design, dims, items), start=1):
+    steps = written_steps(design, dims, items)
+    for number, step in enumerate(steps, start=1):
+        if step.opens and not steps[number - 2].opens:
+            lines += ["", "## Opening it again", ""]
         picture = f"\n   ![Step {number}]({cad_report.step_picture(number)})" if step.place else ""
         needs = f"\n   *{step.needs}*  " if step.needs else ""
         lines.append(f"{number}. {step.text}  {needs}{picture}")
@@ -62,8 +65,15 @@ def _cost(items: Sequence[Item]) -> str:
     return (
         f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list, some of them a neighbour's: "
         f"{between(sums.low, sums.high)} for whole packs. "
-        "Ask suppliers for quotes of the others."
+        f"Ask suppliers for quotes of the others.{_asked_first(items)}"
     )
+
+
+def _asked_first(items: Sequence[Item]) -> str:
+    """Return what is made to order, to be asked for before all else; empty if nothing is."""
+    slow = _listed([item for item in items if MADE_TO_ORDER in item.lead_time])
+    words = f" Order first what is {MADE_TO_ORDER}, and ask how long it takes, which no list says"
+    return f"{words}: {slow}." if slow else ""
 
 
 def _about(mass: float) -> str:
@@ -131,21 +141,42 @@ class WrittenStep(NamedTuple):
     """What comes into its place: `part`, a kind or one part of a kind, and the side it comes `from`."""
     needs: str = ""
     """Hands, fixture, tools, access, and what is checked at its end."""
+    opens: bool = False
+    """Whether it takes the module apart again."""
 
 
 def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[WrittenStep]:
-    """Return steps for the kinds this module has, and one for each kind that no step takes."""
+    """Return steps for the kinds this module has, and one for each kind that no step takes; those that open it come
+    last."""
     counts: dict[str, object] = {f"number_of_{one.kind}": one.quantity for one in items}
     counts |= {f"grams_of_{one.kind}": f"{one.mass:.2f}" for one in items}
-    wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, design, dims)]
+    treated = [item for item in items if item.treatment]
+    counts |= {"treatment": treated[0].treatment if treated else "", "treated_parts": _listed(treated)}
     known = Figures(design, dims, counts)
+    wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, design, dims)]
     steps = [
-        WrittenStep(str(step["text"]).format_map(known), step.get("place", ()), _needs(step["needs"]).format_map(known))
+        WrittenStep(
+            _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
+            step.get("place", ()), _needs(step["needs"]).format_map(known), step.get("opens", False),
+        )
         for step in wanted
-    ]
-    taken = {kind for step in wanted for kind in step["kinds"]}
-    left = [one for one in items if one.kind not in taken]
-    return steps + [WrittenStep(f"Fit the {_words(one.kind)} ({one.quantity}).") for one in left]
+        if all(known[word] for word in step.get("knows", ()))
+    ]  # fmt: skip
+    placed = {kind_of(part["part"]) for step in wanted for part in step.get("place", ())}
+    taken = placed.union(*(step["kinds"] for step in wanted))
+    left = [WrittenStep(f"Fit the {_words(one.kind)} ({one.quantity}).") for one in items if one.kind not in taken]
+    return [*(step for step in steps if not step.opens), *left, *(step for step in steps if step.opens)]
+
+
+def _listed(items: Sequence[Item]) -> str:
+    """Return the kinds of some items in words."""
+    return ", ".join(_words(item.kind) for item in items)
+
+
+def _unless_fitting(kinds: Sequence[str], items: Sequence[Item]) -> str:
+    """Return what a step says first if no listed type of a part fits; empty if all fit."""
+    missing = _listed([item for item in items if item.kind in kinds and not item.fits])
+    return f"No listed {missing} fits: leave this step until one is found, by the list of parts. " if missing else ""
 
 
 def _needs(needs: Mapping[str, Any]) -> str:
@@ -287,6 +318,11 @@ def _ledge_pull(design: Design, _: Dimensions) -> str:
     return f", by {1e-6 * tension:.2g} MPa there at most" if math.isfinite(tension) else ""
 
 
+def _greased(place: str, design: Design, _: Dimensions) -> str:
+    """Return a place, if it is greased."""
+    return place if place in greased(design) else ""
+
+
 def _heated_parts(_: Design, dims: Dimensions) -> str:
     """Return what the PCL lies on."""
     return "spreaders" if dims.spreader_depth else "heaters"
@@ -305,5 +341,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "heated_parts": _heated_parts,
     "hot_side": _hot_side,
     "ledge_pull": _ledge_pull,
+    "greased_bore": partial(_greased, "bore"),
+    "greased_pins": partial(_greased, "pins"),
 }
 """By the name a text has in braces."""

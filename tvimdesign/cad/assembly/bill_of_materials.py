@@ -25,13 +25,13 @@ from tvimdesign.cad.assembly.heater_leads import (
 )
 from tvimdesign.cad.assembly.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.cad.export.step_file import product
-from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, is_of_structure, kind_of
 from tvimdesign.cad.parts import jigs
 from tvimdesign.device.components.tang import BONDED
 from tvimdesign.study.design import Design
 
-_DRY = 0.2
-"""Friction in a plain bore below which it is greased; see the source of `bore_friction`."""
+_DRY, _DRY_METAL = 0.2, 0.6
+"""Friction of plastic, and of milled pins, below which they are greased: sources of `bore_friction`, `pin_friction`."""
 _EFFICIENCY = 0.9
 """Power out of a step-down driver over power into it, assumed."""
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
@@ -43,6 +43,9 @@ _WIRED = {
     "all_parallel": "all heaters in parallel",
 }
 """By the word of `heater_wiring`."""
+MADE_TO_ORDER = "made to order"
+TREATMENT = "treatment"
+"""Word of a material's record, and of the titles: what its specimens had undergone."""
 _RINGS = ("bearing_inner", "bearing_outer")
 _SEALED = (*_RINGS, "motor_bearing")
 """Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
@@ -78,11 +81,18 @@ class Item:
     """Whether it is made to make the module, and no part of it."""
     asks: tuple[float, float] = (0.0, 0.0)
     """Volts and amperes that a supply or a driver must bear."""
+    treatment: str = ""
+    """What the specimens of its material had undergone."""
 
     @property
     def is_ordered(self) -> bool:
         """True for what one orders: neither made, nor part of what is ordered, nor a part that does not fit."""
-        return not self.made and self.kind != "heater_lead" and NOT_TO_BE_ORDERED not in self.title
+        return not self.made and self.kind != "heater_lead" and self.fits
+
+    @property
+    def fits(self) -> bool:
+        """True unless no listed type of the part fits."""
+        return NOT_TO_BE_ORDERED not in self.title
 
     @property
     def offer(self) -> Offer | None:
@@ -95,6 +105,13 @@ class Item:
         if self.is_ordered:
             return self.offer.in_words if self.offer else QUOTE
         return "made" if self.made else "with its module" if self.kind == "heater_lead" else NOT_TO_BE_ORDERED.lower()
+
+    @property
+    def lead_time(self) -> str:
+        """Lead time, unknown as no list has it; empty for what is not ordered."""
+        if not self.is_ordered:
+            return ""
+        return f"{MADE_TO_ORDER}: ask first" if self.offer and self.offer.to_order else "unknown"
 
 
 def bill(
@@ -110,9 +127,12 @@ def bill(
         mass = solids[0].Volume() * what.density * 1e-6
         stock = titles.get("stock_spring") if kind in SPRINGS else None
         title = _titled(design, kind, stock or titles.get(KINDS[kind].material) or what.material)
+        treatment = titles.get(TREATMENT, "") if is_of_structure(kind) else ""
         made = PRODUCTION[kind].down != "bought"
         fit = (fits or {}).get(kind, "")
-        items.append(Item(kind, len(solids), made, what.material, title, mass, _papers(kind), (kind,), fit))
+        item = Item(kind, len(solids), made, what.material, title, mass, _papers(kind), (kind,), fit)
+        words = title if treatment in title else f"{title}; {treatment}"
+        items.append(replace(item, title=words, treatment=treatment))
     return items
 
 
@@ -223,16 +243,28 @@ def _glues(design: Design) -> list[Item]:
 
 def _beside_the_module(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return the screws that fix the module, and grease where parts rub."""
-    bears = rating(design, "structure_service_temperature")
-    bore = ", bore" if design.choices.get("bearing", "none") == "none" and design.value("bore_friction") < _DRY else ""
-    grease = f"Grease for plastics and metals, for {bears}: retainer{bore}, wave spring, springs' posts and pins"
-    items = [Item("grease", 1, False, "", grease, 0.0, ())]
+    places = greased(design)
+    grease = f"Grease for plastics and metals, for {rating(design, 'structure_service_temperature')}: "
+    items = [Item("grease", 1, False, "", grease + ", ".join(places), 0.0, ())] if places else []
     if design.values.get("drive_height", 0.0) > 0.0:
         return items
     record, count = str(design.choices["mount_screw"]), round(design.value("spring_count"))
     longer = f"longer than {1e3 * (design.value('floor_thickness') + design.value('foot_height')):.3g} mm"
     title = f"{titles.get('mount_screw', record)}, {longer} by what bears the module"
     return [*items, Item("mount_screw", count, False, record, title, 0.0, ())]
+
+
+def greased(design: Design) -> list[str]:
+    """Return what is greased: the reamer, a wave spring, and where the study counts on less friction than dry."""
+    places = ["reamer"] if design.values.get("dowels_fitted") else []
+    plain = design.choices.get("bearing", "none") == "none"
+    if plain and design.choices.get("axial_preload", "none") != "none":
+        places += ["wave spring", "retainer"]
+    if plain and design.value("bore_friction") < _DRY:
+        places.append("bore")
+    if design.value("pin_friction") < (_DRY_METAL if design.choices["making_method"] == "milled" else _DRY):
+        places.append("pins")
+    return places
 
 
 def _under_pads(design: Design, titles: Mapping[str, str]) -> list[Item]:
@@ -354,15 +386,16 @@ def bill_csv(items: Sequence[Item]) -> bytes:
     """Return the bill as CSV, a row for each thing made or bought; `solids` names what it is in the assembly."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["item", "part", "quantity", "made_or_bought", "catalogue_record", "title", "fit", "mass_each_g",
-                     "mass_all_g", "supplier", "number", "pack", "price", "link", "solids", "files"])  # fmt: skip
+    writer.writerow(["item", "part", "quantity", "made_or_bought", "catalogue_record", "title", "fit",
+                     "mass_each_g", "mass_all_g", "supplier", "number", "pack", "price", "lead_time", "link",
+                     "solids", "files"])  # fmt: skip
     for number, item in enumerate(as_ordered(items), start=1):
         offer = item.offer
-        chosen = "to be chosen" if item.kind in _BY_RATING else ""
+        chosen = "to be chosen" if item.kind in _BY_RATING or not item.fits else ""
         ordered = (offer.supplier, _noted(offer), offer.pack) if offer else ("", chosen, "")
         writer.writerow([
             number, item.kind, item.quantity, _come_by(item), item.material, item.title,
             item.fit, f"{item.mass:.3f}", f"{item.mass * item.quantity:.3f}", *ordered, item.price,
-            offer.link if offer else "", " ".join(item.solids), " ".join(item.papers),
+            item.lead_time, offer.link if offer else "", " ".join(item.solids), " ".join(item.papers),
         ])  # fmt: skip
     return stream.getvalue().encode(TABLE_ENCODING)

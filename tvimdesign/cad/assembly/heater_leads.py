@@ -28,6 +28,9 @@ _BEARS = {
 _ROOM = ("cutout_ground_gap", "cutout_retainer_gap")
 """Quantities that say whether a cut-out has room; negative where it has none."""
 NOT_TO_BE_ORDERED = "Not to be ordered"
+"""In the title of a part if no listed type fits; its place is kept."""
+HOLDING = "for a week at its rated current"
+"""What a holding temperature means, by IEC 60691."""
 _SMALL_FOIL = 2e-4
 """Area [m^2] below which the note asks whether a foil has room for its leads, assumed."""
 _ROUNDING = 1e-6
@@ -60,13 +63,14 @@ def fuse_in_words(record: Record, design: Design) -> str:
     try:
         fuse = heater_fuse(record, hottest, current, bears)
     except InputError as error:
-        return f"none fits: {error}"
+        return f"None fits: {error}. {NOT_TO_BE_ORDERED}"
     size = " x ".join(f"{1e3 * record.value(name):.3g}" for name in ("body_diameter", "body_length"))
-    works, holds = up(hottest - ZERO_CELSIUS), f"{fuse.holds - ZERO_CELSIUS:.3g} °C at its rated current"
+    works, holds = up(hottest - ZERO_CELSIUS), f"{fuse.holds - ZERO_CELSIUS:.3g} °C {HOLDING}"
+    longer = f", less than the heater's peak: ask the maker how long it lasts there at {current:.3g} A"
     said = [
         f"opens from {fuse.opens_from - ZERO_CELSIUS:.3g} to {fuse.opens_at - ZERO_CELSIUS:.3g} °C",
         f"the heater has {works} °C at most",
-        f"for good it holds {holds}" + (", less than the heater's peak: ask the maker" if fuse.holds < hottest else ""),
+        f"it holds {holds}{longer if fuse.holds < hottest else ''}",
         f"body {size} mm",
         "ask for its rating in direct current",
     ]
@@ -80,11 +84,21 @@ def _misfit(record: Record, design: Design, fuse: HeaterFuse, hottest: float, be
         why.append("it has no room")
     if not why:
         return ""
-    low = hottest + record.value("working_margin")
-    between = f"one that opens between {up(low - ZERO_CELSIUS)} and {min(bears.values()) - ZERO_CELSIUS:.3g} °C"
-    beyond = f"a cooler heater, or parts that bear {up(low + record.value('opening_band') - ZERO_CELSIUS)} °C"
-    other = f"{between}, {beyond}" if low < min(bears.values()) else beyond
-    return f"Does not fit: {'; '.join(why)}; choose {other}. {NOT_TO_BE_ORDERED}: "
+    margin, band, least = record.value("working_margin"), record.value("opening_band"), min(bears.values())
+    low = hottest + margin
+    cooler = [
+        kind["functioning_temperature"] - band - margin
+        for kind in record.table("types")
+        if kind["functioning_temperature"] <= least
+    ]
+    choose = []
+    if low < least:
+        opens = f"{up(low - ZERO_CELSIUS)} and {least - ZERO_CELSIUS:.3g} °C"
+        choose.append(f"one with room that opens only between {opens}")
+    if fuse.above:
+        choose += [f"a heater of at most {max(cooler) - ZERO_CELSIUS:.3g} °C"] if cooler else []
+        choose.append(f"parts that bear {up(fuse.opens_at - ZERO_CELSIUS)} °C")
+    return f"Does not fit: {'; '.join(why)}; choose {' or '.join(choose)}. {NOT_TO_BE_ORDERED}: "
 
 
 def _ratings(design: Design) -> dict[str, float]:

@@ -36,6 +36,8 @@ class Offer:
     date: str = ""
     price: float | None = None
     high: float | None = None
+    to_order: bool = False
+    """Whether nobody has it in stock."""
     like: str = ""
     """Number of the neighbour whose price per piece was taken."""
     voltage: float = math.inf

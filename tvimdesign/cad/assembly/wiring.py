@@ -28,13 +28,13 @@ def strings(design: Design) -> list[list[int]]:
     return [heaters[start : start + each] for start in range(0, len(heaters), each)]
 
 
-def wiring_svg(design: Design, extra: Sequence[Item]) -> bytes:
-    """Return the diagram as SVG, no lines crossing; `extra` are lines of the list of parts: what feeds and controls."""
+def wiring_svg(design: Design, items: Sequence[Item]) -> bytes:
+    """Return the diagram as SVG, no lines crossing; `items` are lines of the list of parts: what feeds and controls."""
     rows = strings(design)
-    number = {item.kind: item.offer.number if item.offer else "" for item in extra}
+    number = {item.kind: item.offer.number if item.offer else "" if item.fits else "to be chosen" for item in items}
     feed = [("DC supply", number.get("supply", "")), ("driver", number.get("driver", ""))]
     if design.values.get("cutout_diameter", 0.0) > 0.0:
-        feed.append(("thermal cut-out", ""))
+        feed.append(("thermal cut-out", number.get("thermal_cutout", "")))
     step, deep = _BOX + _GAP, _HIGH + 30
     first, driver = _LEFT + len(feed) * step, _LEFT + step
     right = max(first + max(map(len, rows)) * step, driver + 2 * step)

@@ -80,7 +80,7 @@ def _with_unit(check: Mapping[str, Any], what: str) -> str:
     return f"{number(check[what])} {pretty(check['unit'])}".rstrip()
 
 
-_HEADS = {"made_or_bought": "made or bought", "mass_each_g": "g each", "mass_all_g": "g all"}
+_HEADS = {"made_or_bought": "made or bought", "mass_each_g": "g each", "mass_all_g": "g all", "lead_time": "lead time"}
 """Of columns of the bill of materials, where the page has other words."""
 
 
@@ -90,7 +90,7 @@ def materials_section(cad: Path) -> list[Section]:
     if not rows:
         return []
     shown = ["item", "part", "quantity", "made_or_bought", "title", "fit", "mass_each_g", "mass_all_g"]
-    shown += ["number", "price"]
+    shown += ["number", "price", "lead_time"]
     heads = [*(_HEADS.get(name, name) for name in shown), "files"]
     numbers = ("item", "quantity", "mass_each_g", "mass_all_g")
     right = [name in numbers for name in shown]
