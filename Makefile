@@ -63,7 +63,7 @@ bench-cells: $(STAMP)  ## what a sweep of 2,000 cells costs beside its cells: pr
 bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hypervolume
 	$(BENCH) benchmarks/front.py
 
-bench-explore: $(STAMP)  ## the explorer's drags: time to the answer, evaluated and optimised, on paper_shear; then 1,000 random drags
+bench-explore: $(STAMP)  ## the explorer's drags: time to the answer, evaluated and optimised, on the paper's module; then 1,000 random drags
 	$(BENCH) benchmarks/explore_drags.py --leak 1000
 
 bench-engine: $(STAMP)  ## recording, an evaluation with its gradient, a solve, and steps, of four studies (half a minute)
@@ -179,7 +179,7 @@ gallery: $(STUDIES:%=results/%/report.html) docs  ## the docs site with the repo
 $(SHOTS) &:
 	$(MAKE) screenshots
 
-screenshots: results/paper_shear/report.html  ## take docs/pictures/report.png and explorer.png in a browser
+screenshots: results/elbow_printed/report.html  ## take docs/pictures/report.png and explorer.png in a browser
 	$(BIN)/python docs/make/screenshots.py
 
 bench-slider: $(VENV)/.bench  ## one slider of the explorer beside the same in trame and in Panel, in one browser
@@ -192,16 +192,14 @@ pictures: $(STAMP)  ## draw docs/pictures anew: labelled sections, and every stu
 	for study in studies/*.yaml; do $(BIN)/tvimdesign run $$study --overwrite --no-plots || exit 1; done
 	$(BIN)/python docs/make/study_pictures.py
 
-REFERENCES := paper_shear paper_compression machined_shear machined_compression
-cad: $(STAMP)  ## write the reference parts in cad/ for a release, from printed and milled modules of both modes
+REFERENCES := elbow_printed wrist_compression
+cad: $(STAMP)  ## write the reference parts in cad/ for a release, from a module of each mode
 	rm -rf $(addprefix cad/,$(REFERENCES))
 	for name in $(REFERENCES); do \
 	  $(BIN)/tvimdesign run studies/$$name.yaml --out results/$$name --overwrite --no-plots || exit 1; \
 	  mkdir -p cad/$$name; \
-	  cp results/$$name/design.json $(addprefix results/$$name/cad/,preview.png bom.csv assembly.md) cad/$$name/; \
+	  cp results/$$name/design.json $(addprefix results/$$name/cad/,preview.png bom.csv assembly.md assembly.step) cad/$$name/; \
 	done
-	cp results/paper_shear/cad/assembly.step cad/paper_shear/
-	cp results/paper_compression/cad/assembly.step cad/paper_compression/
 
 check-cad: $(STAMP)  ## slice the printed parts and read the STEP files with other programs from Debian (prusa-slicer, gmsh)
 	$(BIN)/python benchmarks/check_cad.py

@@ -22,7 +22,7 @@ from tvimdesign.study import read_study
 from tvimdesign.study.design import write_design
 
 ROOT = Path(__file__).resolve().parents[1]
-STUDY = ROOT / "studies/paper_shear.yaml"
+STUDY = ROOT / "tests/studies/paper_shear.yaml"
 CHECKS = ("interference", "sizes", "inspect")
 
 

@@ -23,7 +23,7 @@ from tvimdesign.study import read_study
 from tvimdesign.study.design import read_design, write_design
 
 ROOT = Path(__file__).resolve().parents[1]
-STUDIES = ("paper_shear", "paper_compression")
+STUDIES = ("elbow_printed", "wrist_compression")
 WANTED = ("prusa-slicer", "gmsh")
 VOLUME = re.compile(r"VOLUME_MEASURE\(\s*([0-9.E+-]+)\)")
 SAME, MESH = 1e-6, 1e-4

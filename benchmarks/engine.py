@@ -20,7 +20,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study
 
 STUDIES = Path(__file__).resolve().parents[1] / "studies"
-USUAL = ("paper_shear", "compare_shear", "fast_switch", "wrist_compression")
+USUAL = ("elbow_printed", "wrist_joint", "fast_switch", "wrist_compression")
 
 
 class Taken(NamedTuple):
@@ -79,7 +79,7 @@ def main() -> None:
     asked = parser.parse_args()
     names = sorted(path.stem for path in STUDIES.glob("*.yaml")) if asked.studies == ["all"] else asked.studies
     print(f"{'study':28}{'unknowns':>9}{'recorded s':>11}{'evaluation ms':>15}{'solve s':>9}  steps")
-    measure("paper_shear", 1)  # loads what is compiled
+    measure("wrist_joint", 1)  # loads what is compiled
     for name in names:
         try:
             one = measure(name, asked.repeats)

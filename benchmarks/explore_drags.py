@@ -234,7 +234,7 @@ async def _leak(hand: Hand, server: Server, walks: dict[str, Iterator[dict[str, 
 def main() -> None:
     """Read the arguments, measure."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("study", nargs="?", type=Path, default=Path("studies/paper_shear.yaml"))
+    parser.add_argument("study", nargs="?", type=Path, default=Path("tests/studies/paper_shear.yaml"))
     parser.add_argument("--drags", type=int, default=100)
     parser.add_argument("--leak", type=int, default=0)
     parser.add_argument("--compiled", type=float, default=COMPILED, help="seconds that kernels are given to compile")

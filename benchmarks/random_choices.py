@@ -32,7 +32,7 @@ from tvimdesign.study import Study, read_study_text
 from tvimdesign.study.design import Design
 
 STUDIES = Path(__file__).resolve().parents[1] / "studies"
-BASES = ("paper_shear", "elbow_printed", "finger", "compare_compression", "wrist_compression")
+BASES = ("elbow_printed", "elbow_machined", "finger", "wrist_joint", "wrist_compression")
 CHOSEN = (
     "stock_spring", "spring_material", "process", "peltier_module", "heater_fuse", "heater_wiring", "spreader_material",
     "liner_material", "link_screw", "link_fit", "tang_hold", "bearing", "axial_preload", "preload_adjuster", "cover",

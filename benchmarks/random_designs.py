@@ -260,7 +260,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--inspect", action="store_true", help="also walls, overhang, order of assembly ...")
     asked = parser.parse_args(arguments)
     failed = False
-    for path in asked.studies or [STUDIES / "paper_shear.yaml", STUDIES / "compare_compression.yaml"]:
+    for path in asked.studies or [STUDIES / "wrist_joint.yaml", STUDIES / "wrist_compression.yaml"]:
         tally = run(read_study(path), asked.designs, asked.seed, asked.inspect, asked.hands)
         each = tally.seconds / max(1, tally.built)
         print(

@@ -138,7 +138,7 @@ def _page(browser: Browser, address: str) -> Page:
 def main() -> None:
     """Read the arguments, drag each slider in turn, print a row for each."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("study", nargs="?", type=Path, default=ROOT / "studies/paper_shear.yaml")
+    parser.add_argument("study", nargs="?", type=Path, default=ROOT / "tests/studies/paper_shear.yaml")
     parser.add_argument("--drags", type=int, default=60)
     asked = parser.parse_args()
     with sync_playwright() as play, ExitStack() as stack:

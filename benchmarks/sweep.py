@@ -23,7 +23,7 @@ from tvimdesign.solve.batch.batch_model import Kernel, of_columns
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.study import given, read_study
 
-STUDY = Path(__file__).resolve().parents[1] / "studies/compare_shear.yaml"
+STUDY = Path(__file__).resolve().parents[1] / "studies/wrist_joint.yaml"
 MOVING = ["wire_diameter", "coil_diameter", "coil_count", "preload_angle", "pcl_inner_radius", "pcl_outer_radius",
           "arc_span", "pcl_thickness", "core_radius", "spring_youngs_modulus", "link_thickness",
           "rotor_rim"]  # fmt: skip

@@ -25,7 +25,7 @@ _INERTIA = "{{from: <= 90 kg.mm^2, to: <= 100 kg.mm^2, count: {}}}"
 
 def study_of(task: str, cells: int) -> str:
     """A study with a grid of so many cells, or a few more."""
-    text = (ROOT / "studies/paper_shear.yaml").read_text()
+    text = (ROOT / "tests/studies/paper_shear.yaml").read_text()
     if task == "cold":
         return f"{text}\nsweep: {{over: {{require.parts_inertia: {_INERTIA.format(cells)}}}}}\n"
     across = min(MOST_ACROSS, cells)

@@ -30,13 +30,15 @@ from typing import Any, Literal
 
 import numpy as np
 from attack import Attack
+from oracle.frozen_files import read_frozen
+from oracle.study_outputs import frozen_file, load_study
 
 from tvimdesign.base.deadline import CLOCK
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.study import Study, read_study, read_tree
+from tvimdesign.study import Study, read_tree
 from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.study import Options, Range, Requirement
 from tvimdesign.study.tree import tree_of_values
@@ -53,8 +55,8 @@ ASKED: dict[Literal[">=", "<="], tuple[str, ...]] = {
     ">=": ("holding_torque", "spring_stiffness", "impedance_range", "spring_fatigue_safety", "stiffness_over_stroke"),
     "<=": ("module_mass", "envelope_diameter", "envelope_height", "response_time", "peak_power", "switch_energy"),
 }
-BASES = ("paper_shear", "machined_shear", "machined_compression")
-"""Studies whose optimum is among the released parts."""
+BASES = ("paper_shear", "elbow_machined", "machined_compression")
+"""Studies whose frozen optimum the limits lie around."""
 NARROWED, LISTED = 0.08, 0.1
 """Shares of the variables whose range is narrowed, or that are chosen from a list."""
 
@@ -63,7 +65,7 @@ def random_study(seed: int) -> Study:
     """A study that the reader takes: limits lie around what the base's optimum does, and so does what is not varied."""
     draw = random.Random(seed)
     name = draw.choice(BASES)
-    base, optimum = read_study(ROOT / f"studies/{name}.yaml"), released(name)
+    base, optimum = load_study(name).resolved, frozen(name)
     numbers = [name for name, vary in base.vary.items() if isinstance(vary, Range)]
     names = draw.sample(numbers, draw.randint(min(4, len(numbers)), len(numbers)))
     vary: dict[str, Range | Options] = {}
@@ -92,10 +94,10 @@ def random_study(seed: int) -> Study:
     return read_tree(tree_of_values(written(asked), f"random {seed}", ROOT / "studies"))
 
 
-def released(name: str) -> dict[str, float]:
-    """Return what the released optimum of a base has and does, in SI; it may lack a quantity that is newer."""
-    values = json.loads((ROOT / f"cad/{name}/design.json").read_text())["values"]
-    return {quantity: float(value) for quantity, value in values.items()}
+def frozen(name: str) -> dict[str, float]:
+    """Return what the frozen optimum of a base has and does, in SI."""
+    outputs = read_frozen(frozen_file(name))["outputs"]
+    return {quantity: value for quantity, value in outputs.items() if isinstance(value, float)}
 
 
 def judged(seed: int) -> dict[str, Any]:

@@ -97,7 +97,7 @@ def compare(kind: str, options: Options) -> Comparison:
 def compare_optima(options: Options) -> Comparison:
     """Search each study again and compare its optimum with the frozen one; name the better ones."""
     done = Comparison("optima")
-    for name in options.studies or study_outputs.study_names():
+    for name in options.studies or study_outputs.study_files():
         frozen = read_frozen(study_outputs.frozen_file(name))["optimum"]
         try:
             found = optima.search(name)
@@ -128,7 +128,7 @@ def freeze(kind: str, options: Options) -> None:
 
 def freeze_optima(options: Options, runs: Path | None) -> None:
     """Write the optima of studies, from runs or searched, with the outputs there."""
-    for name in options.studies or study_outputs.study_names():
+    for name in options.studies or study_outputs.study_files():
         start = time.process_time()
         if runs:
             design = tvimdesign.read_design(runs / name / "design.json")
@@ -145,7 +145,7 @@ def freeze_optima(options: Options, runs: Path | None) -> None:
 def code_version() -> str:
     """Return the commit of the tree under test, with a plus if the package or the studies have other changes."""
     commit = _git("rev-parse", "HEAD").strip() or "no commit"
-    return commit + ("+" if _git("status", "--porcelain", "--", "tvimdesign", "studies") else "")
+    return commit + ("+" if _git("status", "--porcelain", "--", "tvimdesign", "studies", "tests/studies") else "")
 
 
 def _git(*words: str) -> str:
@@ -163,7 +163,7 @@ def main(words: Sequence[str] | None = None) -> int:
     parser.add_argument("--freeze", action="store_true", help="write the values of now in place of the frozen ones")
     parser.add_argument("--runs", type=Path, help="with --freeze --only optima: folder of runs to take designs from")
     given = parser.parse_args(words)
-    if unknown := set(given.studies) - set(study_outputs.study_names()):
+    if unknown := set(given.studies) - set(study_outputs.study_files()):
         parser.error(f"no such study: {', '.join(sorted(unknown))}")
     options = Options(tuple(given.studies), given.tolerance, Renames.read(given.renames))
     if given.freeze:

@@ -18,8 +18,8 @@ from pathlib import Path
 
 STUDY = "elbow_printed"
 """Of the README's first command."""
-FE_STUDY = "paper_shear"
-"""Of the reference parts, whose finite elements the documents show."""
+FE_STUDY = "paper_reconstructed"
+"""Evaluated only: solving its parts takes the time."""
 SWEEP = "\nsweep:\n  task: evaluate\n  over:\n    current: {from: 1.5 A, to: 2 A, count: 4}\n"
 LIGHT, VALIDATION = "none", "validation"
 """Environments without an extra: what a newcomer does first, and the cases of the validation."""
@@ -103,7 +103,7 @@ def fe(env: Environment) -> None:
 
 def validation(env: Environment) -> None:
     """Every case of the validation, as the repository has them, by the wheel's package without an extra."""
-    for name in ("validation", "studies"):
+    for name in ("validation", "studies", "tests/studies"):
         shutil.copytree(ROOT / name, env.folder / name)
     told = env.run("python", "validation/run.py", "--docs", "compared", "--known", str(ROOT / "docs/validation.md"))
     env.tell(told, " inside")

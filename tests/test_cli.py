@@ -259,13 +259,13 @@ def test_version_and_rows_are_those_of_the_package(tvimdesign: Command) -> None:
 
 
 def test_simulate_without_a_test_lists_the_tests_with_what_they_show(tvimdesign: Command) -> None:
-    done = tvimdesign("simulate", "studies/paper_shear.yaml")
+    done = tvimdesign("simulate", "studies/finger.yaml")
     assert done.returncode == 2  # nothing was tested: a script must not take it for done
     lines = {line.split()[0]: line.split()[1:] for line in done.stderr.splitlines() if line.startswith("  ")}
     assert lines.keys() == TESTS.keys()
     assert all(len(words) > 5 for words in lines.values())
     assert "--test release" in done.stderr
-    assert not Path("results/paper_shear-").exists()
+    assert not Path("results/finger-").exists()
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from cad_designs import shipped_design
-from support import ROOT, STUDIES, Command
+from support import ROOT, STUDIES, Command, study_path
 
 from tvimdesign.cli import options
 from tvimdesign.study import read_study
@@ -20,14 +20,14 @@ WRONG = ("--set", "pcl_thickness=1,2 mm", "--set", "require.holding_torque=15 N.
 @pytest.mark.parametrize(
     "command",
     [["run"], ["check"], ["simulate", "--test", "creep"],
-     ["compare", "studies/compare_compression.yaml"]],
+     ["compare", "studies/wrist_compression.yaml"]],
     ids=lambda words: " ".join(words[:2]),
 )  # fmt: skip
 def test_commands_that_read_a_study_take_settings_and_name_their_place(
     tvimdesign: Command, command: list[str], tmp_path: Path
 ) -> None:
     out = [] if command[0] == "check" else ["--out", tmp_path / "out"]
-    done = tvimdesign(*command, "studies/compare_shear.yaml", *WRONG, *out)
+    done = tvimdesign(*command, "studies/wrist_joint.yaml", *WRONG, *out)
     assert done.returncode == 2
     assert "--set pcl_thickness=1,2 mm: module.pcl_thickness: '1,2 mm': a decimal comma" in done.stderr
     assert "--set require.holding_torque=15 N.m: require.holding_torque: " in done.stderr
@@ -48,7 +48,7 @@ def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Comman
 
 @pytest.mark.gate
 def test_a_study_that_is_not_changed_is_kept_as_it_was_written(tvimdesign: Command, tmp_path: Path) -> None:
-    source = ROOT / "studies/paper_reconstructed.yaml"
+    source = study_path("paper_reconstructed")
     assert tvimdesign("run", source, "--no-cad", "--no-plots", "--out", tmp_path / "out").returncode == 0
     assert (tmp_path / "out/study.yaml").read_bytes() == source.read_bytes()
 
@@ -74,7 +74,7 @@ def test_a_design_takes_no_settings(tvimdesign: Command, tmp_path: Path) -> None
 
 @pytest.mark.slow
 def test_settings_reach_every_study_of_a_comparison(tvimdesign: Command, tmp_path: Path) -> None:
-    pair = ("studies/compare_shear.yaml", "studies/compare_compression.yaml")
+    pair = ("studies/wrist_joint.yaml", "studies/wrist_compression.yaml")
     settings = ("--set", "current=1.4 A", "--set", "solver.starts=1")
     done = tvimdesign("compare", *pair, "--points", "0", "--no-plots", *settings, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
@@ -93,9 +93,9 @@ def test_shipped_studies_are_listed_and_copied_once(tvimdesign: Command, tmp_pat
     assert all(line.startswith("    ") and len(line.split()) > 5 for line in lines[1::2])
     assert tvimdesign("new", "--example", "wrist_joint", cwd=tmp_path).returncode == 0
     # But for where an editor finds the schema: beside the copy.
-    shipped = (ROOT / "studies/wrist_joint.yaml").read_bytes().replace(b"=../study.schema.json", b"=study.schema.json")
+    shipped = study_path("wrist_joint").read_bytes().replace(b"=../study.schema.json", b"=study.schema.json")
     assert (tmp_path / "wrist_joint.yaml").read_bytes() == shipped
-    assert tvimdesign("new", "mine.yaml", "--example", "paper_shear", cwd=tmp_path).returncode == 0
+    assert tvimdesign("new", "mine.yaml", "--example", "finger", cwd=tmp_path).returncode == 0
     assert read_study(tmp_path / "mine.yaml").mode == "shear"
     assert "exists already" in tvimdesign("new", "--example", "wrist_joint", cwd=tmp_path).stderr
     assert "did you mean 'wrist_joint'" in tvimdesign("new", "--example", "wrist_joit", cwd=tmp_path).stderr
@@ -106,14 +106,14 @@ def test_shipped_studies_are_listed_and_copied_once(tvimdesign: Command, tmp_pat
 
 OFFERED = {
     "tvimdesign ru": "run",
-    "tvimdesign run studies/paper_sh": "studies/paper_shear.yaml",
+    "tvimdesign run studies/paper_re": "studies/paper_reconstructed.yaml",
     "tvimdesign run stu": "studies/",
-    "tvimdesign compare studies/compare_shear.yaml studies/compare_c": "studies/compare_compression.yaml",
-    "tvimdesign simulate studies/paper_shear.yaml --test rela": "relaxation",
+    "tvimdesign compare studies/wrist_joint.yaml studies/wrist_c": "studies/wrist_compression.yaml",
+    "tvimdesign simulate studies/finger.yaml --test rela": "relaxation",
     "tvimdesign rows wire_dia": "wire_diameter",
-    "tvimdesign run studies/paper_shear.yaml --set pcl_thick": "pcl_thickness=",
+    "tvimdesign run studies/finger.yaml --set pcl_thick": "pcl_thickness=",
     "tvimdesign new --example wrist_j": "wrist_joint",
-    "tvimdesign cad cad/paper_shear/des": "cad/paper_shear/design.json",
+    "tvimdesign cad cad/elbow_printed/des": "cad/elbow_printed/design.json",
 }
 """What a shell offers, among others, for the last of some words."""
 COMPLETES = """

@@ -3,7 +3,7 @@
 import pytest
 import stock_price
 import yaml
-from support import ROOT
+from support import study_path
 
 from tvimdesign.study import read_study_text
 
@@ -19,7 +19,7 @@ def test_each_step_is_a_study_and_the_last_is_the_shipped_one() -> None:
     for case, about in stock_price.cases().items():
         for index in range(len(about["steps"])):
             read_study_text(yaml.safe_dump(stock_price.study_of(case, index), allow_unicode=True), case)
-        shipped = yaml.safe_load((ROOT / "studies" / f"{case}.yaml").read_text(encoding="utf-8"))
+        shipped = yaml.safe_load(study_path(case).read_text(encoding="utf-8"))
         assert stock_price.study_of(case, len(about["steps"]) - 1) == shipped
 
 

@@ -7,7 +7,7 @@ import cadquery as cq
 import pytest
 from answers import shipped_answer
 from cad_designs import as_it_starts
-from support import STUDIES
+from support import STUDIES, study_path
 
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.bill_of_materials import Item, as_ordered, beside, bill, fixtures
@@ -21,17 +21,13 @@ from tvimdesign.study.study import Options
 PAPER = "paper_"
 """How the names of the paper's own modules begin: they stay as it has them, advice and all."""
 ORDERED = [path for path in STUDIES if not path.stem.startswith(PAPER)]
-PAIRS = [
-    ("compare_shear", "compare_compression"), ("wrist_joint", "wrist_compression"),
-    ("machined_shear", "machined_compression"),
-]  # fmt: skip
-"""Studies of the two modes that are asked the same."""
 to_order = pytest.mark.parametrize("path", ORDERED, ids=lambda path: str(path.stem))
-STUDY_FOLDER = STUDIES[0].parent
+PAIR = ("wrist_joint", "wrist_compression")
+"""Studies of the two modes that are asked the same."""
 
 
-def _of(name: str) -> Study:
-    return read_study(STUDY_FOLDER / f"{name}.yaml")
+def _pair() -> list[Study]:
+    return [read_study(study_path(name)) for name in PAIR]
 
 
 @to_order
@@ -48,17 +44,15 @@ def test_a_study_requires_a_yield_of_parts_one_can_buy(path: Path) -> None:
     assert study.tolerances["preload_angle"].adjustable == (study.module.get("preload_adjuster") == "rotary")
 
 
-@pytest.mark.parametrize("names", PAIRS[:2], ids=lambda names: str(names[0]))
-def test_both_of_a_pair_with_one_heater_may_be_compared(names: tuple[str, str]) -> None:
-    refuse_unequal([Case(STUDY_FOLDER / f"{name}.yaml", _of(name)) for name in names])
-    shear, compression = map(_of, names)
+def test_both_of_the_pair_may_be_compared() -> None:
+    shear, compression = pair = _pair()
+    refuse_unequal([Case(study_path(name), study) for name, study in zip(PAIR, pair, strict=True)])
     both = (shear.module.keys() & compression.module.keys()) - shear.vary.keys() - compression.vary.keys()
     assert {one: shear.module[one] for one in both} == {one: compression.module[one] for one in both}
 
 
-@pytest.mark.parametrize("names", PAIRS, ids=lambda names: str(names[0]))
-def test_both_modes_of_a_pair_are_asked_the_same(names: tuple[str, str]) -> None:
-    shear, compression = map(_of, names)
+def test_both_modes_of_the_pair_are_asked_the_same() -> None:
+    shear, compression = _pair()
     only_compression = {row.name for row in compression.table.outputs} - {row.name for row in shear.table.outputs}
     asked = {
         (limit.output, limit.sense, limit.limit)

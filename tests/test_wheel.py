@@ -37,7 +37,7 @@ class Installed:
         source = folder / "source"
         shutil.copytree(ROOT / "tvimdesign", source / "tvimdesign", ignore=shutil.ignore_patterns("__pycache__"))
         files = ["pyproject.toml", "README.md", "setup.py", "LICENSE", "MANIFEST.in"]
-        for name in [*files, "studies", "docs", "validation"]:
+        for name in [*files, "studies", "tests/studies", "docs", "validation"]:
             path = ROOT / name
             if path.exists():
                 (shutil.copytree if path.is_dir() else shutil.copy)(path, source / name)
@@ -95,7 +95,7 @@ def test_a_fit_and_its_record(installed: Installed) -> None:
 
 
 def test_a_verification_of_a_shipped_design(installed: Installed) -> None:
-    write_design(shipped_answer("paper_shear").design, installed.folder / "design.json")
+    write_design(shipped_answer("paper_reconstructed").design, installed.folder / "design.json")
     solver = os.environ.get("FE_PYTHON")
     said = installed.says("verify", "design.json", "--out", "verified", "--fe-python", solver or sys.executable)
     if not solver:
@@ -111,7 +111,7 @@ def test_the_cases_of_the_validation(installed: Installed) -> None:
     with tarfile.open(installed.sources) as archive:
         for member in archive:
             member.name = member.name.partition("/")[2]
-            if member.name.startswith(("validation/", "studies/")):
+            if member.name.startswith(("validation/", "studies/", "tests/studies/")):
                 archive.extract(member, installed.folder, filter="data")
     command = [installed.python, "validation/run.py", "--docs", "compared"]
     said = run(command, installed.folder, check=False)

@@ -17,7 +17,7 @@ from tvimdesign.study import read_study, read_tree
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import plan_of
 
-BASE = ROOT / "studies/paper_shear.yaml"
+BASE = ROOT / "tests/studies/paper_shear.yaml"
 RECORDS = ROOT / "tvimdesign/catalog/data"
 _FAST = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _NAMES = ["pcl_thickness", "require.holding_torque", "vary.current", "solver.starts", "operating_points.hot", "motor"]

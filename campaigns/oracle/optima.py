@@ -1,4 +1,4 @@
-"""Search the shipped studies again and compare the optima with the frozen ones."""
+"""Search the studies again and compare the optima with the frozen ones."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Optimum:
 
 
 def search(name: str) -> Optimum:
-    """Optimise a shipped study as `tvimdesign run` does, without the front; evaluate it if nothing varies.
+    """Optimise a study as `tvimdesign run` does, without the front; evaluate it if nothing varies.
 
     Raises
     ------

@@ -24,14 +24,15 @@ CODE = Path(tvimdesign.__file__).parents[1]
 """The tree under test: its studies are read, whichever tree this script is in."""
 
 
-def study_names() -> list[str]:
-    """Return the names of the shipped studies."""
-    return sorted(path.stem for path in (CODE / "studies").glob("*.yaml"))
+def study_files() -> dict[str, Path]:
+    """Return the files of all studies by name: the shipped ones, and those of the tests."""
+    files = (path for folder in ("studies", "tests/studies") for path in (CODE / folder).glob("*.yaml"))
+    return {path.stem: path for path in sorted(files, key=lambda path: path.stem)}
 
 
 def load_study(name: str) -> tvimdesign.Study:
-    """Read a shipped study."""
-    return tvimdesign.load(CODE / f"studies/{name}.yaml")
+    """Read a study by name."""
+    return tvimdesign.load(study_files()[name])
 
 
 def frozen_file(name: str) -> Path:
@@ -61,7 +62,7 @@ def chosen_by_search(study: tvimdesign.Study, design: tvimdesign.Design) -> dict
 
 @cache
 def evaluate_frozen(name: str, renames: Renames) -> tvimdesign.Result:
-    """Evaluate a shipped study at its frozen design, by the names of today; nothing is optimised.
+    """Evaluate a study at its frozen design, by the names of today; nothing is optimised.
 
     Raises
     ------

@@ -11,7 +11,7 @@ from oracle.frozen_files import FOLDER, read_frozen
 
 KINDS = ("outputs", "parts", "fit", "messages")
 OF_STUDIES = {"outputs", "parts"}
-"""Kinds whose subjects are the shipped studies."""
+"""Kinds whose subjects are studies."""
 FILES = {"parts": FOLDER / "parts.json", "fit": FOLDER / "fits.json", "messages": FOLDER / "messages.json"}
 """Where the values of all subjects of a kind are frozen; each study has a file of its own for its outputs."""
 Subject = tuple[str, Callable[[], Values]]
@@ -21,7 +21,7 @@ Subject = tuple[str, Callable[[], Values]]
 def subjects(kind: str, studies: Sequence[str], renames: Renames) -> Iterator[Subject]:
     """Yield the subjects of a kind; of outputs and parts those of the named studies, or of all if none is named."""
     if kind in OF_STUDIES:
-        for name in studies or study_outputs.study_names():
+        for name in studies or study_outputs.study_files():
             yield name, partial(_outputs if kind == "outputs" else _parts, name, renames)
     elif kind == "fit":
         for case in fits.fit_cases():

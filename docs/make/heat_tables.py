@@ -39,7 +39,8 @@ def mode_of(row: Row) -> str:
 
 @functools.cache
 def _mode(study: str) -> str:
-    return str(yaml.safe_load((ROOT / "studies" / f"{study}.yaml").read_text(encoding="utf-8"))["mode"])
+    files = (ROOT / folder / f"{study}.yaml" for folder in ("studies", "tests/studies"))
+    return str(yaml.safe_load(next(filter(Path.exists, files)).read_text(encoding="utf-8"))["mode"])
 
 
 def difference(row: Row) -> float:

@@ -89,7 +89,7 @@ def _radii(
 def main() -> None:
     """Write the plans of both modes."""
     mpl.rcParams.update({"svg.hashsalt": "tvimdesign", "svg.fonttype": "none", "font.family": "DejaVu Sans"})
-    for study in ("paper_shear", "paper_compression"):
+    for study in ("paper_reconstructed", "paper_compression"):
         draw(study, ROOT / f"docs/pictures/plan_{study}.svg")
 
 

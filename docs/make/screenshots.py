@@ -2,7 +2,7 @@
 
     python docs/make/screenshots.py [RUN]
 
-RUN is the folder of a run with parts (results/paper_shear). Needs Chromium.
+RUN is the folder of a run with parts (results/elbow_printed). Needs Chromium.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ PATIENCE = 180_000
 
 def main() -> None:
     """Take both; raise FileNotFoundError without a run or a browser."""
-    run = Path(sys.argv[1]) if sys.argv[1:] else ROOT / "results/paper_shear"
+    run = Path(sys.argv[1]) if sys.argv[1:] else ROOT / "results/elbow_printed"
     browser_path = shutil.which("chromium") or shutil.which("google-chrome")
     if browser_path is None or not (run / "report.html").exists():
         raise FileNotFoundError(

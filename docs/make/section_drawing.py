@@ -19,7 +19,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
-from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions_of
 from tvimdesign.cad.geometry.kinds import KINDS, kind_of
 from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.device import Choice, table_for
@@ -27,10 +27,14 @@ from tvimdesign.study import given, read_study
 
 ROOT = Path(__file__).resolve().parents[2]
 LABELS: dict[str, Any] = yaml.safe_load((Path(__file__).parent / "section_labels.yaml").read_text())
-SECTIONS = ("paper_shear", "paper_compression", "machined_shear", "held_layer", "driven_joint")
-"""Modules that are drawn, as each study starts: both modes, then bearings with adjusters, a wave spring, a motor."""
-VARIANTS = {"held_layer": ("paper_shear", {"axial_preload": "wave_21x25", "melt_lip": "rings"})}
+SECTIONS = ("paper_reconstructed", "paper_compression", "elbow_machined", "held_layer", "with_motor")
+"""Modules that are drawn, as each study starts: both modes, then ball bearings, a wave spring with lips, a motor."""
+VARIANTS = {
+    "held_layer": ("paper_reconstructed", {"axial_preload": "wave_21x25", "melt_lip": "rings"}),
+    "with_motor": ("paper_reconstructed", {"motor": "frameless_70x10", "encoder": "on_axis_28"}),
+}
 """Of those that no study holds: the study, and what its module has beside."""
+FOLDERS = ("studies", "tests/studies")
 LENGTHS = re.compile(r"_(radius|level|height|thickness)$")
 _SIGN = {"left": -1.0, "right": 1.0}
 _SPACING = 3.2
@@ -41,17 +45,14 @@ _COLOURS = {"radii": "#1f4e9c", "levels": "#a3301f", "heights": "#2c6b2f"}
 def start(study: str) -> Dimensions:
     """Return the dimensions of a study's module at the study's start, in mm."""
     name, more = VARIANTS.get(study, (study, {}))
-    read = read_study(ROOT / f"studies/{name}.yaml")
+    read = read_study(next(path for folder in FOLDERS if (path := ROOT / folder / f"{name}.yaml").exists()))
     read = read.model_copy(update={"module": {**read.module, **more}})
     table = table_for(read.mode)
     known = table.settled(given(read))
-    scale = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
-    values = {
-        quantity.name: float(known[quantity.name]) * scale[quantity.unit]
-        for quantity in (*table.inputs, *table.outputs)
-        if quantity.unit in scale and isinstance(known.get(quantity.name), (int, float, np.floating))
-    }
-    return Dimensions(read.mode, values)
+    numbers = {name: float(value) for name, value in known.items() if isinstance(value, (int, float, np.floating))}
+    return dimensions_of(
+        read.mode, numbers, {row.name: str(getattr(known[row.name], "name", known[row.name])) for row in table.choices}
+    )
 
 
 def to_label(dims: Dimensions) -> list[str]:

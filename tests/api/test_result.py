@@ -6,7 +6,7 @@ from pathlib import Path
 import matplotlib as mpl
 import pandas as pd
 import pytest
-from support import ROOT, Command
+from support import Command, study_path
 
 import tvimdesign as tvim
 from tvimdesign.device import table_for
@@ -111,7 +111,7 @@ def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result[tv
 def test_the_command_line_gives_the_same_and_writes_the_same(
     result: tvim.Result[tvim.Study], tvimdesign: Command, tmp_path: Path
 ) -> None:
-    words = ("studies/paper_shear.yaml", "--set", "solver.starts=1", "--no-cad", "--no-plots")
+    words = (study_path("paper_shear"), "--set", "solver.starts=1", "--no-cad", "--no-plots")
     done = tvimdesign("run", *words, "--out", tmp_path / "run")
     assert done.returncode == 0, done.stderr
     saved = result.save(tmp_path / "saved", plots=False)
@@ -140,7 +140,7 @@ def test_a_study_is_evaluated_as_it_is_drawn_within_two_lines(study: tvim.Study)
     assert drawn.status == "evaluated"
     assert drawn["coil_count"].magnitude == pytest.approx(3.25)
     assert "evaluated" in str(drawn.why())
-    result = tvim.load(ROOT / "studies/paper_reconstructed.yaml").evaluate(progress=False)
+    result = tvim.load(study_path("paper_reconstructed")).evaluate(progress=False)
     assert result["spring_stiffness"].to("N*m/rad").magnitude == pytest.approx(5.6, rel=0.02)  # the paper's Table I
 
 
@@ -174,7 +174,7 @@ def test_a_notebook_and_show_print_what_a_run_prints(
 
 @pytest.mark.gate
 def test_a_front_is_sought_without_a_folder(tmp_path: Path) -> None:
-    study = tvim.example("paper_shear").set(
+    study = tvim.load(study_path("paper_shear")).set(
         {"front.points": 3, "front.of": ["response_time", "module_mass"], "solver.starts": 1}
     )
     result = study.run(progress=False)

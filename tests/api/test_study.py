@@ -3,20 +3,20 @@
 from pathlib import Path
 
 import pytest
-from support import ROOT
+from support import ROOT, study_path
 
 import tvimdesign as tvim
 
-FILE = ROOT / "studies/paper_shear.yaml"
+FILE = study_path("paper_shear")
 
 
 def test_studies_are_files_by_path_or_shipped_name() -> None:
     from tvimdesign.study import read_study
 
     assert read_study(str(FILE)) == read_study(FILE) == tvim.load(str(FILE)).resolved == tvim.load(FILE).resolved
-    assert tvim.example("paper_shear").resolved == tvim.load(FILE).resolved
-    with pytest.raises(tvim.InputError, match="did you mean 'paper_shear'"):
-        tvim.example("paper_sheer")
+    assert tvim.example("finger").resolved == tvim.load(study_path("finger")).resolved
+    with pytest.raises(tvim.InputError, match="did you mean 'finger'"):
+        tvim.example("fingr")
     with pytest.raises(tvim.InputError, match="no such file"):
         tvim.load("nowhere.yaml")
     with pytest.raises(tvim.InputError, match="no such file"):

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support import ROOT, Command
+from support import Command, study_path
 
 from tvimdesign.base import environment
 from tvimdesign.base.errors import InputError
@@ -24,7 +24,7 @@ def without_cad(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.slow
 @pytest.mark.usefixtures("without_cad")
 def test_a_run_without_cad_says_so_and_does_the_rest(tvimdesign: Command, tmp_path: Path) -> None:
-    study = ROOT / "studies/paper_reconstructed.yaml"
+    study = study_path("paper_reconstructed")
     done = tvimdesign("run", study, "--no-plots", "--out", tmp_path / "run")
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("No parts: cadquery is not installed: pip install 'tvimdesign[cad]'") == 1

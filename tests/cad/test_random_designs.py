@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import random_choices
 import random_designs
-from support import ROOT
+from support import study_path
 
 from tvimdesign.device import table_for
 from tvimdesign.study import read_study
@@ -15,7 +15,7 @@ STUDIES = {"shear": "wrist_joint", "compression": "wrist_compression"}
 
 
 def tally(mode: str, count: int) -> random_designs.Tally:
-    return random_designs.run(read_study(ROOT / f"studies/{STUDIES[mode]}.yaml"), count, seed=20)
+    return random_designs.run(read_study(study_path(STUDIES[mode])), count, seed=20)
 
 
 @pytest.mark.slow
@@ -36,7 +36,7 @@ def test_a_random_design_is_sound_or_refused_by_a_named_rule() -> None:
 
 @pytest.mark.slow
 def test_a_design_that_is_not_sound_is_told() -> None:
-    draws = random_designs.Draws(read_study(ROOT / "studies/wrist_joint.yaml"), seed=20)
+    draws = random_designs.Draws(read_study(study_path("wrist_joint")), seed=20)
     good = next(draws.keeping_rules(1, random_designs.Tally()))
     bad = good.model_copy(update={"values": good.values | {"housing_volume": 1.01 * good.value("housing_volume")}})
     wrong, _ = random_designs.faults(bad, inspect=False)

@@ -12,6 +12,7 @@ import same
 from oracle import fits, frozen_files, messages, optima, study_outputs
 from oracle.compare import Renames, Value, differences, relative_difference
 from oracle.frozen_files import read_frozen, write_frozen
+from support import study_path
 
 import tvimdesign
 
@@ -74,7 +75,7 @@ def test_renames() -> None:
 
 
 def test_a_renamed_input_is_set_by_its_name_of_today() -> None:
-    study = tvimdesign.example("paper_shear")
+    study = tvimdesign.load(study_path("paper_shear"))
     design = {"chosen": {"wire_size": 0.0018}, "units": {"wire_size": "m"}, "current_profiles": {}}
     evaluated = study_outputs.evaluated_study(study, design, Renames({"wire_size": "wire_diameter"}))
     assert "wire_diameter: 0.0018 m" in evaluated.text
@@ -133,7 +134,7 @@ def test_objectives_places_and_fits_are_compared_without_wording() -> None:
 
 def test_every_study_is_frozen() -> None:
     frozen = {path.stem: read_frozen(path) for path in (frozen_files.FOLDER / "studies").glob("*.json")}
-    assert sorted(frozen) == study_outputs.study_names()
+    assert frozen.keys() == study_outputs.study_files().keys()
     for name, data in frozen.items():
         assert len(data["outputs"]) > 1000, name
         assert set(data["chosen"]) >= set(data["units"]), name

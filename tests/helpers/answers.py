@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from support import ROOT
+from support import study_path
 
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study
@@ -11,4 +11,4 @@ from tvimdesign.study import read_study
 @cache
 def shipped_answer(name: str) -> StudyResult:
     """Return what a study in `studies/` comes to."""
-    return answer(read_study(ROOT / f"studies/{name}.yaml"))
+    return answer(read_study(study_path(name)))

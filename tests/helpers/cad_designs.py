@@ -6,7 +6,7 @@ from math import radians
 from typing import Any, NamedTuple
 
 import numpy as np
-from support import ROOT
+from support import study_path
 
 from tvimdesign import __version__
 from tvimdesign.cad import CadReport
@@ -124,7 +124,7 @@ def _of_the_geometry(name: str, known: dict[str, Any], mode: str) -> Design:
 
 def shipped_design(name: str) -> Design:
     """Return the module of a shipped study where its search starts, such that it can be written and read again."""
-    study = read_study(ROOT / f"studies/{name}.yaml")
+    study = read_study(study_path(name))
     return whole(as_it_starts(study), study)
 
 

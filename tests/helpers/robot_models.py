@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from support import ROOT
+from support import study_path
 
 from tvimdesign.robot.joint_model import JointModel, RigidBody, joint_model
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
@@ -13,7 +13,7 @@ STUDY = {"shear": "paper_reconstructed", "compression": "paper_compression"}
 
 @cache
 def module_of(mode: str) -> ResolvedModule:
-    return resolve_study(read_study(ROOT / f"studies/{STUDY[mode]}.yaml"))
+    return resolve_study(read_study(study_path(STUDY[mode])))
 
 
 @cache

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import trimesh
 from PIL import Image
-from support import ROOT
+from support import study_path
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.results_folder import ResultsFolder
@@ -19,7 +19,7 @@ from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.run_page import write_run_page
 from tvimdesign.study.tree import tree_of_file
 
-STUDY = ROOT / "studies/paper_reconstructed.yaml"
+STUDY = study_path("paper_reconstructed")
 REQUIREMENTS = (
     "joint_stiffness@hot=['>= 1.25 N.m/rad', '<= 20.5 N.m/rad']", "holding_torque=>= 1 N.m",
     "envelope_diameter=<= 160 mm",

@@ -24,11 +24,16 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 ROOT = Path(__file__).resolve().parents[2]
 STUDIES = sorted((ROOT / "studies").glob("*.yaml"))
-RELEASED = ("paper_shear", "paper_compression", "machined_shear", "machined_compression")
-"""Studies whose parts are in cad/."""
+"""The studies that ship."""
 Command = Callable[..., CompletedProcess[str]]
 TRANSFORMED = {"hold_angle", "set_angle", "backlash", "relaxation_loss"}
 """Rows read off a Laplace transform, whose weights cancel: other rounding shows in the tenth digit."""
+
+
+def study_path(name: str) -> Path:
+    """Return the path of a study by name: shipped, or kept for tests."""
+    shipped = ROOT / f"studies/{name}.yaml"
+    return shipped if shipped.exists() else ROOT / f"tests/studies/{name}.yaml"
 
 
 def is_at_work(process: int) -> bool:

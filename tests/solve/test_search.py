@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR, with_limit_eased
-from support import ROOT
+from support import ROOT, study_path
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import table_for
@@ -57,7 +57,7 @@ vary:
 @pytest.fixture(scope="module")
 def paper() -> Solution:
     """Return the paper's study from eleven starts."""
-    study = read_study(ROOT / "studies/paper_shear.yaml")
+    study = read_study(study_path("paper_shear"))
     return optimize(study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 11})}))
 
 
@@ -95,7 +95,7 @@ def test_the_paper_s_study_ends_in_optima_that_are_all_told(paper: Solution) -> 
 @pytest.mark.parametrize("seed", [2, 3])
 def test_a_search_from_other_starts_finds_the_same_best(paper: Solution, seed: int) -> None:
     # The best is no luck of the study's own start: this one begins six coils long, and shares no start with that.
-    study = read_study(ROOT / "studies/paper_shear.yaml")
+    study = read_study(study_path("paper_shear"))
     elsewhere = {**study.module, "coil_count": 6.0, "wire_diameter": 2.9e-3, "placement_radius": 57e-3}
     options = study.solver.model_copy(update={"starts": 11, "seed": seed})
     other = optimize(study.model_copy(update={"module": elsewhere, "solver": options}), reference=paper.reference)
@@ -107,7 +107,7 @@ def test_a_search_from_other_starts_finds_the_same_best(paper: Solution, seed: i
 @pytest.mark.slow
 def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: Solution) -> None:
     """Ten times the cells in layer and rotor, scipy's Radau at a tolerance far below a tenth of the step."""
-    study = read_study(ROOT / "studies/paper_shear.yaml")
+    study = read_study(study_path("paper_shear"))
     fine = dict(given(study))
     coarse = paper.model
     fine.update({name: float(paper.inputs[i]) for name, i in coarse.index.items()})
@@ -229,14 +229,14 @@ def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most
     assert next(one.shadow_price for one in held.held if one.name == f"{row} <=") > 0.0
 
 
-NUMBERS_ALONE = ["paper_shear", "elbow_printed", "machined_shear", "wrist_joint"]
-"""Shipped studies that choose no record and drive no phase, of those whose optima were frozen under today's rules."""
+NUMBERS_ALONE = ["paper_shear", "elbow_printed", "wrist_joint"]
+"""Studies that choose no record and drive no phase, of those whose optima were frozen under today's rules."""
 
 
 def _frozen(name: str) -> tuple[Optimizer, np.ndarray, dict[str, Any]]:
     """Return a study's problem, and the inputs and the optimum that are frozen."""
     frozen = json.loads((ROOT / "campaigns/frozen/studies" / f"{name}.json").read_text(encoding="utf-8"))
-    optimizer = Optimizer(read_study(ROOT / "studies" / f"{name}.yaml"), frozen["optimum"]["reference"])
+    optimizer = Optimizer(read_study(study_path(name)), frozen["optimum"]["reference"])
     inputs = optimizer.model.start.copy()
     for one, value in frozen["chosen"].items():
         inputs[optimizer.model.index[one]] = value

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import yaml
 from cad_designs import shipped_design
-from support import ROOT
+from support import STUDIES
 
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
@@ -134,9 +134,9 @@ def test_no_edit_of_a_design_ends_in_a_traceback(tmp_path: Path) -> None:
     assert refused > 75
 
 
-@pytest.mark.parametrize("name", [path.stem for path in sorted((ROOT / "studies").glob("*.yaml"))])
-def test_a_study_written_from_what_was_read_is_read_the_same(name: str) -> None:
-    study = read_study(ROOT / f"studies/{name}.yaml")
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
+def test_a_study_written_from_what_was_read_is_read_the_same(path: Path) -> None:
+    study = read_study(path)
     assert read_tree(tree_of_values(written(study), "written", Path())) == study
 
 

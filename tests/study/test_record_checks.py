@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from support import study_path
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.report.run.check_study import describe
@@ -40,7 +41,7 @@ def test_only_sheets_that_contradict_themselves_are_reported(shipped: Path, tmp_
     text = _cut_to_size(shipped)
     study = _study(tmp_path, text.replace("value: 51, unit: W", "value: 58, unit: W"))
     assert record_checks(study) == []
-    study = read_study(Path(__file__).parents[2] / "studies" / "paper_shear.yaml")
+    study = read_study(study_path("paper_shear"))
     assert record_checks(study) == []
 
 

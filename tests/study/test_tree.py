@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pint
 import pytest
+from support import STUDIES
 
 from tvimdesign.study import Range, Study, StudyError, read_study_text, read_tree
 from tvimdesign.study.text.mistakes import Mistakes
@@ -183,7 +184,7 @@ def test_a_changed_study_is_written_as_text_that_reads_as_the_same_study() -> No
     assert read_study_text(tree_yaml(tree), "x").description == "null"
 
 
-@pytest.mark.parametrize("path", sorted((Path(__file__).parents[2] / "studies").glob("*.yaml")), ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
 def test_every_shipped_study_survives_being_written(path: Path) -> None:
     tree = tree_of_text(path.read_text(), path.name, path.stem, path.parent)
     assert read_study_text(tree_yaml(tree), path.stem, path.parent) == read_tree(tree)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 from small_sweeps import plan
+from support import study_path
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
@@ -105,9 +106,9 @@ def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswe
     return {number: found.answer(Cell("", asked.points.texts(number))) for number in order}
 
 
-def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
+def test_the_order_of_cells_changes_no_digit(study_path: Path) -> None:
     over = "sweep.over={pcl_thickness: [0.6 mm, 1 mm], arc_count: [3, 4]}"
-    forward, backward = answers(study_file, [0, 1, 2, 3], over), answers(study_file, [3, 0], over)
+    forward, backward = answers(study_path, [0, 1, 2, 3], over), answers(study_path, [3, 0], over)
     assert backward == {number: forward[number] for number in backward}
     assert len({one.values for one in forward.values()}) == 4
 
@@ -115,7 +116,7 @@ def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
 @pytest.mark.slow
 def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
     path = tmp_path / "study.yaml"
-    path.write_text(tvim.example("paper_shear").text)
+    path.write_text(tvim.load(study_path("paper_shear")).text)
     over = "sweep={over: {pcl_thickness: [0.6 mm, 0.9 mm], require.holding_torque: ['>= 12 N.m', '>= 120 N.m']}}"
     one = "solver.starts=1"
     forward, backward = answers(path, [0, 1, 2, 3], over, one), answers(path, [2, 0], over, one)
@@ -125,8 +126,8 @@ def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
     assert "breaks" in forward[1].reason
 
 
-def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file: Path) -> None:
-    asked = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
+def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_path: Path) -> None:
+    asked = plan(study_path, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
     cells = [Cell(str(number), asked.points.texts(number)) for number in range(4)]
     left = CellQueue(cells, SweptStudy.of(asked), workers=2)
     first, other, second = left.next(1), left.next(2), left.next(1)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from small_sweeps import plan, swept, tables
-from support import ROOT, Command, environment
+from support import ROOT, Command, environment, study_path
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
@@ -191,7 +191,7 @@ def test_a_disk_that_fills_once_costs_no_cell(study_file: Path, one_process: Pat
 @pytest.mark.slow
 def test_optimised_cells_are_the_same_bytes_for_one_and_two_workers(tmp_path: Path) -> None:
     path = tmp_path / "optimised.yaml"
-    text = (ROOT / "studies/paper_shear.yaml").read_text()
+    text = study_path("paper_shear").read_text()
     over = (
         "{pcl_thickness: {from: 0.6 mm, to: 1.2 mm, count: 6}, operating_points.hot.temperature: [100 degC, 105 degC]}"
     )

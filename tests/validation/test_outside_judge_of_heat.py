@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support import ROOT
+from support import ROOT, study_path
 
 sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
 
-from compare import STUDIES, Judge, model_of, plane_of, studies
+from compare import Judge, model_of, plane_of, studies
 from fe_drawings import DRAWINGS, SHEET, Drawing, graded
 from outside_judge import CASES, PADS, case_of
 from warm_joint import WarmJoint
@@ -22,13 +22,13 @@ from tvimdesign.study import read_study
 
 with (ROOT / "validation/heat_sector/outside_judge.csv").open(newline="", encoding="utf-8") as file:
     ROWS = list(csv.DictReader(file))
-named = pytest.mark.parametrize("study", [path.stem for path in studies()])
+named = pytest.mark.parametrize("study", list(studies()))
 
 
 def test_finite_elements_bear_the_plane_out() -> None:
     assert {row["case"] for row in ROWS} == set(CASES)
     assert {row["pads"] for row in ROWS} == set(PADS)
-    assert {read_study(STUDIES / f"{row['study']}.yaml").mode for row in ROWS} == {"shear", "compression"}
+    assert {read_study(study_path(row["study"])).mode for row in ROWS} == {"shear", "compression"}
     for row in ROWS:
         plane, elements = float(row["plane [s]"]), float(row["fe [s]"])
         assert plane == pytest.approx(elements, rel=0.01), (row["case"], row["time"])
@@ -38,7 +38,7 @@ def test_finite_elements_bear_the_plane_out() -> None:
 @pytest.mark.gate
 @pytest.mark.parametrize("case", ["paper_shear", "paper_compression"])
 def test_the_plane_that_was_judged_is_today_s(case: str) -> None:
-    model = model_of(STUDIES / f"{CASES[case].study}.yaml")
+    model = model_of(study_path(CASES[case].study))
     judge = Judge(model, plane_of(model))
     switch = judge.heated(CASES[case].seconds, 100)
     judged = {row["time"]: float(row["plane [s]"]) for row in ROWS if row["case"] == case}
@@ -47,7 +47,7 @@ def test_the_plane_that_was_judged_is_today_s(case: str) -> None:
 
 @pytest.mark.slow
 def test_the_ring_takes_as_long_with_half_as_many_cells_again() -> None:
-    model = model_of(STUDIES / "wrist_compression.yaml")
+    model = model_of(study_path("wrist_compression"))
     coarse, fine = (Judge(model, plane_of(model, cells)) for cells in (1.0, 1.5))
     times = [judge.time("softening_time", judge.heated(150.0, 60)) for judge in (coarse, fine)]
     assert times[0] == pytest.approx(times[1], rel=0.01)
@@ -65,7 +65,7 @@ def areas(drawing: Drawing) -> dict[str, float]:
 
 def drawn_twice(study: str) -> tuple[Any, Drawing]:
     """A study's start in the plane, and drawn for finite elements."""
-    model = model_of(STUDIES / f"{study}.yaml")
+    model = model_of(study_path(study))
     plane = plane_of(model)
     case = case_of(model, plane.middle)
     return plane, DRAWINGS[case["drawing"]](case["numbers"], 0.5)
@@ -113,7 +113,7 @@ NAMES = ("paper_reconstructed", "paper_compression")
 
 
 def joint_of(name: str) -> WarmJoint:
-    module = resolve_study(read_study(ROOT / f"studies/{name}.yaml"))
+    module = resolve_study(read_study(study_path(name)))
     return WarmJoint(module.table, module.values)
 
 

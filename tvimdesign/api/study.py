@@ -34,7 +34,7 @@ def load(path: str | os.PathLike[str]) -> Study:
 
 
 def example(name: str) -> Study:
-    """Read a shipped study by name, such as "paper_shear"; `tvimdesign new --list` lists them. Raises InputError."""
+    """Read a shipped study by name, such as "elbow_printed"; `tvimdesign new --list` lists them. Raises InputError."""
     return Study._of(tree_of_text(example_text(name), f"{name}.yaml", name, Path()))
 
 

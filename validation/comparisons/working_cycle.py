@@ -1,11 +1,12 @@
-"""Times of a switch of shipped studies, simulated as the product does, and what the paper's module does."""
+"""Times of a switch of studies, simulated as the product does, and what the paper's module does."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from pathlib import Path
 from typing import Any
+
+from fe_structure.models import study_file
 
 from tvimdesign.report.paper.paper_case import published_model, published_values
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -13,13 +14,12 @@ from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 
 Values = Mapping[str, Any]
-STUDIES = Path(__file__).resolve().parents[2] / "studies"
 
 
 @cache
 def _times(study: str) -> Mapping[str, float]:
     """Values of one working cycle of a study as it starts, its melt without memory, as the plane's is."""
-    read = read_study(STUDIES / f"{study}.yaml")
+    read = read_study(study_file(study))
     model = resolve_study(read).functions
     values = model.start.copy()
     if "melt_memory" in model.index:

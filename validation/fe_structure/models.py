@@ -55,18 +55,18 @@ class Row(NamedTuple):
 
 BEYOND = {("elbow_printed", "edge_traction"), ("elbow_machined", "edge_traction")}
 """Studies and quantities beyond the tenth, each with the figure in README.md."""
-LEFT_OUT = {"ankle", "driven_joint", "fast_switch", "machined_shear"}
-"""Shipped studies not in the table, with the reason in README.md."""
+LEFT_OUT = {"ankle", "driven_joint", "fast_switch"}
+"""Studies not in the table, with the reason in README.md."""
 PAST = Path(__file__).with_name("studies")
 """Studies that are no longer shipped, whose parts FE has solved."""
+FOLDERS = (PAST, ROOT / "studies", ROOT / "tests/studies")
 DESIGN = ("SI", "record")
 """Units of a table's rows that tell the design."""
 
 
 def study_file(study: str) -> Path:
-    """Return the file of a study, shipped or past."""
-    past = PAST / f"{study}.yaml"
-    return past if past.exists() else ROOT / f"studies/{study}.yaml"
+    """Return the file of a study: shipped, of the tests, or past."""
+    return next(path for folder in FOLDERS if (path := folder / f"{study}.yaml").exists())
 
 
 def design_rows(study: str, values: dict[str, float], choices: dict[str, str]) -> list[Row]:

@@ -1,4 +1,4 @@
-"""FE of every shipped study's parts against the model, by one command; writes results.csv and shipped.yaml.
+"""FE of every study's parts against the model, by one command; writes results.csv and shipped.yaml.
 
     python validation/fe_structure/run.py --fe-python FE/bin/python [--work FOLDER] [--check] [STUDY ...]
 
@@ -30,7 +30,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from models import DESIGN, LEFT_OUT, Row, case_of, design_rows, designed, fe_values, model_values, study_file
+from models import DESIGN, FOLDERS, LEFT_OUT, Row, case_of, design_rows, designed, fe_values, model_values, study_file
 
 from tvimdesign.cad.fe.run_solvers import SOLVERS, export_parts
 from tvimdesign.study.design import read_design
@@ -129,8 +129,8 @@ def main() -> None:
         print(*worst_first(), sep="\n")
         return
     failed = []
-    shipped = {path.stem for path in (ROOT / "studies").glob("*.yaml")} - LEFT_OUT
-    for study in requested.studies or sorted(shipped):
+    every = {path.stem for folder in FOLDERS for path in folder.glob("*.yaml")} - LEFT_OUT
+    for study in requested.studies or sorted(every):
         try:
             rows, case = rows_of(study, requested.work.resolve(), requested.fe_python)
             failed += [f"{study}: {line}" for line in differing(study, rows)] if requested.check else []

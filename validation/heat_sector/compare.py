@@ -33,7 +33,7 @@ from tvimdesign.study.design import read_design
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results.csv"
-STUDIES = HERE.parents[1] / "studies"
+ROOT = HERE.parents[1]
 TIMES = ("softening_time", "mean_time", "far_face_time")
 HEADER = ("study", "design", "time", "product [s]", "plane [s]", "difference [%]", "warmer by [K]", "time over rise")
 LONGER = (1.3, 2.6)
@@ -206,9 +206,10 @@ def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> d
     return found
 
 
-def studies() -> list[Path]:
-    """Return the shipped studies."""
-    return sorted(STUDIES.glob("*.yaml"))
+def studies() -> dict[str, Path]:
+    """Return the files of all studies by name: the shipped ones, and those of the tests."""
+    files = (path for folder in ("studies", "tests/studies") for path in (ROOT / folder).glob("*.yaml"))
+    return {path.stem: path for path in sorted(files, key=lambda path: path.stem)}
 
 
 def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunctions]]:
@@ -249,9 +250,7 @@ def main() -> None:
     parser.add_argument("studies", nargs="*", metavar="STUDY")
     parser.add_argument("--work", type=Path, default=Path("heat_work"))
     asked = parser.parse_args()
-    for path in studies():
-        if asked.studies and path.stem not in asked.studies:
-            continue
+    for path in (studies()[name] for name in asked.studies or studies()):
         rows = []
         for design, model in designs(path, asked.work):
             for row in rows_of(path.stem, design, model):
@@ -263,7 +262,7 @@ def main() -> None:
 def _put(study: str, rows: list[list[str]]) -> None:
     """Write a study's rows in place of those it had; those of studies that are no more go."""
     before = list(csv.reader(RESULTS.open()))[1:] if RESULTS.exists() else []
-    before = [row for row in before if (STUDIES / f"{row[0]}.yaml").exists()]
+    before = [row for row in before if row[0] in studies()]
     with RESULTS.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(HEADER)

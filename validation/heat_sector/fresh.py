@@ -12,7 +12,7 @@ import csv
 from collections.abc import Iterator
 from pathlib import Path
 
-from compare import HEADER, STUDIES, model_of, product_times, rows_of
+from compare import HEADER, model_of, product_times, rows_of, studies
 from random_designs import Draws, Tally
 
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -20,7 +20,7 @@ from tvimdesign.study import read_study
 
 RESULTS = Path(__file__).with_name("fresh.csv")
 SEED = 2026
-COUNTS = {"paper_shear": 4, "wrist_joint": 4, "wrist_compression": 4, "compare_compression": 4}
+COUNTS = {"paper_shear": 4, "wrist_joint": 4, "wrist_compression": 8}
 """How many designs of each study's ranges."""
 MOST = 40
 """Draws that keep the rules, of which the first that soften are taken."""
@@ -28,7 +28,7 @@ MOST = 40
 
 def designs(study: str, count: int) -> Iterator[tuple[str, DeviceFunctions]]:
     """Return the first random designs that soften, by their place among those that satisfy the rules."""
-    path = STUDIES / f"{study}.yaml"
+    path = studies()[study]
     read, found = read_study(path), 0
     for place, design in enumerate(Draws(read, SEED).keeping_rules(MOST, Tally())):
         model = model_of(path, **{name: design.values[name] for name in read.vary if name in design.values})

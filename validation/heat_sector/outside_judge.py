@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 import compression
 import numpy as np
 import shear
-from compare import STUDIES, TIMES, Judge, Switch, inputs_of, model_of, optimum_of, plane_of
+from compare import TIMES, Judge, Switch, inputs_of, model_of, optimum_of, plane_of, studies
 
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
@@ -46,7 +46,7 @@ class Held(NamedTuple):
         if self.pads != "usual":
             changes = dict(zip(("pad_conductivity", "pad_edge_contact"), PADS[self.pads], strict=True))
         if self.design == "start":
-            return model_of(STUDIES / f"{self.study}.yaml", **changes)
+            return model_of(studies()[self.study], **changes)
         return optimum_of(work / self.study, **changes)
 
 
@@ -55,7 +55,6 @@ CASES = {
     "paper_shear_optimum": Held("paper_shear", "optimum", 130.0),
     "paper_shear_bad_pads": Held("paper_shear", "optimum", 150.0, "badly conducting"),
     "paper_shear_good_pads": Held("paper_shear", "optimum", 130.0, "well conducting"),
-    "machined_shear_optimum": Held("machined_shear", "optimum", 800.0),
     "elbow_machined_optimum": Held("elbow_machined", "optimum", 130.0),
     "paper_compression": Held("paper_compression", "start", 580.0),
     "machined_compression": Held("machined_compression", "start", 3100.0),

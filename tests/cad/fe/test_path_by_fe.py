@@ -9,7 +9,7 @@ import os
 from pathlib import Path
 
 import pytest
-from support import ROOT
+from support import study_path
 
 from tvimdesign.cad.fe.model_comparison import joint_rows, model_values
 from tvimdesign.cad.fe.run_solvers import export_parts, run_solvers
@@ -26,7 +26,7 @@ WITHIN = {"hub": 0.10, "floor": 0.10, "plate": 0.10, "core": 0.10, "seat_tractio
 @pytest.mark.skipif(not SOLVER, reason="FE_PYTHON names no Python with netgen and ngsolve")
 @pytest.mark.parametrize("study", ["elbow_printed", "elbow_machined"])
 def test_the_way_of_the_torque_is_as_stiff_and_stressed_as_by_fe(study: str, tmp_path: Path) -> None:
-    design = answer(read_study(ROOT / f"studies/{study}.yaml")).design
+    design = answer(read_study(study_path(study))).design
     export_parts(design, tmp_path / "parts")
     by_fe = joint_rows(run_solvers(("joint",), tmp_path / "parts", tmp_path, SOLVER, print)["joint"].found)
     by_model = model_values(resolve_design(design))

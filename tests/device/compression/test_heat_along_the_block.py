@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from stiff_when_warm import STIFF_WHEN_WARM
-from support import ROOT, tight
+from support import study_path, tight
 
 from tvimdesign.device import table_for
 from tvimdesign.device.compression.ring_heat import (
@@ -75,7 +75,7 @@ def test_twice_the_depth_of_a_whole_module() -> None:
     # long. The deeper it is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the
     # block is. What the free sides lose grows with the depth and is left out. Five vanes: in a ring of six, blocks of
     # more than 6.2 mm leave the housing's vanes no thickness, and those of more than 4.7 mm the pads no slot.
-    study = read_study(ROOT / "studies" / "paper_compression.yaml")
+    study = read_study(study_path("paper_compression"))
     lossless = {"air_conductivity": 1e-6, "housing_coefficient": 0.1, "surface_emissivity": 1e-3}
     module = {**resolve(study), **STIFF_WHEN_WARM, **lossless, "horizon": 1e5, "vane_count": 5.0}
 

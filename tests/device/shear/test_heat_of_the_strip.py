@@ -1,6 +1,6 @@
 """Times of a switch against two dimensions, by finite volumes that share no equation with the product.
 
-`validation/heat_sector/results.csv` has every shipped study as it starts and at its optimum; here two of them
+`validation/heat_sector/results.csv` has every study as it starts and at its optimum; here two of them
 again.
 """
 
@@ -9,12 +9,12 @@ import sys
 
 import numpy as np
 import pytest
-from support import ROOT
+from support import ROOT, study_path
 
 sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
 sys.path.insert(0, str(ROOT / "docs" / "make"))
 
-from compare import STUDIES, compared, inputs_of, model_of, plane_of, product_times, studies
+from compare import compared, inputs_of, model_of, plane_of, product_times, studies
 from fresh import designs
 from heat_tables import PAGE, written
 
@@ -29,15 +29,15 @@ def rows(name: str = "results") -> list[dict[str, str]]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["paper_shear", "paper_compression", "wrist_compression", "compare_shear"])
+@pytest.mark.parametrize("name", ["paper_shear", "paper_compression", "wrist_compression", "wrist_joint"])
 def test_times_are_those_of_the_plane(name: str) -> None:
-    for time, one in compared(model_of(STUDIES / f"{name}.yaml")).items():
+    for time, one in compared(model_of(study_path(name))).items():
         assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time
 
 
-@pytest.mark.parametrize("name", ["paper_reconstructed", "paper_compression", "machined_shear"])
+@pytest.mark.parametrize("name", ["paper_reconstructed", "paper_compression", "elbow_machined"])
 def test_the_table_has_the_times_of_today_s_product(name: str) -> None:
-    ours = product_times(model_of(STUDIES / f"{name}.yaml"))
+    ours = product_times(model_of(study_path(name)))
     kept = {
         row["time"]: float(row["product [s]"]) for row in rows() if (row["study"], row["design"]) == (name, "start")
     }
@@ -45,8 +45,8 @@ def test_the_table_has_the_times_of_today_s_product(name: str) -> None:
 
 
 def test_every_study_is_on_the_page_of_the_plane_within_two_kelvins() -> None:
-    wanted = {(path.stem, "start") for path in studies()}
-    wanted |= {(path.stem, "optimum") for path in studies() if read_study(path).vary}
+    wanted = {(name, "start") for name in studies()}
+    wanted |= {(name, "optimum") for name, path in studies().items() if read_study(path).vary}
     assert {(row["study"], row["design"]) for row in rows()} == wanted
     for row in beyond("results"):
         assert abs(float(row["warmer by [K]"])) < 2.0, row
@@ -68,7 +68,7 @@ def beyond(name: str) -> list[dict[str, str]]:
     ],
 )
 def test_rigid_modules_are_drawn_as_large_as_they_are(study: str, length: str, within: float) -> None:
-    model = model_of(STUDIES.parent / f"{study}.yaml")
+    model = model_of(ROOT / f"{study}.yaml")
     found, known = plane_of(model), inputs_of(model)
     sizes = model.table.evaluate(known, ["pcl_area", length, "spreader_volume", "heater_count"])
     drawn = {name: np.sum(found.volume[found.cells(name)]) for name in found.materials}
@@ -93,6 +93,6 @@ def test_a_fresh_design_of_each_mode_is_compared_anew() -> None:
 
 @pytest.mark.parametrize("block_height", [0.0071, 0.0083, 0.0097, 0.0113])
 def test_pads_between_vanes_are_drawn_as_high_as_their_blocks(block_height: float) -> None:
-    found = plane_of(model_of(STUDIES / "wrist_compression.yaml", block_height=block_height))
+    found = plane_of(model_of(study_path("wrist_compression"), block_height=block_height))
     assert np.min(found.volume) > 0.0
     assert "beside tiles" not in found.material

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
+from support import study_path
 
 from tests.helpers.figures import faults, signed
 from tvimdesign.report.figures import analysis_figures, design_figures
@@ -20,15 +21,12 @@ from tvimdesign.simulation.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 
-STUDIES = Path(__file__).parents[3] / "studies"
-
 
 @pytest.fixture(
     scope="module", params=["paper_reconstructed", pytest.param("paper_compression", marks=pytest.mark.slow)]
 )
 def resolved(request: pytest.FixtureRequest) -> ResolvedModule:
-    study = read_study(STUDIES / f"{request.param}.yaml")
-    return resolve_study(study)
+    return resolve_study(read_study(study_path(request.param)))
 
 
 @pytest.fixture(scope="module")

@@ -72,7 +72,7 @@ def test_the_arm_of_the_page_swings_soft_and_stays_where_it_froze(folder: tuple[
 
 
 @pytest.mark.parametrize(
-    ("words", "said"), [(["nowhere"], "no such file"), (["studies/paper_shear.yaml"], "tvimdesign run")]
+    ("words", "said"), [(["nowhere"], "no such file"), (["studies/finger.yaml"], "tvimdesign run")]
 )
 def test_what_is_no_result_is_refused(tvimdesign: Command, tmp_path: Path, words: list[str], said: str) -> None:
     done = tvimdesign("robot", *words, "--out", tmp_path / "robot")

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import pytest
 from comparable import COARSE
-from support import ROOT, Command
+from support import Command, study_path
 
 from tvimdesign.report.output.numbers import ends_text, label
 from tvimdesign.report.run.answered_study import AnsweredStudy
@@ -71,7 +71,7 @@ def case(asked: str) -> AnsweredStudy:
     """A shipped study as it is drawn or optimised, or one of the texts above; `alone` without its uncertainty."""
     name = asked.removesuffix(" alone")
     texts = {"choices": CHOICES, "many": MANY}
-    study = read_study_text(texts[name], name) if name in texts else read_study(ROOT / f"studies/{name}.yaml")
+    study = read_study_text(texts[name], name) if name in texts else read_study(study_path(name))
     study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
     if name in ("wrist_joint", "paper_compression"):
         study = drawn(study)
@@ -266,7 +266,7 @@ def test_a_run_prints_the_screen_without_warnings_and_keeps_tables(whole_run: Wh
 
 @pytest.mark.gate
 def test_every_table_is_printed_where_that_is_asked(tvimdesign: Command, tmp_path: Path) -> None:
-    study = ROOT / "studies/paper_reconstructed.yaml"
+    study = study_path("paper_reconstructed")
     full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "out").stdout
     assert all(table in full for table in TABLES[:2])  # the third is of the yield's run
     assert len(full.splitlines()) > LINES

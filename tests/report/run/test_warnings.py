@@ -11,7 +11,7 @@ import pytest
 import yaml
 from comparable import COARSE, COMPRESSION, SHEAR
 from stiff_when_warm import LOSSLESS
-from support import ROOT
+from support import study_path
 
 from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
@@ -73,7 +73,7 @@ def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path: Path, mode:
 @cache
 def _published(extra: str = "") -> StudyResult:
     """The published module, without what its study accepts."""
-    text = re.sub(r"^accept:.*?\n\n", "", (ROOT / "studies/paper_reconstructed.yaml").read_text(), flags=re.M | re.S)
+    text = re.sub(r"^accept:.*?\n\n", "", study_path("paper_reconstructed").read_text(), flags=re.M | re.S)
     study = read_study_text(text.replace("module:\n", f"module:\n{extra}", 1), "a test")
     return answer(study)
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 import yaml
-from support import ROOT
+from support import ROOT, study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cad.fe import model_comparison as comparison
@@ -16,7 +16,7 @@ from tvimdesign.report import verify_design
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 
-MODULE = resolve_study(read_study(ROOT / "studies/paper_reconstructed.yaml"))
+MODULE = resolve_study(read_study(study_path("paper_reconstructed")))
 JOINT = yaml.safe_load((ROOT / "validation/fe_structure/shipped.yaml").read_text())["paper_reconstructed"]["found"]
 LINK = yaml.safe_load((ROOT / "validation/fe_link/results.yaml").read_text())["paper_reconstructed_dowelled"]["link"]
 with (ROOT / "validation/fe_structure/results.csv").open(newline="") as _file:
@@ -66,7 +66,7 @@ def test_screws_feet_and_plate_are_by_statics(tmp_path: Any) -> None:
 
 
 def test_vanes_cup_the_plate_they_hang_from() -> None:
-    module = resolve_study(read_study(ROOT / "studies/machined_compression.yaml"))
+    module = resolve_study(read_study(study_path("machined_compression")))
     thick, core, arm, lean = (
         float(value) for value in (module.values["rotor_thickness"], module.values["core_radius"],
                                    module.quantity("block_between").arm, module.quantity("block_lean_out"))
@@ -112,11 +112,11 @@ def test_the_worst_comes_first(tmp_path: Any) -> None:
 
 
 def test_liners_and_rigid_modules_in_a_vane_are_refused_by_name() -> None:
-    study = read_study(ROOT / "studies/wrist_joint.yaml")
+    study = read_study(study_path("wrist_joint"))
     lined = study.model_copy(update={"module": {**study.module, "liner_material": "peek"}})
     with pytest.raises(InputError, match="liner_material is peek"):
         verify_design.refuse_other_parts(resolve_study(lined))
-    verify_design.refuse_other_parts(resolve_study(read_study(ROOT / "studies/elbow_printed.yaml")))
+    verify_design.refuse_other_parts(resolve_study(read_study(study_path("elbow_printed"))))
     vanes = ROOT / "validation/fe_structure/studies/rigid_modules_compression.yaml"
     with pytest.raises(InputError, match="heater_form is rigid"):
         verify_design.refuse_other_parts(resolve_study(read_study(vanes)))

@@ -1,10 +1,9 @@
 """The motion tests on the paper's module: what their findings say, against rows and hand calculation."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from stiff_when_warm import LOSSLESS
+from support import study_path
 
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests import release as release_test
@@ -15,7 +14,7 @@ from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study, read_study_text
 
-STUDY = Path(__file__).parents[3] / "studies" / "paper_reconstructed.yaml"
+STUDY = study_path("paper_reconstructed")
 POINTS = ("cold", "melting", "hot")
 
 

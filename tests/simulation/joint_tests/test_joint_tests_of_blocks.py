@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from stiff_when_warm import LOSSLESS
-from support import ROOT
+from support import study_path
 
 from tvimdesign.report.output.tables import results
 from tvimdesign.simulation.joint_tests import release as release_test
@@ -25,7 +25,7 @@ POINTS = ("cold", "melting", "hot")
 
 @pytest.fixture(scope="module")
 def resolved() -> ResolvedModule:
-    study = read_study(ROOT / "studies" / "paper_compression.yaml")
+    study = read_study(study_path("paper_compression"))
     # Without its cover the core is shorter, and thicker it is stiffer; without friction, as the textbook has it, and
     # without the structure's loss (what that does is in test_loss_in_motion.py).
     other = {"cover": "none", "core_radius": 9e-3, "pin_friction": 0.0, **LOSSLESS}
@@ -179,7 +179,7 @@ def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) 
 
 
 def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
-    study = read_study(ROOT / "studies" / "paper_reconstructed.yaml")
+    study = read_study(study_path("paper_reconstructed"))
     shear = resolve_study(study)
     assert all(ends == (0.0, 0.0, 0.0) for ends in contact_seen(shear).values())
     release = release_test.release(shear)

@@ -1,10 +1,9 @@
 """Printed structures lose energy in motions in time as their complex stiffness says; held against Radau."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from support import study_path
 
 from tvimdesign.simulation.joint_tests import sine as sine_test
 from tvimdesign.simulation.joint_tests.case import cases
@@ -14,11 +13,9 @@ from tvimdesign.simulation.trial import Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 
-STUDIES = Path(__file__).parents[3] / "studies"
-
 
 def module(name: str) -> ResolvedModule:
-    study = read_study(STUDIES / f"{name}.yaml")
+    study = read_study(study_path(name))
     return resolve_study(study.model_copy(update={"module": {**study.module, "pin_friction": 0.0}}))
 
 

@@ -1,11 +1,10 @@
 """A link released against dry friction and one behind a lossy structure, against textbooks and scipy."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from support import study_path
 
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.motion import Joint, Modes
@@ -129,7 +128,7 @@ def test_a_frozen_joint_creeps_without_inertia_on_the_edge_of_the_friction() -> 
 
 @pytest.mark.slow
 def test_the_release_of_the_published_module_shows_its_hysteresis() -> None:
-    study = read_study(Path(__file__).parents[3] / "studies" / "paper_reconstructed.yaml")
+    study = read_study(study_path("paper_reconstructed"))
     resolved = resolve_study(study)
     trial = release_test.release(resolved, kelvin_voigt=False)
     friction = resolved.quantity("pin_friction_torque")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support import ROOT, STUDIES, fine
+from support import STUDIES, fine, study_path
 
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -158,7 +158,7 @@ def test_a_phase_takes_no_more_steps_than_it_did(build: Callable[..., DeviceFunc
 @pytest.mark.parametrize("study", ["elbow_printed", "paper_shear"])
 def test_a_steady_state_that_changes_steeply_is_found(study: str) -> None:
     # Newton's method alone goes to and fro between currents that melt a part of the elbow's layer and that do not.
-    read = drawn(read_study(ROOT / "studies" / f"{study}.yaml"))
+    read = drawn(read_study(study_path(study)))
     model = resolve_study(read).functions
     engine, along = CycleEngine(model), np.zeros((len(model.start), 1))
     along[model.index["ambient_temperature"]] = 1.0

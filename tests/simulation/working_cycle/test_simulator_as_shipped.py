@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from another_stack import AnotherStack, value_of
 from scipy.integrate import simpson, solve_ivp
-from support import STUDIES, fine, tight
+from support import STUDIES, fine, study_path, tight
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import SAMPLES, Simulator
@@ -34,7 +34,11 @@ def agree(one: Cycle, other: Cycle) -> None:
 
 
 @pytest.mark.parametrize(
-    "path", [pytest.param(one, marks=[] if one.stem in QUICK else pytest.mark.slow, id=one.stem) for one in STUDIES]
+    "path",
+    [
+        *(pytest.param(path, id=path.stem) for path in map(study_path, QUICK)),
+        *(pytest.param(path, marks=pytest.mark.slow, id=path.stem) for path in STUDIES if path.stem not in QUICK),
+    ],
 )
 def test_all_values_of_a_study_s_cycle_are_those_of_cvodes(path: Path) -> None:
     model = model_of(path)

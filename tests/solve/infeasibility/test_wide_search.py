@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support import ROOT
+from support import ROOT, study_path
 
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen, _broken, _one_design, designs_all_over
@@ -28,7 +28,7 @@ solver: {cells: 8, starts: 1}
 
 @pytest.mark.gate
 def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
-    optimizer = Optimizer(read_study(ROOT / "studies/paper_shear.yaml"))
+    optimizer = Optimizer(read_study(study_path("paper_shear")))
     screen = FeasibilityScreen(optimizer)
     designs = list(designs_all_over(optimizer))
     assert len(designs) == 3
@@ -55,7 +55,7 @@ def test_where_no_limit_is_of_arithmetic_every_design_keeps_them() -> None:
 @pytest.mark.slow
 def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
     # Where no start comes to a design, those from all over do: here every start is made to fail.
-    study = read_study(ROOT / "studies/paper_shear.yaml")
+    study = read_study(study_path("paper_shear"))
     usual = optimize(study)
     starts = Relaxation._from_one_of_each
 

@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from scipy.stats import qmc
-from support import ROOT
+from support import study_path
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.solve.nlp.problem_parts import Free
@@ -160,7 +160,7 @@ def test_no_search_begins_with_a_core_wider_than_the_layer_s_inner_edge() -> Non
 
 def test_starts_of_a_module_with_links_that_correct_others_differ() -> None:
     # A link that corrects another is below zero at the study's start, too: no reason to pass over a point.
-    study = read_study(ROOT / "studies/wrist_compression.yaml")
+    study = read_study(study_path("wrist_compression"))
     study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 3})})
     multistart = Optimizer(study).multistart
     begins = list(multistart.points())

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support import ROOT
+from support import study_path
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.device import Input
@@ -31,7 +31,7 @@ SOFT_SPRINGS = {
 
 @pytest.fixture(scope="module")
 def study() -> Study:
-    return read_study(ROOT / "studies/paper_shear.yaml")
+    return read_study(study_path("paper_shear"))
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,7 @@ def _kept_within(study: Study, optimizer: Optimizer, lower: float, upper: float)
 @pytest.mark.slow
 def test_a_start_is_led_to_what_is_as_good_as_the_best_of_all_turns() -> None:
     # The study's own start ends in an optimum with better ones beside it, which the solver does not leave.
-    study = read_study(ROOT / "studies/wrist_compression.yaml")
+    study = read_study(study_path("wrist_compression"))
     optimizer = Optimizer(study)
     run = optimizer.solve()
     (improved,) = NeighboringOptima(optimizer).improve([run])

@@ -2,7 +2,7 @@
 
 import pytest
 from small_studies import with_limit_eased
-from support import ROOT
+from support import study_path
 
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -70,12 +70,12 @@ def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
     [
         pytest.param("paper_shear", marks=pytest.mark.gate),
         pytest.param("fast_switch", marks=pytest.mark.slow),
-        pytest.param("compare_compression", marks=pytest.mark.slow),
+        pytest.param("wrist_compression", marks=pytest.mark.slow),
     ],
 )
 def test_savings_add_up_to_the_price_in_the_objective(name: str) -> None:
     # The envelope theorem: to first order the weighted sum changes by the multiplier.
-    study = read_study(ROOT / "studies" / f"{name}.yaml")
+    study = read_study(study_path(name))
     study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 1})})
     solution = optimize(study)
     weights = {n: w * solution.values[n] / solution.reference[n] for n, w in study.minimize.items()}

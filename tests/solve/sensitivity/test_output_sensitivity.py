@@ -2,11 +2,10 @@
 
 import itertools
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 import pytest
-from support import fine
+from support import fine, study_path
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
@@ -99,7 +98,7 @@ def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -
 
 @pytest.mark.parametrize("name", ["block_height", "pcl_outer_radius"])
 def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -> None:
-    study = read_study(Path(__file__).parents[3] / "studies" / "wrist_compression.yaml")
+    study = read_study(study_path("wrist_compression"))
     resolved = resolve_study(study)
     by = _logarithmic(output_sensitivities(resolved, ["frozen_time"], [name]))
     # By the radius 0.4 % is too far: differences go 1.367, 1.305, 1.284, 1.279 as it is halved.

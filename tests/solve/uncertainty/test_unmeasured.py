@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from support import ROOT
+from support import study_path
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
@@ -24,7 +24,7 @@ def module(tmp_path: Path) -> ResolvedModule:
     folder = tmp_path / "records" / "heat_paths"
     folder.mkdir(parents=True)
     (folder / "bench.yaml").write_text(RECORD)
-    study = (ROOT / "studies" / "paper_reconstructed.yaml").read_text()
+    study = study_path("paper_reconstructed").read_text()
     path = tmp_path / "mine.yaml"
     path.write_text(study.replace("\nmodule:", "\ncatalog: records\nmodule:\n  heat_paths: bench", 1))
     return resolve_study(read_study(path))
@@ -39,7 +39,7 @@ def test_a_measured_input_knows_its_range_before_and_others_have_none(module: Re
     assert [name for name, one in inputs.items() if one.before is not None] == ["rotor_contact"]
     (before,) = [one for one in before_measuring(list(inputs.values())) if one.name == "rotor_contact"]
     assert (before.low, before.high) == (handbook.low, handbook.high)
-    module = resolve_study(read_study(ROOT / "studies" / "paper_reconstructed.yaml"))
+    module = resolve_study(read_study(study_path("paper_reconstructed")))
     assert all(one.before is None for one in unmeasured_inputs(module))
 
 

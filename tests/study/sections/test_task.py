@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from support import ROOT
+from support import study_path
 
 from tvimdesign.device import table_for
 from tvimdesign.study import given
@@ -13,7 +13,7 @@ from tvimdesign.study.reader import read_study_text
 from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.text.mistakes import StudyError
 
-STUDY = (ROOT / "studies/paper_shear.yaml").read_text()
+STUDY = study_path("paper_shear").read_text()
 TASK = {
     "payload": "3 kg", "arm_mass": "0.6 kg", "arm_length": "0.2 m", "allowed_sag": "5 mm", "allowed_force": "60 N",
     "gravity_angle": "90 deg",

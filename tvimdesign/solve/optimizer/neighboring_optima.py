@@ -19,7 +19,7 @@ from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 SHAKES, SHAKE = 3, 0.1
-"""Searches beside the best optimum, and how far off they begin, as a share of each range: `paper_shear` is 0.6 % better
+"""Searches beside the best optimum, and how far off they begin, as a share of each range. One study became 0.6 % better
 by one."""
 _MOST_CROSSED = 3
 """Optima whose parts are put together with the best one's."""

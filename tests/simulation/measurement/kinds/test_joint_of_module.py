@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from measured_files import csv, found, measured, turned
-from support import ROOT
+from support import study_path
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
@@ -15,7 +15,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, 
 from tvimdesign.solve.uncertainty.uncertain_inputs import unmeasured_inputs
 from tvimdesign.study import read_study
 
-STUDY = ROOT / "studies" / "paper_reconstructed.yaml"
+STUDY = study_path("paper_reconstructed")
 INERTIA = 4.3e-4
 SIZE = 0.05
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from cvodes_cycle import CvodesSimulator
 from measured_files import csv, found, holds, measured
-from support import ROOT
+from support import study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule
@@ -19,7 +19,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 
-STUDY = ROOT / "studies" / "paper_reconstructed.yaml"
+STUDY = study_path("paper_reconstructed")
 MADE = {"rotor_contact": 2500.0, "rotor_coefficient": 9.0}
 HEATED, COOLED, EVERY = 240.0, 480.0, 5.0
 
