@@ -7,8 +7,10 @@ from functools import cache
 import numpy as np
 import pytest
 from comparable import SHEAR
+from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -36,6 +38,13 @@ def module() -> ResolvedModule:
 @cache
 def model() -> UncertaintyModel:
     return UncertaintyModel(module(), ASKED)
+
+
+def rows(columns: NDArray[np.float64], names: list[str]) -> NDArray[np.float64]:
+    """What the kernel computes of modules, a row an output."""
+    numbers = [float(value) for value in module().values.values() if isinstance(value, int | float)]
+    assert (many := model()._model) is not None
+    return model()._rows(module(), many.pace_at(np.array(numbers)), NEVER, columns, names)
 
 
 @cache
@@ -80,7 +89,9 @@ def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output: str) ->
     ]
     # Of 48, the quartiles are sure to a tenth; between the ends lie nearly all.
     drawn = draw(found().unmeasured, 512, module().study.solver.seed)
-    kernel = model()._rows(module(), drawn, [one.name for one in found().unmeasured], 1)[model().outputs.index(output)]
+    kernel = model()._rows(module(), None, NEVER, drawn, [one.name for one in found().unmeasured])[
+        model().outputs.index(output)
+    ]
     for share in (0.25, 0.5, 0.75):
         assert np.quantile(looped, share, method="lower") == pytest.approx(np.quantile(kernel, share), rel=0.15)
     inside = np.mean([interval.low <= value <= interval.high for value in looped])
@@ -107,7 +118,9 @@ def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
         rest = [one for one in found().unmeasured if one.name not in known]
         columns = draw(rest, 512, 11)
         row = model().outputs.index("softening_time")
-        low, high = np.quantile(model()._rows(module(), columns, [one.name for one in rest], 1)[row], [0.025, 0.975])
+        low, high = np.quantile(
+            model()._rows(module(), None, NEVER, columns, [one.name for one in rest])[row], [0.025, 0.975]
+        )
         return float(high - low)
 
     every = width(())

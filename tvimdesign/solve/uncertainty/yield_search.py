@@ -39,6 +39,8 @@ _NO_ROOM = 0.05
 """Share of a step of the margins that counts as none."""
 SHAKES, _SHAKE = 3, 0.2
 """Designs beside one that does not bear a step, and how far off they are at most, as a share of each range."""
+_GAIN = 1e-3
+"""Share of the objective that margins which are larger than the yield needs must be worth to be given back."""
 _AIM = 0.05
 """Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield."""
 
@@ -77,8 +79,10 @@ def reach_yield(
             break
         margins = dict(optimizer.margins)
         candidates.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
-        moves = _moves(drawn, aim, margins, pressing(optimizer, run))
-        if not moves or _no_better(candidates):
+        multipliers = pressing(optimizer, run)
+        moves = _moves(drawn, aim, margins, multipliers)
+        gain = -sum(multipliers.get(name, 0.0) * move for name, move in moves.items())
+        if not moves or (candidates[-1].reached and gain < _GAIN * abs(run.start.objective)) or _no_better(candidates):
             break
         optimizer.progress(f"adding tolerance margins: yield so far {drawn.together.share:.1%}, target {share:.0%}")
         following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves)
