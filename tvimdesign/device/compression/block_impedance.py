@@ -125,7 +125,7 @@ def block_strain(m: Module) -> Scalar:
     """Compression of the molten block at full stroke, of its depth.
 
     Its volume stays, so a block squeezed by half has twice the face (textbook), which the running clearances beside it
-    do not leave it. Where it is pressed out depends on how it is held, which nobody has measured: the limit is assumed.
+    do not leave it. Where it is pressed out depends on how it is held, which is unmeasured: the limit is assumed.
     """
     return block.strain(m.pcl_mean_radius, m.stroke, m.block_depth)
 

@@ -23,7 +23,7 @@ def hub_block_gap(m: Module) -> Scalar:
 
 @quantities.output("mm", at_least(3.0 * MM, "blocks and pads need a width", 0.0))
 def block_breadth(m: Module) -> Scalar:
-    """Radial width of the blocks, held against the least that can be made."""
+    """Radial width of the blocks, compared with the least that can be made."""
     return m.block_width
 
 
@@ -37,7 +37,7 @@ def slot_opening(m: Module) -> Scalar:
 
 @quantities.output("mm", at_least(1.0 * MM, "the pads' cold sides must be open somewhere", 0.0))
 def slot_reach(m: Module) -> Scalar:
-    """Height of the pads' open cold sides, held against the least that lets air in."""
+    """Height of the pads' open cold sides, compared with the least that lets air in."""
     return m.slot_height
 
 
@@ -131,7 +131,7 @@ _PRESSED_OUT = "what is squeezed out of the blocks' places could reach the sprin
 
 @quantities.output("mm", advice=(Rule(sense=">=", value=0.0, reason=_PRESSED_OUT),))
 def squeezed_block_gap(m: Module) -> Scalar:
-    """Room between springs and blocks squeezed at the stops, which give way outwards, beyond the radial clearance."""
+    """Room between springs and blocks squeezed at the stops, which bulge outwards, beyond the radial clearance."""
     # A block squeezed by half needs half its own volume beside its place. Some of that goes inwards, and into the
     # running clearances; so this is advice.
     squeezed = block.squeezed_outer_radius(m.pcl_inner_radius, m.pcl_outer_radius, m.block_angle, m.stop_angle)

@@ -58,7 +58,7 @@ def key_holding_torque(m: Module) -> Scalar:
     """Torque the frozen keys alone hold in the rotor plate, its bond gone; zero without keys.
 
     Sheared off, or pressed into their pockets' walls, whichever comes first. It does not add to what the bond holds,
-    which gives way at a smaller displacement.
+    which fails at a smaller displacement.
     """
     shear = fasteners.peg_shear_force(structure.shear_yield(m.pcl_tensile_yield), m.key_diameter)
     bearing = fasteners.peg_bearing_force(m.pcl_tensile_yield, m.key_diameter, m.key_depth)

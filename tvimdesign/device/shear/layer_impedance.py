@@ -97,7 +97,7 @@ def liner_shear_modulus(m: Module) -> Scalar:
 
 @quantities.helper(requires=WITH_LINER, default=np.inf)
 def liner_traction(m: Module) -> Scalar:
-    """Shear that a liner and its bond bear [Pa]: nothing gives way where there is none."""
+    """Shear that a liner and its bond bear [Pa]: infinite without one."""
     return np.fmin(m.liner_bond_strength, structure.shear_yield(m.liner_strength))
 
 
@@ -181,7 +181,7 @@ def bond_strength(m: Module) -> Scalar:
 
 @quantities.output("N*m")
 def layer_holding_torque(m: Module) -> Scalar:
-    """Torque at which the frozen layer's bond, its shear yield, or a liner on it gives way at its outer rim."""
+    """Torque at which the frozen layer's bond, its shear yield, or a liner on it fails at its outer rim."""
     traction = np.fmin(m.bond_strength, structure.shear_yield(m.pcl_tensile_yield))
     traction = traction_with_liner(m.liner_material, traction, m.liner_traction)
     return layer.torque_at_traction(traction, m.layer_polar_moment, m.pcl_outer_radius)

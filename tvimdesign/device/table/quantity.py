@@ -31,7 +31,7 @@ Scalar: TypeAlias = Any
 
 @dataclass(frozen=True, kw_only=True)
 class Rule:
-    """A limit that belongs to the machine, in SI, with the reason people are told."""
+    """A limit that belongs to the machine, in SI, with the reason that reports show."""
 
     sense: Literal["<=", ">="]
     value: float
@@ -83,7 +83,7 @@ class Input:
     """Where the default comes from: `status: source`."""
     low: float | None = None
     high: float | None = None
-    """The range within which the default is known, where nobody has measured it."""
+    """The range within which the default is known, if it is unmeasured."""
     range_of: tuple[str, str] | None = None
     """(choice, field) of the chosen record's value that the quantity is a factor of: its range is the factor's."""
     record: tuple[str, str] | None = None

@@ -39,7 +39,7 @@ def wired(one: PeltierModule, count: Any, strings: Any) -> PeltierModule:
 def max_cooling_power(module: PeltierModule, cold_temperature: Any) -> Any:
     """Return the heat that can be drawn from the cold side without a temperature difference, S^2 T_c^2/(2 R) [W].
 
-    To be held against a data sheet's Q_max, which the other three values do not use.
+    Compare it with a data sheet's Q_max, which the other three values do not use.
     """
     return module.seebeck**2 * cold_temperature**2 / (2.0 * module.resistance)
 

@@ -4,7 +4,7 @@ The pin pushes across the leg at the arm a beyond the coil's end. So the moment 
 everywhere: it is F (a + R sin f) at the angle f back along the coil, and the force acts above the coil, which tilts it
 with the moment F z. Castigliano's theorem over the whole wire gives the rate; a post in the coil is not touched.
 Source: [T] Timoshenko, Strength of Materials, part II, 3rd ed., ch. 1 (curved bars) and 7 (helical springs bent and
-twisted); G I_p = E I/(1 + nu) for round wire. Held against FE of the drawn springs in validation/fe_spring.
+twisted); G I_p = E I/(1 + nu) for round wire. Compared with FE of the drawn springs in validation/fe_spring.
 """
 
 from __future__ import annotations

@@ -110,7 +110,7 @@ _EACH = 2.0
 
 
 def sweep(data: dict[str, Any]) -> Figure:
-    """Draw each output; cells that break a limit are hollow."""
+    """Draw each output; cells that violate a limit are hollow."""
     panels, cloud = data["panels"], bool(data["y"])
     labelled = any(series["label"] for panel in panels for series in panel["series"])
     height = 0.75 + len(panels) * (_EACH + 0.3)

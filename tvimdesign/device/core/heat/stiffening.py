@@ -53,7 +53,7 @@ def equilibrium_stiffening_time(m: Module) -> Scalar:
 def frozen_time(m: Module) -> Scalar:
     """Time from the end of the switch until every slice of the layer is half frozen.
 
-    The slices are in series: under a lasting load the joint gives way as its least frozen slice flows. The least is
+    The slices are in series: under a lasting load the joint creeps as its least frozen slice flows. The least is
     taken smoothly, by the mean of exp(-80 X), which is at most 0.03 of X below it.
     """
     return -np.log(np.mean(np.exp(-SHARPNESS * (m.stack_profile.fractions - HALF)))) / SHARPNESS
