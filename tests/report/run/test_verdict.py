@@ -93,6 +93,7 @@ def test_each_rule_decides(
     [
         (COOL, ()),  # nothing is required at the hot point
         (COOL | {"softened_stiffness": 1.4}, (HOT,)),  # the joint is as soft as required before
+        (COOL | {"softened_stiffness": 1.50002}, (HOT,)),  # at its limit, as a solver leaves it
         (COOL | {"softened_temperature": 373.05}, (HOT,)),  # rounding
         (COOL, ({"output": "impedance_range", "sense": ">=", "limit": 40.0},)),
         (COOL | {"temperature@cold": 303.15}, (HOT | {"output": "joint_stiffness@cold"},)),

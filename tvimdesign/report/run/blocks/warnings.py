@@ -17,6 +17,7 @@ from tvimdesign.report.output.numbers import label
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.report.run.blocks.remedies import Remedies
 from tvimdesign.report.run.reasons import endings
+from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult
 
 LOOSE = 0.05
@@ -186,4 +187,5 @@ def _misses(limit: Mapping[str, Any], point: str, values: Mapping[str, float], t
         return False
     if not at_end or point != "hot":
         return True
-    return not (values[at_end] >= limit["limit"] if limit["sense"] == ">=" else values[at_end] <= limit["limit"])
+    over = values[at_end] - limit["limit"]
+    return not (-over if limit["sense"] == ">=" else over) <= CYCLE_TOLERANCE * abs(limit["limit"])
