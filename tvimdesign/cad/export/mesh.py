@@ -22,6 +22,8 @@ CHORD = 0.05
 """Largest distance of a mesh from its part [mm]."""
 TURN = 0.15
 """Largest angle between neighbouring triangles of a curved face [rad]."""
+_FINER = (1.0, 2.0, 4.0)
+"""Divisors of the chord: the kernel leaves a face out at one chord, seldom, and takes it at a finer one."""
 RING = 24
 """Points around the wire, as far out as gives their polygon the area of the wire's section."""
 Array = NDArray[np.float64]
@@ -78,18 +80,23 @@ def solid_mesh(solid: cq.Solid, chord: float = CHORD, turn: float = TURN) -> Mes
 
 def face_meshes(solid: cq.Solid, chord: float = CHORD, turn: float = TURN) -> list[tuple[cq.Face, Mesh]]:
     """Triangulate a solid, face by face; neighbours have the same points on the edge between them."""
-    # A fresh copy: the kernel keeps triangles with a shape, and gives those of an earlier setting.
-    fresh = solid.located(cq.Location()).copy()
-    BRepMesh_IncrementalMesh(fresh.wrapped, chord, False, turn, False)
-    return [(face, _patch(face)) for face in fresh.Faces()]
+    for finer in _FINER:
+        # A fresh copy: the kernel keeps triangles with a shape, and gives those of an earlier setting.
+        fresh = solid.located(cq.Location()).copy()
+        BRepMesh_IncrementalMesh(fresh.wrapped, chord / finer, False, turn, False)
+        patches = [(face, _patch(face)) for face in fresh.Faces()]
+        whole = [(face, patch) for face, patch in patches if patch is not None]
+        if len(whole) == len(patches):
+            return whole
+    raise GeometryError("a face has no triangles; the part cannot be meshed")
 
 
-def _patch(face: cq.Face) -> Mesh:
-    """Return the kernel's triangles of one face."""
+def _patch(face: cq.Face) -> Mesh | None:
+    """Return the kernel's triangles of one face, where it made any."""
     location = TopLoc_Location()
     found = BRep_Tool.Triangulation_s(face.wrapped, location)
     if found is None:
-        raise GeometryError("a face has no triangles; the part cannot be meshed")
+        return None
     points = [found.Node(index) for index in range(1, found.NbNodes() + 1)]
     if not location.IsIdentity():
         move = location.Transformation()
