@@ -81,7 +81,7 @@ def test_a_random_study_is_answered_and_its_answer_stands(seed: int) -> None:
 def test_the_attack_counts_only_designs_whose_switch_ends() -> None:
     study = random_studies.random_study(2)
     attack = Attack(study)
-    optimum = random_studies.released(random.Random(2).choice(random_studies.BASES))
+    optimum = random_studies.frozen(random.Random(2).choice(random_studies.BASES))
     assert attack.residual(attack.evaluated(attack.shares(optimum))) <= random_studies.CYCLE_TOLERANCE
     assert attack.worst(np.ones(len(attack.names))) > 100.0  # springs, layer and current at their largest together
     # Its peak of power is that of what it has come to: an attack that took it would better every optimum.

@@ -106,9 +106,9 @@ def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswe
     return {number: found.answer(Cell("", asked.points.texts(number))) for number in order}
 
 
-def test_the_order_of_cells_changes_no_digit(study_path: Path) -> None:
+def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
     over = "sweep.over={pcl_thickness: [0.6 mm, 1 mm], arc_count: [3, 4]}"
-    forward, backward = answers(study_path, [0, 1, 2, 3], over), answers(study_path, [3, 0], over)
+    forward, backward = answers(study_file, [0, 1, 2, 3], over), answers(study_file, [3, 0], over)
     assert backward == {number: forward[number] for number in backward}
     assert len({one.values for one in forward.values()}) == 4
 
@@ -126,8 +126,8 @@ def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
     assert "breaks" in forward[1].reason
 
 
-def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_path: Path) -> None:
-    asked = plan(study_path, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
+def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file: Path) -> None:
+    asked = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
     cells = [Cell(str(number), asked.points.texts(number)) for number in range(4)]
     left = CellQueue(cells, SweptStudy.of(asked), workers=2)
     first, other, second = left.next(1), left.next(2), left.next(1)
