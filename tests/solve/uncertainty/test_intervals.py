@@ -43,7 +43,8 @@ def model() -> UncertaintyModel:
 def rows(columns: NDArray[np.float64], names: list[str]) -> NDArray[np.float64]:
     """What the kernel computes of modules, a row an output."""
     numbers = [float(value) for value in module().values.values() if isinstance(value, int | float)]
-    assert (many := model()._model) is not None
+    many = model()._model
+    assert many is not None
     return model()._rows(module(), many.pace_at(np.array(numbers)), NEVER, columns, names)
 
 
@@ -89,9 +90,7 @@ def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output: str) ->
     ]
     # Of 48, the quartiles are sure to a tenth; between the ends lie nearly all.
     drawn = draw(found().unmeasured, 512, module().study.solver.seed)
-    kernel = model()._rows(module(), None, NEVER, drawn, [one.name for one in found().unmeasured])[
-        model().outputs.index(output)
-    ]
+    kernel = rows(drawn, [one.name for one in found().unmeasured])[model().outputs.index(output)]
     for share in (0.25, 0.5, 0.75):
         assert np.quantile(looped, share, method="lower") == pytest.approx(np.quantile(kernel, share), rel=0.15)
     inside = np.mean([interval.low <= value <= interval.high for value in looped])
@@ -118,9 +117,7 @@ def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
         rest = [one for one in found().unmeasured if one.name not in known]
         columns = draw(rest, 512, 11)
         row = model().outputs.index("softening_time")
-        low, high = np.quantile(
-            model()._rows(module(), None, NEVER, columns, [one.name for one in rest])[row], [0.025, 0.975]
-        )
+        low, high = np.quantile(rows(columns, [one.name for one in rest])[row], [0.025, 0.975])
         return float(high - low)
 
     every = width(())
