@@ -226,6 +226,7 @@ def answers(
                 while waiting and len(running) < AT_ONCE:
                     number = len(requests) - len(waiting)
                     study = waiting.pop(0)
+                    progress(f"{study.label}, preparing the equations")
                     others = [other.path for other in requests if other is not study]
                     running.append(_start(study, others, (points, settings), Path(folder) / str(number), lines))
                 label, line = lines.get()
@@ -233,7 +234,7 @@ def answers(
                 if line is not None:
                     message = json.loads(line)
                     if "progress" in message:
-                        progress(f"{label}: {message['progress']}")
+                        progress(f"{label}, {message['progress']}")
                     else:
                         keep(label, json.loads(child.out.read_text()))
                     continue

@@ -68,7 +68,7 @@ class BackgroundPartsJob:
         """Wait for the parts, and write their checks.json. Raises GeometryError where they cannot be made."""
         progress("parts: starting the CAD kernel")
         try:
-            report = self._process.finish(lambda text: progress(f"parts: {text}"))
+            report = self._process.finish(lambda text: progress(f"parts, {text}"))
         finally:
             self.stop()
         atomic_write(self._out / "checks.json", (json.dumps(plain_report(report), indent=2) + "\n").encode())
