@@ -45,7 +45,6 @@ def rows(columns: NDArray[np.float64], names: list[str]) -> NDArray[np.float64]:
     numbers = [float(value) for value in module().values.values() if isinstance(value, int | float)]
     many = model()._model
     assert many is not None
-    assert many is not None
     return model()._rows(module(), many.pace_at(np.array(numbers)), NEVER, columns, names)
 
 
