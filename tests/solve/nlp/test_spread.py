@@ -13,8 +13,7 @@ from scipy.stats import qmc
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.spread import Contributor, moments
-from tvimdesign.solve.uncertainty.design_uncertainty import sobol_points
+from tvimdesign.solve.nlp.spread import Contributor, moments, sobol_points
 from tvimdesign.solve.uncertainty.intervals import draw
 from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
 from tvimdesign.study import read_study_text
@@ -142,7 +141,7 @@ def test_kept_points_are_scipys_and_scipy_is_not_loaded_for_them(
     expected = qmc.Sobol(5, rng=np.random.default_rng(2)).random(64)
     assert np.array_equal(sobol_points(5, 64, 2), expected)
     again = (
-        "import sys\nfrom tvimdesign.solve.uncertainty.design_uncertainty import sobol_points\n"
+        "import sys\nfrom tvimdesign.solve.nlp.spread import sobol_points\n"
         "points = sobol_points(5, 64, 2)\nassert 'scipy.stats' not in sys.modules\nprint(points.tobytes().hex())"
     )
     printed = subprocess.run([sys.executable, "-c", again], capture_output=True, text=True, check=True).stdout

@@ -15,11 +15,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from importlib.metadata import version
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.user_cache import find_code, keep_code
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import Tolerance
@@ -152,29 +154,31 @@ def shares(contributors: Sequence[Contributor], derivatives: Array) -> tuple[Arr
     return np.sqrt(variance[:, 0]), np.divide(parts, variance, out=np.zeros_like(parts), where=variance > 0.0)
 
 
-def drawn_values(
-    function: Columns, contributors: Sequence[Contributor], samples: int, seed: int, first: int = 0
-) -> Array:
-    """Outputs of `samples` modules from the `first` on, a column each; the same however they are parted."""
-    points = _sobol(len(contributors), seed)
-    if first:
-        points.fast_forward(first)
-    columns = []
+def drawn_values(function: Columns, contributors: Sequence[Contributor], samples: int, seed: int) -> Array:
+    """Outputs of `samples` modules, a column each; the same however they are parted."""
+    from scipy.stats import qmc
+
+    points, columns = qmc.Sobol(len(contributors), rng=np.random.default_rng(seed)), []
     for done in range(0, samples, CHUNK):
         drawn = points.random(min(CHUNK, samples - done)).T
         columns.append(function(inputs_at(contributors, drawn)))
     return np.concatenate(columns, axis=1)
 
 
-def _sobol(count: int, seed: int) -> Any:
+def sobol_points(dimensions: int, count: int, seed: int) -> Array:
+    """Return the first scrambled Sobol points of the unit cube, one a row; `count` is a power of two.
+
+    They are stored from one run to the next: to load scipy's takes 0.7 s.
+    """
+    key = (f"scipy {version('scipy')}, numpy {version('numpy')}", f"Sobol {dimensions} {count} {seed}")
+    cached = find_code(*key)
+    if cached is not None:
+        return np.frombuffer(cached).reshape(count, dimensions)
     from scipy.stats import qmc
 
-    return qmc.Sobol(count, rng=np.random.default_rng(seed))
-
-
-def sobol_points(count: int, samples: int, seed: int) -> Array:
-    """Return points of the unit cube to draw modules at, an input a row, a module a column."""
-    return np.ascontiguousarray(_sobol(count, seed).random(samples).T)
+    points: Array = qmc.Sobol(dimensions, rng=np.random.default_rng(seed)).random(count)
+    keep_code(points.tobytes(), *key)
+    return points
 
 
 def moments_of(values: Array) -> MonteCarlo:

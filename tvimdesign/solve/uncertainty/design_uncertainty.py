@@ -1,21 +1,16 @@
-"""Uncertainty of one design by many modules: part-to-part variation and, separately, unmeasured inputs.
-
-Scrambled Sobol points, kept from one run to the next: to load scipy's takes 0.4 s, to draw some thousand 10 ms.
-"""
+"""Uncertainty of one design by many modules: part-to-part variation and, separately, unmeasured inputs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from importlib.metadata import version
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.child_process import own_processors
 from tvimdesign.base.deadline import NEVER, Deadline
-from tvimdesign.base.user_cache import find_code, keep_code
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
@@ -143,7 +138,7 @@ class UncertaintyModel:
         if not limits or not contributors:
             return None
         places = [contributor.name for contributor in contributors]
-        points = sobol_points(len(contributors), modules, resolved.study.solver.seed)
+        points = spread.sobol_points(len(contributors), modules, resolved.study.solver.seed)
         drawn = rows(spread.inputs_at(contributors, points.T), places, self._early)
         return spread.share_kept(np.all(_satisfied(limits, self.outputs, drawn), axis=0))
 
@@ -203,16 +198,3 @@ def _phases_of(table: Table, outputs: Sequence[str]) -> set[str]:
         needed |= before
         before = {phase.after for phase in table.phases if phase.name in needed and phase.after}
     return needed
-
-
-def sobol_points(dimensions: int, count: int, seed: int) -> NDArray[np.float64]:
-    """Return the first points of a sequence in the unit cube, one a row; `count` is a power of two."""
-    key = (f"scipy {version('scipy')}, numpy {version('numpy')}", f"Sobol {dimensions} {count} {seed}")
-    cached = find_code(*key)
-    if cached is not None:
-        return np.frombuffer(cached).reshape(count, dimensions)
-    from scipy.stats import qmc
-
-    points: NDArray[np.float64] = qmc.Sobol(dimensions, rng=np.random.default_rng(seed)).random(count)
-    keep_code(points.tobytes(), *key)
-    return points

@@ -69,17 +69,21 @@ class Drawn:
 
     def carriers(self, limit: str) -> dict[str, float]:
         """Inputs by their share of the variance of a limit's residual (squared rank correlation), the largest first."""
-        from scipy.stats import rankdata
-
         row = self.residuals[[known_limit.name for known_limit in self.limits].index(limit)]
-        ranks = rankdata(np.nan_to_num(row, nan=np.inf))
+        ranks = _ranks(np.nan_to_num(row, nan=np.inf))
         if np.ptp(ranks) == 0.0:
             return {}
         correlations = {
-            name: float(np.corrcoef(rankdata(column), ranks)[0, 1] ** 2)
+            name: float(np.corrcoef(_ranks(column), ranks)[0, 1] ** 2)
             for name, column in zip(self.inputs, self.columns, strict=True)
         }
         return dict(sorted(correlations.items(), key=lambda item: -item[1]))
+
+
+def _ranks(values: Array) -> Array:
+    """Return the places of values in their order; equal ones share theirs."""
+    places: Array = np.unique(values, return_inverse=True)[1].astype(float)
+    return places
 
 
 class Yields:
@@ -103,7 +107,8 @@ class Yields:
         self._drawn: dict[tuple[bytes, int | None], Drawn] = {}
         self._first_orders: dict[bytes, Array] = {}
         self._pace: Pace | None = None
-        """The pace of the last design whose modules were drawn."""
+        self._paced = b""
+        """The pace of the last design whose modules were drawn, and its inputs."""
         functions = self._rig(start).functions if optimizer.mixtures else optimizer.model
         self._many = BatchModel(functions, self._moving, self._outputs) if self._outputs else None
 
@@ -153,7 +158,7 @@ class Yields:
             names = [contributor.name for contributor in contributors]
             values, slopes, _ = self._derivatives.at(inputs, names)
             points = spread.sobol_points(len(names), MODULES, self._study.solver.seed)
-            off = spread.inputs_at(contributors, points) - inputs[[model.index[name] for name in names]][:, None]
+            off = spread.inputs_at(contributors, points.T) - inputs[[model.index[name] for name in names]][:, None]
             every = values[:, None] + slopes @ off
             residuals = [limit.residual(every[self._outputs.index(limit.output)]) for limit in self.limits]
             self._first_orders[key] = np.array(residuals)
@@ -170,22 +175,19 @@ class Yields:
             return Drawn((), np.zeros((0, len(which))))
         places = [self._moving.index(contributor.name) for contributor in contributors]
         drawn = np.array([inputs[model.index[name]] for name in self._moving])
-        many = self._many
-        self._pace = pace = many.fitted(many.pace_at(inputs), inputs, beside=self._pace)
-        columns_drawn: list[Array] = []
-
-        def outputs(columns: Array) -> Array:
-            every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
-            every[places] = columns
-            columns_drawn.append(columns)
-            return many(every, own_processors(), pace, deadline=deadline)
-
+        if self._paced != inputs.tobytes():
+            self._pace = self._many.fitted(self._many.pace_at(inputs), inputs, beside=self._pace)
+            self._paced = inputs.tobytes()
         seed = self._study.solver.seed if seed is None else seed
-        values = spread.drawn_values(outputs, contributors, len(which), seed, which.start)
+        points = spread.sobol_points(len(contributors), MODULES, seed)[which.start : which.stop]
+        columns = spread.inputs_at(contributors, points.T)
+        every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
+        every[places] = columns
+        values = self._many(every, own_processors(), self._pace, deadline=deadline)
         with np.errstate(invalid="ignore"):
             residuals = [limit.residual(values[self._outputs.index(limit.output)]) for limit in self.limits]
         names = tuple(contributor.name for contributor in contributors)
-        return Drawn(self.limits, np.array(residuals), names, np.concatenate(columns_drawn, axis=1))
+        return Drawn(self.limits, np.array(residuals), names, columns)
 
 
 def yields_of(optimizer: Optimizer) -> Yields:
