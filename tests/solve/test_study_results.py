@@ -188,7 +188,8 @@ def test_the_values_that_clash_are_named_with_the_defaults() -> None:
 @pytest.mark.parametrize("text", [CROSSED, "module: {pcl_inner_radius: 45 mm, pcl_outer_radius: 40 mm}\n"])
 def test_each_cure_that_is_advised_cures(text: str) -> None:
     study = study_of(text)
-    cures = re.findall(r"(\w+) (\S+ mm)(?: \(beyond its range\))?[,.]", refusal(study).partition("is enough: ")[2])
+    advice = refusal(study).partition("is enough: ")[2]
+    cures = re.findall(r"(\w+) (\S+ mm) in place of \S+ mm(?: \(beyond its range\))?[,.]", advice)
     assert len(cures) == 2
     for name, value in cures:
         module = {**study.module, name: parse_quantity(value, "mm")}

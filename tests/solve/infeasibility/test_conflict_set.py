@@ -15,6 +15,7 @@ from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
+from tvimdesign.study.sizing import JointTask, study_text
 
 STIFF = """
 mode: shear
@@ -80,6 +81,17 @@ def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps() -> None:
     assert "moves it more" not in _refusal(little)
 
 
+@pytest.mark.gate
+def test_records_are_named_with_which_conflicting_limits_hold() -> None:
+    # The wave spring of this hardware must go around a core that bears the torque, and so must the pins in it.
+    task = JointTask.read("9 N.m", "1.5 N.m/rad", "74 mm", "60 s", "24 V, 3 A")
+    text = study_text(task, "middle")
+    records = re.findall(r"`(\w+): (\w+)`", _refusal(text))
+    assert [choice for choice, _ in records] == ["axial_preload", "link_screw"]
+    for choice, record in records:
+        refuse_infeasible(read_study_text(re.sub(rf"(?m)^  {choice}: .*$", f"  {choice}: {record}", text)))
+
+
 def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None:
     # A coil of 12 mm at least with an index of 6 at most needs wire of 2 mm, with a gap between its coils.
     text = HEAVY.replace(
@@ -134,7 +146,7 @@ def test_every_limit_that_the_fixed_inputs_break_is_told_at_once() -> None:
         'vary: {current: [0.5 A, 2.5 A]}\nrequire: {envelope_diameter: "<= 100 mm"}\nminimize: peak_power\n'
     )
     told = [line for line in said.splitlines() if "nothing under `vary` can change it" in line]
-    assert any("spring_index >= 4 does not hold (it is 3)" in line for line in told)
+    assert any("spring_index >= 4 does not hold (it is 3; " in line for line in told)
     assert any("envelope_diameter" in line for line in told)
     assert len(told) >= 3
 

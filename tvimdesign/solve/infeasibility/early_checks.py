@@ -20,6 +20,7 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
+from tvimdesign.solve.infeasibility.curing_records import curing_records
 from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.mixture import discrete_records, with_records
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
@@ -122,6 +123,10 @@ def _conflict(study: Study, deadline: Deadline | None) -> str:
     if search is None or search.conflict_set is None or optimizer.deadline.passed:
         return ""
     lines = conflict_in_words(_with_margins(study, search.conflict_set))
+    cures = curing_records(optimizer, search.run, search.conflict_set)
+    if cures:
+        records = " or ".join(f"`{choice}: {record}`" for choice, record in cures.items())
+        lines.append(f"By arithmetic they hold with {records} under `module`, each tried alone.")
     fixed = _fixed(optimizer, search.conflict_set)
     ways = f"Ease a limit, widen a range, or {fixed}." if fixed else "Ease a limit, or widen a range."
     return "\n".join([*lines, ways])

@@ -126,6 +126,7 @@ def unchangeable(limit: Constraint, table: Table, value: float, study: Study) ->
     else:
         fixed = [row.name for row in behind if row.record is None] or [row.name for row in behind]
         ways = f"change under `module`: {', '.join(fixed[:_INPUTS_NAMED])}"
+    is_now += "" if limit.origin == "require" else f"; {limit.origin}"
     return f"{in_words(limit, table)} does not hold (it is {is_now}), and nothing under `vary` can change it; {ways}"
 
 
@@ -175,7 +176,8 @@ def _cures(
         for tried in sorted(tries, key=lambda number: (not low <= number <= high, abs(number - value))):
             if satisfied({**start, row.name: tried}):
                 beyond = "" if low <= tried <= high else " (beyond its range)"
-                cures.append(f"{row.name} {format_quantity(tried, row.unit, 3)}{beyond}")
+                now = format_quantity(value, row.unit)
+                cures.append(f"{row.name} {format_quantity(tried, row.unit, 3)} in place of {now}{beyond}")
                 break
     return cures[:_CLASHING]
 
