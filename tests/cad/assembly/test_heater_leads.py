@@ -14,6 +14,8 @@ from tvimdesign.cad.assembly.heater_leads import fuse_in_words, heater_order, th
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.catalog import Catalog
+from tvimdesign.device import table_for
+from tvimdesign.study import given, read_study_text
 from tvimdesign.study.design import Design
 
 FUSE = Catalog().record("thermal_fuses", "ultimheat_5ma3")
@@ -81,6 +83,28 @@ def test_cut_outs_and_beads_say_only_what_they_can() -> None:
     assert item.title.startswith(
         "Thermistor, bead of 1.8 x 4 mm with insulated wires, for 120 °C; NTC 10 kohm at 25 °C"
     )
+
+
+@pytest.mark.parametrize(
+    ("process", "hottest", "margin", "holding"),
+    [  # Parts bear 105 °C; 108 opens 3 above, 99 opens from 89 on and not within 5 of 84 °C. At 83 °C 108 holds 6 less.
+        ("print_pc_bambu", 91.5, -3.0, 0.0),
+        ("print_pc_bambu", 83.0, 1.0, -6.0),
+        ("print_pei_1010", 83.0, 27.0, 18.0),  # the heater bears 160 °C: 133 opens 27 below that, and holds 101 °C
+    ],
+)
+def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(
+    process: str, hottest: float, margin: float, holding: float
+) -> None:
+    changes = {"process": process, "peltier_module": "silicone_9ar_08_24v"}
+    module = ", ".join(f"{name}: {word}" for name, word in changes.items())
+    study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n")
+    peaks = {"peak_peltier_temperature": hottest + ZERO_CELSIUS, "peak_cold_side_temperature": 330.0}
+    margins = table_for("shear").evaluate(given(study) | peaks, ["cutout_margin", "cutout_holding_margin"])
+    assert margins == pytest.approx({"cutout_margin": margin, "cutout_holding_margin": holding})
+    cutout = listed(switched(changes, hottest))["thermal_cutout"]
+    assert ("Not to be ordered" in cutout) == (margin < 0.0)
+    assert margin < 0.0 or ("ask the maker how long" in cutout) == (holding < 0.0)
 
 
 @pytest.mark.parametrize(

@@ -296,18 +296,43 @@ def cutout_retainer_gap(m: Module) -> Scalar:
 
 
 _LATE = "the thermal cut-out opens above what it saves: a cooler heater, another heater_fuse, or a better structure"
+_SHORT = "the thermal cut-out holds less than the heater's peak for a week at its rated current: ask its maker"
 
 
 @heat.output("K", advice=(at_least(0.0, _LATE),))
 def cutout_margin(m: Module) -> Scalar:
-    """Room of the best type of thermal cut-out: it opens below what heater, PCL and structure bear, and not in work."""
-    record = m.heater_fuse
-    bears = np.fmin(
-        np.fmin(m.peltier_max_temperature, m.pcl_decomposition_temperature), m.structure_service_temperature
-    )
-    in_work = np.fmax(m.peak_peltier_temperature, m.peak_cold_side_temperature) + record.value("working_margin")
-    opens = [kind["functioning_temperature"] for kind in record.table("types")]
-    rooms = [np.fmin(bears - most, most - record.value("opening_band") - in_work) for most in opens]
+    """Room of the best type of thermal cut-out: it opens below what heater, PCL and structure bear, and above the peak.
+
+    The heater's peak stays below the least temperature at which the type opens, by the record's working margin.
+    """
+    below = m.heater_fuse.value("opening_band") + m.heater_fuse.value("working_margin")
+    return _best_room(m.heater_fuse, "functioning_temperature", _borne(m), _peak(m) + below)
+
+
+@heat.output("K", advice=(at_least(0.0, _SHORT),))
+def cutout_holding_margin(m: Module) -> Scalar:
+    """Room of the best type of thermal cut-out that opens in time and holds the heater's peak at its rated current.
+
+    IEC 60691 asks that it holds for a week; the heater's current may be far below the rated one. Zero if no type fits,
+    which `cutout_margin` shows.
+    """
+    return np.where(m.cutout_margin >= 0.0, _best_room(m.heater_fuse, "holding_temperature", _borne(m), _peak(m)), 0.0)
+
+
+def _borne(m: Module) -> Scalar:
+    """Return the temperature that heater, PCL and structure bear."""
+    return np.fmin(np.fmin(m.peltier_max_temperature, m.pcl_decomposition_temperature), m.structure_service_temperature)
+
+
+def _peak(m: Module) -> Scalar:
+    """Return the highest temperature of the heater."""
+    return np.fmax(m.peak_peltier_temperature, m.peak_cold_side_temperature)
+
+
+def _best_room(record: Record, stays: str, borne: Scalar, peak: Scalar) -> Scalar:
+    """Return the room of the best type: of its opening below what is borne, of the peak below what the column `stays`
+    has."""
+    rooms = [np.fmin(borne - kind["functioning_temperature"], kind[stays] - peak) for kind in record.table("types")]
     return functools.reduce(np.fmax, rooms)
 
 
