@@ -11,6 +11,7 @@ import cadquery as cq
 import pytest
 from cad_designs import BLOCKS, CASES, TILES, VANE_TILES, design_of
 
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.assembly_note import (
     WrittenStep,
@@ -20,11 +21,12 @@ from tvimdesign.cad.assembly.assembly_note import (
     steps_of,
     written_steps,
 )
-from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, bill_csv
+from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, bill_csv, greased
 from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import is_of_structure
 from tvimdesign.cad.jobs.main import _titles
+from tvimdesign.report.run.blocks.warnings import hints
 from tvimdesign.study.design import Design
 
 NOTES = Path(__file__).with_name("notes")
@@ -142,6 +144,14 @@ def test_steps_grease_what_the_list_of_parts_has_grease_for(name: str, friction:
     plastic, plain = design.choices["making_method"] != "milled", design.choices.get("bearing", "none") == "none"
     assert ("pins" in greasing) == (friction < (0.2 if plastic else 0.6))
     assert ("bore" in greasing) == (plain and friction < 0.2)
+
+
+def test_what_cures_wear_greases_the_pins() -> None:
+    cure = plain_data(hints()["advice"]["pin_wear"]["mend"][0])["module"]
+    design = design_of("worn", {})
+    assert "pins" not in greased(design)
+    design.values.update(pin_friction=cure["pin_friction"])
+    assert "pins" in greased(design)
 
 
 def test_parts_are_treated_as_the_specimens_before_all_else() -> None:
