@@ -94,6 +94,21 @@ def test_a_number_that_is_none_is_named(numbers: dict[str, Any], message: str) -
         JointTask.read(**WRIST | numbers)
 
 
+def test_options_that_are_missing_or_no_number_are_named_at_once(tvimdesign: Command) -> None:
+    done = tvimdesign("size", "--torque", "8", "--stiffness", "1.5", "--supply", "24 V", "--time", "60 s")
+    assert done.returncode == 2
+    named = [line.partition(":")[0] for line in done.stderr.splitlines()]
+    assert named == ["stiffness", "supply", "torque", "diameter"]
+    assert "diameter: missing; write for instance '70 mm'" in done.stderr
+
+
+@pytest.mark.gate
+def test_a_set_of_hardware_with_another_record_is_tried() -> None:
+    study = sized(torque="9 N.m")  # the set's screws leave a core that bears 8.7 N.m
+    assert study.module["link_screw"] == "iso_4762_m2_5"
+    refuse_what_cannot_be(study)
+
+
 def test_a_study_that_is_there_is_left_alone(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "joint.yaml"
     file.write_text("mine")

@@ -129,16 +129,16 @@ def new(
 
 @app.command()
 def size(
-    torque: Annotated[str, typer.Option("--torque", help="Torque that the frozen joint holds, such as '8 N.m'.")],
+    torque: Annotated[str, typer.Option("--torque", help="Torque that the frozen joint holds, such as '8 N.m'.")] = "",
     stiffness: Annotated[
         str,
         typer.Option(
             "--stiffness", help="Of the soft joint: '1.5 N.m/rad' (20 % to either side), or '1 to 2 N.m/rad'."
         ),
-    ],
-    diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")],
-    time: Annotated[str, typer.Option("--time", help="Time within which it gets soft, such as '60 s'.")],
-    supply: Annotated[str, typer.Option("--supply", help="Voltage and current, such as '24 V, 3 A'.")],
+    ] = "",
+    diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")] = "",
+    time: Annotated[str, typer.Option("--time", help="Time within which it gets soft, such as '60 s'.")] = "",
+    supply: Annotated[str, typer.Option("--supply", help="Voltage and current, such as '24 V, 3 A'.")] = "",
     stiff_time: Annotated[
         str, typer.Option("--stiff-time", help="Time within which it gets stiff again; any unless given.")
     ] = "",
@@ -154,7 +154,10 @@ def size(
     plots: options.Plots = True,
     json: options.AsJson = False,
 ) -> None:
-    """Size a joint from five numbers; give a verdict. Writes a study with its hardware and ranges, and runs it."""
+    """Size a joint from five numbers; give a verdict. Writes a study with its hardware and ranges, and runs it.
+
+    All of --torque, --stiffness, --diameter, --time and --supply are needed.
+    """
     from tvimdesign.report.run.study_files import size_study
 
     numbers = {

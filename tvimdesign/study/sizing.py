@@ -69,23 +69,40 @@ class JointTask:
     ) -> JointTask:  # fmt: skip
         """Read quantities with their units, as `tvim.size` takes them; an empty stroke is `STROKE`.
 
-        Raises InputError if one of them is no such quantity, or out of range.
+        Raises InputError with every one of them that is missing, no such quantity, or out of range.
         """
         voltage, comma, current = supply.partition(",")
-        if not comma:
-            raise InputError(f"supply: '{supply}' has no current; write for instance '{_EXAMPLES['supply']}'")
+        problems: list[str] = []
+
+        def take(name: str, text: str, unit: str) -> float:
+            try:
+                return _positive(name, text, unit)
+            except InputError as error:
+                problems.append(str(error))
+                return math.nan
+
+        try:
+            band = _stiffness(stiffness)
+        except InputError as error:
+            problems.append(str(error))
+            band = math.nan, math.nan
+        if not comma and supply:
+            problems.append(f"supply: '{supply}' has no current; write for instance '{_EXAMPLES['supply']}'")
+            current = _EXAMPLES["supply"].partition(",")[2]
         task = cls(
-            _positive("torque", torque, "N*m"), _stiffness(stiffness), _positive("diameter", diameter, "mm"),
-            _positive("time", time, "s"), _positive("supply", voltage.strip(), "V"),
-            _positive("supply", current.strip(), "A"), _positive("stroke", stroke or STROKE, "rad"), not stroke,
-            stiff_time=_positive("stiff_time", stiff_time, "s") if stiff_time else math.inf,
+            take("torque", torque, "N*m"), band, take("diameter", diameter, "mm"), take("time", time, "s"),
+            take("supply", voltage.strip(), "V"), take("supply", current.strip(), "A") if voltage else math.nan,
+            take("stroke", stroke or STROKE, "rad"), not stroke,
+            stiff_time=take("stiff_time", stiff_time, "s") if stiff_time else math.inf,
         )  # fmt: skip
         row = _inputs()["stroke"]
-        if not row.lower <= task.stroke <= row.upper:
+        if task.stroke < row.lower or task.stroke > row.upper:
             most = format_quantity(row.upper, "deg", 3)
-            raise InputError(f"stroke: {stroke} to either side of rest is beyond {most}, the most that a module turns")
-        if not SMALLEST <= task.diameter <= LARGEST:
-            raise InputError(f"diameter: {diameter} is not from 20 mm to 200 mm, which `size` is made for")
+            problems.append(f"stroke: {stroke} to either side of rest is beyond {most}, the most that a module turns")
+        if task.diameter < SMALLEST or task.diameter > LARGEST:
+            problems.append(f"diameter: {diameter} is not from 20 mm to 200 mm, which `size` is made for")
+        if problems:
+            raise InputError("\n".join(problems))
         return task
 
     def options(self) -> dict[str, str]:
@@ -106,6 +123,8 @@ class JointTask:
 
 def _positive(name: str, text: str, unit: str) -> float:
     """Return the SI value of an option. Raises InputError if it is none, or not above zero."""
+    if not text:
+        raise InputError(f"{name}: missing; write for instance '{_EXAMPLES[name]}'")
     try:
         value = parse_quantity(text, unit)
     except UnitError as error:
@@ -143,8 +162,14 @@ def hardware_by_fit(task: JointTask) -> list[str]:
     return sorted(sizes, key=lambda name: abs(math.log(task.diameter / sizes[name])))
 
 
-def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
-    """Return a commented study of a joint with one set of hardware."""
+def records_of(hardware: str) -> set[str]:
+    """Return the names that a set of hardware gives values, without those that all sets share."""
+    entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
+    return set(re.findall(r"(?m)^(\w+):", f"{shared[entry['springs']]}{entry['module']}"))
+
+
+def study_text(task: JointTask, hardware: str, name: str = "Joint", record: tuple[str, str] | None = None) -> str:
+    """Return a commented study of a joint with one set of hardware; a record may replace the set's own of a choice."""
     entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
     low, high = task.stiffness
     heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
@@ -155,6 +180,11 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
     cut_out = _CUT_OUT if task.diameter > _ROOMY * diameters()[hardware] else ""
     stiff = "" if math.isinf(task.stiff_time) else f'  stiffening_time: "<= {task.stiff_time:.4g} s"\n'
     module = _indented(f"{stroke}{shared['common']}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}")
+    if record:
+        choice, other = record
+        module = re.sub(
+            rf"(?m)^  {choice}: (\S+).*$", rf"  {choice}: {other}   # in place of \1: limits conflict", module
+        )
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
 #   tvimdesign run FILE        optimises it again after a change

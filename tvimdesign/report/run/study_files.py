@@ -15,7 +15,7 @@ from tvimdesign.base.units import format_quantity, pretty
 from tvimdesign.report.output.numbers import ends_text
 from tvimdesign.study import read_study_text
 from tvimdesign.study.design import read_design
-from tvimdesign.study.sizing import LARGEST, STROKE, JointTask, diameters, hardware_by_fit, study_text
+from tvimdesign.study.sizing import LARGEST, STROKE, JointTask, diameters, hardware_by_fit, records_of, study_text
 from tvimdesign.study.text.source import printable
 from tvimdesign.study.written_studies import (
     SCHEMA_FILE,
@@ -76,6 +76,8 @@ _STIFFER = (2.0, 4.0, 8.0, 16.0)
 """Stiffnesses that are tried, over the one asked for, if no other diameter alone is enough."""
 _MORE_FRICTION = 1.0
 """Friction over the springs' torque at full stroke where less is not to be had: they still bring the joint back."""
+_WEAKER = (0.95, 0.9, 0.8, 0.65, 0.5)
+"""Torques that are tried, over the one asked for, if the largest is not found."""
 _SHORTER = (0.85, 0.7, 0.5, 0.3)
 """Strokes that are tried, over the one asked for."""
 
@@ -109,15 +111,37 @@ def sized_text(task: JointTask, name: str, progress: Callable[[str], None] = lam
 
     Raises InfeasibleError, with the nearest numbers that were tried and have such hardware.
     """
-    progress("choosing the hardware")
-    for allowed in (task, replace(task, friction=_MORE_FRICTION)):
+    more_friction = replace(task, friction=_MORE_FRICTION)
+    for allowed, words in ((task, ""), (more_friction, f", friction up to {_MORE_FRICTION:g} of the springs' torque")):
+        progress(f"choosing the hardware{words}")
         if hardware := _hardware(allowed):
             return study_text(allowed, hardware, name)
-    progress("looking for the nearest numbers that fit")
-    raise InfeasibleError(_refusal(task, name))
+    if changed := _with_another_record(task, name, progress):
+        return changed
+    raise InfeasibleError(_refusal(task, name, progress))
 
 
-def _refusal(task: JointTask, name: str) -> str:
+def _with_another_record(task: JointTask, name: str, progress: Callable[[str], None]) -> str:
+    """Return the study with a set of hardware and one record replaced; empty if that fits nowhere."""
+    from tvimdesign.solve.infeasibility.early_checks import cures_of  # they load the compiler
+    from tvimdesign.solve.uncertainty.robust import least_with_margins
+
+    if task.diameter < _SMALLER * min(diameters().values()):
+        return ""
+    for hardware in hardware_by_fit(task)[:_BESIDE]:
+        progress(f"trying other screws, pins and springs in the hardware for {1e3 * diameters()[hardware]:.0f} mm")
+        fitting: list[tuple[float, str]] = []
+        for record in cures_of(read_study_text(study_text(task, hardware))).items():
+            text = study_text(task, hardware, name, record)
+            least = least_with_margins(read_study_text(text), "envelope_diameter")
+            if record[0] in records_of(hardware) and least and least.value <= task.diameter:
+                fitting.append((least.value, text))
+        if fitting:
+            return min(fitting)[1]
+    return ""
+
+
+def _refusal(task: JointTask, name: str, progress: Callable[[str], None]) -> str:
     """Return why there is no study of a joint, and what to ask for instead."""
     size, hold = format_quantity(task.diameter, "mm", 3), format_quantity(task.torque, "N*m", 3)
     soft = f"{ends_text(*task.stiffness)} {pretty('N*m/rad')}"
@@ -125,8 +149,10 @@ def _refusal(task: JointTask, name: str) -> str:
     least = min(diameters().values())
     if task.diameter < _SMALLER * least:
         lines.append(f"The smallest set of screws, springs and bearing suits joints of about {1e3 * least:.0f} mm.")
+    progress("looking for the nearest diameter that fits")
     wider, held_there = _wider(task)
     lines += [held_there] if held_there else []
+    progress(f"looking for another {'torque' if task.assumes_stroke else 'stroke'} or stiffness that fits")
     ways = ["  " + " ".join(f"--{option} '{value}'" for option, value in way.items()) for way in _nearest(task, wider)]
     if ways:
         lines.append("Hardware fits, by arithmetic and with the other numbers as given, for:")
@@ -197,9 +223,10 @@ def _wider_ones(task: JointTask) -> Iterator[tuple[JointTask, str]]:
 def _weaker(task: JointTask) -> JointTask | None:
     """Return the task with the largest torque that hardware of its diameter holds."""
     values = [_extreme(task, hardware, "holding_torque", -1.0) for hardware in hardware_by_fit(task)[:_BESIDE]]
-    most = _down(max((most.value for most in values if most), default=0.0))
-    weaker = replace(task, torque=most)
-    return weaker if 0.0 < most < task.torque and _hardware(weaker) else None
+    torques = [most.value for most in values if most]
+    torques = [max(torques)] if torques else [share * task.torque for share in _WEAKER]
+    weaker = (replace(task, torque=_down(torque)) for torque in torques if torque < task.torque)
+    return next((weaker for weaker in weaker if _hardware(weaker)), None)
 
 
 def _other_stiffness(task: JointTask) -> JointTask | None:

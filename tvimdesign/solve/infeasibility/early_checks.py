@@ -24,6 +24,7 @@ from tvimdesign.solve.infeasibility.curing_records import curing_records
 from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.mixture import discrete_records, with_records
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
+from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.robust import SIGMA, least_with_margins
 from tvimdesign.study import ProfileOptions, Study, brought_along_by
@@ -101,35 +102,56 @@ def refuse_infeasible(study: Study, deadline: Deadline | None = None) -> None:
     raise InfeasibleError(f"{study.name}: {messages[0]}{also}")
 
 
+def cures_of(study: Study) -> dict[str, str]:
+    """Return, by choice, a record with which the arithmetic limits of a study hold that conflict; else empty."""
+    try:
+        conflict = _conflict_search(study, None)
+    except InfeasibleError:
+        return {}
+    return curing_records(*conflict) if conflict else {}
+
+
 def _conflict(study: Study, deadline: Deadline | None) -> str:
     """Report the limits that conflict, with the next step; empty if a start satisfies all, or the time is over."""
+    try:
+        conflict = _conflict_search(study, deadline)
+    except InfeasibleError as error:  # a limit that nothing free can mend
+        return str(error)
+    if conflict is None:
+        return ""
+    optimizer, nearest, conflict_set = conflict
+    lines = conflict_in_words(_with_margins(study, conflict_set))
+    cures = curing_records(optimizer, nearest, conflict_set)
+    if cures:
+        records = " or ".join(f"`{choice}: {record}`" for choice, record in cures.items())
+        lines.append(f"By arithmetic they hold with {records} under `module`, each tried alone.")
+    fixed = _fixed(optimizer, conflict_set)
+    ways = f"Ease a limit, widen a range, or {fixed}." if fixed else "Ease a limit, or widen a range."
+    return "\n".join([*lines, ways])
+
+
+def _conflict_search(study: Study, deadline: Deadline | None) -> tuple[Optimizer, Run, ConflictSet] | None:
+    """Return the problem without its cycle, the nearest design and the limits that conflict; None if none do.
+
+    Raises InfeasibleError for a limit that nothing free can satisfy.
+    """
     update = {
         "minimize": {},
         "solver": study.solver.model_copy(update={"starts": max(_STARTS, study.solver.starts)}),
         "profile": ProfileOptions(), "robust": None,
     }  # fmt: skip
-    try:
-        optimizer = Optimizer(study.model_copy(update=update), without_cycle=True, deadline=deadline)
-    except InfeasibleError as error:  # a limit that nothing free can mend
-        return str(error)
+    optimizer = Optimizer(study.model_copy(update=update), without_cycle=True, deadline=deadline)
     if not optimizer.free or not optimizer.problem.limits:
-        return ""
+        return None
     runs = []
     for begin in optimizer.multistart.points():
         runs.append(optimizer.solve(begin=begin, beginning="feasible"))
         if runs[-1].start.converged:
-            return ""
+            return None
     search = find_conflicts(optimizer, runs, lambda _: None)
     if search is None or search.conflict_set is None or optimizer.deadline.passed:
-        return ""
-    lines = conflict_in_words(_with_margins(study, search.conflict_set))
-    cures = curing_records(optimizer, search.run, search.conflict_set)
-    if cures:
-        records = " or ".join(f"`{choice}: {record}`" for choice, record in cures.items())
-        lines.append(f"By arithmetic they hold with {records} under `module`, each tried alone.")
-    fixed = _fixed(optimizer, search.conflict_set)
-    ways = f"Ease a limit, widen a range, or {fixed}." if fixed else "Ease a limit, or widen a range."
-    return "\n".join([*lines, ways])
+        return None
+    return optimizer, search.run, search.conflict_set
 
 
 def _with_margins(study: Study, conflict_set: ConflictSet) -> ConflictSet:
