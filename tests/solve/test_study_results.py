@@ -77,7 +77,7 @@ def test_where_a_search_ends_without_a_design_nothing_is_handed_on() -> None:
     known = shipped_answer("paper_shear")
     assert known.solution
     study = Study.model_validate(known.design.study)
-    for status, is_design in (("optimal", True), ("infeasible: this design breaks its limits least", False)):
+    for status, is_design in (("optimal", True), ("infeasible: this design violates its limits least", False)):
         told: list[Any] = []
         solution = replace(known.solution, status=status)
         found = answer(study, search=lambda *_, of=solution: of, designed=lambda *given, told=told: told.append(given))

@@ -203,7 +203,7 @@ def _status(study: Study, solution: Solution, *, no_combination: bool) -> str:
     if solution.status == OPTIMAL:
         return OPTIMAL
     if solution.conflict_set:
-        return "infeasible: this design breaks its limits least"
+        return "infeasible: this design violates its limits least"
     return NO_COMBINATION if no_combination else solution.status
 
 

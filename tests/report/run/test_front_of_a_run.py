@@ -129,7 +129,7 @@ def test_a_front_that_is_no_trade_has_no_knee() -> None:
     assert said.startswith("There is no trade to speak of in envelope_diameter: ")
     assert said.endswith("ask for a front of response_time and module_mass.")
     assert front.knee is None
-    table, words = table_for("shear"), "converged, but simulated it breaks response_time <= 100 s: 100.6 s"
+    table, words = table_for("shear"), "converged, but simulated it violates response_time <= 100 s: 100.6 s"
     front = Front(("response_time", "module_mass"), (), failures=(Failure("least response_time", words),), sought=2)
     assert front.knee is None
     reported = plain(front, list(front.outputs), table)

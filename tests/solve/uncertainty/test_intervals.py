@@ -41,7 +41,7 @@ def model() -> UncertaintyModel:
 
 
 def rows(columns: NDArray[np.float64], names: list[str]) -> NDArray[np.float64]:
-    """What the kernel computes of modules, a row an output."""
+    """Return what the kernel computes of modules, a row an output."""
     numbers = [float(value) for value in module().values.values() if isinstance(value, int | float)]
     many = model()._model
     assert many is not None

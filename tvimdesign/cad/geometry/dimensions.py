@@ -44,7 +44,7 @@ class Dimensions:
             raise GeometryError(f"the design has no dimension {name!r}; write it anew with `tvimdesign run`")
         value = self._values[name]
         if not math.isfinite(value):
-            raise GeometryError(f"{name} is {value}: no part can be drawn to that; see which rules the design breaks")
+            raise GeometryError(f"{name} is {value}: no part can be drawn to that; see which rules the design violates")
         return value
 
     def of(self, thing: str, row: str) -> float:

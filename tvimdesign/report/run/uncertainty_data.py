@@ -201,8 +201,8 @@ def below_yield(answer: StudyResult) -> str:
     if limit is not None or reached is None:
         return _not_in_time(answer, reached, limit)
     lines = [
-        f"{answer.design.name}: no design found that {percent(reached.asked)} of the modules keep; "
-        f"of the best {percent(reached.together)} do. Most is lost to"
+        f"{answer.design.name}: no design found with a yield of {percent(reached.asked)}; "
+        f"the best has {percent(reached.together)}. Most is lost to"
     ]
     lines += [f"  {lost_in_words(loss)}" for loss in reached.lost_to]
     lines.append("Ease these limits, widen a range under `vary`, tighten these tolerances, or ask `robust` for less.")
@@ -222,9 +222,9 @@ def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float
 
 
 def lost_in_words(lost: LostTo) -> str:
-    """Return a limit that too many modules break, and the tolerances that carry its spread."""
+    """Return a limit that too many modules violate, and the tolerances that carry its spread."""
     named = [f"{name} {share:.0%}" for name, share in lost.carriers.items() if share >= _CARRIED]
-    return f"{lost.text}, which {percent(lost.share)} keep{'; its spread is of ' if named else ''}{', '.join(named)}"
+    return f"{lost.text}, which {percent(lost.share)} meet{'; its spread is of ' if named else ''}{', '.join(named)}"
 
 
 def _change(name: str, before: float, after: float, table: Table) -> str:

@@ -254,7 +254,7 @@ class Tradeoff:
             tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
             if not limit.residual(values[limit.output]) <= tolerance:
                 value = format_quantity(values[limit.output], table.unit(limit.output))
-                return f"converged, but simulated it breaks {in_words(limit, table)}: {value}"
+                return f"converged, but simulated it violates {in_words(limit, table)}: {value}"
         for bound in objective.bounds:
             size = sum(abs(factor * values[name]) for name, factor in bound.factors.items())
             if not bound.residual(values) <= CYCLE_TOLERANCE * size:
