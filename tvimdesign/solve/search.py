@@ -17,7 +17,6 @@ from tvimdesign.solve.discrete.combinations import Begin, Block, ExactCombinatio
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
-from tvimdesign.solve.discrete.second_process import second_process
 from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible, refuse_unreachable
@@ -104,18 +103,15 @@ def _optimize(
     refuse_too_many(families, sizes)
     combinations = sizes.count * sum(family.count for family in families)
     building = Trees(study, reference, progress, objectives, deadline, sizes)
-    with second_process(study, reference, objectives, deadline, combinations) as helper:
-        trees += building.of(families)
-        _leave_time(deadline, trees[0].optimizer.seconds["set_up"])
-        listed = any(relaxation.sizes.names for relaxation in trees)
-        start_infeasible = all(relaxation.start_infeasible() for relaxation in trees)
-        free = _free_runs(trees, 1 if start_infeasible else None, deadline)
-        in_time = _in_time(study, free, deadline)
-        search = BranchAndBound(trees, study.solver.alternatives, helper)
-        if helper is not None and in_time is None:
-            helper.begin(trees)
-        if listed and in_time is None:
-            search.run()
+    trees += building.of(families)
+    _leave_time(deadline, trees[0].optimizer.seconds["set_up"])
+    listed = any(relaxation.sizes.names for relaxation in trees)
+    start_infeasible = all(relaxation.start_infeasible() for relaxation in trees)
+    free = _free_runs(trees, 1 if start_infeasible else None, deadline)
+    in_time = _in_time(study, free, deadline)
+    search = BranchAndBound(trees, study.solver.alternatives)
+    if listed and in_time is None:
+        search.run()
     choosing: Choosing | None = None
     designs, shown, exact = free, list[tuple[Relaxation, Run]](), building.exact()
     if listed and in_time is None:

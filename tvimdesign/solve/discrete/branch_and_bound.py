@@ -17,12 +17,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from heapq import nsmallest
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.solve.discrete.box_tasks import Answer, BoxSolver, OneProcess, Task
 from tvimdesign.solve.discrete.discrete_choices import SAME_SIZE, Box, is_one
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.nlp.solver_run import Run
@@ -72,8 +71,32 @@ _NEXT_RECORDS = 3
 """Records of each mixture, by cost, that are tried beside a tree's first combination."""
 _DATA = 20
 """Boxes between two words of progress."""
-_AHEAD = 2
-"""Boxes that are likely to be divided next: a second process divides them ahead, so that the search is the same."""
+
+
+class Answer(NamedTuple):
+    """The best design of a box, and where there is none, whether that is certain."""
+
+    run: Run | None
+    certain: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """One box of one tree: searched from a run `near` it, for one combination `exactly`, or `thoroughly` afresh."""
+
+    place: int
+    """Of the tree."""
+    box: Box
+    near: Run | None
+    way: Literal["within", "exactly", "thoroughly"]
+
+    def answer(self, trees: Sequence[Relaxation]) -> Answer:
+        """Return its best design."""
+        tree = trees[self.place]
+        if self.way == "thoroughly":
+            return Answer(tree.thoroughly(self.box, self.near), certain=True)
+        search = tree.exactly if self.way == "exactly" else tree.best_within
+        return Answer(*search(self.box, self.near))
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,8 +138,6 @@ class BranchAndBound:
     trees: Sequence[Relaxation]
     keep: int
     """Number of best combinations that the search must prove: bounds are compared with the last of them."""
-    solver: BoxSolver | None = None
-    """This process unless given."""
     found: dict[tuple[int, Box], Run] = field(default_factory=dict)
     inside: float = 0.0
     """Largest share by which a design within a box was better than the box's bound."""
@@ -180,13 +201,7 @@ class BranchAndBound:
 
     def _answers(self, tasks: Sequence[Task]) -> list[Answer]:
         """Tasks answered; none any more once the time is over."""
-        solver = self.solver or OneProcess(self.trees)
-        return [] if self.stopped else solver.solve(tasks, self._ahead())
-
-    def _ahead(self) -> list[Task]:
-        """Return the tasks that follow if the next boxes are divided."""
-        nodes = [node for node in self._open if node.bound < self.cutoff and not is_one(node.box)]
-        return [task for node in nsmallest(_AHEAD, nodes, key=self._urgency) for task in self._halves(node)[1]]
+        return [] if self.stopped else [task.answer(self.trees) for task in tasks]
 
     @property
     def cutoff(self) -> float:

@@ -7,17 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InfeasibleError, InputError, SimulationError, TimeOverError
 from tvimdesign.solve.discrete.combinations import ExactCombinations
-from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
-from tvimdesign.solve.discrete.record_families import Family, families_of, possible
+from tvimdesign.solve.discrete.discrete_choices import Sizes
+from tvimdesign.solve.discrete.record_families import Family, possible
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.mixture import Mixture, with_records
 from tvimdesign.solve.nlp.solution import SolverEffort
-from tvimdesign.solve.nlp.solver_run import Progress, Run
+from tvimdesign.solve.nlp.solver_run import Progress
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study
 
@@ -126,38 +125,3 @@ def _beginnings(mixtures: Sequence[Mixture]) -> list[tuple[Mixture, ...]]:
             others = [i for i in range(len(mixture.records)) if i != first]
             beginnings.append((*mixtures[:place], mixture.in_order([first, *others]), *mixtures[place + 1 :]))
     return beginnings
-
-
-class ProblemSpec(NamedTuple):
-    """Data that the problems are built from."""
-
-    study: str
-    """As JSON."""
-    reference: dict[str, float] | None
-    objectives: Sequence[str]
-    seconds: float
-    """Until the time is over."""
-
-    def built(self) -> list[Relaxation]:
-        """Return the problems, with nothing solved."""
-        study = Study.model_validate_json(self.study)
-        sizes, families = discrete_sizes(study, study.table), families_of(study)
-        deadline = Deadline(self.seconds)
-        return Trees(study, self.reference, lambda _: None, self.objectives, deadline, sizes).of(families)
-
-
-class SearchState(NamedTuple):
-    """Results of the starts of one tree."""
-
-    sizes: Sizes
-    optima: list[Run]
-    ends: list[Run]
-
-    @classmethod
-    def of(cls, trees: Sequence[Relaxation]) -> list[SearchState]:
-        """That of each tree."""
-        return [cls(tree.sizes, tree.optima, tree.ends) for tree in trees]
-
-    def take(self, tree: Relaxation) -> None:
-        """Let a tree that was built go on from there."""
-        tree.sizes, tree.optima, tree.ends = self
