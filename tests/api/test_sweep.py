@@ -69,6 +69,14 @@ def test_cells_are_single_evaluations_with_units_beside_the_table(grid: tvim.Swe
 
 
 @pytest.mark.gate
+def test_a_table_has_the_verdicts_of_its_cells() -> None:
+    study = tvim.example("paper_reconstructed").set({"tolerances": {"pcl_thickness": "0.1 mm"}})
+    table = study.sweep(coil_count=[3.0], progress=False).table("module_mass", verdicts=True)
+    assert list(table.columns[:3]) == ["coil_count", "status", "verdict"]
+    assert table.verdict[0] == study.set(coil_count=3.0).evaluate(progress=False).verdict
+
+
+@pytest.mark.gate
 def test_requirements_may_be_swept(study: tvim.Study) -> None:
     lean = study.set({"solver.starts": 1})
     sweep = lean.sweep({"require.holding_torque": [">= 10 N.m", ">= 14 N.m"]}, progress=False)

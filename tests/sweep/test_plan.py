@@ -1,10 +1,12 @@
 """Cells lie where they are asked for; a key and an answer depend on the cell's study alone."""
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.stats import qmc
+from small_studies import ALGEBRAIC
 from small_sweeps import plan
 from support import study_path
 
@@ -111,6 +113,16 @@ def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
     forward, backward = answers(study_file, [0, 1, 2, 3], over), answers(study_file, [3, 0], over)
     assert backward == {number: forward[number] for number in backward}
     assert len({one.values for one in forward.values()}) == 4
+
+
+@pytest.mark.gate
+def test_a_cell_below_its_yield_says_by_how_much(tmp_path: Path) -> None:
+    path = tmp_path / "study.yaml"
+    band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
+    path.write_text(f"{band}robust: {{yield: 95 %}}\nsweep: {{over: {{link_thickness: [5 mm]}}}}\n")
+    (cell,) = answers(path, [0]).values()
+    assert cell.status == "below_yield"
+    assert re.match(r"yield [\d.]+% of 95% asked, most lost to \w*spring_stiffness [<>]= 5", cell.reason)
 
 
 @pytest.mark.slow

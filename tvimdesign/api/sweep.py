@@ -70,11 +70,13 @@ class Sweep(Generic[StudyT]):
         """Return how many cells were optimised from the study's own optimum alone."""
         return sum(cell.answer.warm for cell in self.kept)
 
-    def table(self, *names: str) -> pd.DataFrame:
+    def table(self, *names: str, verdicts: bool = False) -> pd.DataFrame:
         """Return a row a cell: where it stands, how it ended, and the named outputs; else those the study asks about.
 
-        Numbers are in the units of `tvimdesign rows`, which `table.attrs["units"]` has by column. Raises InputError
-        for an output that the sweep did not keep.
+        The status is that of the module as drawn. With `verdicts`, a column has the first line of each cell's screen,
+        such as `Build it`; yield and intervals are computed for it, in some seconds a cell. Numbers are in the units of
+        `tvimdesign rows`, which `table.attrs["units"]` has by column. Raises InputError for an output that the sweep
+        did not keep.
         """
         import pandas as pd
 
@@ -85,6 +87,10 @@ class Sweep(Generic[StudyT]):
         listed = columns(self.plan)
         heads = [column.name for column in listed if column.kind in {"axis", "told"}]
         frame = pd.DataFrame([self._row(number, heads, wanted, places) for number in range(len(self))])
+        if verdicts:
+            results = (cell.result for cell in self)
+            texts = [result.verdict if result else "" for result in results]
+            frame.insert(list(frame.columns).index("status") + 1, "verdict", texts)
         frame.attrs["units"] = {column.name: column.unit for column in listed if column.kind == "axis"} | {
             name: self.plan.unit(name) for name in wanted
         }

@@ -93,6 +93,10 @@ class CellAnswers:
         answer = self._answer_of(word, study, values, {**given(study), **stated, **model.words})
         reasons = [f"beyond a rating: {', '.join(above)}"] if above else []
         reasons += [] if word == status else [status]
+        if status == BELOW_YIELD and solution.yield_reached:
+            reached = solution.yield_reached
+            lost = f", most lost to {reached.lost_to[0].text}" if reached.lost_to else ""
+            reasons.append(f"yield {reached.together:.1%} of {reached.asked:.0%} asked{lost}")
         reasons += [f"the search ended at its time limit of {solution.out_of_time:g} s"] if solution.out_of_time else []
         return answer._replace(reason=_short("; ".join([*reasons, *filter(None, [answer.reason])])), warm=warm)
 

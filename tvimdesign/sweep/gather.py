@@ -35,10 +35,10 @@ def columns(plan: SweepPlan) -> list[Column]:
     """Return every column of a sweep's table."""
     axes = [Column(axis.name, "" if is_words(axis) else axis.unit, "axis", _meaning(plan, axis)) for axis in plan.axes]
     about = {
-        "status": "evaluated, optimal, above_rating, infeasible, refused, ...",
+        "status": "evaluated, optimal, above_rating, below_yield, infeasible, refused, ...",
         "violated": "limits that are violated",
         "margin": "the least margin over all limits, as a share of the limit",
-        "reason": "why there is no design, or what it violates",
+        "reason": "why there is no design, what it violates, or the yield it reaches",
     }
     status_columns = [
         Column(name, "1" if name in {"violated", "margin"} else "", "told", about[name]) for name in _STATUS_COLUMNS

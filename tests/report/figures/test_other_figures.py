@@ -100,6 +100,14 @@ def sheet_of(picture: str = "", rows: int = 10, warnings: int = 3) -> dict[str, 
     }  # fmt: skip
 
 
+def test_a_long_label_of_a_fact_stays_in_its_column() -> None:
+    sheet = sheet_of()
+    sheet["facts"] = [("Active constraints with margins", "step from floor to hub >= 0 mm")] * 3
+    texts = {text.get_text(): text.get_window_extent() for text in summary(sheet).texts}
+    labels = [texts["Active constraints"], texts["with margins"]]
+    assert max(box.x1 for box in labels) < texts["step from floor to hub >= 0 mm"].x0
+
+
 @pytest.mark.parametrize("rows", [0, 10, 60])
 def test_it_is_one_sheet_of_a4(tmp_path: Path, rows: int) -> None:
     Image.new("RGB", (1800, 800), "grey").save(tmp_path / "preview.png")

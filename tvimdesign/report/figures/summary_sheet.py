@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ _ACROSS = _WIDE - 2.0 * _LEFT
 _LINE, _SMALL, _SIZE = 0.165, 7.5, 8.5  # inches of a line; points
 _LETTERS = 100
 """Letters of a line of text across the page."""
+_LABEL = 1.3  # inches that the labels of facts take
 _TONES = {"good": "#1b6b3a", "warn": "#8a5300", "bad": "#a8201a", "": "black"}
 _MOST_ROWS = 22
 _PICTURE = 2.9  # inches high at most
@@ -46,11 +48,12 @@ class _Sheet:
         line.axhline(0.0, color=FAINT, linewidth=0.6)
         line.set_axis_off()
 
-    def lines(self, text: str, at: float = 0.0, **more: Any) -> None:
-        """Write a text in as many lines as it takes."""
-        width = int(_LETTERS * (_ACROSS - at) / _ACROSS)
-        for line in textwrap.wrap(text, width) or [""]:
-            self.text(line, at, **more)
+    def lines(self, text: str, label: str, **style: Any) -> None:
+        """Write a text behind its label, each in as many lines as it takes."""
+        wide, narrow = (int(_LETTERS * inches / _ACROSS) for inches in (_ACROSS - _LABEL, _LABEL))
+        for left, right in zip_longest(textwrap.wrap(label, narrow), textwrap.wrap(text, wide), fillvalue=""):
+            self.text(left, **style)
+            self.text(right, _LABEL)
             self.down()
 
 
@@ -61,18 +64,16 @@ def summary(data: dict[str, Any]) -> Figure:
     sheet.down(0.3)
     sheet.text(data["kind"], color="0.35")
     sheet.down(1.4 * _LINE)
-    for line in textwrap.wrap(data["status"], 80):
+    for line in textwrap.wrap(data["status"], 70):
         sheet.text(line, size=12.0, weight="bold", color=_TONES[data["tone"]])
         sheet.down(0.24)
     sheet.down(0.5 * _LINE)
     if data["rows"]:
         _table(sheet, data["heads"], data["rows"])
     for label, text in data["facts"]:
-        sheet.text(label, color="0.35")
-        sheet.lines(text, 1.3)
+        sheet.lines(text, label, color="0.35")
     for text, cure in data["warnings"]:
-        sheet.text("Warning", color=_TONES["warn"], weight="bold")
-        sheet.lines(text + (f"; {cure}" if cure else ""), 1.3)
+        sheet.lines(text + (f"; {cure}" if cure else ""), "Warning", color=_TONES["warn"], weight="bold")
     if data["picture"]:
         _picture(sheet, Path(data["picture"]))
     sheet.left = _BOTTOM

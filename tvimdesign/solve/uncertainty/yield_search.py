@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError, TimeOverError
+from tvimdesign.base.units import format_quantity
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
@@ -67,7 +68,14 @@ def reach_yield(
     """
     candidates: list[Robust] = []
     yields, aim = yields_of(optimizer), share + _AIM * (1.0 - share)
+    model, table = optimizer.model, optimizer.table
+    sizes = [
+        f"{name} {format_quantity(run.inputs[model.index[name]], table.unit(name))}"
+        for name, (low, high) in within.items() if low == high
+    ]  # fmt: skip
+    which = f", with {', '.join(sizes)}" if sizes else ""
     for number in range(MOST_ROUNDS):
+        optimizer.progress(f"simulating modules with random deviations{which}")
         if number >= ROUNDS and candidates[-1].kept <= max(candidate.kept for candidate in candidates[:-1]):
             break
         try:
@@ -84,7 +92,10 @@ def reach_yield(
         gain = -sum(multipliers.get(name, 0.0) * move for name, move in moves.items())
         if not moves or (candidates[-1].reached and gain < _GAIN * abs(run.start.objective)) or _no_better(candidates):
             break
-        optimizer.progress(f"adding tolerance margins: yield so far {drawn.together.share:.1%}, target {share:.0%}")
+        before = f"after round {number} of margins" if number else "without margins"
+        optimizer.progress(
+            f"adding tolerance margins{which}: yield {drawn.together.share:.1%} {before}, target {share:.0%}"
+        )
         following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves)
         if following is run:
             if optimizer.deadline.passed:
