@@ -86,17 +86,20 @@ def test_cut_outs_and_beads_say_only_what_they_can() -> None:
 
 
 @pytest.mark.parametrize(
-    ("process", "hottest", "margin", "holding"),
+    ("parts", "hottest", "margin", "holding"),
     [  # Parts bear 105 °C; 108 opens 3 above, 99 opens from 89 on and not within 5 of 84 °C. At 83 °C 108 holds 6 less.
-        ("print_pc_bambu", 91.5, -3.0, 0.0),
-        ("print_pc_bambu", 83.0, 1.0, -6.0),
-        ("print_pei_1010", 83.0, 27.0, 18.0),  # the heater bears 160 °C: 133 opens 27 below that, and holds 101 °C
+        ({"process": "print_pc_bambu"}, 91.5, -3.0, 0.0),
+        ({"process": "print_pc_bambu"}, 83.0, 1.0, -6.0),
+        # The heater bears 160 °C: 133 opens 27 below that, and holds 101 °C.
+        ({"process": "print_pei_1010"}, 83.0, 27.0, 18.0),
+        # The liner of PETG bears 60 °C: 73 opens 13 above it.
+        ({"process": "print_pei_1010", "liner_material": "petg", "key_count": 0.0}, 40.0, -13.0, 0.0),
     ],
 )
 def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(
-    process: str, hottest: float, margin: float, holding: float
+    parts: dict[str, Any], hottest: float, margin: float, holding: float
 ) -> None:
-    changes = {"process": process, "peltier_module": "silicone_9ar_08_24v"}
+    changes = {"peltier_module": "silicone_9ar_08_24v", **parts}
     module = ", ".join(f"{name}: {word}" for name, word in changes.items())
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n")
     peaks = {"peak_peltier_temperature": hottest + ZERO_CELSIUS, "peak_cold_side_temperature": 330.0}

@@ -301,9 +301,10 @@ _SHORT = "the thermal cut-out holds less than the heater's peak for a week at it
 
 @heat.output("K", advice=(at_least(0.0, _LATE),))
 def cutout_margin(m: Module) -> Scalar:
-    """Room of the best type of thermal cut-out: it opens below what heater, PCL and structure bear, and above the peak.
+    """Room of the best type of thermal cut-out: it opens below what the parts bear, and above the peak.
 
-    The heater's peak stays below the least temperature at which the type opens, by the record's working margin.
+    The parts are heater, PCL, structure and liner. The heater's peak stays below the least temperature at which the
+    type opens, by the record's working margin.
     """
     below = m.heater_fuse.value("opening_band") + m.heater_fuse.value("working_margin")
     return _best_room(m.heater_fuse, "functioning_temperature", _borne(m), _peak(m) + below)
@@ -320,8 +321,10 @@ def cutout_holding_margin(m: Module) -> Scalar:
 
 
 def _borne(m: Module) -> Scalar:
-    """Return the temperature that heater, PCL and structure bear."""
-    return np.fmin(np.fmin(m.peltier_max_temperature, m.pcl_decomposition_temperature), m.structure_service_temperature)
+    """Return the temperature that heater, PCL, structure and liner bear."""
+    lined = np.where(m.liner_depth > 0.0, m.liner_service_temperature, m.structure_service_temperature)
+    structure = np.fmin(m.structure_service_temperature, lined)
+    return np.fmin(np.fmin(m.peltier_max_temperature, m.pcl_decomposition_temperature), structure)
 
 
 def _peak(m: Module) -> Scalar:
