@@ -108,11 +108,16 @@ def mark(name: str, answer: StudyResult) -> str:
 
 def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[float, str]:
     """Return what is left of a limit: a share with the unit 1, or in the row's unit if the limit has no size."""
-    if not check.absolute:
-        return check.margin, "1"
     unit = table.unit(check.output)
+    if not _has_unit(check, table):
+        return check.margin, "1"
     unit = "K" if unit == "degC" else unit
     return from_si(check.margin * check.scale, unit), unit
+
+
+def _has_unit(check: ConstraintCheck | ActiveConstraint, table: Table) -> bool:
+    """Return whether a margin is in the row's unit: the limit has no size, or is a difference of temperatures."""
+    return check.absolute or table.unit(check.output) == "K"
 
 
 def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
@@ -124,7 +129,7 @@ def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
         return "never"
     margin, unit = margin_of(check, table)
     margin = margin if abs(check.margin) > NOTHING or not getattr(check, "kept", True) else 0.0
-    if check.absolute:
+    if _has_unit(check, table):
         return f"{number(margin, 3)} {pretty(unit)}".rstrip()
     if abs(margin) >= 10.0:
         return "ample" if margin > 0.0 else "far"

@@ -162,7 +162,7 @@ def _impedance(value: _Values) -> list[Fact]:
         for name in ("joint_stiffness@cold", "softened_stiffness")
     )
     damping = with_unit(value.values["softened_damping"], value.table.unit("softened_damping"), _DIGITS)
-    return [Fact("Impedance", [f"frozen {frozen}, soft {soft} {pretty(unit)}", damping])]
+    return [Fact("Stiffness", [f"frozen {frozen}, soft {soft} {pretty(unit)}", f"damping {damping}"])]
 
 
 def _task(value: _Values, choices: Mapping[str, str]) -> list[Fact]:
@@ -228,7 +228,8 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
 def _soft(answer: StudyResult) -> list[str]:
     """Say what soft means, and whether the layer stalls on the way."""
     stalling = stalling_in_words(answer.histories.get("softening"), answer.design.values["softening_time"])
-    return [soft_in_words(answer.design, table_for(answer.design.mode)), *filter(None, [stalling])]
+    notes = ("|Z| has stiffness and damping", "molten slices soften the PCL before its coldest melts")
+    return [soft_in_words(answer.design, table_for(answer.design.mode)), *notes, *filter(None, [stalling])]
 
 
 def _stiff(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]:
