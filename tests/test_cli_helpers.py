@@ -75,13 +75,13 @@ def test_a_design_takes_no_settings(tvimdesign: Command, tmp_path: Path) -> None
 @pytest.mark.slow
 def test_settings_reach_every_study_of_a_comparison(tvimdesign: Command, tmp_path: Path) -> None:
     pair = ("studies/wrist_joint.yaml", "studies/wrist_compression.yaml")
-    settings = ("--set", "current=1.4 A", "--set", "solver.starts=1")
+    settings = ("--set", "moving_inertia=50 kg.mm^2", "--set", "solver.starts=1")
     done = tvimdesign("compare", *pair, "--points", "0", "--no-plots", *settings, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     for mode in ("shear", "compression"):
         design = json.loads((tmp_path / f"out/{mode}/drawn.json").read_text())
-        assert design["values"]["current"] == pytest.approx(1.4)
-        assert read_study(tmp_path / f"out/{mode}/study.yaml").module["current"] == pytest.approx(1.4)
+        assert design["values"]["moving_inertia"] == pytest.approx(50e-6)
+        assert read_study(tmp_path / f"out/{mode}/study.yaml").module["moving_inertia"] == pytest.approx(50e-6)
 
 
 # --- shipped studies ---
