@@ -232,7 +232,7 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     assert low < intervals["spring_stiffness"]["low"] - 0.01
     # The range of the limit most in doubt is there, so that the screen can name what to measure first.
     name, share = next(iter(one.uncertainty["held"].items()))
-    assert f"Model: if not, {label(name.split()[0])} fails first, in {100.0 * (1.0 - share):.0f} % of" in text
+    assert f"limits may fail, most often {label(name.split()[0])}, in {100.0 * (1.0 - share):.0f} % of" in text
     assert intervals[name.split()[0]]["shares"]
 
 

@@ -18,6 +18,13 @@ SURE = {
     "parts_yield": {"share": 0.97, "low": 0.96, "high": 0.98}, "held": {"retainer_thread_margin >=": 0.4},
     "intervals": {"retainer_thread_margin": {"shares": {"structure_layer_strength": 0.8}}},
 }  # fmt: skip
+BOTH = {
+    "held": {"retainer_thread_margin >=": 0.4, "friction_share <=": 0.7, "pin_wear <=": 0.9},
+    "intervals": {
+        "retainer_thread_margin": {"shares": {"structure_layer_strength": 0.8}},
+        "friction_share": {"shares": {"pin_friction": 0.6}}, "pin_wear": {"shares": {"bond_strength": 0.6}},
+    },
+}  # fmt: skip
 GRAVE = RunWarning("pin fillet safety is 0.93: pins may crack at their fillet", "", "grave")
 HOT = {"output": "joint_stiffness@hot", "sense": "<=", "limit": 1.5}
 COOL = {"softened_temperature": 340.15, "temperature@hot": 373.15, "softened_stiffness": 2.5, "softened_range": 50.0}
@@ -79,6 +86,8 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE, [RunWarning("-8 K", but="no cut-out fits"), RunWarning("14.1", but="friction holds it")],
          "Build it, but no cut-out fits and friction holds it: one first, and measure the structure layer strength"),
         (answer(), SURE | {"intervals": {}}, [], "Build it: one first, and check the retainer thread"),
+        (answer(), SURE | BOTH, [],
+         "Build it: one first, and measure the structure layer strength and the pin friction"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip

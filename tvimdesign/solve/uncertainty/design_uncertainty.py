@@ -32,6 +32,8 @@ Rows = Callable[..., Array]
 
 DRAWS = 1 << 9
 """Modules drawn from the ranges of unmeasured inputs."""
+DOUBTFUL = 0.75
+"""Share of these modules that satisfy a limit below which it is in doubt."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +48,8 @@ class DesignUncertainty:
     left_out: tuple[str, ...]
     """Limits on outputs that never happen, or depend on a current that follows a profile."""
     intervals: dict[str, Interval]
-    """Of each asked output, and of the limit most in doubt: its range, parts as drawn and unmeasured inputs anywhere in
-    their ranges."""
+    """Of each asked output, and of the limits in doubt, the worst at least: its range, parts as drawn and unmeasured
+    inputs anywhere in their ranges."""
     holds: spread.Yield | None = None
     """Share of those ranges in which every limit is met, parts as drawn; None where no limit depends on them."""
     held: dict[str, float] = field(default_factory=dict)
@@ -174,7 +176,8 @@ class UncertaintyModel:
         satisfied = _satisfied(hanging, self.outputs, values)
         shares = {limit.name: float(np.mean(row)) for limit, row in zip(hanging, satisfied, strict=True)}
         broken = sorted((item for item in shares.items() if item[1] < 1.0), key=lambda item: item[1])
-        in_doubt = {limit.output for limit in hanging for name, _ in broken[:1] if limit.name == name}
+        doubtful = [name for name, share in broken if share < DOUBTFUL or name == broken[0][0]]
+        in_doubt = {limit.output for limit in hanging if limit.name in doubtful}
         requested.update({name: by_name[name] for name in in_doubt})
         return requested, spread.share_kept(np.all(satisfied, axis=0)), dict(broken), moved
 

@@ -199,6 +199,10 @@ def _manufacturing(uncertainty: Mapping[str, Any]) -> list[Fact]:
     return [Fact("Manufacturing", [text], f"by {_tolerances(uncertainty)}")]
 
 
+_SELDOM = 0.95
+"""Share of the cases in which a limit is met from which on it is not counted."""
+
+
 def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     """Return the limit most in doubt; none if the ranges of unmeasured inputs were not looked at."""
     if not uncertainty or uncertainty["ranges_hold"] is None:
@@ -206,7 +210,9 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     name, share = most_in_doubt(uncertainty)
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
-    text = f"if not, {label(name)} fails first, in {100.0 * (1.0 - share):.0f} % of cases"
+    count = sum(met < _SELDOM for met in uncertainty["held"].values())
+    limits = f"{count} limits may fail, most often {label(name)}" if count > 1 else f"{label(name)} may fail"
+    text = f"{limits}, in {100.0 * (1.0 - share):.0f} % of cases"
     return [Fact("Model", [text], f"needs {uncertainty['needs']}" if uncertainty.get("needs") else "")]
 
 
@@ -220,7 +226,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *_lost_motion(_Values(answer, uncertainty), much=False),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table),
-        *_yield(answer, uncertainty, table),
+        *_yield(answer, uncertainty, table), *_together(uncertainty),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
 
@@ -357,6 +363,17 @@ def _yield(answer: StudyResult, uncertainty: Mapping[str, Any], table: Table) ->
         raise_it = f"to raise it: {standard}`robust: {{yield: 95 %}}`"
         parts.append(raise_it if answer.solution else "which limit loses most: `tvimdesign tolerate`")
     return [Fact("Yield", parts)]
+
+
+def _together(uncertainty: Mapping[str, Any]) -> list[Fact]:
+    """Return the share of the plausible cases that meet every limit; none if they were not looked at."""
+    share = uncertainty.get("ranges_hold")
+    if share is None:
+        return []
+    cases = f"in {percent(share['share'])} of {uncertainty['draws']} cases"
+    return [
+        Fact("Assumed", [f"every limit is met {cases}, each assumed value anywhere in its range", "no probability"])
+    ]
 
 
 def _tolerances(uncertainty: Mapping[str, Any]) -> str:

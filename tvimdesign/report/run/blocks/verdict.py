@@ -10,7 +10,7 @@
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
-9. That limit is met in less than `SURE` of the cases: *Build it: one first, and measure X*.
+9. Limits are met in less than `DOUBTFUL` of the cases: *Build it: one first, and measure X and Y*.
 10. *Build it*; here and in 9 with a bought part that is not to be had.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
@@ -31,13 +31,15 @@ from tvimdesign.report.run.blocks.warnings import RunWarning, missed_points
 from tvimdesign.report.run.uncertainty_data import yield_of
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
+from tvimdesign.solve.uncertainty.design_uncertainty import DOUBTFUL
 
 TARGET = 0.95
 """Yield below which a design without margins is only a nominal one."""
 DOUBT = 0.25
 """Share of the plausible cases in which the limit most in doubt must be met."""
-SURE = 0.75
-"""Share below which one module is to be built and measured before others."""
+
+_MOST_NAMED = 2
+"""Unmeasured inputs that a verdict names."""
 
 Kind = Literal[
     "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build_one",
@@ -203,11 +205,20 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     if not uncertainty:
         return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
     name, share = most_in_doubt(uncertainty)
-    if not name or share >= SURE:
+    if not name or share >= DOUBTFUL:
         return Verdict("build", f"Build it{but}")
-    first = measure_first(name, uncertainty)
-    what = f"measure the {label(first)}" if first else f"check the {label(name)}"
+    first = _to_measure(uncertainty)
+    what = f"measure {first}" if first else f"check the {label(name)}"
     return Verdict("build_one", f"Build it{but}: one first, and {what}")
+
+
+def _to_measure(uncertainty: Mapping[str, Any]) -> str:
+    """Return the unmeasured inputs that decide on the limits in doubt, the worst limit's first; or nothing."""
+    doubtful = [name.partition(" ")[0] for name, share in uncertainty["held"].items() if share < DOUBTFUL]
+    first = dict.fromkeys(measure_first(name, uncertainty) for name in doubtful)
+    inputs = [f"the {label(name)}" for name in first if name]
+    named, more = inputs[:_MOST_NAMED], len(inputs) - _MOST_NAMED
+    return f"{', '.join(named)} and {more} more" if more > 0 else " and ".join(named)
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:
