@@ -116,33 +116,40 @@ def sized_text(task: JointTask, name: str, progress: Callable[[str], None] = lam
         progress(f"choosing the hardware{words}")
         if hardware := _hardware(allowed):
             return study_text(allowed, hardware, name)
-    if changed := _with_another_record(task, name, progress):
-        return changed
-    raise InfeasibleError(_refusal(task, name, progress))
+    changed = _with_another_record(task, name, progress)
+    if changed and changed[0] <= task.diameter:
+        return changed[1]
+    raise InfeasibleError(_refusal(task, name, changed[0] if changed else math.inf, progress))
 
 
-def _with_another_record(task: JointTask, name: str, progress: Callable[[str], None]) -> str:
-    """Return the study with a set of hardware and one record replaced; empty if that fits nowhere."""
+def _with_another_record(task: JointTask, name: str, progress: Callable[[str], None]) -> tuple[float, str] | None:
+    """Return the least diameter [m] of the sets of hardware with one record replaced, and the study; None without."""
     from tvimdesign.solve.infeasibility.early_checks import cures_of  # they load the compiler
     from tvimdesign.solve.uncertainty.robust import least_with_margins
 
-    if task.diameter < _SMALLER * min(diameters().values()):
-        return ""
-    for hardware in hardware_by_fit(task)[:_BESIDE]:
+    fitting: list[tuple[float, str]] = []
+    sets = hardware_by_fit(task)[:_BESIDE] if task.diameter >= _SMALLER * min(diameters().values()) else []
+    for hardware in sets:
         progress(f"trying other screws, pins and springs in the hardware for {1e3 * diameters()[hardware]:.0f} mm")
-        fitting: list[tuple[float, str]] = []
-        for record in cures_of(read_study_text(study_text(task, hardware))).items():
+        try:
+            cures = cures_of(read_study_text(study_text(task, hardware)))
+        except InputError:  # no module at the start of the ranges
+            continue
+        for record in cures.items():
             text = study_text(task, hardware, name, record)
             least = least_with_margins(read_study_text(text), "envelope_diameter")
-            if record[0] in records_of(hardware) and least and least.value <= task.diameter:
+            if record[0] in records_of(hardware) and least:
                 fitting.append((least.value, text))
-        if fitting:
-            return min(fitting)[1]
-    return ""
+        if fitting and min(fitting)[0] <= task.diameter:
+            break
+    return min(fitting, default=None)
 
 
-def _refusal(task: JointTask, name: str, progress: Callable[[str], None]) -> str:
-    """Return why there is no study of a joint, and what to ask for instead."""
+def _refusal(task: JointTask, name: str, least_changed: float, progress: Callable[[str], None]) -> str:
+    """Return why there is no study of a joint, and what to ask for instead.
+
+    `least_changed` is the least diameter [m] with another record in a set of hardware.
+    """
     size, hold = format_quantity(task.diameter, "mm", 3), format_quantity(task.torque, "N*m", 3)
     soft = f"{ends_text(*task.stiffness)} {pretty('N*m/rad')}"
     lines = [f"{name}: no joint of {size} holds {hold} frozen and has {soft} soft, with margins for its tolerances."]
@@ -151,6 +158,10 @@ def _refusal(task: JointTask, name: str, progress: Callable[[str], None]) -> str
         lines.append(f"The smallest set of screws, springs and bearing suits joints of about {1e3 * least:.0f} mm.")
     progress("looking for the nearest diameter that fits")
     wider, held_there = _wider(task)
+    nearer = replace(task, diameter=1e-3 * math.ceil(_ROOM * min(least_changed, LARGEST) / 1e-3))
+    if nearer.diameter < (wider.diameter if wider else LARGEST):
+        changed = _with_another_record(nearer, name, progress)
+        wider, held_there = (nearer, "") if changed and changed[0] <= nearer.diameter else (wider, held_there)
     lines += [held_there] if held_there else []
     progress(f"looking for another {'torque' if task.assumes_stroke else 'stroke'} or stiffness that fits")
     ways = ["  " + " ".join(f"--{option} '{value}'" for option, value in way.items()) for way in _nearest(task, wider)]
