@@ -94,7 +94,7 @@ def refuse_infeasible(study: Study, deadline: Deadline | None = None) -> None:
         return
     messages: list[str] = []
     for chosen in records:
-        reported = _conflict(with_records(study, chosen), deadline)
+        reported = _conflict(with_records(study, chosen), deadline, advises=not messages)
         if not reported:
             return
         messages.append(reported)
@@ -111,7 +111,7 @@ def cures_of(study: Study) -> dict[str, str]:
     return curing_records(*conflict) if conflict else {}
 
 
-def _conflict(study: Study, deadline: Deadline | None) -> str:
+def _conflict(study: Study, deadline: Deadline | None, *, advises: bool) -> str:
     """Report the limits that conflict, with the next step; empty if a start satisfies all, or the time is over."""
     try:
         conflict = _conflict_search(study, deadline)
@@ -120,6 +120,8 @@ def _conflict(study: Study, deadline: Deadline | None) -> str:
     if conflict is None:
         return ""
     optimizer, nearest, conflict_set = conflict
+    if not advises:
+        return "\n".join(conflict_in_words(conflict_set))
     lines = conflict_in_words(_with_margins(study, conflict_set))
     cures = curing_records(optimizer, nearest, conflict_set)
     if cures:
