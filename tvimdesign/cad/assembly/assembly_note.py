@@ -43,7 +43,8 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
         lines.append(f"| {number} | {_words(one.kind)} | {one.quantity} | {of} | {each} |")
     total = sum(one.mass * one.quantity for one in items)
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{cad_report.BILL_OF_MATERIALS}`.", ""]
-    lines += [f"Beside them: {_words(one.kind)}, {one.title}{_about(one.mass)}." for one in extra]
+    lines += ["| also needed | |", "|---|---|"] if extra else []
+    lines += [f"| {_words(one.kind)} | {one.title}{_about(one.mass)} |" for one in extra]
     lines += ["", _cost([*items, *extra])]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
