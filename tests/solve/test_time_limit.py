@@ -73,7 +73,7 @@ def test_starts_that_are_left_are_told_and_the_best_design_is_kept() -> None:
 
 
 def test_combinations_that_are_left_are_counted_as_such() -> None:
-    clock = Clock("^[1-9][0-9]* combinations solved")
+    clock = Clock("^1 combination solved")
     solution = clock.optimize(read_study_text(LISTED))
     choosing = solution.choosing
     assert solution.status == OPTIMAL

@@ -123,7 +123,6 @@ def test_screws_alone_and_loose_tangs_have_none_of_it() -> None:
         "thermistor",
         "polyimide_film",
         "wire_sleeve",
-        "grease",
         "mount_screw",
     ]
     assert drawing_requirements("link", dims, design.choices).seats == []

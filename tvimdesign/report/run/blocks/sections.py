@@ -106,7 +106,7 @@ def assumptions_section(answered: AnsweredStudy) -> Section:
         words = "How sure the design is was not computed in this run."
         return Section("assumptions", "Assumptions", [Words([words])])
     more = [
-        (tables.held_grid(uncertainty), ""),
+        (tables.held_grid(uncertainty, answered.reported["values"]), ""),
         (tables.assumptions_grid(uncertainty.get("assumptions", {})), PAGE),
         (tables.unmeasured_grid(uncertainty, answered.reported["values"]), f"results.csv, results.json and {PAGE}"),
     ]

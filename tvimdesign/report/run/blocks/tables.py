@@ -13,6 +13,7 @@ from tvimdesign.report.output.choices_tables import choice_text, shares
 from tvimdesign.report.output.numbers import ends_text, in_unit, number, range_text
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
+from tvimdesign.report.run.blocks.verdict import measure_first
 from tvimdesign.report.run.blocks.warnings import unreached_points
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
@@ -216,7 +217,12 @@ def moves(name: str, intervals: Mapping[str, Any]) -> list[tuple[str, float]]:
     return sorted([(output, share) for output, share in shares if share >= _MOVES], key=lambda pair: -pair[1])
 
 
-def held_grid(uncertainty: Mapping[str, Any]) -> Grid:
-    """Return the limits that are not met over all ranges."""
-    rows = [(limit, f"{100.0 * share:.3g} %") for limit, share in uncertainty["held"].items()]
-    return grid("Limits met in a part of the ranges only", ("limit", "met in"), rows, right=(1,))
+def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid:
+    """Return the limits that are not met over all ranges, with what to measure first for those in doubt, and how."""
+    rows = []
+    for limit, share in uncertainty["held"].items():
+        first = measure_first(limit.partition(" ")[0], uncertainty)
+        test = values[first]["source"].partition("test: ")[2] if first else ""
+        rows.append((limit, f"{100.0 * share:.3g} %", first, test))
+    heads = ("limit", "met in", "measure first", "test")
+    return grid("Limits met in a part of the ranges only", heads, rows, right=(1,))
