@@ -293,6 +293,12 @@ def _sorting(design: Design, dims: Dimensions) -> str:
     return f"the study counts on a preload that is set within ±{degrees(off):.3g}°"
 
 
+def _most_current(design: Design, _: Dimensions) -> str:
+    """Return the largest current of both phases; of heating alone where the heater does not cool."""
+    currents = (design.values.get(name, math.nan) for name in ("peak_current", "stiffening_peak_current"))
+    return f"{max((one for one in currents if math.isfinite(one)), default=design.value('current')):.3g} A"
+
+
 def _bonding_heat(design: Design, _: Dimensions) -> str:
     """Return how the PCL is melted through, by the study's own currents and times.
 
@@ -338,6 +344,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "preload_force": _preload_force,
     "sorting": _sorting,
     "bonding_heat": _bonding_heat,
+    "most_current": _most_current,
     "cutout_place": _cutout_place,
     "heated_parts": _heated_parts,
     "hot_side": _hot_side,
