@@ -89,6 +89,7 @@ def test_the_page_begins_at_the_best_cell_and_opens_each(swept: Path) -> None:
     assert (nothing.way, nothing.at) == ("optimize", {"current": "1.5 A"})  # asked once more, from the study's start
 
 
+@pytest.mark.gate
 def test_what_is_no_cell_or_no_finished_sweep_is_refused_in_words(swept: Path, tmp_path: Path) -> None:
     source = open_source(swept)
     with pytest.raises(InputError, match="cell 4: the sweep has the cells 1 to 3"):
@@ -126,6 +127,7 @@ def test_a_sweep_of_words_with_records_of_its_own_is_opened(tmp_path: Path, monk
     assert source.at_point(2, source.first).changes == {"spring_material": "own"}
 
 
+@pytest.mark.gate
 def test_a_page_gets_the_cells_once_and_shows_the_one_it_chooses(swept: Path, tmp_path: Path) -> None:
     async def chosen() -> tuple[dict[str, Any], dict[str, Any], dict[str, Any], list[dict[str, Any]]]:
         async with talking(swept, tmp_path / "out") as page:

@@ -57,6 +57,7 @@ def test_stiffening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
     )
 
 
+@pytest.mark.gate
 def test_a_switch_that_never_ends_has_no_advice_on_what_never_began() -> None:
     found = answered("current: 0.3 A", hot=60.0)
     assert np.isinf(found.design.value("response_time"))

@@ -39,6 +39,7 @@ def answered() -> AnsweredStudy:
     return sample_pages.answered_study()
 
 
+@pytest.mark.gate
 def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_path: Path) -> None:
     done = tvimdesign("run", sample_pages.STUDY, "--no-cad", "--no-plots", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr

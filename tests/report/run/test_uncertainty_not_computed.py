@@ -17,6 +17,7 @@ require: {spring_stiffness: [">= 5.3 N.m/rad", "<= 6 N.m/rad"]}
 """
 
 
+@pytest.mark.gate
 def test_an_uncertainty_that_is_not_computed_is_a_warning(
     tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -129,6 +129,7 @@ def test_the_gravest_warning_comes_first() -> None:
     assert said[-1][:2] == ("a sheet contradicts itself", "untried: catalog: my_records")
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("extra", ["", "  response_criterion: softening\n  softening_band: 2\n"])
 def test_a_run_has_each_warning_that_compare_has(extra: str) -> None:
     found, table = _published(extra), table_for("shear")
