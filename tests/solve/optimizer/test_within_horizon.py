@@ -47,8 +47,8 @@ def test_a_search_beyond_the_horizon_restarts_before_it_searches_lists(monkeypat
     assert found.status == "optimal"
     assert found.values["response_time"] <= LATEST * HORIZON * (1.0 + 2e-3)
     again = next(place for place, words in enumerate(said) if "beyond `horizon`" in words)
-    assert not any("combinations solved" in words for words in said[:again])
-    assert any("combinations solved" in words for words in said[again:])
+    assert not any(" solved" in words for words in said[:again])
+    assert any(" solved" in words for words in said[again:])
     assert len(deadlines) == 1  # the study's time limit is that of both
 
 

@@ -44,8 +44,6 @@ _WIRED = {
 }
 """By the word of `heater_wiring`."""
 MADE_TO_ORDER = "made to order"
-TREATMENT = "treatment"
-"""Word of a material's record, and of the titles: what its specimens had undergone."""
 _RINGS = ("bearing_inner", "bearing_outer")
 _SEALED = (*_RINGS, "motor_bearing")
 """Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
@@ -127,7 +125,7 @@ def bill(
         mass = solids[0].Volume() * what.density * 1e-6
         stock = titles.get("stock_spring") if kind in SPRINGS else None
         title = _titled(design, kind, stock or titles.get(KINDS[kind].material) or what.material)
-        treatment = titles.get(TREATMENT, "") if is_of_structure(kind) else ""
+        treatment = titles.get(cad_report.TREATMENT, "") if is_of_structure(kind) else ""
         made = PRODUCTION[kind].down != "bought"
         fit = (fits or {}).get(kind, "")
         item = Item(kind, len(solids), made, what.material, title, mass, _papers(kind), (kind,), fit)

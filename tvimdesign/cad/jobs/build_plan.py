@@ -18,7 +18,7 @@ from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, one_solid, place
 from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
 from tvimdesign.cad.assembly.assembly_note import assembly_note, coming, written_steps
-from tvimdesign.cad.assembly.bill_of_materials import TREATMENT, beside, bill, bill_csv, fixtures
+from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
 from tvimdesign.cad.assembly.heater_leads import heater_order
 from tvimdesign.cad.assembly.module_script import module_script
 from tvimdesign.cad.assembly.wiring import wiring_svg
@@ -124,7 +124,7 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
         asked = drawing_requirements(kind, job.dims, job.design.choices)
         if kind == "heater" and (order := heater_order(job.design)):
             asked = replace(asked, notes=[f"{words[0].upper()}{words[1:]}." for words in order])
-        if is_of_structure(kind) and (treatment := job.titles.get(TREATMENT)):
+        if is_of_structure(kind) and (treatment := job.titles.get(cad_report.TREATMENT)):
             asked = replace(asked, notes=[*asked.notes, f"Before reaming: {treatment}, as its strength is counted."])
         sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(KINDS[kind].material, ""))
         _write(job.folder, cad_report.drawing_dxf(kind), sheet.dxf())

@@ -25,7 +25,7 @@ from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.record import Record
 from tvimdesign.base.user_cache import FOLDER_VARIABLE, cache_folder
-from tvimdesign.cad.assembly.bill_of_materials import TREATMENT
+from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
 from tvimdesign.cad.make import HALF_MADE, WAITING
 from tvimdesign.device import table_for
@@ -136,8 +136,8 @@ def _titles(design: Design) -> dict[str, str]:
             if row.category and row.name in design.choices:
                 record = catalog_of(design).record(row.category, design.choices[row.name])
                 titles[row.name] = _ordered_by(record, design, row.name)
-                if row.name == "structure_material" and TREATMENT in record.words:
-                    titles[TREATMENT] = record.words[TREATMENT]
+                if row.name == "structure_material" and cad_report.TREATMENT in record.words:
+                    titles[cad_report.TREATMENT] = record.words[cad_report.TREATMENT]
     return titles
 
 
