@@ -296,7 +296,7 @@ def _sorting(design: Design, dims: Dimensions) -> str:
 def _most_current(design: Design, _: Dimensions) -> str:
     """Return the largest current of both phases; of heating alone where the heater does not cool."""
     currents = (design.values.get(name, math.nan) for name in ("peak_current", "stiffening_peak_current"))
-    return f"{max((one for one in currents if math.isfinite(one)), default=design.value('current')):.3g} A"
+    return f"{max((value for value in currents if math.isfinite(value)), default=design.value('current')):.3g} A"
 
 
 def _bonding_heat(design: Design, _: Dimensions) -> str:
