@@ -145,10 +145,10 @@ def test_every_limit_that_the_fixed_inputs_break_is_told_at_once() -> None:
         "mode: shear\nmodule: {wire_diameter: 4 mm, coil_diameter: 12 mm, core_radius: 6 mm}\n"
         'vary: {current: [0.5 A, 2.5 A]}\nrequire: {envelope_diameter: "<= 100 mm"}\nminimize: peak_power\n'
     )
-    told = [line for line in said.splitlines() if "nothing under `vary` can change it" in line]
-    assert any("spring_index >= 4 does not hold (it is 3; " in line for line in told)
-    assert any("envelope_diameter" in line for line in told)
-    assert len(told) >= 3
+    lines = [line for line in said.splitlines() if "nothing under `vary` can change it" in line]
+    assert any("spring_index >= 4 does not hold (it is 3; " in line for line in lines)
+    assert any("envelope_diameter" in line for line in lines)
+    assert len(lines) >= 3
 
 
 def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> None:

@@ -143,7 +143,7 @@ class WrittenStep(NamedTuple):
     needs: str = ""
     """Hands, fixture, tools, access, and what is checked at its end."""
     opens: bool = False
-    """Whether it takes the module apart again."""
+    """True where it takes the module apart again."""
 
 
 def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[WrittenStep]:

@@ -80,7 +80,7 @@ class Item:
     asks: tuple[float, float] = (0.0, 0.0)
     """Volts and amperes that a supply or a driver must bear."""
     treatment: str = ""
-    """What the specimens of its material had undergone."""
+    """Treatment of the specimens that gave its material's strength."""
 
     @property
     def is_ordered(self) -> bool:

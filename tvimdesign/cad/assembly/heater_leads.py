@@ -30,7 +30,7 @@ _ROOM = ("cutout_ground_gap", "cutout_retainer_gap")
 NOT_TO_BE_ORDERED = "Not to be ordered"
 """In the title of a part if no listed type fits; its place is kept."""
 HOLDING = "for a week at its rated current"
-"""What a holding temperature means, by IEC 60691."""
+"""Meaning of a holding temperature, by IEC 60691."""
 _SMALL_FOIL = 2e-4
 """Area [m^2] below which the note asks whether a foil has room for its leads, assumed."""
 _ROUNDING = 1e-6

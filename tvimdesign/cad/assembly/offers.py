@@ -37,7 +37,7 @@ class Offer:
     price: float | None = None
     high: float | None = None
     to_order: bool = False
-    """Whether nobody has it in stock."""
+    """True where nobody has it in stock."""
     like: str = ""
     """Number of the neighbour whose price per piece was taken."""
     voltage: float = math.inf

@@ -31,7 +31,7 @@ _LEVELS = ("grave", "serious", "")
 _VARY = "vary the current or a size, and try"
 """What a study that varies nothing is advised, if a requirement is the cure."""
 _OTHER_SIZES = "with other sizes, try"
-"""What is advised if a part or material does not cure with the sizes of the design."""
+"""Advice where a part or material does not cure with the sizes of the design."""
 
 
 class RunWarning(NamedTuple):
