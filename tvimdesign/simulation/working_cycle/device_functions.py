@@ -6,9 +6,10 @@ values of the quantities that a simulation or the optimiser supplies, in the ord
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import threading
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,8 +22,41 @@ from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
 
+MOST_KEPT = 8
+"""Structures of which each thread keeps the functions."""
+
+
+class _Kept(threading.local):
+    """Functions of the structures that a thread used last: a tape has one room to work in, so threads share none."""
+
+    def __init__(self) -> None:
+        self._structures: deque[tuple[tuple[Any, ...], dict[str, Any]]] = deque(maxlen=MOST_KEPT)
+
+    def of(self, structure: tuple[Any, ...]) -> dict[str, Any]:
+        """Return the functions of a structure by name, none where it is new; the caller adds to them."""
+        for kept in self._structures:
+            if kept[0] == structure:
+                return kept[1]
+        self._structures.append((structure, {}))
+        return self._structures[-1][1]
+
+
+_kept = _Kept()
+
+
+def built_once(build: Callable[[DeviceFunctions], Any]) -> Any:
+    """Make a property of a method: built when first asked for, for all devices of one structure."""
+
+    def value(device: DeviceFunctions) -> Any:
+        if build.__qualname__ not in device._built:
+            device._built[build.__qualname__] = build(device)
+        return device._built[build.__qualname__]
+
+    return property(value, doc=build.__doc__)
+
+
 class DeviceFunctions:
-    """One device with its records chosen. Functions are built when first asked for and kept."""
+    """One device with its records chosen. Devices that differ in numbers alone share their functions."""
 
     def __init__(self, table: Table, given: Mapping[str, Any], points: Sequence[str], cells: int) -> None:
         """Index the numbers of `given`; records and options stay constants. `cells` divides the polymer layer."""
@@ -34,26 +68,32 @@ class DeviceFunctions:
         self.index = {name: i for i, name in enumerate(self.names)}
         self.words = {name: value for name, value in given.items() if name not in self.index}
         self.switch_names = tuple(row.name for row in table.supplied)
-        self._some: dict[tuple[str, ...], Any] = {}
-        """Functions of outputs that were wanted together: to build one takes longer than a hundred values of it."""
+        self._rotor_cells = int(self.start[self.index["rotor_cells"]])
+        """A shape, not a number of the model."""
+        self._built = _kept.of((table, self.names, self.words, self.points, cells, self._rotor_cells, *self._apart))
+        """What is built, by the name of its property or by the outputs of a function."""
 
-    @cached_property
+    @property
+    def _apart(self) -> tuple[Any, ...]:
+        """What else tells structures apart."""
+        return ()
+
+    @built_once
     def _symbols(self) -> tuple[Any, Any, dict[str, Any]]:
         inputs = ca.SX.sym("inputs", len(self.names))
         cycle = ca.SX.sym("cycle", len(self.switch_names))
         known = dict(self.words)
         entries = symbols(inputs)
         known.update({name: entries[i] for i, name in enumerate(self.names)})
-        # The count of cells is a shape, not a number of the model: it stays what it is.
-        known["rotor_cells"] = int(self.start[self.index["rotor_cells"]])
+        known["rotor_cells"] = self._rotor_cells
         return inputs, cycle, known
 
-    @cached_property
+    @built_once
     def _settled(self) -> dict[str, Any]:
         """All that follows from the inputs alone, written once for the outputs and every phase."""
         return self.table.settled(self._symbols[2])
 
-    @cached_property
+    @built_once
     def _known(self) -> dict[str, Any]:
         """All that is written so far, with the cycle's values as symbols; outputs that are asked for are added."""
         return {**self._settled, **self._cycle}
@@ -62,7 +102,7 @@ class DeviceFunctions:
     def _cycle(self) -> dict[str, Any]:
         return dict(zip(self.switch_names, symbols(self._symbols[1]), strict=True))
 
-    @cached_property
+    @built_once
     def phases(self) -> dict[str, PhaseFunctions]:
         """Every phase of the working cycle by name, in the order they are gone through."""
         inputs, known = self._symbols[0], self._settled
@@ -71,12 +111,12 @@ class DeviceFunctions:
             for phase in self.table.phases
         }
 
-    @cached_property
+    @built_once
     def engines(self) -> dict[str, PhaseEngine]:
         """The engine of every phase by name; what one records serves all who step this device."""
         return {name: PhaseEngine(phase) for name, phase in self.phases.items()}
 
-    @cached_property
+    @built_once
     def either_way(self) -> PhaseFunctions:
         """The first phase with a layer that has its history from the start: it melts and freezes at any current.
 
@@ -85,7 +125,7 @@ class DeviceFunctions:
         phase = replace(self.table.phases[0], history=True)
         return PhaseFunctions(self.table, phase, self._symbols[0], self._settled, self.cells, self.names)
 
-    @cached_property
+    @built_once
     def output_names(self) -> list[str]:
         """Every output's full name in the table's order."""
         return self.table.names(self.points)
@@ -100,7 +140,7 @@ class DeviceFunctions:
         values = self.table.resolve(known, wanted)
         return lean_function("outputs", [inputs, cycle], ca.vertcat(*(values[name] for name in wanted)))
 
-    @cached_property
+    @built_once
     def every_output(self) -> Any:
         """The function of all outputs, for evaluation and derivatives."""
         return self.outputs(self.output_names)
@@ -115,10 +155,10 @@ class DeviceFunctions:
         """Return the wanted outputs in SI: quicker than all of them on a first call."""
         if not wanted:
             return {}
-        key = tuple(wanted)
-        if key not in self._some:
-            self._some[key] = self.outputs(wanted)
-        return self._evaluated(self._some[key], wanted, inputs, cycle)
+        key = " ".join(wanted)
+        if key not in self._built:
+            self._built[key] = self.outputs(wanted)
+        return self._evaluated(self._built[key], wanted, inputs, cycle)
 
     def _evaluated(
         self, function: Any, names: Sequence[str], inputs: NDArray[np.float64], cycle: Mapping[str, float]

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Input, Table
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, built_once
 from tvimdesign.study import Options, Study
 
 Array = NDArray[np.float64]
@@ -80,7 +80,11 @@ class MixedDevice(DeviceFunctions):
                 mixed_inputs[self.index[name]] = mixed_inputs[places] @ np.array(values)
         return mixed_inputs
 
-    @cached_property
+    @property
+    def _apart(self) -> tuple[Any, ...]:
+        return self.mixtures
+
+    @built_once
     def _symbols(self) -> tuple[Any, Any, dict[str, Any]]:
         inputs, cycle, known = super()._symbols
         for mixture in self.mixtures:
