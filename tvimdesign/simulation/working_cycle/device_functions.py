@@ -21,7 +21,6 @@ from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
-
 MOST_KEPT = 8
 """Structures of which each thread keeps the functions."""
 
@@ -44,7 +43,7 @@ class _Kept(threading.local):
 _kept = _Kept()
 
 
-def built_once(build: Callable[[DeviceFunctions], Any]) -> Any:
+def built_once(build: Callable[[Any], Any]) -> Any:
     """Make a property of a method: built when first asked for, for all devices of one structure."""
 
     def value(device: DeviceFunctions) -> Any:

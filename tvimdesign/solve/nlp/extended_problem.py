@@ -27,14 +27,14 @@ class ExtendedProblem:
         A further unknown (a column of `by_further`) moves the residual of each limit (a row) in proportion, and counts
         by its weight in what is minimised, beside a `share` of the problem's own objective.
         """
-        self.problem, self._parameters = problem, parameters
+        self.problem, self.parameters = problem, parameters
         self._by_further, self._weights, self._share = by_further, weights, share
         self.unknown_count, self.row_count = problem.unknown_count + len(weights), problem.row_count
 
     def at(self, x: Array) -> Point:
         """Evaluate the problem and its further unknowns at a point."""
         size, first = self.problem.unknown_count, self.problem.equation_count
-        point = self.problem.at(x[:size], self._parameters)
+        point = self.problem.at(x[:size], self.parameters)
         if self._by_further is None:
             return point
         further, limits = x[size:], slice(first, first + len(self._by_further))

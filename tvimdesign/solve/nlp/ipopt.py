@@ -221,9 +221,11 @@ class _Part(ca.Callback):
             self._held.error = error
             return 1
         of_objective = self._part == "objective"
-        if of_objective and not self._sloped:
-            self._held.count_point()
-        computed = (point.objective, point.gradient) if of_objective else (point.rows, point.jacobian)
+        computed: tuple[Any, Any] = (point.rows, point.jacobian)
+        if of_objective:
+            computed = (point.objective, point.gradient)
+            if not self._sloped:
+                self._held.count_point()
         for result, values in zip(results, computed, strict=False):
             if result is not None:
                 np.frombuffer(result)[:] = np.ravel(values, order="F")

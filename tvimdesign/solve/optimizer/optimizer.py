@@ -31,6 +31,8 @@ from tvimdesign.study import ProfileOptions, Range, Study, given
 
 SETTLED = 1e-4
 """Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
+NEAR = 0.3
+"""Difference of the unknowns up to which a run begins with the steps of another."""
 MOST_GRIDS = 4
 """Times the steps are placed anew for one run."""
 _BESIDE, _TRIALS = (0.1, 0.3, 1.0), 10
@@ -250,7 +252,9 @@ class Optimizer:
             answer, stats = self._answer(programme, region, x, multipliers, ends, beginning)
             iterations += int(stats["iter_count"])
             x = np.asarray(answer["x"]).ravel()
-            if sharp or not stats["success"] or not self.problem.events or self._settled(x[:count], parameters):
+            if sharp or not stats["success"] or not self.problem.events:
+                break
+            if self._settled(programme, x, ends["ubg"]):
                 break
             multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
             beginning = "warm"
@@ -285,7 +289,7 @@ class Optimizer:
 
         An event that never comes has no derivatives for a search to begin with.
         """
-        self.problem.place_grids(x, parameters)
+        self.problem.place_grids(x, parameters, NEAR)
         if self.mixtures or not self._never_ends(x, parameters):
             return x
         count, random = len(self.free), np.random.default_rng(self.study.solver.seed)
@@ -304,13 +308,13 @@ class Optimizer:
         values = (value for name, value in point.values.items() if not on_cycle(self.table, name))
         return any(np.isinf(time) for time in point.times.values()) and bool(np.all(np.isfinite(list(values))))
 
-    def _settled(self, x: Array, parameters: Parameters) -> bool:
-        """Return whether new steps at an optimum leave it where it is."""
-        before = self.problem.at(x, parameters)
-        self.problem.place_grids(x, parameters)
-        after = self.problem.at(x, parameters)
-        moved = np.append(np.abs(after.rows - before.rows), abs(after.objective / (before.objective or 1.0) - 1.0))
-        return bool(np.max(moved) < SETTLED)
+    def _settled(self, programme: ExtendedProblem, x: Array, most: Array) -> bool:
+        """Return whether new steps at an optimum leave it and its active rows, which are at `most`, where they are."""
+        before = programme.at(x)
+        self.problem.place_grids(x[: self.problem.unknown_count], programme.parameters)
+        after = programme.at(x)
+        moved = np.abs(after.rows - before.rows)[np.fmax(before.rows, after.rows) > most - SETTLED]
+        return bool(np.max(np.append(moved, abs(after.objective / (before.objective or 1.0) - 1.0))) < SETTLED)
 
     def _checked(self, x: Array, parameters: Parameters, most: Array) -> tuple[dict[str, Any], dict[str, Any]]:
         """Return the answer of a solver if nothing is free: whether the rows are within their bounds."""
