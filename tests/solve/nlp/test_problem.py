@@ -15,7 +15,7 @@ from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
 from tvimdesign.solve.nlp.problem import LATEST
 from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
-from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Run
 from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
 from tvimdesign.solve.optimizer.parametric_optimizer import ParametricOptimizer
 from tvimdesign.study import Study, given, read_study_text, read_tree
