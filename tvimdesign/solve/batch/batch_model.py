@@ -27,6 +27,8 @@ from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 
 Array = NDArray[np.float64]
 
+_LOOSE = 2e-3
+"""Tolerance of a simulation that a pace is taken from."""
 SLOW = 0.1
 """Share of the horizon that a phase is paced by which never ends as drawn."""
 
@@ -44,7 +46,7 @@ class BatchModel:
         places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
         self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
         self._places = [model.index[name] for name in moving]
-        self._simulator = Simulator(model)
+        self._simulator = Simulator(model, _LOOSE, samples=2)
 
     @cached_property
     def _pace(self) -> Pace | None:

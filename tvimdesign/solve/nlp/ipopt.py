@@ -256,12 +256,17 @@ class _Stop(ca.Callback):
     def get_sparsity_in(self, place: int) -> Any:
         return ca.Sparsity.dense(self._sizes[ca.nlpsol_out(place)])
 
-    def eval(self, _: Any) -> list[int]:
+    def has_eval_buffer(self) -> bool:
+        return True
+
+    def eval_buffer(self, _: Any, results: Sequence[memoryview]) -> int:
+        """Write whether to end."""
         if not self.status and self.deadline.passed:
             self.status = TIME_OVER
         elif not self.status and self.points > self._most_points:
             self.status = _ITERATIONS_OVER
-        return [int(bool(self.status))]
+        np.frombuffer(results[0])[:] = bool(self.status)
+        return 0
 
 
 def solver_of(unknowns: int, rows: int, options: SolverOptions, beginning: Beginning = "cold") -> ProgrammeSolver:
