@@ -6,8 +6,6 @@ import math
 from collections import OrderedDict
 from typing import Any
 
-import numpy as np
-
 from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError, TvimError
 from tvimdesign.device import Choice
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -21,7 +19,7 @@ from tvimdesign.study import Study, drawn, given, read_tree
 from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy, Texts, set_in
 
 MOST_KEPT = 8
-"""Compiled modules, and problems, that are kept: cells of one kind mostly follow one another."""
+"""Problems that stay: cells of one kind mostly follow one another."""
 _LONGEST_REASON = 300
 """Letters of a reason at most."""
 
@@ -31,7 +29,6 @@ class CellAnswers:
 
     def __init__(self, job: SweptStudy) -> None:
         self._job = job
-        self._simulators: OrderedDict[Any, Simulator] = OrderedDict()
         self._searches: OrderedDict[Texts, AnchoredSearch] = OrderedDict()
 
     def answer(self, cell: Cell) -> CellAnswer:
@@ -55,31 +52,18 @@ class CellAnswers:
             followed = [name for name, number in zip(self._job.names, self._job.numbers, strict=True) if number]
             tree = set_in(self._job.tree, [name for name, _ in named], [text for _, text in named])
             self._searches[words] = AnchoredSearch(read_tree(tree), followed, read_tree(self._job.tree))
-            _forget_oldest(self._searches)
+            if len(self._searches) > MOST_KEPT:
+                self._searches.popitem(last=False)
         self._searches.move_to_end(words)
         return self._searches[words]
 
     def _evaluated(self, study: Study) -> CellAnswer:
         study = drawn(study)
         numbers = given(study)
-        simulator = self._simulator(study, numbers)
-        model = simulator.model
-        inputs = np.array([float(numbers[name]) for name in model.names])
-        values = model.values(inputs, simulator.run_to_show(inputs, given_profiles(study)).values)
-        stated = {name: float(inputs[i]) for name, i in model.index.items()}
+        model = DeviceFunctions(study.table, numbers, tuple(study.operating_points), study.solver.cells)
+        values = model.values(model.start, Simulator(model).run_to_show(model.start, given_profiles(study)).values)
+        stated = {name: float(model.start[i]) for name, i in model.index.items()}
         return self._answer_of("evaluated", study, {**stated, **values}, {**numbers, **model.words})
-
-    def _simulator(self, study: Study, numbers: dict[str, Any]) -> Simulator:
-        """Return the compiled module: one of the same words and conditions serves every number."""
-        words = tuple(getattr(numbers[row.name], "name", numbers[row.name]) for row in study.table.choices)
-        shapes = tuple(numbers[row.name] for row in study.table.inputs if row.integer)
-        key = (words, shapes, tuple(study.operating_points), study.solver.cells)
-        if key not in self._simulators:
-            model = DeviceFunctions(study.table, numbers, tuple(study.operating_points), study.solver.cells)
-            self._simulators[key] = Simulator(model)
-            _forget_oldest(self._simulators)
-        self._simulators.move_to_end(key)
-        return self._simulators[key]
 
     def _optimised(self, study: Study, texts: Texts) -> CellAnswer:
         search = self.search_of(texts)
@@ -129,8 +113,3 @@ def _number(value: float) -> float | None:
 def _short(text: str) -> str:
     text = " ".join(text.split())
     return text if len(text) <= _LONGEST_REASON else text[: _LONGEST_REASON - 3] + "..."
-
-
-def _forget_oldest(kept_ones: OrderedDict[Any, Any]) -> None:
-    if len(kept_ones) > MOST_KEPT:
-        kept_ones.popitem(last=False)

@@ -21,26 +21,26 @@ from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
-MOST_KEPT = 8
-"""Structures of which each thread keeps the functions."""
+MOST_STRUCTURES = 8
+"""Structures whose functions a thread keeps."""
 
 
-class _Kept(threading.local):
+class _Structures(threading.local):
     """Functions of the structures that a thread used last: a tape has one room to work in, so threads share none."""
 
     def __init__(self) -> None:
-        self._structures: deque[tuple[tuple[Any, ...], dict[str, Any]]] = deque(maxlen=MOST_KEPT)
+        self._last: deque[tuple[tuple[Any, ...], dict[str, Any]]] = deque(maxlen=MOST_STRUCTURES)
 
-    def of(self, structure: tuple[Any, ...]) -> dict[str, Any]:
+    def functions_of(self, structure: tuple[Any, ...]) -> dict[str, Any]:
         """Return the functions of a structure by name, none where it is new; the caller adds to them."""
-        for kept in self._structures:
-            if kept[0] == structure:
-                return kept[1]
-        self._structures.append((structure, {}))
-        return self._structures[-1][1]
+        for known, functions in self._last:
+            if known == structure:
+                return functions
+        self._last.append((structure, {}))
+        return self._last[-1][1]
 
 
-_kept = _Kept()
+_structures = _Structures()
 
 
 def built_once(build: Callable[[Any], Any]) -> Any:
@@ -69,12 +69,14 @@ class DeviceFunctions:
         self.switch_names = tuple(row.name for row in table.supplied)
         self._rotor_cells = int(self.start[self.index["rotor_cells"]])
         """A shape, not a number of the model."""
-        self._built = _kept.of((table, self.names, self.words, self.points, cells, self._rotor_cells, *self._apart))
+        self._built = _structures.functions_of(
+            (table, self.names, self.words, self.points, cells, self._rotor_cells, *self._apart)
+        )
         """What is built, by the name of its property or by the outputs of a function."""
 
     @property
     def _apart(self) -> tuple[Any, ...]:
-        """What else tells structures apart."""
+        """Return what else tells structures apart."""
         return ()
 
     @built_once
@@ -89,12 +91,12 @@ class DeviceFunctions:
 
     @built_once
     def _settled(self) -> dict[str, Any]:
-        """All that follows from the inputs alone, written once for the outputs and every phase."""
+        """Return all that follows from the inputs alone, written once for the outputs and every phase."""
         return self.table.settled(self._symbols[2])
 
     @built_once
     def _known(self) -> dict[str, Any]:
-        """All that is written so far, with the cycle's values as symbols; outputs that are asked for are added."""
+        """Return what is written so far, with the cycle's values as symbols; what is asked for is added."""
         return {**self._settled, **self._cycle}
 
     @property
@@ -103,7 +105,7 @@ class DeviceFunctions:
 
     @built_once
     def phases(self) -> dict[str, PhaseFunctions]:
-        """Every phase of the working cycle by name, in the order they are gone through."""
+        """Return every phase of the working cycle by name, in the order they are gone through."""
         inputs, known = self._symbols[0], self._settled
         return {
             phase.name: PhaseFunctions(self.table, phase, inputs, known, self.cells, self.names)
@@ -112,12 +114,12 @@ class DeviceFunctions:
 
     @built_once
     def engines(self) -> dict[str, PhaseEngine]:
-        """The engine of every phase by name; what one records serves all who step this device."""
+        """Return the engine of every phase by name; what one records serves all who step this device."""
         return {name: PhaseEngine(phase) for name, phase in self.phases.items()}
 
     @built_once
     def either_way(self) -> PhaseFunctions:
-        """The first phase with a layer that has its history from the start: it melts and freezes at any current.
+        """Return the first phase with a layer that has its history from the start: it melts and freezes at any current.
 
         It melts `melting_time` behind the equilibrium curve, which the first phase follows.
         """
@@ -126,7 +128,7 @@ class DeviceFunctions:
 
     @built_once
     def output_names(self) -> list[str]:
-        """Every output's full name in the table's order."""
+        """Return every output's full name in the table's order."""
         return self.table.names(self.points)
 
     def outputs(self, wanted: Sequence[str], instead: Mapping[str, float] | None = None) -> Any:
@@ -141,7 +143,7 @@ class DeviceFunctions:
 
     @built_once
     def every_output(self) -> Any:
-        """The function of all outputs, for evaluation and derivatives."""
+        """Return the function of all outputs, for evaluation and derivatives."""
         return self.outputs(self.output_names)
 
     def values(self, inputs: NDArray[np.float64], cycle: Mapping[str, float]) -> dict[str, float]:

@@ -51,7 +51,6 @@ class Optimizer:
         study: Study,
         reference: dict[str, float] | None = None,
         progress: Progress = lambda _: None,
-        simulator: Simulator | None = None,
         objectives: Sequence[str] = (),
         *,
         without_cycle: bool = False,
@@ -60,18 +59,17 @@ class Optimizer:
     ) -> None:
         """Compile the device, simulate the study's start, and build the problem.
 
-        `reference` are the values the minimised outputs are divided by: the study's start unless given. A `simulator`
-        of the same device saves compiling it again. Outputs among the `objectives` can be weighed and bounded by an
-        `Objective` whether the study minimises them or not. `without_cycle` leaves out the limits that depend on a
-        working cycle, so that none is simulated. Runs end at the `deadline`, the study's time limit from now on unless
-        given. Records in `mixtures` are free, too, by their shares. Raises InfeasibleError where a limit is violated
-        that nothing free can cure, InputError from the table.
+        `reference` are the values the minimised outputs are divided by: the study's start unless given. Outputs among
+        the `objectives` can be weighed and bounded by an `Objective` whether the study minimises them or not.
+        `without_cycle` leaves out the limits that depend on a working cycle, so that none is simulated. Runs end at the
+        `deadline`, the study's time limit from now on unless given. Records in `mixtures` are free, too, by their
+        shares. Raises InfeasibleError where a limit is violated that nothing free can cure, InputError from the table.
         """
         self.study, self.table, self.progress = study, study.table, progress
         self.deadline = deadline or Deadline(study.solver.time_limit)
         began = time.perf_counter()
         self.mixtures = tuple(mixtures)
-        self.simulator = simulator or Simulator(self._device())
+        self.simulator = Simulator(self._device())
         self.model = self.simulator.model
         self.currents = tuple(self._current(phase, pieces) for phase, pieces in study.profile.pieces().items())
         rows = {current.row for current in self.currents}
@@ -99,9 +97,7 @@ class Optimizer:
         if not self.currents:
             return None
         study = self.study.model_copy(update={"profile": ProfileOptions()})
-        return Optimizer(
-            study, self.reference, self.progress, self.simulator, deadline=self.deadline, mixtures=self.mixtures
-        )
+        return Optimizer(study, self.reference, self.progress, deadline=self.deadline, mixtures=self.mixtures)
 
     def _free(self, name: str) -> Free:
         vary = self.study.vary[name]
