@@ -114,7 +114,7 @@ def test_the_new_study_ends_with_a_module_to_build(process: Command, tmp_path: P
     process("new", file)
     done = process("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out", spread="on")
     assert done.returncode == 0, done.stderr
-    assert done.stdout.startswith("Build it")
+    assert done.stdout.startswith("Build it · ")
 
 
 @pytest.mark.parametrize(

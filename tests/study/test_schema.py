@@ -123,7 +123,7 @@ def test_schema_and_studies_name_format_and_version() -> None:
 def test_the_template_and_its_commented_lines_fit_the_schema() -> None:
     study = read_study_text(template_text(), "template.yaml")
     assert study.task == "optimize"
-    assert given(study)["spring_material"].name == study.module["spring_material"]
+    assert given(study)["process"].name == study.module["process"]
     validator = jsonschema.Draft7Validator(json_schema({"shear": table_for("shear")}))
     validator.validate(yaml.safe_load(template_text()))
     shown = re.findall(r"^(\w+):", template_text(), re.MULTILINE)
