@@ -46,11 +46,15 @@ class PhaseResults:
 
     def add_samples(self, found: Found, wanted: Collection[str] | None) -> None:
         """Add every quantity whose highest value is asked of, at the end of every step."""
-        for row in self.of.phase.paths:
-            if row.reduce == "maximum" and (wanted is None or row.name in wanted):
-                every = [self.run.slopes(row.name, one) for one in self.run.instants]
-                values, slopes = zip(*every, strict=True)
-                found.samples[row.name] = np.array(values), np.array(slopes)
+        names = [row.name for row in self.of.phase.paths if row.reduce == "maximum"]
+        groups = {name: self.of.together[name] for name in names if wanted is None or name in wanted}
+        seen = {
+            group: [self.run.slopes_together(group, one) for one in self.run.instants]
+            for group in {group for group, _ in groups.values()}
+        }
+        for name, (group, place) in groups.items():
+            values, slopes = zip(*((values[place], slopes[place]) for values, slopes in seen[group]), strict=True)
+            found.samples[name] = np.array(values), np.array(slopes)
 
     def _highest(self, name: str, passed: list[Instant]) -> tuple[float, Array]:
         """Return the maximum of a quantity up to the end; between two steps it is looked for along cubics."""

@@ -187,13 +187,19 @@ class PhaseRun:
 
     def slopes(self, name: str, now: Instant) -> tuple[float, Array]:
         """Return a quantity at an instant, and its slopes; along directions beyond the run's the inputs stay."""
-        (group, place), size = self.of.together[name], self.of.size
-        k, dk = self._constants_of(group)
-        dk = np.pad(dk, ((0, 0), (0, now.of_state.shape[1] - self.lanes)))
+        group, place = self.of.together[name]
+        values, slopes = self.slopes_together(group, now)
+        return float(values[place]), slopes[place]
+
+    def slopes_together(self, group: tuple[str, ...], now: Instant) -> tuple[Array, Array]:
+        """Return quantities that are recorded together at an instant, and their slopes as `slopes` does."""
+        (k, dk), size, further = self._constants_of(group), self.of.size, now.of_state.shape[1] - self.lanes
+        if further:
+            dk = np.hstack([dk, np.zeros((len(dk), further))])
         ((values, slopes),) = self.of.watch(*group).at.tangents(
             (now.state[:size], np.array([now.current]), k), (now.of_state[:size], now.of_current[None], dk)
         )
-        return float(values[place]), slopes[place]
+        return values, slopes
 
     def _constants_of(self, group: tuple[str, ...]) -> tuple[Array, Array]:
         if group not in self._given:
