@@ -14,7 +14,6 @@ from support import study_path
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule
 from tvimdesign.simulation.measurement.record_file import write_record
-from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
@@ -37,8 +36,8 @@ def simulated() -> Mapping[str, np.ndarray]:
     rows = {"hot_temperature": 1, "far_face_temperature": 31, "rotor_temperature": 39}
     seen, before = [], None
     for phase, seconds, current in (("softening", HEATED, 1.5), ("stiffening", COOLED, 0.0)):
-        simulator = CvodesSimulator(model, 1e-8, int(seconds / EVERY))._phase(phase)
-        course = simulator.trace(model.start, CurrentProfile.constant(current), before, seconds)
+        simulator = CvodesSimulator(model, 1e-8, int(seconds / EVERY))
+        course = simulator.trace(phase, model.start, before, seconds, current)
         before, count = course.states[:, -1], len(course.times)
         inputs = np.repeat(model.start[:, None], count, axis=1)
         every = model.phases[phase].temperatures.map(count)(course.states, course.currents[None, :], inputs)
