@@ -1,18 +1,31 @@
-"""Small campaigns: random folders, random studies, and a machine that lacks something."""
+"""Campaigns of folders, kills and mutated inputs."""
 
 import dataclasses
+import json
+import os
 import random
-from collections.abc import Iterator
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import folders
+import fuzz
+import kills
 import machine
 import numpy as np
 import pytest
 import random_studies
 from attack import Attack
+from explorer_talk import Conversation, not_kept
+from fuzzing import watched
+from fuzzing.kind import Drawn, Kind
+from kills import Try
 
 from tvimdesign.base import atomic_files, manifest
+from tvimdesign.explore.states.history import open_history, write_history, written_digest
+from tvimdesign.explore.states.source import open_source
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study_text
 
@@ -100,3 +113,165 @@ def test_what_is_no_optimum_is_bettered() -> None:
     assert attack.improved(values, answered.solution.reference) <= random_studies.BETTER
     values["wire_diameter"] *= 1.05  # it keeps all limits, and is 1.3 % higher
     assert attack.improved(values, answered.solution.reference) > random_studies.BETTER
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize(
+    ("command", "number", "after"),
+    [
+        ("run", signal.SIGKILL, 1.0),
+        ("simulate", signal.SIGTERM, 1.2),
+        ("explorer", signal.SIGINT, 2.5),
+        *(
+            pytest.param(command, number, after, marks=pytest.mark.slow)
+            for command, after in (
+                ("run", 2.5),
+                ("run_with_parts", 12.0),
+                ("front", 4.0),
+                ("sweep", 5.0),
+                ("parts", 6.0),
+                ("explorer", 6.0),
+                ("tolerate", 6.0),
+                ("robot", 6.5),
+                ("prove", 6.0),
+            )
+            for number in kills.SIGNALS
+        ),
+    ],
+)
+def test_a_command_that_is_ended_leaves_nothing_behind(
+    command: str, number: signal.Signals, after: float, tmp_path: Path
+) -> None:
+    kills.prepare(command, tmp_path)
+    own = tmp_path / "one"
+    own.mkdir()
+    assert kills.faults_after(Try(command, number, after), own) == []
+
+
+def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(kills.COMMANDS, "run", ["run", "there_is_none.yaml"])
+    with pytest.raises(SystemExit, match="run ends with 2 where nobody ends it"):
+        kills.run_through("run", tmp_path)
+
+
+@pytest.mark.gate
+def test_a_command_that_goes_on_as_if_nothing_had_come_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    goes_on = (
+        "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN)\nwhile time.process_time() < 3.0: pass"
+    )
+
+    def start(_: list[str], own: Path) -> subprocess.Popen[bytes]:
+        (own / "said.txt").write_text("")
+        return subprocess.Popen([sys.executable, "-S", "-c", goes_on], cwd=own, env=kills.environment(own))
+
+    monkeypatch.setattr(kills, "start", start)
+    (fault,) = kills.faults_after(Try("run", signal.SIGTERM, 0.2), tmp_path)
+    assert fault.startswith("went on for 2.")
+
+
+def test_signals_that_a_shell_has_ignored_are_followed() -> None:
+    asks = "import signal, shell_signals; shell_signals.follow_signals(); print(signal.getsignal(signal.SIGINT))"
+    command = ["sh", "-c", f"trap '' INT; exec {sys.executable} -c '{asks}'"]
+    environment = {**os.environ, "PYTHONPATH": str(Path(kills.__file__).parent)}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert "default_int_handler" in done.stdout
+
+
+def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
+    (tmp_path / "manifest.json").write_text(json.dumps({"status": "running"}))
+    (tmp_path / "results.json").write_text('{"a": ')
+    (tmp_path / "cycle.png").write_bytes(b"\x89PNG")
+    (tmp_path / ".why.csv.x.part").write_text("a")
+    found = kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), through=False)
+    assert found == [
+        ".why.csv.x.part is left half written", "cycle.png is broken", "results.json is broken",
+        "the folder says running, not interrupted",
+    ]  # fmt: skip
+    (tmp_path / "manifest.json").write_text('{"status": ')
+    assert "manifest.json is broken" in kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), through=False)
+    (tmp_path / "joint.fmu").write_bytes(b"PK")
+    assert "joint.fmu is broken" in kills.broken_files(tmp_path, Try("robot", signal.SIGKILL, 1.0), through=False)
+
+
+def test_the_campaign_sees_what_an_explorer_has_lost(tmp_path: Path) -> None:
+    source, talk = open_source(kills.SMALL), Conversation(1)
+    kept = open_history(tmp_path, source.text, source.first)
+    kept.state = kept.state.model_copy(update={"at": {**source.first.at, "current": "1.1 A"}})
+    write_history(tmp_path, kept, written_digest(tmp_path))
+    talk.kept = talk.asked = {"current": "1.2 A"}
+    assert not_kept(talk, kills.SMALL, tmp_path)[0].startswith("kept {")
+    talk.asked = {"current": "1.1 A"}  # it was under way when the explorer was ended
+    assert not_kept(talk, kills.SMALL, tmp_path) == []
+    (tmp_path / "explore.json").write_text("{")
+    assert not_kept(talk, kills.SMALL, tmp_path)[0].startswith("cannot be opened again: ")
+
+
+USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "column_maps"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "inputs"),
+    [
+        *((kind, 15) for kind in (*USUAL, "messages")),
+        ("answers", 4),
+        pytest.param("fits", 4, marks=pytest.mark.slow),
+        *(pytest.param(kind, 500, marks=pytest.mark.slow) for kind in USUAL),
+    ],
+)
+def test_mutated_inputs_are_read_or_refused_in_words(kind: str, inputs: int) -> None:
+    found = fuzz.done(fuzz.Chunk(kind, 5, 0, inputs))
+    assert found.failures == []
+    assert found.inputs >= inputs
+
+
+def test_what_failed_once_fails_no_more() -> None:
+    assert fuzz.known_failures() == []
+
+
+def raises(path: Path) -> None:
+    raise KeyError(path.name)
+
+
+def leaves_a_file(path: Path) -> None:
+    path.with_name("left").write_text("")
+
+
+def removes_a_file(path: Path) -> None:
+    path.unlink()
+
+
+def starts_a_process(_: Path) -> None:
+    subprocess.run([sys.executable, "-V"], capture_output=True, check=True)
+
+
+def spins(_: Path) -> None:
+    while True:
+        pass
+
+
+def panics(_: Path) -> None:
+    raise BaseException("as a library of another language does")
+
+
+@pytest.mark.parametrize(
+    ("use", "fault"),
+    [
+        (raises, "KeyError in "), (leaves_a_file, "touches open of "), (removes_a_file, "touches os.remove of "),
+        (starts_a_process, "touches subprocess.Popen"), (spins, "Hang in "), (panics, "BaseException in "),
+    ],
+)  # fmt: skip
+def test_the_campaign_sees_a_fault(
+    use: Callable[[Path], None], fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(watched, "HANG", 0.05)
+    kind = Kind(lambda _: Drawn("input.txt", b""), use)
+    assert watched.ending(kind, Drawn("input.txt", b"x").written(tmp_path))[0].startswith(fault)
+
+
+@pytest.mark.parametrize(("writes", "inside"), [(True, True), (False, False)])
+def test_what_writes_may_write_beside_its_input_alone(writes: bool, inside: bool, tmp_path: Path) -> None:
+    kind = Kind(lambda _: Drawn("input.txt", b""), leaves_a_file, writes=writes)
+    assert (watched.ending(kind, tmp_path / "input.txt")[0] == "") == inside
+    kind = Kind(lambda _: Drawn("input.txt", b""), lambda _: leaves_a_file(tmp_path / "x"), writes=True)
+    (tmp_path / "own").mkdir()
+    assert watched.ending(kind, tmp_path / "own/input.txt")[0] == f"touches open of {tmp_path / 'left'}"

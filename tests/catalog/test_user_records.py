@@ -6,28 +6,13 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
-from support import ROOT, Command
+from support import ROOT, Command, sample_text
 
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.catalog import Catalog, check_records
 from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 
-GOOD = """
-title: A module I measured
-values:
-  seebeck: {value: 24.1, unit: mV/K, source: our bench, status: measured}
-  resistance: {value: 3.2, unit: ohm, source: our bench, status: measured}
-  conductance: {value: 110, unit: mW/K, source: our bench, status: measured}
-  thickness: {value: 0.06, unit: in, source: caliper, status: measured}
-  area: {value: 16, unit: cm^2, source: caliper, status: measured}
-  mass: {value: 6.1, unit: g, source: scale, status: measured}
-  specific_heat: {value: 500, unit: J/kg/K, low: 400, high: 700, source: "assumed: usual", status: assumed}
-  shear_modulus: {value: 50, unit: MPa, source: rig, status: measured}
-  bulk_modulus: {value: 1.2, unit: GPa, source: rig, status: measured}
-  max_current: {value: 2500, unit: mA, source: maker, status: datasheet}
-  max_temperature: {value: 110, unit: degC, source: maker, status: datasheet}
-words: {form: flexible}
-"""
+GOOD = sample_text("user_polymer")
 
 
 def put(folder: Path, text: str | bytes, category: str = "peltiers", name: str = "mine") -> Catalog:
@@ -142,19 +127,7 @@ def test_a_solid_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad
     assert len(refused.splitlines()) == 1
 
 
-OWN_SPECTRUM = """
-title: A melt I measured
-based_on: pcl_80k
-values:
-  zero_shear_viscosity: {value: 3500, unit: Pa*s, source: our rheometer, status: measured}
-  plateau_modulus: {value: 1000, unit: kPa, source: our rheometer, status: measured}
-tables:
-  melt_spectrum:
-    columns: {relaxation_time: s, modulus: Pa}
-    rows: [[1e-2, 2.5e5], [4e-3, 2.4e5], [1e-4, 3e5], [1e-5, 1e5], [1e-6, 6e4], [1e-7, 5e4]]
-    source: our rheometer
-    status: measured
-"""
+OWN_SPECTRUM = sample_text("user_spectrum")
 """The sum of modulus times time is 3491 Pa s, that of the moduli 1.000 MPa."""
 
 

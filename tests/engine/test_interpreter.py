@@ -1,6 +1,7 @@
-"""The interpreter's operations: values as CasADi's to the last bit, slopes as CasADi's, and the edges of each."""
+"""Tapes are recorded, interpreted and differentiated as CasADi does."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import casadi as ca
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tvimdesign.engine import interpreter
+from tvimdesign.engine import tape as tape_module
 from tvimdesign.engine.tape import Tape
 
 Array = NDArray[np.float64]
@@ -128,3 +130,145 @@ def test_what_an_unused_operand_moves_by_never_comes_in() -> None:
     tape = Tape.of([x], [ca.if_else(x > 0.0, x, ca.sqrt(x))])
     ((value, tangent),) = tape.tangents((np.array([4.0]),), (np.ones((1, 1)),))
     assert (value[0], tangent[0, 0]) == (4.0, 1.0)
+
+
+STEPS = (
+    lambda a, b, _: a + b, lambda a, b, _: a - b, lambda a, b, _: a * b, lambda a, b, _: a / (1.0 + b * b),
+    lambda a, *_: ca.sin(a), lambda a, *_: ca.exp(-a * a),
+    # another offset each time: where two equal values meet in fmin, its derivative is anybody's choice
+    lambda a, b, place: ca.fmin(a, ca.cos(b) + 0.1234 * place), lambda a, b, _: ca.if_else(a < b, a, 0.3 * b),
+)  # fmt: skip
+steps = st.lists(
+    st.tuples(st.integers(0, len(STEPS) - 1), st.integers(0, 10**6), st.integers(0, 10**6)), min_size=1, max_size=60
+)
+
+
+def grown(taken: list[tuple[int, int, int]]) -> tuple[Any, Any, Any]:
+    """Return an expression that grows by an operation of two earlier values at a time, and two of its values."""
+    x = ca.SX.sym("x", 3)
+    values = [x[0], x[1], x[2], ca.SX(0.7)]
+    for kind, one, other in taken:
+        values.append(STEPS[kind](values[one % len(values)], values[other % len(values)], len(values)))
+    return x, ca.vertcat(*values[-5:]), values[len(values) // 2]
+
+
+def operations(tape: Tape) -> int:
+    return int(tape.code.groups[-1, 1])
+
+
+@settings(max_examples=200)
+@given(taken=steps, at=st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3))
+def test_registers_that_are_used_again_never_lose_what_is_still_read(
+    taken: list[tuple[int, int, int]], at: list[float]
+) -> None:
+    x, many, one = grown(taken)
+    tape, function = Tape.of([x], [many, one]), ca.Function("f", [x], [many, one])
+    expected = [np.asarray(ca.densify(part)).ravel() for part in function(at)]
+    for part, other in zip(tape.values(np.array(at)), function(at), strict=True):
+        assert part.tolist() == np.array(other.nonzeros()).tolist()
+    moved = ca.Function("g", [x], [ca.jacobian(ca.vertcat(many, one), x)])
+    tangents = np.concatenate([slope for _, slope in tape.tangents((np.array(at),), (np.eye(3),))])
+    assert tangents == pytest.approx(np.asarray(moved(at)), rel=1e-10, abs=1e-10)
+    assert len(expected[0]) == 5
+
+
+@given(taken=steps, at=st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3), first=st.integers(1, 2))
+def test_a_tape_in_two_parts_is_the_whole(taken: list[tuple[int, int, int]], at: list[float], first: int) -> None:
+    x, many, single = grown(taken)
+    arguments = ca.SX.sym("y", first), ca.SX.sym("k", 3 - first)
+    values = ca.substitute(ca.vertcat(many, single), x, ca.vertcat(*arguments))
+    constants_tape, values_tape = Tape.parted(arguments, [values])
+    (constants,) = constants_tape.values(np.array(at[first:]))
+    (parted,) = values_tape.values(np.array(at[:first]), constants)
+    (whole,) = Tape.of(arguments, [values], inverses=True).values(np.array(at[:first]), np.array(at[first:]))
+    assert parted.tolist() == whole.tolist()
+    used = {int(place) for side in (values_tape.code.first, values_tape.code.second) for place in side}
+    used |= {int(place) for place in values_tape.results[0]}
+    assert set(range(first, first + len(constants))) <= used, "what is handed on is needed"
+
+
+@given(taken=steps)
+def test_no_operation_writes_where_its_own_group_reads(taken: list[tuple[int, int, int]]) -> None:
+    x, many, one = grown(taken)
+    code = Tape.of([x], [many, one]).code
+    for (_, start), (_, end) in zip(code.groups[:-1], code.groups[1:], strict=True):
+        written = code.to[start:end].tolist()
+        assert len(set(written)) == len(written)
+        assert not set(written) & {*code.first[start:end].tolist(), *code.second[start:end].tolist()}
+
+
+def test_a_long_chain_needs_few_registers() -> None:
+    x = ca.SX.sym("x", 2)
+    value = x[0]
+    for _ in range(500):
+        value = ca.sin(value) + x[1]
+    tape = Tape.of([x], [value])
+    assert operations(tape) == 1000
+    assert tape.registers.size <= 2 + 4
+
+
+def test_what_is_written_twice_is_computed_once() -> None:
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    twice = ca.exp(x * y) + ca.exp(y * x) * ca.sin(x + y) - ca.sin(y + x)
+    tape = Tape.of([x, y], [twice, ca.exp(x * y)])
+    # x y, its exponential, x + y, its sine, their product, the sum, the difference
+    assert operations(tape) == 7
+    values = tape.values(np.array([0.3]), np.array([0.9]))
+    assert values[0][0] == pytest.approx(float(ca.Function("f", [x, y], [twice])(0.3, 0.9)), rel=1e-15)
+    assert values[1][0] == pytest.approx(np.exp(0.27), rel=1e-15)
+
+
+def test_operands_that_may_not_change_places_are_not_taken_for_the_same() -> None:
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    tape = Tape.of([x, y], [x - y, y - x, x / y, y / x])
+    assert operations(tape) == 4
+    assert [float(part[0]) for part in tape.values(np.array([3.0]), np.array([2.0]))] == [1.0, -1.0, 1.5, 2.0 / 3.0]
+
+
+def test_results_may_be_arguments_constants_or_empty_and_have_zeros() -> None:
+    x = ca.SX.sym("x", 2)
+    sparse = ca.diag(x)
+    tape = Tape.of([x], [x, ca.SX(4.0), ca.SX(0, 1), sparse])
+    whole, number, nothing, entries = tape.values(np.array([1.5, -2.0]))
+    assert whole.tolist() == entries.tolist() == [1.5, -2.0]
+    assert number.tolist() == [4.0]
+    assert nothing.size == 0
+    ((_, of_whole), (_, of_number), *_) = tape.tangents((np.zeros(2),), (np.array([[1.0, 2.0], [3.0, 4.0]]),))
+    assert of_whole.tolist() == [[1.0, 2.0], [3.0, 4.0]]
+    assert of_number.tolist() == [[0.0, 0.0]]
+
+
+def test_a_run_leaves_nothing_to_the_next() -> None:
+    x = ca.SX.sym("x", 2)
+    tape = Tape.of([x], [ca.sqrt(x[0]) * x[1], 3.0 * x[1]])
+    first = [part.tolist() for part in tape.values(np.array([4.0, 5.0]))]
+    tape.values(np.array([np.nan, np.inf]))
+    tape.tangents((np.array([-1.0, 0.0]),), (np.full((2, 2), np.nan),))
+    assert [part.tolist() for part in tape.values(np.array([4.0, 5.0]))] == first == [[10.0], [15.0]]
+
+
+def test_unknown_operations_are_refused_or_give_no_number() -> None:
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    with pytest.raises(ValueError, match=rf"operation {ca.OP_FMOD} is not known"):
+        Tape.of([x, y], [ca.fmod(x, y) + 1.0])
+    assert np.isnan(interpreter.slopes_of(90, 1.0, 2.0)[0])
+
+
+def test_a_stored_tape_computes_to_the_bit_what_the_recorded_one_does(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    x = ca.SX.sym("x", 3)
+    value = x[0]
+    for k in range(tape_module.LONG):
+        value = ca.sin(value * x[1 + k % 2]) + 0.1 * k
+    monkeypatch.setenv("TVIMDESIGN_CACHE", "")
+    recorded = (Tape.of([x], [value, x[1] * value]), *Tape.parted([x[:2], x[2:]], [value]))
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "cache"))
+    written = (Tape.of([x], [value, x[1] * value]), *Tape.parted([x[:2], x[2:]], [value]))
+    monkeypatch.setattr(tape_module, "_recorded", None)
+    stored = (Tape.of([x], [value, x[1] * value]), *Tape.parted([x[:2], x[2:]], [value]))
+    for tapes in zip(recorded, written, stored, strict=True):
+        at = np.linspace(0.3, 0.9, int(tapes[0].arguments[-1]))
+        values = [[part.tolist() for part in tape.values(at)] for tape in tapes]
+        assert values[0] == values[1] == values[2]
+        assert all(tape.arguments.tolist() == tapes[0].arguments.tolist() for tape in tapes)

@@ -9,6 +9,7 @@ import pytest
 from explored import awaited, talking
 from playwright.sync_api import Browser
 from served_explorer import Served, exploring
+from support import sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si
@@ -20,21 +21,7 @@ from tvimdesign.study.tree import tree_of_text
 from tvimdesign.sweep.plan import plan_of
 from tvimdesign.sweep.run_sweep import Executor
 
-STUDY = """
-name: swept
-mode: shear
-vary: {current: {from: 0.8 A, to: 2.5 A, start: 1.5 A}}
-require: {peak_power: "<= 12 W"}
-minimize: {response_time: 1}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
-solver: {cells: 8, starts: 1}
-sweep:
-  method: list
-  cells:
-  - {pcl_thickness: 0.6 mm, require.peak_power: <= 9 W}
-  - {pcl_thickness: 2 mm, require.peak_power: <= 9 W}
-  - {pcl_thickness: 2 mm, require.peak_power: <= 11 W}
-"""
+STUDY = sample_text("swept_cells")
 """The first cell has no design: its layer is too thin for the strain, which nothing that varies changes."""
 OWN = """
 title: Own

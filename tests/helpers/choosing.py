@@ -3,29 +3,14 @@
 import itertools
 import math
 
+from support import sample_text
+
 from tvimdesign.device import Input
 from tvimdesign.solve.nlp.mixture import discrete_records, with_records
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Options, Study, read_study_text
 
-LISTED = """
-mode: shear
-vary:
-  wire_diameter: {catalog: metric, from: 1.9 mm, to: 2.4 mm}
-  coil_count: {from: 3, to: 4, step: 0.5}
-  arc_count: {choose: [3, 4]}
-  coil_diameter: [12 mm, 30 mm]
-  pcl_outer_radius: [32 mm, 40 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.5 A, 2 A]
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  spring_fatigue_safety: ">= 1.2"
-  peak_power: "<= 9 W"
-  layer_holding_torque: ">= 40 N.m"
-minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 2, cells: 6, fineness: 0.67, max_iterations: 100}
-"""
+LISTED = sample_text("listed_choices")
 
 
 def listed(text: str = LISTED) -> Study:

@@ -197,6 +197,12 @@ class _Phase:
             gap, slopes = self._standing(x, inputs)
             return np.asarray(gap).ravel(), np.asarray(slopes)
 
-        begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
-        found = root(standing, begin, jac=True, options={"xtol": 1e-12})
-        return np.asarray(found.x) if found.success or np.max(np.abs(found.fun)) < 1e-9 else None
+        x = begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
+        for _ in range(50):  # Newton's full steps: shorter ones may stop dead where half of the layer has molten
+            gap, slopes = standing(x)
+            change = np.linalg.solve(slopes, gap)
+            x = x - change
+            if np.max(np.abs(change)) < 1e-10:
+                return x
+        found = root(standing, begin, jac=True)
+        return np.asarray(found.x) if found.success else None

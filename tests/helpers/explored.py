@@ -9,24 +9,12 @@ from typing import Any, TypeVar
 
 from aiohttp import ClientWebSocketResponse
 from aiohttp.test_utils import TestClient, TestServer
+from support import sample_text
 
 from tvimdesign.explore.server import Server
 
 Result = TypeVar("Result")
-SMALL = """
-name: Small
-mode: shear
-module: {cover: none}
-vary:
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: {from: 0.8 A, to: 2.5 A, start: 1.5 A}
-require:
-  peak_power: "<= 12 W"
-  joint_damping@hot: ">= 1 N.m.s/rad"
-minimize: {response_time: 1, module_mass: 1}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
-solver: {cells: 8, starts: 1}
-"""
+SMALL = sample_text("explored")
 TOKEN = "a-token-for-tests"
 LONGEST = 180.0
 """Seconds that a test waits for a message on a busy machine."""

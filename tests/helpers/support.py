@@ -36,6 +36,11 @@ def study_path(name: str) -> Path:
     return shipped if shipped.exists() else ROOT / f"tests/studies/{name}.yaml"
 
 
+def sample_text(name: str) -> str:
+    """Return the text of a study, or of a record, that tests read whole or with changes."""
+    return (ROOT / f"tests/studies/texts/{name}.yaml").read_text(encoding="utf-8")
+
+
 def is_at_work(process: int) -> bool:
     """Whether a process runs; one that has ended and waits to be reaped does not."""
     try:

@@ -1,4 +1,4 @@
-"""The page as a reader meets it: opened from the disk in a browser, read, sorted, brushed, printed."""
+"""The pages of runs and sweeps in a browser."""
 
 import io
 import re
@@ -11,9 +11,14 @@ import pytest
 import sample_pages
 from opened_page import Opened
 from PIL import Image
+from small_sweeps import plan
 
 from tvimdesign.page.blocks import Cell, Grid, Head, Page, Section
-from tvimdesign.page.page_file import MOST, page_html
+from tvimdesign.page.page_file import FILE, MOST, page_html
+from tvimdesign.report.output.command import Command
+from tvimdesign.report.sweep.sweep_page import sweep_page
+from tvimdesign.sweep.gather import columns
+from tvimdesign.sweep.swept_cells import CellTable
 
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")
 SERIOUS = {"serious", "critical"}
@@ -232,3 +237,36 @@ def test_the_page_of_a_run_carries_the_files_of_its_parts(report: Path) -> None:
     assert carried[0] == "cad/step/housing.step"
     assert "cad/step/pcl_arc_1.step" in carried
     assert carried[-1] == "cad/print/housing.3mf"
+
+
+STUDY = """
+mode: shear
+sweep: {over: {pcl_thickness: [0.6 mm, 1 mm, 2 mm], current: [1 A, 1.2 A]}}
+"""
+
+
+def test_a_sweep_is_drawn_and_its_cells_are_brushed(opened: Callable[..., Opened], tmp_path: Path) -> None:
+    study, out = tmp_path / "study.yaml", tmp_path / "out"
+    study.write_text(STUDY)
+    asked = plan(study)
+    table, outputs = CellTable(asked), sum(column.kind == "output" for column in columns(asked))
+    for number in range(6):
+        ended = ["refused", None, None, "no"] if number == 0 else ["evaluated", number % 2, 0.1, ""]
+        values = [None if number == 0 else float("inf") if number == 1 else 10.0 + number] * outputs
+        list(table.seeing([[number + 1, *asked.axis_values(number), *ended, *values]]))
+    with Command(out) as command:
+        command.finish("swept", {}, {}, page=sweep_page(asked, table, command))
+    found = opened(out / FILE)
+    found.figure("curves")
+    figure = found.figure("brushed")
+    rows = found.page.get_by_role("table", name="Cells", exact=True).locator("tbody tr:visible")
+    assert rows.count() == 6  # the one without an answer, too
+    figure.get_by_text("Ends of the axes, typed").click()
+    figure.get_by_role("spinbutton", name="Module mass (g) to").fill("13")
+    found.page.keyboard.press("Tab")
+    figure.locator(".told", has_text="2 of 5 cells are within").wait_for()
+    assert rows.locator("th").all_inner_texts() == ["3", "4"]  # not what never happens
+    figure.get_by_role("button", name="Keep all").click()
+    assert rows.count() == 6
+    assert [url for url in found.requests if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert found.complaints == []

@@ -1,12 +1,16 @@
-"""The command `fit`: a folder, a record, kinds listed, and errors with exit code 2."""
+"""The commands `fit` and `simulate`: their folders, figures and findings."""
 
+import csv
 import json
-from collections.abc import Callable
+import shutil
 from pathlib import Path
 
-import layouts
+import numpy as np
 import pytest
-from support import Command
+from support import ROOT, Command
+
+from tvimdesign.report.simulate_study import figure_data, findings, sheet_csv
+from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 WEIGHTS = "mass [g]; angle [deg]\n0; 0.9\n100; 5.1\n200; 9.3\n300; 13.4\n200; 9.8\n100; 5.6\n0; 1.4\n"
 
@@ -52,20 +56,23 @@ def test_a_fit_without_a_record_keeps_its_folder_and_json_has_it(
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize("made", [
-    layouts.plain_flow, layouts.haake_amplitude, layouts.ta_universal, layouts.trios_dsc, layouts.setaram,
-    layouts.mettler, layouts.netzsch, layouts.plain_dsc,
-], ids=lambda made: made.__name__)  # fmt: skip
-def test_a_file_goes_through_without_an_option(tvimdesign: Command, tmp_path: Path, made: Callable[[], bytes]) -> None:
-    (tmp_path / "data.txt").write_bytes(made())
+@pytest.mark.parametrize(
+    ("file", "kind", "name", "truth"),
+    [
+        ("flow/plain.txt", "flow_curve", "zero_shear_viscosity", 1500.0),
+        ("amplitude/haake.txt", "amplitude_sweep", "linear_strain", 30.0),
+        *((f"dsc/{maker}.txt", "dsc", "melting_end", 62.0)
+          for maker in ("ta_universal", "trios_dsc", "setaram", "mettler", "netzsch", "plain_dsc")),
+    ],
+)  # fmt: skip
+def test_a_file_goes_through_without_an_option(
+    tvimdesign: Command, tmp_path: Path, file: str, kind: str, name: str, truth: float
+) -> None:
+    shutil.copy(ROOT / "tests/simulation/measurement/kinds/instrument_files" / file, tmp_path / "data.txt")
     done = tvimdesign("fit", "data.txt", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     data = json.loads((tmp_path / "results/data-fit/fit.json").read_text())
     values = {entry["name"]: entry for entry in (*data["parameters"], *data["derived"])}
-    kind, name, truth = {
-        layouts.plain_flow: ("flow_curve", "zero_shear_viscosity", layouts.VISCOSITY),
-        layouts.haake_amplitude: ("amplitude_sweep", "linear_strain", 100.0 * layouts.LIMIT),
-    }.get(made, ("dsc", "melting_end", layouts.MELTS_TO))
     assert (data["kind"], data["misfit"]) == (kind, "")
     assert values[name]["value"] == pytest.approx(truth, rel=0.15)
     assert (tmp_path / "results/data-fit/fit.png").exists()
@@ -95,3 +102,90 @@ def test_what_is_wrong_is_said(tvimdesign: Command, weights: Path, words: list[s
     done = tvimdesign("fit", *words, "--no-plots", cwd=weights.parent)
     assert done.returncode == 2
     assert said in done.stderr
+
+
+SHEET = CurveTable(
+    "warm",
+    (
+        Column("temperature", "degC", np.array([273.15, 333.15])),
+        Column("strain", "%", np.array([0.01, 0.02])),
+        Column("strain_low", "%", np.array([0.0, 0.01])),
+        Column("strain_high", "%", np.array([0.02, 0.03])),
+    ),
+)
+LINE = PlottedLine("warm", "temperature", "strain", "as is", ("strain_low", "strain_high"))
+TRIAL = Trial(
+    test="none",
+    title="No test",
+    sheets=(SHEET,),
+    panels=(Panel("A panel", "temperature (°C)", "strain (%)", (LINE,), log_y=True),),
+    findings=(
+        Finding("sure", 0.02, "%", "one number"),
+        Finding("unsure", 0.02, "%", "an interval", 0.01, 0.03),
+        Finding("never", float("inf"), "s", "does not happen"),
+    ),
+)
+
+
+def test_sheets_figures_and_findings_have_numbers_in_their_units() -> None:
+    rows = list(csv.reader(sheet_csv(SHEET).splitlines()))
+    assert rows[0] == ["temperature [°C]", "strain [%]", "strain_low [%]", "strain_high [%]"]
+    assert [float(value) for value in rows[2]] == pytest.approx([60.0, 2.0, 1.0, 3.0])
+    line = figure_data(TRIAL)["panels"][0]["lines"][0]
+    assert line["x"] == pytest.approx([0.0, 60.0])
+    assert line["y"] == pytest.approx([1.0, 2.0])
+    assert line["band"] == [pytest.approx([0.0, 1.0]), pytest.approx([2.0, 3.0])]
+    sure, unsure, never = findings(TRIAL)["findings"]
+    assert sure["value"] == pytest.approx(2.0)
+    assert sure["unit"] == "%"
+    assert "value" not in unsure
+    assert (unsure["low"], unsure["nominal"], unsure["high"]) == pytest.approx((1.0, 2.0, 3.0))
+    assert never["value"] is None
+    json.dumps(findings(TRIAL), allow_nan=False)
+
+
+def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Command, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequency", "--out", out)
+    assert done.returncode == 0, done.stderr
+    files = {path.name for path in out.iterdir()}
+    sheets = {f"frequency_{point}.csv" for point in ("30_degC", "60_degC", "100_degC")} | {"simple_bodies.csv"}
+    assert files == sheets | {f"frequency.{ending}" for ending in ("png", "pdf", "svg")} | {
+        "findings.json",
+        "manifest.json",
+        "report.html",
+        "tested.yaml",
+    }
+    manifest = json.loads((out / "manifest.json").read_text())
+    assert manifest["status"] == "tested"
+    assert manifest["files"].keys() == files - {"manifest.json"}
+    assert "polymers/pcl_80k" in manifest["inputs"]
+    line = next(line for line in done.stdout.splitlines() if line.startswith("storage_modulus@60_degC"))
+    assert " to " in line
+
+    import matplotlib.image as mpimg
+
+    picture = mpimg.imread(out / "frequency.png")
+    assert picture.shape[0] > 500
+    assert np.std(picture[..., :3]) > 0.05
+
+    again = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequency", "--out", out)
+    assert again.returncode == 2
+    assert "--overwrite" in again.stderr
+
+
+def test_scripts_get_json(tvimdesign: Command, tmp_path: Path) -> None:
+    done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "amplitude", "--json", "--out",
+                      tmp_path / "out")  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    reported = json.loads(done.stdout)
+    assert reported["test"] == "amplitude"
+    names = {found["name"] for found in reported["findings"]}
+    assert "linear_limit@30_degC" in names
+
+
+def test_an_unknown_test_leaves_no_folder(tvimdesign: Command, tmp_path: Path) -> None:
+    done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequence", "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert "did you mean frequency?" in done.stderr
+    assert not (tmp_path / "out").exists()

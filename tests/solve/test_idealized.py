@@ -1,16 +1,24 @@
-"""Idealizations beside the module as drawn, and cooling beside the same with its pads unpowered."""
+"""Idealised designs, and ratings that a study accepts to exceed."""
 
 import csv
 import io
+import json
 import math
 from functools import cache
+from pathlib import Path
 
 import pytest
 from answers import shipped_answer
+from support import Command
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
 from tvimdesign.report.run.blocks.facts import more_facts
+from tvimdesign.report.run.blocks.verdict import verdict
+from tvimdesign.report.run.check_study import foreseen_ratings
+from tvimdesign.report.run.front_report import of_ratings, said_of_ratings
+from tvimdesign.report.run.reasons import above_rating
+from tvimdesign.solve.pareto.tradeoff import Point
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
@@ -92,3 +100,100 @@ def test_a_foil_heater_heats_with_either_sign_of_its_current() -> None:
     assert "by the air alone: this heater cannot cool" in stiff(alone)
     assert alone.design.values["frozen_time"] < 0.95 * heated.design.values["frozen_time"] < math.inf
     assert alone.design.values["stiffening_energy"] < 0.01 * alone.design.values["switch_energy"]
+
+
+# PETG, rated for 60 degC, holds pads that take the far face of the layer to 100 degC.
+SEARCHED = """
+mode: shear
+vary: {wire_diameter: [1.5 mm, 3.2 mm], placement_radius: [57 mm, 60 mm]}
+require: {spring_stiffness: ">= 4 N.m/rad"}
+minimize: module_mass
+solver: {starts: 1, cells: 8}
+"""
+BOTH = ("structure_temperature_margin", "stiffening_structure_margin")
+PADS = "peltier_temperature_margin"  # of the default module, 7 K above their 120 degC
+ACCEPTED = f"accept: [{', '.join((*BOTH, PADS))}]\n"
+
+
+@cache
+def answered(accept: str = "", *, searched: bool = True) -> StudyResult:
+    text = SEARCHED + accept if searched else f"mode: shear\n{accept}"
+    return answer(read_study_text(text))
+
+
+def _facts(found: StudyResult) -> dict[str, str]:
+    return {fact.label: fact.text for fact in more_facts(found, {}, None)}
+
+
+def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
+    found = answered()
+    assert found.design.status == "above_rating"
+    assert set(found.design.above_rating) == {*BOTH, PADS}
+    assert found.design.accepting == ()
+    assert found.found  # it is a design all the same: every limit is kept
+    assert verdict(found, {}, []).text.startswith("Above a rating: ")
+    said = above_rating(found, TABLE)
+    assert f"structure_temperature_margin >= 0 K, by {-found.design.value(BOTH[0]):.3g} K" in said
+    assert f"accept: [{', '.join(found.design.above_rating)}]" in said
+
+
+def test_an_optimum_within_accepted_ratings_says_what_it_accepts() -> None:
+    found = answered(ACCEPTED)
+    assert (found.design.status, found.design.above_rating) == ("optimal", ())
+    assert set(found.design.accepting) == {*BOTH, PADS}
+    assert verdict(found, {}, []).kind != "rating"
+    assert f"as the study accepts: {', '.join(found.design.accepting)}" in _facts(found)["Accepts"]
+    assert above_rating(found, TABLE) == ""
+    assert not {check.output for check in found.warnings} & {*BOTH, PADS}
+    assert found.accepted_in_vain == ()
+    found = answered(f"accept: [{', '.join(BOTH)}]\n")
+    assert found.design.status == "above_rating"
+    assert (found.design.above_rating, set(found.design.accepting)) == ((PADS,), set(BOTH))
+    found = answered(ACCEPTED.replace("[", "[pcl_temperature_margin, "))
+    assert found.design.status == "optimal"
+    assert found.accepted_in_vain == ("pcl_temperature_margin",)
+    assert "pcl_temperature_margin: not needed" in _facts(found)["Accepts"]
+
+
+def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
+    found = answered(searched=False)
+    assert found.design.status == "evaluated"
+    assert set(found.design.above_rating) == {*BOTH, PADS}
+    assert verdict(found, {}, []).kind == "rating"
+    assert verdict(answered(ACCEPTED, searched=False), {}, []).kind != "rating"
+
+
+def test_check_says_it_beforehand_of_the_module_a_search_starts_from() -> None:
+    said = foreseen_ratings(read_study_text(SEARCHED))
+    assert [line.split(" is ")[1].split(": ")[1] for line in said if "starts from" in line] == [PADS, *BOTH]
+    assert all("accept: [" in line and "An optimum may be, too." in line for line in said)
+    required = SEARCHED.replace("require: {", f'require: {{{PADS}: ">= 0 K", ')
+    assert [PADS in line for line in foreseen_ratings(read_study_text(required))] == [False, False]
+    assert foreseen_ratings(read_study_text(SEARCHED + ACCEPTED)) == []
+
+
+def test_a_point_of_a_front_has_its_own() -> None:
+    values, study = answered().design.values, {"accept": list(BOTH)}
+    assert of_ratings(Point("between", values, {}), study, TABLE) == {
+        "status": "above_rating", "above_rating": (PADS,), "accepting": ("structure_temperature_margin", BOTH[1]),
+    }  # fmt: skip
+    cooler = Point("between", values | {PADS: 1.0}, {})
+    assert of_ratings(cooler, study, TABLE)["status"] == "optimal"
+    assert said_of_ratings([(PADS,), ()]).startswith("points 1 of the front")
+
+
+@pytest.mark.slow
+def test_the_command_ends_with_3_and_a_whole_folder(tvimdesign: Command, tmp_path: Path) -> None:
+    for accept, code, word in (("", 3, "above_rating"), (ACCEPTED, 0, "optimal")):
+        study, out = tmp_path / f"{word}.yaml", tmp_path / word
+        study.write_text(SEARCHED + accept)
+        done = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out)
+        assert done.returncode == code, done.stderr
+        results = json.loads((out / "results.json").read_text())
+        assert results["status"] == json.loads((out / "design.json").read_text())["status"] == word
+        assert {row["output"] for row in results["above_rating" if code else "accepting"]} == {*BOTH, PADS}
+        assert json.loads((out / "manifest.json").read_text())["status"] == word
+        assert ("accept: [" in done.stderr) == bool(code)
+        tested = tvimdesign("simulate", out, "--test", "release", "--out", tmp_path / f"{word}_released")
+        assert tested.returncode == 0, tested.stderr
+        assert "beyond its rating" in tested.stdout

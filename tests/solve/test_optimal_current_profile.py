@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from support import fine
+from support import fine, sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
@@ -13,37 +13,8 @@ from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")
-HEATING = """
-mode: shear
-module: {current_slew: 0.2 A/s}
-vary:
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.3 A, 3 A]
-require:
-  layer_holding_torque: ">= 40 N.m"
-  peak_power: "<= 15 W"
-  peak_voltage: "<= 7.6 V"
-  peak_peltier_temperature: "<= 120 degC"
-minimize: response_time
-profile: {softening: 0}
-solver: {starts: 1}
-"""
-CYCLE = """
-mode: shear
-module: {cold_side: sink, current_slew: 0.5 A/s}
-vary:
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.3 A, 3 A]
-  cooling_current: [0.05 A, 2.5 A]
-require:
-  layer_holding_torque: ">= 40 N.m"
-  peak_power: "<= 20 W"
-  peak_peltier_temperature: "<= 120 degC"
-  stiffening_peak_voltage: "<= 6 V"
-minimize: cycle_time
-profile: {softening: 4, stiffening: 4}
-solver: {starts: 1}
-"""
+HEATING = sample_text("profile_heating")
+CYCLE = sample_text("profile_cycle")
 TOLERANCE = 2e-3  # share of a limit: the peaks of the equations are at their points, the simulation's anywhere
 
 

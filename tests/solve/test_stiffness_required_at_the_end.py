@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from support import sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
@@ -11,19 +12,7 @@ from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
 ENDS = ("softened_stiffness", "softened_damping", "softened_impedance", "softened_temperature")
-STUDY = """
-mode: shear
-module: {{response_criterion: {criterion}}}
-vary:
-  wire_diameter: [1.5 mm, 3 mm]
-  placement_radius: [57 mm, 60 mm]
-  current: [0.5 A, 1.5 A]
-  pcl_thickness: [0.6 mm, 2 mm]
-require: {{spring_stiffness: ">= 4 N.m/rad"{more}}}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
-minimize: {{response_time: 1, module_mass: 0.2}}
-solver: {{starts: 1}}
-"""
+STUDY = sample_text("stiffness_at_the_end")
 
 
 @cache

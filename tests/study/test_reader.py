@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support import sample_text
 
 from tvimdesign.study import Options, Range, Requirement, Study, StudyError, read_study, read_study_text
 from tvimdesign.study.text.mistakes import Mistake
@@ -16,39 +17,7 @@ from tvimdesign.study.text.mistakes import Mistake
 Read = Callable[..., Study]
 Refuse = Callable[..., list[str]]
 
-GOOD = """\
-tvimdesign: 1
-name: The paper's module, re-optimised
-description: |
-  Two lines
-  of text
-mode: shear
-module:
-  spring_material: stainless_302
-  wire_diameter: 2.413 mm
-  coil_count: 3.25
-  rate_model: smi
-vary:
-  wire_diameter: [1.5 mm, 3.2 mm]
-  coil_diameter: {from: 16 mm, to: 30 mm, start: 20 mm}
-  arc_count: {choose: [3, 4, 6]}
-  pcl_thickness: [0.5 mm, 1 mm]
-  peltier: {choose: [flexible_1600, qc_17]}
-require:
-  joint_stiffness@hot: ">= 5 N.m/rad"
-  joint_stiffness@warm: "<= 90 N.m/rad"
-  envelope_diameter: "<=150 mm"
-  impedance_range: [">= 20", "<= 500"]
-minimize:
-  module_mass: 1
-  response_time: 0.5
-  joint_stiffness@cold: "2"
-operating_points:
-  hot: {frequency: 10 Hz}
-  warm: {temperature: 60 degC}
-solver: {starts: 5, tolerance: 1e-6}
-write: {cad: false}
-"""
+GOOD = sample_text("of_the_small_table")
 
 
 def test_a_full_study(read: Read) -> None:

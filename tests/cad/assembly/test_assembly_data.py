@@ -1,17 +1,21 @@
-"""Data for programs that show the assembly, compared with the GLB, the note and the CAD kernel's own wire."""
+"""Data and script of an assembly, compared with its GLB, its note and the CAD kernel's own solids."""
+
+from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import cadquery as cq
 import numpy as np
 import pytest
-from cad_designs import design_of
+from cad_designs import CASES, design_of
 
-from tvimdesign.cad.assembly.assembly import installed_coils, spring_locations
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_parts, installed_coils, spring_locations
 from tvimdesign.cad.assembly.assembly_data import SHARES, assembly_data, brought
 from tvimdesign.cad.assembly.assembly_note import WrittenStep
 from tvimdesign.cad.assembly.bill_of_materials import Item
+from tvimdesign.cad.assembly.module_script import module_script
 from tvimdesign.cad.export.mesh import CHORD, RING, Instance, Mesh, spring_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.kinds import SPRINGS
@@ -61,3 +65,49 @@ def test_a_wound_spring_lies_on_the_wire_that_the_kernel_sweeps(
         assert max(away) < CHORD
         assert np.abs(moved[-1]).max() > 0.5  # mm: the leg's end goes along with its pin
         assert np.abs(moved[0]).max() < 0.25  # the tang stays in its hole, but for what the coil's diameter changes
+
+
+EXACT = 1e-9
+
+
+def script_of(name: str) -> tuple[Dimensions, str]:
+    mode, changes = CASES[name]
+    design = design_of(name, changes, mode)
+    return dimensions(design), module_script(design, dimensions(design)).decode()
+
+
+def drawn_by(script: str) -> dict[str, Any]:
+    assert "tvimdesign" not in script.partition('"""\n')[2]
+    names: dict[str, Any] = {"__name__": "script"}
+    exec(compile(script, "module.py", "exec"), names)
+    return names
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "paper",
+        pytest.param("tiles", marks=pytest.mark.gate),
+        pytest.param("driven", marks=pytest.mark.gate),
+        pytest.param("odd blocks", marks=pytest.mark.gate),
+        pytest.param("tiles in vanes", marks=pytest.mark.gate),
+    ],
+)
+def test_its_solids_and_their_places_are_those_of_the_module(name: str) -> None:
+    dims, script = script_of(name)
+    names, solids = drawn_by(script), drawn_parts(dims)
+    assert names["PARTS"].keys() == solids.keys()
+    for kind, draw in names["PARTS"].items():
+        assert draw().Volume() == pytest.approx(solids[kind].Volume(), rel=EXACT), kind
+    stand = MODULES[dims.mode].stand(dims, solids)
+    assert names["PLACES"].keys() == stand.keys()
+    for part, (kind, location) in names["PLACES"].items():
+        off = stand[part].Center() - solids[kind].moved(location).Center()
+        assert off.Length < 1e-6, part
+
+
+def test_a_part_follows_a_number_that_is_changed() -> None:
+    dims, script = script_of("paper")
+    thicker = re.sub(r"^link_thickness = .*$", f"link_thickness = {2.0 * dims.link_thickness}", script, flags=re.M)
+    before, after = (drawn_by(text)["PARTS"]["link"]().Volume() for text in (script, thicker))
+    assert after == pytest.approx(2.0 * before, rel=EXACT)

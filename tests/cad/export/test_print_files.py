@@ -1,4 +1,4 @@
-"""Print files against closed forms: wider holes, the right side down, a mesh error that was measured."""
+"""Files for printers and meshes of faces."""
 
 import io
 import zipfile
@@ -14,7 +14,8 @@ from cad_designs import BEARINGS, BLOCKS, DRIVEN, SPRUNG_BLOCKS, TILES, design_o
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
-from tvimdesign.cad.export.mesh import Mesh, face_meshes, solid_mesh
+from tvimdesign.cad.export import mesh as meshing
+from tvimdesign.cad.export.mesh import CHORD, Mesh, face_meshes, solid_mesh
 from tvimdesign.cad.export.print_files import (
     _distance,
     _from_surface,
@@ -232,3 +233,21 @@ def test_its_overhangs_are_those_that_the_print_text_tells(mode: str, changes: d
     said = PRODUCTION["rotor"].why
     assert "under the pins" in said
     assert "supports from the bed" in said
+
+
+@pytest.mark.parametrize(("worst", "meshed"), [(CHORD, True), (0.0, False)])
+def test_a_face_left_out_is_meshed_at_a_finer_chord(
+    worst: float, meshed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kernel, box = meshing.BRepMesh_IncrementalMesh, cq.Solid.makeBox(3.0, 2.0, 1.0)
+
+    def mesh_below_worst(shape: object, chord: float, *settings: object) -> None:
+        if chord < worst:
+            kernel(shape, chord, *settings)
+
+    monkeypatch.setattr(meshing, "BRepMesh_IncrementalMesh", mesh_below_worst)
+    if meshed:
+        assert len(solid_mesh(box).faces) == 12
+    else:
+        with pytest.raises(GeometryError, match="no triangles"):
+            solid_mesh(box)

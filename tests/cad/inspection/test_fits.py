@@ -1,17 +1,22 @@
-"""Parts in pockets go in: gaps measured on the solids, and pockets of the pad's own outline are found."""
+"""Fits, distances, rays and samples on solids."""
 
 from collections.abc import Mapping
 from typing import Any
 
 import cadquery as cq
+import numpy as np
 import pytest
 from cad_designs import BLOCKS, TILES, VANE_TILES, broken_rules, design_of
 from placed_solids import placed_solids
+from sample_solids import box, one_solid
 
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
+from tvimdesign.cad.export.mesh import Array, Instance, solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.inspection.inspect import bought_checks, fit_checks
+from tvimdesign.cad.inspection.rays import Triangles, samples
+from tvimdesign.cad.inspection.size_checks import ROOM, PlacedBodies, interference_checks
 from tvimdesign.cad.parts import shear_parts
 from tvimdesign.study.design import Design
 
@@ -79,3 +84,130 @@ def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported() -> None:
     aside = solids["heater_lead_1"].moved(cq.Location(cq.Vector(0.0, 0.0, 2.0)))
     moved = {check.part: check for check in bought_checks({**solids, "heater_lead_1": aside})}
     assert not moved["heater_lead"].ok
+
+
+def cylinder(radius: float, height: float = 10.0) -> cq.Solid:
+    return cq.Solid.makeCylinder(radius, height)
+
+
+def at(solid: cq.Solid, x: float) -> Instance:
+    matrix = np.eye(4)
+    matrix[0, 3] = x
+    return Instance(solid_mesh(solid), matrix)
+
+
+@pytest.mark.parametrize(
+    ("gap", "apart"), [(-1.0, False), (0.0, False), (0.5 * ROOM, False), (1.5 * ROOM, True), (5.0, True)]
+)
+def test_parts_are_apart_if_their_meshes_are_further_than_their_error(gap: float, apart: bool) -> None:
+    placed = {"rotor": at(cylinder(5.0), 0.0), "cover": at(cylinder(5.0), 10.0 + gap)}
+    assert PlacedBodies(placed).apart("rotor", "cover") == apart
+
+
+def test_parts_are_apart_by_bores_copies_and_closed_meshes() -> None:
+    placed = {"housing": at(cylinder(20.0, 30.0), 0.0), "link_dowel_1": at(cylinder(2.0).translate((0, 0, 10.0)), 0.0)}
+    assert not PlacedBodies(placed).apart("housing", "link_dowel_1")
+    bored = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
+    placed = {"housing": at(bored, 0.0), "link_screw_1": at(cylinder(2.0, 30.0), 0.0)}
+    assert PlacedBodies(placed).apart("housing", "link_screw_1")
+    broken = at(cylinder(5.0), 50.0)
+    open_mesh = Instance(type(broken.mesh)(broken.mesh.vertices, broken.mesh.faces[1:]), broken.matrix)
+    assert not PlacedBodies({"housing": at(cylinder(5.0), 0.0), "cover": open_mesh}).apart("housing", "cover")
+    placed = {
+        "housing": at(cylinder(5.0), 0.0),
+        "pcl_arc_1": at(cylinder(5.0), 10.0),
+        "pcl_arc_2": at(cylinder(5.0), 50.0),
+    }
+    bodies = PlacedBodies(placed)
+    assert not bodies.apart("housing", "pcl_arc_1")
+    assert not bodies.apart("housing", "pcl_arc_2")
+
+
+def test_only_parts_that_may_meet_are_compared_with_the_same_result() -> None:
+    ring = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
+    solids = {"housing": ring, "link_screw_1": cylinder(2.0, 30.0), "rotor": cylinder(3.5, 30.0)}
+    bodies = PlacedBodies({name: at(solid, 0.0) for name, solid in solids.items()})
+    asked: list[tuple[str, str]] = []
+
+    def apart(first: str, second: str) -> bool:
+        asked.append((first, second))
+        return bodies.apart(first, second)
+
+    plain, quick = (list(interference_checks(solids, "at rest", **more)) for more in ({}, {"apart": apart}))
+    assert plain == quick
+    assert [check.ok for check in quick] == [True, False, False, True]
+    assert len(asked) == 3
+
+
+@pytest.mark.parametrize("cut", [None, 1, 2, 3])
+def test_the_copy_that_cuts_a_part_is_found_among_all(cut: int | None) -> None:
+    solids = {"housing": cylinder(20.0)}
+    for number in (1, 2, 3):
+        x, y = 25.0 * np.cos(2.0 * number), 25.0 * np.sin(2.0 * number)
+        nearer = 0.9 if number == cut else 1.0  # the others touch it along a line
+        solids[f"pcl_arc_{number}"] = cylinder(5.0).translate((float(nearer * x), float(nearer * y), 0.0))
+    found = {check.name: check for check in interference_checks(solids, "at rest")}
+    for number in (1, 2, 3):
+        check = found[f"housing | pcl_arc_{number} at rest"]
+        assert check.ok == (number != cut)
+        alone = solids["housing"].intersect(solids[f"pcl_arc_{number}"]).Volume()
+        assert check.value == pytest.approx(alone, rel=1e-9)
+
+
+def test_rays_meet_a_box_where_its_faces_are() -> None:
+    half = np.array([7.0, 4.0, 2.5])
+    triangles = Triangles(solid_mesh(one_solid(cq.Workplane().box(*(2.0 * half)))))
+    draw = np.random.default_rng(1)
+    origins = draw.uniform(-0.99, 0.99, (500, 3)) * half
+    directions = draw.normal(size=(500, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    hits = triangles.first_hits(origins, directions)
+    expected = np.min((np.sign(directions) * half - origins) / directions, axis=1)
+    assert hits.distance == pytest.approx(expected, abs=1e-9)
+    outside = triangles.first_hits(origins + np.array([30.0, 0.0, 0.0]), np.tile([1.0, 0.0, 0.0], (500, 1)))
+    assert outside.missed.all()
+
+
+@pytest.mark.gate
+def test_rays_meet_what_every_triangle_held_against_every_ray_says() -> None:
+    work = box(23.0, 11.0, 5.0).faces(">Z").workplane().hole(6.0).edges("|Z").fillet(2.0)
+    triangles = Triangles(solid_mesh(one_solid(work)))
+    draw = np.random.default_rng(7)
+    origins = draw.uniform(-1.2, 1.2, (400, 3)) * [11.5, 5.5, 2.5]
+    directions = draw.normal(size=(400, 3))
+    directions[:120] = np.sign(directions[:120]) * np.eye(3)[draw.integers(0, 3, 120)]
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    hits = triangles.first_hits(origins, directions, beyond=0.5)
+    expected = np.array([
+        min((far for corners in triangles.corners if (far := _along(origin, way, corners)) > 0.5), default=np.inf)
+        for origin, way in zip(origins, directions, strict=True)
+    ])  # fmt: skip
+    assert np.isfinite(expected).sum() > 150
+    assert np.isinf(expected).sum() > 50
+    assert hits.distance == pytest.approx(expected, abs=1e-9)
+    assert np.all((hits.triangle == -1) == hits.missed)
+    met = ~hits.missed
+    again = [
+        _along(origin, way, triangles.corners[index])
+        for origin, way, index in zip(origins[met], directions[met], hits.triangle[met], strict=True)
+    ]
+    assert again == pytest.approx(expected[met], abs=1e-9)
+
+
+def _along(origin: Array, way: Array, corners: Array) -> float:
+    """Return the distance to a triangle, by Cramer's rule."""
+    sides = np.stack((-way, corners[1] - corners[0], corners[2] - corners[0]), axis=1)
+    if abs(np.linalg.det(sides)) < 1e-12:
+        return np.inf
+    far, u, v = np.linalg.solve(sides, origin - corners[0])
+    return float(far) if u >= -1e-7 and v >= -1e-7 and u + v <= 1.0 + 1e-7 else np.inf
+
+
+def test_no_point_of_the_surface_is_further_from_a_sample_than_the_spacing() -> None:
+    triangles = Triangles(solid_mesh(one_solid(box(23.0, 11.0, 5.0))))
+    found = samples(triangles, 1.5)
+    assert found.area.sum() == pytest.approx(2.0 * (23.0 * 11.0 + 23.0 * 5.0 + 11.0 * 5.0))
+    asked = np.random.default_rng(2).uniform(-0.5, 0.5, (300, 2)) * [23.0, 11.0]
+    top = found.point[found.normal[:, 2] > 0.9][:, :2]
+    away = np.linalg.norm(asked[:, None, :] - top[None, :, :], axis=2).min(axis=1)
+    assert away.max() < 1.5

@@ -1,15 +1,20 @@
-"""The process that makes parts: how it loads the kernel, and which pieces of work it starts first."""
+"""The process that makes parts: how it loads the kernel, what it starts first, and its mass properties."""
 
 import os
 import subprocess
 import sys
 
+import cadquery as cq
+import numpy as np
 import psutil
 import pytest
+import trimesh
 from cad_designs import design_of
 
+from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.build_plan import PICTURES, build_plan
+from tvimdesign.cad.jobs.rigid_bodies import of_solid, together
 from tvimdesign.cad.jobs.worker import Turn
 from tvimdesign.cad.make import PartsProcess
 
@@ -67,3 +72,34 @@ def test_parts_are_made_in_the_run_s_session() -> None:
     with PartsProcess() as waiting:
         assert os.getsid(waiting.process) == os.getsid(0)
         assert os.getpgid(waiting.process) == waiting.process  # an interrupt at the terminal is the parent's to handle
+
+
+DENSITY = 1270.0
+
+
+def test_inertias_are_the_textbook_s_and_halves_make_the_whole() -> None:
+    found = of_solid(cq.Solid.makeBox(30.0, 20.0, 10.0, cq.Vector(5.0, 0.0, 0.0)), DENSITY)
+    mass, (a, b, c) = DENSITY * 6e-6, (0.03, 0.02, 0.01)
+    assert found.mass == pytest.approx(mass)
+    np.testing.assert_allclose(found.centre, [0.02, 0.01, 0.005])
+    np.testing.assert_allclose(
+        found.inertia, np.diag([b**2 + c**2, a**2 + c**2, a**2 + b**2]) * mass / 12.0, atol=1e-15
+    )
+    found, mesh = of_solid(_wedge(), DENSITY), solid_mesh(_wedge())
+    body = trimesh.Trimesh(mesh.vertices * 1e-3, mesh.faces)
+    body.density = DENSITY
+    assert found.mass == pytest.approx(body.mass, rel=1e-6)
+    np.testing.assert_allclose(found.centre, body.center_mass, rtol=1e-6)
+    np.testing.assert_allclose(found.inertia, body.moment_inertia, rtol=1e-6)
+    assert np.all(np.abs(found.inertia) > 1e-11)
+    halves = [cq.Solid.makeBox(15.0, 20.0, 10.0, cq.Vector(at, 3.0, -4.0)) for at in (0.0, 15.0)]
+    whole = of_solid(cq.Solid.makeBox(30.0, 20.0, 10.0, cq.Vector(0.0, 3.0, -4.0)), DENSITY)
+    found = together(of_solid(half, DENSITY) for half in halves)
+    assert found.mass == pytest.approx(whole.mass)
+    np.testing.assert_allclose(found.centre, whole.centre)
+    np.testing.assert_allclose(found.inertia, whole.inertia, atol=1e-15)
+
+
+def _wedge() -> cq.Solid:
+    """Return a body without any symmetry, so that every product of inertia counts."""
+    return cq.Workplane().polyline([(0, 0), (30, 4), (6, 22)]).close().extrude(9.0).edges(">Z").chamfer(1.0).val()

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import pytest
 from comparable import COARSE
-from support import Command, study_path
+from support import Command, sample_text, study_path
 
 from tvimdesign.report.output.numbers import ends_text, label
 from tvimdesign.report.run.answered_study import AnsweredStudy
@@ -27,25 +27,7 @@ from tvimdesign.study.resolve import record_checks
 
 LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 3 mm}"
 CHOICES = COARSE.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}").replace("5 N.m/rad", "4.5 N.m/rad")
-MANY = """mode: shear
-require:
-  joint_stiffness@hot: [">= 1 N.m/rad", "<= 900 N.m/rad"]
-  equilibrium_stiffening_time: "<= 900 s"
-  far_face_cooling_time: "<= 90 min"
-  structure_temperature_margin: ">= -90 K"
-  stiffening_structure_margin: ">= -90 K"
-  cold_side_temperature_margin: ">= 0 K"
-  envelope_diameter: "<= 20 mm"
-  envelope_height: "<= 90 mm"
-  module_mass: "<= 300 g"
-  frozen_time: "<= 900 s"
-  peak_power: "<= 15 W"
-  peak_voltage: "<= 12 V"
-  holding_torque: ">= 1 N.m"
-  impedance_range: ">= 2"
-  spring_index: ">= 4"
-  softening_time: "<= 300 s"
-"""
+MANY = sample_text("many_requirements")
 
 
 class WholeRun(NamedTuple):

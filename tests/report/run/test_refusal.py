@@ -1,4 +1,4 @@
-"""A run ends before its search with what `check` refuses; a later refusal leaves its reason in the folder."""
+"""A run ends before its search with what `check` refuses; parts and figures give way to the search."""
 
 import json
 import os
@@ -7,13 +7,17 @@ from contextlib import suppress
 from pathlib import Path
 
 import jsonschema
+import psutil
 import pytest
+from support import wait_until
 
 from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.report.output.plot_process import PlotProcess
 from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.report.run import answered_study
 from tvimdesign.report.run import run_study as module
 from tvimdesign.report.run.check_study import check_study
+from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
 
 STUDY = """mode: shear
 vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm]}
@@ -82,3 +86,25 @@ def test_a_swallowed_interrupt_is_no_conflict(tmp_path: Path, monkeypatch: pytes
         _run(path, out)
     assert json.loads((out / "manifest.json").read_text())["status"] == "interrupted"
     assert not (out / "results.json").exists()
+
+
+def test_parts_and_figures_give_way_only_where_others_wait() -> None:
+    with BackgroundPartsJob(), PlotProcess(gives_way=True):
+        assert wait_until(lambda: len(_priorities()) == 2)
+        behind = _priorities()
+    assert psutil.Process().nice() < behind["cad.jobs.main"] < behind["plot_process"]
+    with PlotProcess():
+        assert wait_until(lambda: bool(_priorities()))
+        behind = _priorities()
+    assert behind == {"plot_process": psutil.Process().nice()}
+    with BackgroundPartsJob(gives_way=False):
+        assert wait_until(lambda: bool(_priorities()))
+        behind = _priorities()
+    assert behind == {"cad.jobs.main": psutil.Process().nice()}
+
+
+def _priorities() -> dict[str, int]:
+    """Return the niceness by name; Linux gives a process its command line once the program is loaded."""
+    others = {" ".join(one.cmdline()): one.nice() for one in psutil.Process().children()}
+    asked = ("cad.jobs.main", "plot_process")
+    return {name: nice for name in asked for command, nice in others.items() if name in command}

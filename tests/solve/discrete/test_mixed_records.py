@@ -1,10 +1,11 @@
-"""Records in one mixed problem: as each alone at its corners, as enumeration, and started at other records' optimum."""
+"""Records mixed and records chosen whole."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 from choosing import listed, with_each_record
+from support import sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -14,55 +15,10 @@ from tvimdesign.solve.discrete.trees import MAX_MIXED, refuse_too_many
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture, discrete_records, with_records
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.search import optimize
-from tvimdesign.study import Study, given, read_study
+from tvimdesign.study import Study, given, read_study, read_study_text
 
-SHEAR = """
-mode: shear
-vary:
-  peltier_module: {choose: [flexible_1600, silicone_9ar_08_24v, polyimide_foil_24v]}
-  process: {choose: [print_pei_1010, print_pc]}
-  spring_material: {choose: [music_wire, stainless_302]}
-  wire_diameter: {catalog: metric, from: 2.4 mm, to: 2.6 mm}
-  arc_count: {choose: [3, 4]}
-  coil_count: [3, 5]
-  coil_diameter: [12 mm, 30 mm]
-  pcl_outer_radius: [32 mm, 40 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.1 A, 2 A]
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  spring_fatigue_safety: ">= 1.2"
-  peak_voltage: "<= 24 V"
-  layer_holding_torque: ">= 40 N.m"
-accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin, current_margin]
-minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 2, cells: 6, fineness: 0.67, max_iterations: 100, alternatives: 3}
-"""
-COMPRESSION = """
-mode: compression
-module: {response_criterion: mean, core_radius: 8 mm, link_dowel: iso_8734_2, rotor_rim: 8 mm, pcl_inner_radius: 13 mm,
-         block_height: 11 mm}
-vary:
-  peltier_module: {choose: [flexible_1600, silicone_9ar_08_24v, silicone_9ar_08_12v]}
-  process: {choose: [print_petg, print_pc]}
-  spring_material: {choose: [music_wire, stainless_302]}
-  wire_diameter: {catalog: metric, from: 2.4 mm, to: 2.6 mm}
-  vane_count: {from: 5, to: 6}
-  coil_count: [3, 5]
-  coil_diameter: [10 mm, 16 mm]
-  pcl_outer_radius: [18 mm, 30 mm]
-  block_height: [4 mm, 14 mm]
-  block_depth: [2 mm, 8 mm]
-  vane_thickness: [2 mm, 6 mm]
-  current: [0.1 A, 2.5 A]
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  holding_torque: ">= 5 N.m"
-  peak_voltage: "<= 24 V"
-accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin, current_margin]
-minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 2, cells: 6, fineness: 0.67, max_iterations: 100, alternatives: 3}
-"""
+SHEAR = sample_text("mixed_shear")
+COMPRESSION = sample_text("mixed_compression")
 
 
 def _as_enumerated(study: Study, solution: Solution) -> None:
@@ -197,3 +153,68 @@ def test_too_many_records_in_one_problem_are_refused_with_what_to_do(study: Stud
     crowded = type(family)({}, (Mixture(records, {}, tuple({} for _ in records), ()),))
     with pytest.raises(InputError, match=f"{MAX_MIXED + 1} records to choose from; the limit is {MAX_MIXED}"):
         refuse_too_many([crowded], Sizes((), ()))
+
+
+MODULES = ("cp30138", "qc_17", "ma10_063_05_1")
+STUDY = sample_text("whole_records")
+
+
+def solved(chosen: str, listed: str) -> Solution:
+    text = STUDY.replace("  CHOSEN\n", f"  {chosen}\n" if chosen else "").replace("  LISTED\n", listed)
+    return optimize(read_study_text(text, "a test"), lambda _: None)
+
+
+@pytest.mark.slow
+def test_the_best_module_of_a_list_is_the_best_of_each_alone() -> None:
+    best = solved("", f"  peltier_module: {{choose: [{', '.join(MODULES)}]}}\n")
+    alone = {name: solved(f"peltier_module: {name}", "") for name in MODULES}
+    masses = {name: one.values["module_mass"] for name, one in alone.items() if one.feasible}
+    assert len(masses) == 3
+    lightest = min(masses, key=masses.__getitem__)
+    assert best.feasible
+    assert best.values["module_mass"] == pytest.approx(masses[lightest], rel=1e-5)
+    assert best.values["heater_count"] == alone[lightest].values["heater_count"]
+
+
+# Springs of the paper's size, as a maker might list them: d, D, coils.
+SPRINGS = {"soft": (2.3, 24.0, 4.25), "middle": (2.4, 24.0, 3.25), "strong": (2.6, 26.0, 3.25)}
+SPRING_STUDY = sample_text("whole_springs")
+
+
+def _record(wire: float, coil: float, count: float) -> str:
+    sizes = {
+        "wire_diameter": (wire, "mm"), "outer_diameter": (coil + wire, "mm"), "coil_diameter": (coil, "mm"),
+        "coil_count": (count, '"1"'), "leg_length": (60, "mm"), "largest_torque": (3000, "mN*m"),
+        "deflection": (30, "deg"),
+    }  # fmt: skip
+    lines = [f'  {name}: {{value: {value}, unit: {unit}, status: measured, source: "a test"}}'
+             for name, (value, unit) in sizes.items()]  # fmt: skip
+    words = "words: {spring_material: music_wire, hands: both, number: own}"
+    return "\n".join(["title: A spring of the shelf", "values:", *lines, words])
+
+
+@pytest.mark.slow
+def test_the_best_stock_spring_of_a_list_is_the_best_of_each_alone(tmp_path: Path) -> None:
+    folder = tmp_path / "records" / "torsion_springs"
+    folder.mkdir(parents=True)
+    for name, sizes in SPRINGS.items():
+        (folder / f"{name}.yaml").write_text(_record(*sizes), encoding="utf-8")
+
+    def solved(chosen: str, listed: str) -> Solution:
+        path = tmp_path / "study.yaml"
+        path.write_text(SPRING_STUDY.replace("CHOSEN", chosen).replace("  LISTED\n", listed), encoding="utf-8")
+        return optimize(read_study(path))
+
+    best = solved("", f"  stock_spring: {{choose: [{', '.join(SPRINGS)}]}}\n")
+    alone = {name: solved(f"module: {{stock_spring: {name}}}", "") for name in SPRINGS}
+    # Objectives are over each study's own start; that of the study that lists all is the common measure.
+    objectives = {
+        name: sum(one.values[weighed] / best.reference[weighed] for weighed in best.reference)
+        for name, one in alone.items() if one.feasible
+    }  # fmt: skip
+    assert len(objectives) >= 2
+    name = min(objectives, key=objectives.__getitem__)
+    assert best.objective == pytest.approx(objectives[name], rel=1e-5)
+    numbers = dict(zip(best.model.names, best.inputs, strict=True))
+    found = (1e3 * numbers["wire_diameter"], 1e3 * numbers["coil_diameter"], numbers["coil_count"])
+    assert found == pytest.approx(SPRINGS[name])

@@ -8,6 +8,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+from support import sample_text
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting
@@ -17,18 +18,7 @@ from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 from tvimdesign.study.sizing import JointTask, study_text
 
-STIFF = """
-mode: shear
-module: {placement_radius: 62 mm, pin_diameter: 6 mm}
-vary:
-  wire_diameter: [1.2 mm, 3.2 mm]
-  coil_diameter: [16 mm, 32 mm]
-  preload_angle: [0.12 rad, 0.4 rad]
-require: {spring_stiffness: ">= 12 N.m/rad", spring_fatigue_safety: ">= 3", module_mass: "<= 300 g"}
-minimize: module_mass
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
-solver: {starts: 1, max_iterations: 60}
-"""
+STIFF = sample_text("conflict_in_stiffness")
 HEAVY = """
 mode: shear
 vary: {wire_diameter: [1.5 mm, 3 mm], coil_diameter: [12 mm, 30 mm], pcl_thickness: [0.6 mm, 2 mm]}

@@ -1,30 +1,20 @@
-"""Cost of a limit in each output: the implicit function theorem against optima with the limit moved."""
+"""What holds at an optimum, and a search of all of the bounds."""
 
 import pytest
 from small_studies import with_limit_eased
-from support import study_path
+from support import sample_text, study_path
 
-from tvimdesign.solve.nlp.solution import ActiveConstraint
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
+from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.infeasibility.feasibility_screen import designs_all_over
+from tvimdesign.solve.nlp.solution import ActiveConstraint, SolverEffort, same_optimum
+from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
+from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, verify_optimum
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Range, Study, read_study, read_study_text
 
-SMALL = """
-mode: shear
-vary:
-  wire_diameter: [1.5 mm, 3 mm]
-  coil_diameter: [12 mm, 30 mm]
-  pcl_outer_radius: [30 mm, 42 mm]
-  pcl_thickness: [0.5 mm, 2 mm]
-  current: [0.5 A, 2 A]
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  peak_power: "<= 9 W"
-  layer_holding_torque: ">= 30 N.m"
-minimize: {envelope_volume: 1, module_mass: 1, response_time: 2}
-solver: {starts: 1, tolerance: 1e-10}
-"""
+SMALL = sample_text("post_optimal")
 _HOLDING = '  layer_holding_torque: ">= 30 N.m"\n'
 CURVED = SMALL.replace("require:", "  arc_span: [20 deg, 60 deg]\nrequire:").replace(_HOLDING, "")
 """Fewer limits bind here than there are variables, so that how the optimum moves depends on curvature."""
@@ -115,3 +105,54 @@ def test_of_a_limit_that_is_written_twice_no_saving_is_claimed() -> None:
             assert held.sensitivity == {}
         elif held.shadow_price > 1e-3:
             assert held.sensitivity == pytest.approx(alone[held.name], rel=1e-4, abs=1e-6), held.text
+
+
+STUDY = sample_text("searched_all_over")
+
+
+@pytest.fixture(scope="module")
+def optimizer() -> Optimizer:
+    return Optimizer(read_study_text(STUDY, "test"))
+
+
+@pytest.fixture(scope="module")
+def design(optimizer: Optimizer) -> Array:
+    return designs_all_over(optimizer)[0]
+
+
+def broken(optimizer: Optimizer, inputs: Array) -> float:
+    """Return the most by which a design, simulated, violates a limit."""
+    cycle = optimizer.problem.simulated(inputs)
+    values = optimizer.model.values(inputs, cycle)
+    return max(float(limit.residual(values[limit.output])) for limit in optimizer.problem.limits)
+
+
+@pytest.mark.gate
+def test_a_design_leads_to_an_optimum(optimizer: Optimizer, design: Array) -> None:
+    assert broken(optimizer, design) <= 0.0
+    run = optimizer.solve(begin=design)
+    assert run.start.converged
+    assert broken(optimizer, run.inputs) <= CYCLE_TOLERANCE
+    heights = [optimizer.model.values(x, optimizer.multistart.cycle)["envelope_height"] for x in (design, run.inputs)]
+    assert heights[1] < 0.95 * heights[0]
+
+
+@pytest.mark.gate
+def test_what_is_to_be_within_ends_stays_there(optimizer: Optimizer, design: Array) -> None:
+    run = optimizer.solve({"placement_radius": (0.0452, 0.0452), "coil_diameter": (0.012, 0.02)}, begin=design)
+    assert run.start.converged
+    assert run.start.end["placement_radius"] == pytest.approx(0.0452, rel=1e-7)
+    assert run.start.end["coil_diameter"] == pytest.approx(0.02, rel=1e-6)  # without the ends it goes to 32 mm
+    assert broken(optimizer, run.inputs) <= CYCLE_TOLERANCE
+
+
+@pytest.mark.gate
+def test_a_study_without_a_feasible_start_is_searched_all_over(optimizer: Optimizer) -> None:
+    """From designs all over the ranges, until two come to the same optimum."""
+    study = optimizer.study
+    tree = Relaxation(0, optimizer, {}, discrete_sizes(study, study.table), SolverEffort())
+    runs = tree.from_all_over()
+    assert [run.start.converged for run in runs] == [True, True]
+    assert same_optimum(runs[0].start, runs[1].start)
+    assert len(tree.optima) == 1
+    assert broken(optimizer, tree.optima[0].inputs) <= CYCLE_TOLERANCE

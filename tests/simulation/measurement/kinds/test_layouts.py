@@ -2,73 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-import layouts
 import pytest
+import yaml
 from measured_files import holds, measured
-from melt_layouts import LAYOUTS, Layout
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.measurement.measure_files import Measured
 from tvimdesign.simulation.measurement.record_file import as_recorded
 
-
-def through(place: Path, made: Callable[[], bytes]) -> Measured:
-    path = place / f"{made.__name__}.txt"
-    path.write_bytes(made())
-    return measured(path)
-
-
-@pytest.mark.parametrize("made", layouts.FLOW, ids=lambda made: made.__name__)
-def test_flow_curves(tmp_path: Path, made: Callable[[], bytes]) -> None:
-    done = through(tmp_path, made)
-    assert done.kind.name == "flow_curve"
-    assert holds(done.measurement.record_values["zero_shear_viscosity"], layouts.VISCOSITY)
+FILES = Path(__file__).with_name("instrument_files")
+TRUTH = [
+    pytest.param(path, truth, id=path.relative_to(FILES).as_posix())
+    for pattern, truth in yaml.safe_load((FILES / "truth.yaml").read_text()).items()
+    for path in sorted(FILES.glob(pattern))
+]
+WITH_MASS = ("netzsch", "ta_universal", "trios_dsc")
 
 
-@pytest.mark.parametrize("made", layouts.AMPLITUDE, ids=lambda made: made.__name__)
-def test_amplitude_sweeps(tmp_path: Path, made: Callable[[], bytes]) -> None:
-    done = through(tmp_path, made)
-    assert done.kind.name == "amplitude_sweep"
-    assert holds(done.measurement.record_values["linear_strain_melt"], layouts.LIMIT)
+@pytest.mark.parametrize(("path", "truth"), TRUTH)
+def test_rheometers(path: Path, truth: Mapping[str, Any]) -> None:
+    if "refusal" in truth:
+        with pytest.raises(InputError, match=truth["refusal"]):
+            measured(path)
+        return
+    one = measured(path)
+    done = one.measurement
+    assert one.kind.name == truth["kind"]
+    assert not done.fit.misfit
+    held = {name: holds(as_recorded(done.record_values[name]), value) for name, value in truth["values"].items()}
+    assert held == dict.fromkeys(truth["values"], True)
     flagged = "3 of 30 rows are flagged by the instrument (ME- 3)"
-    assert any(flagged in note for note in done.measurement.notes) == (made is layouts.rheocompass_amplitude)
+    assert any(flagged in note for note in done.notes) == path.match("amplitude/rheocompass.txt")
 
 
-@pytest.mark.parametrize("made", [*layouts.WITH_MASS, *layouts.WITHOUT_MASS], ids=lambda made: made.__name__)
-def test_calorimeters(tmp_path: Path, made: Callable[[], bytes]) -> None:
-    done = through(tmp_path, made)
+@pytest.mark.parametrize("path", sorted(FILES.glob("dsc/*")), ids=lambda path: path.stem)
+def test_calorimeters(path: Path) -> None:
+    done = measured(path)
     assert done.kind.name == "dsc"
     assert not done.measurement.fit.misfit
     values = done.measurement.record_values
-    assert values["melting_start"].value - 273.15 == pytest.approx(layouts.MELTS_FROM, abs=0.3)
-    assert values["melting_end"].value - 273.15 == pytest.approx(layouts.MELTS_TO, abs=0.3)
-    assert ("latent_heat" in values) == (made in layouts.WITH_MASS)
-    if made in layouts.WITH_MASS:
-        assert values["latent_heat"].value == pytest.approx(1e3 * layouts.HEAT, rel=0.03)
+    assert values["melting_start"].value - 273.15 == pytest.approx(50.0, abs=0.3)
+    assert values["melting_end"].value - 273.15 == pytest.approx(62.0, abs=0.3)
+    assert ("latent_heat" in values) == (path.stem in WITH_MASS)
+    if path.stem in WITH_MASS:
+        assert values["latent_heat"].value == pytest.approx(60e3, rel=0.03)
     else:
         assert "--set sample_mass='5.2 mg' gives it" in done.measurement.notes[-1]
-    if made is layouts.setaram:
+    if path.stem == "setaram":
         assert any("not used: Index, Furnace Temperature (°C)" in line for line in done.read())
-
-
-@pytest.mark.parametrize("layout", LAYOUTS, ids=lambda layout: layout.data.__name__)
-def test_melts(tmp_path: Path, layout: Layout) -> None:
-    path = tmp_path / f"{layout.data.__name__}{layout.ending}"
-    path.write_bytes(layout.data())
-    if layout.refusal:
-        with pytest.raises(InputError, match=layout.refusal):
-            measured(path)
-        return
-    done = measured(path)
-    assert done.kind.name == layout.kind
-    values = done.measurement.record_values
-    assert not done.measurement.fit.misfit
-    assert {name: holds(as_recorded(values[name]), truth) for name, truth in layout.truth.items()} == dict.fromkeys(
-        layout.truth, True
-    )
 
 
 @pytest.mark.parametrize(
