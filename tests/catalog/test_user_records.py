@@ -6,7 +6,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
-from support import ROOT, Command, sample_text
+from support import ROOT, Command, refused, sample_text
 
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.catalog import Catalog, check_records
@@ -47,35 +47,7 @@ def test_a_user_record_adds_to_the_shelf_or_replaces(tmp_path: Path) -> None:
     assert catalog.record("peltiers", "qc_17").title == "QC-17-1.0-2.5AS"
 
 
-@pytest.mark.parametrize(
-    ("good", "bad", "message"),
-    [
-        (", unit: mV/K", "", "values.seebeck.unit: missing"),
-        ("source: our bench, status: measured}\n  res", "status: measured}\n  res", "values.seebeck.source: missing"),
-        (", source: scale, status: measured", ", source: scale", "values.mass.status: missing"),
-        ("source: scale, status: measured", "source: scale, status: guessed", "values.mass.status: 'guessed'"),
-        ("  mass:", "  masss:", "values.mass: missing; expected g; is masss meant to be it?"),
-        ("value: 6.1, unit: g", "value: 6.1, unit: mm", "values.mass.value: '6.1 mm'"),
-        ("value: 6.1", "value: 6,1", "decimal comma"),
-        ("value: 6.1", "value: '6,1'", "decimal comma"),
-        ("value: 6.1", "value: -6.1", "values.mass.value: must be greater than zero"),
-        ("value: 6.1", "value: .nan", "values.mass.value: expected a number"),
-        ("value: 6.1", "value: 1e400", "values.mass.value"),
-        ("value: 6.1", "value: [6.1]", "values.mass.value: expected a number"),
-        ("low: 400, high: 700, ", "", "values.specific_heat: an assumed value needs its plausible range"),
-        ("low: 400", "low: 600", "values.specific_heat: expected low <= value <= high"),
-        ('"assumed: usual"', "usual", "values.specific_heat.source: an assumed value must say why"),
-        ("source: scale, status: measured", "source: me, status: calibrated", "must say to what"),
-        ("flexible", "floppy", "words.form: expected flexible or rigid"),
-        ("words: {form: flexible}", "", "words.form: missing; expected flexible or rigid"),
-        ("words: {form: flexible}", "words: {form: rigid}", "values.width: missing; expected mm"),
-        ("title: A module I measured", "titel: x", "titel: unknown; did you mean title?"),
-        ("source: scale", "source: scale, sauce: x", "values.mass.sauce: unknown; did you mean source?"),
-        ("max_current:", "Max Current:", "small letters"),
-        ("values:", "values: {}\nstuff:", "values.seebeck: missing"),
-        ("title: A", "title: A\ntitle: B", "'title' is given twice"),
-    ],
-)
+@pytest.mark.parametrize(("good", "bad", "message"), refused("records"))
 def test_a_broken_record_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
     assert good in GOOD
     assert message in refusal(tmp_path, GOOD.replace(good, bad, 1))
@@ -91,19 +63,7 @@ def test_all_problems_are_named_at_once(tmp_path: Path) -> None:
 WIRE = "title: w\ntables:\n  sizes: {{columns: {columns}, rows: {rows}, source: s, status: {status}}}\n"
 
 
-@pytest.mark.parametrize(
-    ("columns", "rows", "status", "message"),
-    [
-        ("{diameter: mm}", "[[1]]", "handbook", "columns.wire_diameter: missing"),
-        ("{wire_diameter: MPa}", "[[1]]", "handbook", "expected a length"),
-        ("{wire_diameter: mm}", "[[1, 2]]", "handbook", r"rows[1]: expected 1 numbers"),
-        ("{wire_diameter: mm}", "[[1], [x]]", "handbook", r"rows[2].wire_diameter: expected a number"),
-        ("{wire_diameter: mm}", "[[0]]", "handbook", "greater than zero"),
-        ("{wire_diameter: mm}", "[]", "handbook", "expected a list of rows"),
-        ("[mm]", "[[1]]", "handbook", "expected a mapping of column to unit"),
-        ("{wire_diameter: mm}", "[[1]]", "assumed", "tables.sizes.range: missing"),
-    ],
-)
+@pytest.mark.parametrize(("columns", "rows", "status", "message"), refused("record_tables"))
 def test_a_broken_table_is_named(tmp_path: Path, columns: str, rows: str, status: str, message: str) -> None:
     assert message in refusal(tmp_path, WIRE.format(columns=columns, rows=rows, status=status), "wires")
 

@@ -3,9 +3,12 @@
 from collections.abc import Iterable
 
 import cadquery as cq
+from cad_designs import broken_rules
 
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
+from tvimdesign.study.design import Design
 
 
 def placed_solids(dims: Dimensions, kinds: Iterable[str]) -> dict[str, cq.Solid]:
@@ -13,3 +16,12 @@ def placed_solids(dims: Dimensions, kinds: Iterable[str]) -> dict[str, cq.Solid]
     drawn = {kind: drawn_part(dims, kind) for kind in kinds}
     standing = MODULES[dims.mode].stand_heaters(dims, drawn, 0.0)
     return {"housing": drawn["housing"], **{name: shape.Solids()[0] for name, shape in standing.items()}}
+
+
+def assert_sound(design: Design, placed: dict[str, cq.Solid], sizes: Iterable[str]) -> None:
+    """Assert that a design satisfies its rules, its solids have their sizes, and none cuts another."""
+    assert broken_rules(design) == []
+    found = {check.name: check for check in size_checks(design, placed) if check.name in {*sizes}}
+    assert sorted(found) == sorted(sizes)
+    assert [check.text for check in found.values() if not check.ok] == []
+    assert [check.text for check in interference_checks(placed, "here") if not check.ok] == []

@@ -15,6 +15,7 @@ from typing import Any
 from unittest import mock
 
 import psutil
+import yaml
 from cvodes_cycle import CvodesSimulator
 
 from tvimdesign.base.processes import LIMIT, communicate, end_process_tree
@@ -39,6 +40,12 @@ def study_path(name: str) -> Path:
 def sample_text(name: str) -> str:
     """Return the text of a study, or of a record, that tests read whole or with changes."""
     return (ROOT / f"tests/studies/texts/{name}.yaml").read_text(encoding="utf-8")
+
+
+def refused(what: str) -> list[Any]:
+    """Return cases of input that is refused, with the words of each refusal."""
+    cases: list[Any] = yaml.safe_load((ROOT / f"tests/refused/{what}.yaml").read_text(encoding="utf-8"))
+    return cases
 
 
 def is_at_work(process: int) -> bool:

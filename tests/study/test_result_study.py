@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from cad_designs import shipped_design
 from comparable import COMPRESSION, SHEAR, entrants
-from support import ROOT, Command
+from support import ROOT, Command, refused
 
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.result import answer
@@ -143,30 +143,7 @@ def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
     assert "layer_strain <= 4 is required here" in problems_of(tmp_path, SHEAR, strain)[0]
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "place", "words"),
-    [
-        ("  current: 1.5 A", "  current: 2 A", "4:3: module.current", "2 A here, 1.5 A in"),
-        ("  current", "  ambient_temperature: 30 degC\n  current", "4:3: module.ambient_temperature",
-         "30 °C here, 22 °C in"),
-        ("  current: 1.5 A", "  structure_material: aluminum_6061_t6\n  current: 1.5 A", "module.structure_material",
-         "aluminum_6061_t6 here, petg in"),
-        ("  current", "  peltier_seebeck: 0.04 V/K\n  current", "module.peltier_seebeck", "0.04 V/K here"),
-        ("response_criterion: softening", "response_criterion: mean", "module.response_criterion", "mean here"),
-        ("{temperature: 100 degC", "{temperature: 90 degC", "operating_points.hot.temperature",
-         "90 °C here, 100 °C in"),
-        ("  hot:", "  warm: {temperature: 60 degC, frequency: 1 Hz}\n  hot:", "operating_points",
-         "there is no operating point warm here"),
-        ('holding_torque: ">= 5 N.m"', 'holding_torque: ">= 6 N.m"', "require.holding_torque",
-         "holding_torque >= 6 N·m here, holding_torque >= 5 N·m in"),
-        ('  holding_torque: ">= 5 N.m"\n', "", "require", "holding_torque >= 5 N·m is not required here"),
-        ("require:", 'require:\n  module_mass: "<= 1 kg"', "require.module_mass", "is required here, and not in"),
-        ("module_mass: 1,", "module_mass: 2,", "minimize", "the objective is module_mass 2, response_time 1 here"),
-        ("solver: {starts: 1}", "solver: {starts: 1, cells: 20}", "solver.cells", "20 here, 28 in"),
-        ("solver: {starts: 1}", "solver: {starts: 1}\ntolerances: standard\nrobust: {sigma: 2}", "robust",
-         "limits are satisfied by 2 standard deviations here, limits are satisfied by 0 standard deviations in"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("old", "new", "place", "words"), refused("conditions"))
 def test_a_different_task_or_condition_is_reported_with_both_places(
     tmp_path: Path, old: str, new: str, place: str, words: str
 ) -> None:

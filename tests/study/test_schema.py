@@ -10,7 +10,7 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
-from support import STUDIES
+from support import STUDIES, refused
 from test_reader import GOOD
 
 from tvimdesign import __version__
@@ -20,46 +20,7 @@ from tvimdesign.study import Study, StudyError, given, read_study_text, template
 from tvimdesign.study.sections.all_sections import NAMES
 from tvimdesign.study.written_studies import example_text, json_schema
 
-WRONG = [
-    "name: x",
-    "mode: bending",
-    "mode: shear\nmodul: {}",
-    "mode: shear\nmodule: {wire_diamter: 2 mm}",
-    "mode: shear\nmodule: {wire_diameter: 2}",
-    "mode: shear\nmodule: {wire_diameter: '1,5 mm'}",
-    "mode: shear\nmodule: {rate_model: smii}",
-    "mode: shear\nmodule: {temperature: 3 degC}",
-    "mode: shear\nmodule: [1]",
-    "mode: shear\nvary: {wire_diameter: [1 mm]}\nminimize: module_mass",
-    "mode: shear\nvary: {arc_count: [1, 3]}\nminimize: module_mass",
-    "mode: shear\nvary: {placement_radius: [30 mm, 40 mm]}\nminimize: module_mass",
-    "mode: shear\nvary: {wire_diameter: {from: 1 mm, too: 2 mm}}\nminimize: module_mass",
-    "mode: shear\nvary: {peltier: {choose: []}}\nminimize: module_mass",
-    "mode: shear\nrequire: {module_mas: '<= 3 g'}",
-    "mode: shear\nrequire: {module_mass: '< 3 g'}",
-    "mode: shear\nrequire: {joint_stiffness: '>= 3 N.m/rad'}",
-    "mode: shear\nrequire: {module_mass@hot: '>= 3 g'}",
-    "mode: shear\nrequire: {face_temperature: '>= 3 degC'}",
-    "mode: shear\nvary: {coil_count: [2, 3]}\nminimize: [module_mass]",
-    "mode: shear\nvary: {coil_count: [2, 3]}\nminimize: modul_mass",
-    "mode: shear\noperating_points: {Hot: {temperature: 3 degC}}",
-    "mode: shear\noperating_points: {hot: {temp: 3 degC}}",
-    "mode: shear\nsolver: {starts: 0}",
-    "mode: shear\nsolver: {speed: 1}",
-    "mode: shear\nwrite: {cad: 1}",
-    "mode: shear\ntolerances: usual",
-    "mode: shear\ntolerances: {wire_diamter: 1 mm}",
-    "mode: shear\ntolerances: {wire_diameter: {plus_minus: 1 mm, distribution: gauss}}",
-    "mode: shear\nrobust: {sigma: 2, yield: 0.9}",
-    "mode: shear\nsweep: {over: {pcl_thicknes: [1 mm]}}",
-    "mode: shear\nsweep: {over: {pcl_thickness: 1 mm}}",
-    "mode: shear\nsweep: {over: {rate_model: {from: smi, to: simple}}}",
-    "mode: shear\nsweep: {over: {}}",
-    "mode: shear\nsweep: {method: random, over: {pcl_thickness: [1 mm]}}",
-    "mode: shear\nsweep: {over: {pcl_thickness: {from: 1 mm, too: 2 mm, count: 3}}}",
-    "mode: shear\nsweep: {over: {pcl_thickness: [1 mm]}, outputs: [modul_mass]}",
-    "mode: shear\nsweep: {over: {pcl_thickness: [1 mm]}, task: solve}",
-]
+WRONG = refused("studies")
 
 
 @pytest.fixture(scope="module")

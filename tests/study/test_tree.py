@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pint
 import pytest
-from support import STUDIES
+from support import STUDIES, refused
 
 from tvimdesign.study import Range, Study, StudyError, read_study_text, read_tree
 from tvimdesign.study.text.mistakes import Mistakes
@@ -68,24 +68,7 @@ def test_what_may_be_set(setting: str, find: Any, wanted: Any) -> None:
     assert find(read(setting)) == wanted
 
 
-@pytest.mark.parametrize(
-    ("setting", "message"),
-    [
-        ("pcl_thickness=1,2 mm", "module.pcl_thickness: '1,2 mm': a decimal comma is not read"),
-        ("pcl_thicknes=1 mm", "did you mean 'pcl_thickness'?"),
-        ("pcl_thickness=1 furlong", "'furlong' is no unit"),
-        ("pcl_thickness=50 mm", "above the upper limit"),
-        ("holding_torque=15 N.m", "is a result and cannot be set"),
-        ("require.holding_torque=15 N.m", "does not fit here"),
-        ("requir.holding_torque=15 N.m", "did you mean 'require'?"),
-        ("name.first=x", "name: a mapping (name: value) does not fit here"),
-        ("module.current.a=1 A", "module.current: is no mapping"),
-        ("vary.coil_diameter=[8 mm", "not valid YAML"),
-        ("pcl_thickness", "there is no '='"),
-        ("=1 mm", "there is no '='"),
-        ("current=1\x07 A", "control character"),
-    ],
-)
+@pytest.mark.parametrize(("setting", "message"), refused("settings"))
 def test_a_wrong_setting_is_named_as_the_place(setting: str, message: str) -> None:
     (line,) = problems(setting)
     assert line.startswith("--set " + setting.partition("\x07")[0])

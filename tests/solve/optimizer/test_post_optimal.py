@@ -1,4 +1,4 @@
-"""What holds at an optimum, and a search of all of the bounds."""
+"""Shadow prices at an optimum, and a search of all of the bounds."""
 
 import pytest
 from small_studies import with_limit_eased

@@ -1,4 +1,4 @@
-"""Tolerances of dimensions, and inputs that nobody has measured."""
+"""Tolerances of dimensions, and unmeasured inputs."""
 
 from collections.abc import Callable
 from dataclasses import replace
