@@ -23,8 +23,10 @@ from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
 from tvimdesign.device import Table
 from tvimdesign.report.output.tables import results, soft_in_words
+from tvimdesign.report.run.blocks.verdict import verdict
+from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.report.run.reasons import above_rating, complaint, starts_reported
-from tvimdesign.report.run.uncertainty_data import below_yield
+from tvimdesign.report.run.uncertainty_data import below_yield, uncertainty_of
 from tvimdesign.solve import anchored_search
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -33,6 +35,7 @@ from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.design import Design, read_design
+from tvimdesign.study.resolve import record_checks
 from tvimdesign.study.tree import StudyTree, tree_of_file
 
 
@@ -106,16 +109,23 @@ class ComparisonJob:
 
     def run(self) -> dict[str, Any]:
         """Do every step that can be done."""
-        optimised: StudyResult | None = None
+        which = "optimised" if self.study.vary else "drawn"
+        answered: StudyResult | None = None
         if self.study.vary:
             with self._step("optimised"):
-                optimised = self._optimised()
+                answered = self._optimised()
         with self._step("as drawn"):
             self.say("as drawn")
-            self.found["drawn"] = self._compared(answer(drawn(self.study)))
-        if optimised and self.points:
+            as_drawn = answer(drawn(self.study))
+            self.found["drawn"] = self._compared(as_drawn)
+            answered = answered if self.study.vary else as_drawn
+        with self._step("verdict"):
+            if answered:
+                self.say("verdict")
+                self.found[which]["verdict"] = self._verdict(answered)
+        if answered and self._built and self.points:
             with self._step("fronts"):
-                self._trade(optimised)
+                self._trade(answered)
         return self.found
 
     @contextmanager
@@ -151,6 +161,11 @@ class ComparisonJob:
     def _compared(self, answered: StudyResult) -> dict[str, Any]:
         reported = results(answered, self.table) | {"starts": starts_reported(answered)}
         return compared_design(answered.design, reported, self.table)
+
+    def _verdict(self, answered: StudyResult) -> str:
+        """Return the verdict as `run` gives it."""
+        warnings = warnings_of(answered, record_checks(self.study))
+        return verdict(answered, uncertainty_of(answered, self.study), warnings).text
 
     def _trade(self, best: StudyResult) -> None:
         assert best.solution is not None

@@ -6,12 +6,10 @@ Backup of a run that is interrupted before it is written: a study that goes on f
 from __future__ import annotations
 
 import json
-import os
 import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -149,28 +147,18 @@ def _parts_of_design(making: BackgroundPartsJob | None, folder: ResultsFolder) -
     return begin
 
 
-_SPREAD = "TVIMDESIGN_SPREAD"
-"""Variable of the environment: `off` leaves yield and ranges out, where many runs share few processors."""
 _STEP = "yield and intervals"
 
 
 def _add_uncertainty(answered: AnsweredStudy, progress: Progress) -> None:
-    """Add yield and intervals to an answer with a design; a yield that the study asks for is known from its search."""
+    """Add yield and intervals to an answer with a design."""
     from tvimdesign.report.run.answered_study import note_left_out, note_no_uncertainty, note_uncertainty
-    from tvimdesign.report.run.uncertainty_data import MODULES, Uncertainty
-    from tvimdesign.solve.nlp.spread import yield_of
+    from tvimdesign.report.run.uncertainty_data import uncertainty_of
 
-    if os.environ.get(_SPREAD) == "off" or not answered.result.found:
-        return
     progress(f"computing {_STEP} over the assumed values")
-    reached = answered.result.solution and answered.result.solution.yield_reached
     try:
         answered.deadline.check(_STEP)
-        uncertainty = Uncertainty(answered.study)
-        data = uncertainty.data(answered.result.design, 0 if reached else MODULES, deadline=answered.deadline)
-        if reached:
-            data |= {"parts_yield": asdict(yield_of(reached.together, reached.modules)), "modules": reached.modules}
-        note_uncertainty(answered, data)
+        note_uncertainty(answered, uncertainty_of(answered.result, answered.study, answered.deadline))
     except TimeOverError:
         answered.deadline.leave_out(_STEP)
         note_left_out(answered)

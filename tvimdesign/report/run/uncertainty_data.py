@@ -6,8 +6,9 @@ A yield that was asked for, in words: what is reached, what the margins cost, an
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from tvimdesign.report.output.numbers import finite, in_unit, label, number_entr
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
@@ -30,6 +32,8 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
 
+_SPREAD = "TVIMDESIGN_SPREAD"
+"""Variable of the environment: `off` leaves yield and ranges out, where many runs share few processors."""
 MODULES = 1 << 12
 """Modules drawn for the yield."""
 _NAMED = 3
@@ -132,6 +136,22 @@ class Uncertainty:
             },
             "unmeasured": [_unmeasured(unmeasured_input, self.table) for unmeasured_input in uncertainty.unmeasured],
         }
+
+
+def uncertainty_of(answer: StudyResult, study: Study, deadline: Deadline = NEVER) -> dict[str, Any]:
+    """Return yield and intervals of an answer; a yield that its study asks for is known from the search.
+
+    Empty without a design, or where they are left out. Raises TimeOverError.
+    """
+    if os.environ.get(_SPREAD) == "off" or not answer.found:
+        return {}
+    reached = yield_of(answer)
+    data = Uncertainty(study).data(answer.design, 0 if reached else MODULES, deadline=deadline)
+    if reached:
+        data |= {
+            "parts_yield": asdict(spread.yield_of(reached.together, reached.modules)), "modules": reached.modules,
+        }  # fmt: skip
+    return data
 
 
 def interval_entry(
