@@ -62,6 +62,17 @@ def test_a_range_of_stiffness_and_the_supply_are_taken_as_written() -> None:
     assert study.module["peltier_module"] == "polyimide_foil_12v"
 
 
+def test_a_supply_without_a_current_leaves_the_heater_s_rating() -> None:
+    task = JointTask.read(**WRIST | {"supply": "24 V"})
+    assert task.options()["supply"] == "24 V"
+    study = read_study_text(study_text(task, "middle"), "joint.yaml")
+    assert {"peak_voltage", "current_margin"} <= {limit.output for limit in study.require}
+    assert "peak_current" not in {limit.output for limit in study.require}
+    current = study.vary["current"]
+    assert isinstance(current, Range)
+    assert current.upper == pytest.approx(0.9375, rel=1e-3)  # amperes, a quarter of the way from 0.75 to 1.5
+
+
 def test_the_time_to_stiffen_is_required_where_it_is_asked() -> None:
     limits = {limit.output: limit.limit for limit in sized(stiff_time="5 min").require}
     assert (limits["stiffening_time"], limits["response_time"]) == (300.0, 60.0)
@@ -92,7 +103,7 @@ def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers: dict[st
         ({"diameter": "300 mm"}, "diameter: 300 mm is not from 20 mm to 200 mm"),
         ({"stroke": "50 deg"}, "stroke: 50 deg to either side of rest is beyond 28.6"),
         ({"stiff_time": "5"}, "stiff_time: .* write for instance '300 s'"),
-        ({"supply": "24 V"}, "supply: .* write for instance '24 V, 3 A'"),
+        ({"supply": "24 V, 3"}, "supply: .* write for instance '24 V, 3 A'"),
         ({"stiffness": "2 to 1 N.m/rad"}, "stiffness: .* is upside down"),
     ],
 )
@@ -105,7 +116,7 @@ def test_options_that_are_missing_or_no_number_are_named_at_once(tvimdesign: Com
     done = tvimdesign("size", "--torque", "8", "--stiffness", "1.5", "--supply", "24 V", "--time", "60 s")
     assert done.returncode == 2
     named = [line.partition(":")[0] for line in done.stderr.splitlines()]
-    assert named == ["stiffness", "supply", "torque", "diameter"]
+    assert named == ["stiffness", "torque", "diameter"]
     assert "diameter: missing; write for instance '70 mm'" in done.stderr
 
 

@@ -55,7 +55,7 @@ def size(
     time : str
         Time within which the joint gets soft.
     supply : str
-        Voltage and current, such as ``"24 V, 3 A"``.
+        Voltage, and the current if it has a limit, such as ``"24 V"`` or ``"24 V, 3 A"``.
     stroke : str, optional
         Angle that the soft joint turns to either side; 0.104 rad unless given.
     stiff_time : str, optional

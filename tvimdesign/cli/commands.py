@@ -138,7 +138,7 @@ def size(
     ] = "",
     diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")] = "",
     time: Annotated[str, typer.Option("--time", help="Time within which it gets soft, such as '60 s'.")] = "",
-    supply: Annotated[str, typer.Option("--supply", help="Voltage and current, such as '24 V, 3 A'.")] = "",
+    supply: Annotated[str, typer.Option("--supply", help="Voltage, and its current if limited: '24 V, 3 A'.")] = "",
     stiff_time: Annotated[
         str, typer.Option("--stiff-time", help="Time within which it gets stiff again; any unless given.")
     ] = "",
