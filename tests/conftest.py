@@ -38,7 +38,6 @@ LONGEST = (
     "tests/simulation/working_cycle/",
     "tests/solve/pareto/test_front.py",
     "tests/test_docs_commands.py",
-    "tests/test_tutorial.py",
 )
 """Files and rooms that take longest, of the fast or of all tests. A room is dealt out whole, as a file is: its files
 share what takes long to make."""

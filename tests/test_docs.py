@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 
 import pytest
-import yaml
 from answers import shipped_answer
 from section_drawing import SECTIONS, missing
 from support import ROOT, STUDIES, Command, study_path
@@ -191,12 +190,6 @@ def test_links_lead_somewhere() -> None:
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
             made_by_the_site = re.search(r"(^|/)(reference/|gallery\.md$)", target)
             assert made_by_the_site or (page.parent / target).exists(), f"{page.name}: {target}"
-
-
-def test_the_citation_has_the_package_s_version() -> None:
-    import tvimdesign as package
-
-    assert yaml.safe_load((ROOT / "CITATION.cff").read_text())["version"] == package.__version__
 
 
 @pytest.mark.parametrize("floor", ["catalog", "physics", "device", "study", "solve", "cad", "report"])

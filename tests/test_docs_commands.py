@@ -1,15 +1,21 @@
-"""The tutorial and the how-to pages: their files are written and their commands run, in the order of the page."""
+"""The tutorial, its notebook and the how-to pages: their commands and cells run in order."""
 
+import ast
 import json
 import re
 import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import chdir, contextmanager
 from pathlib import Path
+from typing import Any
 
+import matplotlib as mpl
+import pandas as pd
 import pytest
 import python_page
+from matplotlib.figure import Figure
 from support import ROOT, Command
 
 import tvimdesign as tvim
@@ -131,3 +137,71 @@ def test_the_code_of_the_python_page_prints_the_numbers_beside_it(tmp_path: Path
     for call in tried:
         value = eval(call, names)
         _ = value.resolved if isinstance(value, tvim.Study) else value
+
+
+NOTEBOOK = json.loads((ROOT / "docs/tutorial.ipynb").read_text(encoding="utf-8"))
+CODE = [cell for cell in NOTEBOOK["cells"] if cell["cell_type"] == "code"]
+
+
+def shown(source: str, names: dict[str, Any]) -> Any:
+    """Execute a cell; returns what its last line shows, as a notebook would."""
+    tree = ast.parse(source)
+    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+    exec(compile(tree, "cell", "exec"), names)
+    return eval(compile(ast.Expression(last.value), "cell", "eval"), names) if isinstance(last, ast.Expr) else None
+
+
+def executed(cells: list[dict[str, Any]], names: dict[str, Any]) -> Iterator[Any]:
+    for cell in cells:
+        yield shown("".join(cell["source"]), names)
+
+
+@contextmanager
+def notebook(folder: Path, cells: list[dict[str, Any]]) -> Iterator[list[Any]]:
+    """What cells show that are executed in a folder, then the names they leave, and the folder."""
+    mpl.use("Agg")
+    names: dict[str, Any] = {}
+    with chdir(folder):
+        yield [*executed(cells, names), names, folder]
+
+
+@pytest.fixture(scope="module")
+def outputs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[Any]]:
+    cells = [cell for cell in CODE if "slow" not in cell["metadata"].get("tags", ())]
+    with notebook(tmp_path_factory.mktemp("tutorial"), cells) as found:
+        yield found
+
+
+@pytest.mark.slow
+def test_it_shows_and_saves_a_study_results_tables_and_figures(outputs: list[Any]) -> None:
+    kinds = [type(output) for output in outputs]
+    assert kinds.count(tvim.Study) == 1
+    assert kinds.count(tvim.Result) == 1
+    assert kinds.count(pd.DataFrame) == 4
+    assert kinds.count(Figure) == 2
+    for output in outputs:
+        if isinstance(output, pd.DataFrame):
+            assert len(output) > 2
+        if isinstance(output, Figure):
+            assert output._repr_png_()[:4] == b"\x89PNG"  # what a notebook asks for
+            assert any(line.get_xydata().size > 6 for axes in output.axes for line in axes.lines)
+    names = outputs[-2]
+    assert names["result"].status == "optimal"
+    assert names["result"]["module_mass"] < names["drawn"]["module_mass"]
+    swept = names["sweep"].table("response_time")
+    assert list(swept.status) == ["evaluated"] * 4
+    assert swept["response_time"].is_monotonic_increasing
+    folder = outputs[-1] / "tutorial_results"
+    assert {"manifest.json", "results.json", "design.json", "study.yaml", "plots"} <= {p.name for p in folder.iterdir()}
+
+
+def test_the_notebook_is_kept_without_outputs() -> None:
+    assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in CODE)
+
+
+@pytest.mark.slow
+def test_its_parts_are_made(outputs: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (parts,) = executed([cell for cell in CODE if "slow" in cell["metadata"].get("tags", ())], outputs[-2])
+    assert any(file.suffix == ".step" and file.stat().st_size > 10_000 for file in parts.files)
+    assert (parts.table()["level"] != "failure").all()

@@ -1,4 +1,4 @@
-"""A sweep is opened: its cells are drawn, and the one that is chosen is what the explorer shows."""
+"""Swept cells in the explorer, and its controls."""
 
 import csv
 import json
@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from explored import awaited, talking
+from explored import SMALL, awaited, talking
 from playwright.sync_api import Browser
 from served_explorer import Served, exploring
 from support import sample_text
@@ -14,9 +14,10 @@ from support import sample_text
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si
 from tvimdesign.explore.states.source import open_source
-from tvimdesign.explore.states.state import tree_of
+from tvimdesign.explore.states.state import State, controls_shown, sized_state, tree_of
 from tvimdesign.report.sweep.sweep_study import sweep_folder
-from tvimdesign.study import read_tree
+from tvimdesign.study import read_study_text, read_tree
+from tvimdesign.study.sizing import JointTask, study_text
 from tvimdesign.study.tree import tree_of_text
 from tvimdesign.sweep.plan import plan_of
 from tvimdesign.sweep.run_sweep import Executor
@@ -163,3 +164,37 @@ def test_a_cell_is_clicked_and_one_is_asked_for_by_its_number(browser: Browser, 
             assert explorer.complaints == []
     finally:
         result.end()
+
+
+CONTROLLED = """
+mode: shear
+vary:
+  pcl_thickness: [0.6 mm, 2 mm]
+  arc_span: [20 deg, 110 deg]
+require: {envelope_diameter: "<= 0.09 m"}
+minimize: {module_mass: 1}
+"""
+
+
+def test_controls_have_units_labels_and_groups() -> None:
+    study = read_study_text(CONTROLLED)
+    at = {"pcl_thickness": "0.0012 m", "arc_span": "1.3592 rad"}
+    thickness, span = controls_shown(study, study, State(way="optimize", at=at))["variables"]
+    assert thickness["text"] == "1.2 mm"
+    assert span["unit"] == "°"
+    assert span["value"] == pytest.approx(77.8764, abs=1e-4)
+    assert span["text"].endswith(" deg")
+    assert span["low"] < span["value"] < span["high"]
+    at = {"pcl_thickness": "1 mm", "arc_span": "60 deg"}
+    shown = controls_shown(study, study, State(way="optimize", at=at))
+    assert shown["requirements"][0]["label"] == "diameter"
+    assert all(control["label"] and control["group"] for control in [*shown["inputs"], *shown["choices"]])
+    assert all(isinstance(control["value"], float) for control in shown["inputs"])
+
+
+@pytest.mark.parametrize("hardware", ["small", "heavy"])
+def test_a_sized_study_takes_the_place_of_the_one_that_is_open(hardware: str) -> None:
+    text = study_text(JointTask.read("8 N.m", "1 to 2 N.m/rad", "90 mm", "60 s", "24 V, 3 A"), hardware)
+    base = tree_of_text(SMALL, "small.yaml", "small", Path())
+    sized, alone = read_tree(tree_of(base, sized_state(base, text))), read_study_text(text)
+    assert sized.model_dump() == {**alone.model_dump(), "name": sized.name}

@@ -1,16 +1,26 @@
-"""What a shard keeps is whole lines, whatever ends its writer."""
+"""Plans of sweeps and their shards."""
 
 import math
+import re
 import resource
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
-from support import ROOT
+from scipy.stats import qmc
+from small_studies import ALGEBRAIC
+from small_sweeps import plan
+from support import ROOT, study_path
 
-from tvimdesign.base.errors import OutputError
-from tvimdesign.sweep.plan import CellAnswer
+import tvimdesign as tvim
+from tvimdesign.base.errors import InputError, OutputError
+from tvimdesign.study import StudyError
+from tvimdesign.sweep.answers import CellAnswers
+from tvimdesign.sweep.chunks import CellQueue
+from tvimdesign.sweep.plan import Cell, CellAnswer, SweepPlan, SweptStudy
+from tvimdesign.sweep.run_sweep import CellKeys
 from tvimdesign.sweep.shards import Shards, ShardWriter
 
 COLUMNS = ("module_mass", "response_time", "spring_material")
@@ -87,3 +97,151 @@ def test_full_disks_and_folders_in_the_way_keep_the_cells_before(tmp_path: Path)
     (tmp_path / "other/shards").write_text("a file")
     with pytest.raises(OutputError, match=r"shards: cannot be written"):
         written(tmp_path / "other", KEYS)
+
+
+OPTIMISED = """
+mode: shear
+vary: {wire_diameter: [1.5 mm, 3 mm], coil_diameter: [10 mm, 30 mm], pcl_thickness: [0.6 mm, 2 mm]}
+minimize: module_mass
+require: {holding_torque: '>= 10 N.m', module_mass: '<= 300 g'}
+"""
+
+
+def plan_over(tmp_path: Path, sweep: str, study: str = "mode: shear\n") -> SweepPlan:
+    path = tmp_path / "study.yaml"
+    path.write_text(f"{study}sweep: {sweep}\n")
+    return plan(path)
+
+
+def test_grids_and_samples_lie_where_they_are_asked_for(tmp_path: Path) -> None:
+    found = plan_over(tmp_path, "{over: {current: [1 A, 2 A], arc_count: {from: 3, to: 5}}}")
+    cells = [found.points.texts(number) for number in range(found.count)]
+    assert cells == [(current, count) for current in ("1 A", "2 A") for count in ("3", "4", "5")]
+    found = plan_over(tmp_path, "{over: {current: {from: 0.5 A, to: 8 A, count: 5, spacing: logarithmic}}}")
+    assert [found.axis_values(number)[0] for number in range(5)] == pytest.approx([0.5, 1.0, 2.0, 4.0, 8.0])
+    over = "{current: {from: 1 A, to: 2 A}, pcl_thickness: {from: 0.6 mm, to: 2 mm}}"
+    found = plan_over(tmp_path, f"{{method: sobol, count: 5, seed: 9, over: {over}}}")
+    shares = qmc.Sobol(2, rng=9).random_base2(3)[:5]
+    expected = qmc.scale(shares, [1.0, 0.6], [2.0, 2.0])
+    assert np.array([found.axis_values(number) for number in range(5)]) == pytest.approx(expected, rel=1e-9)
+    over = "{rate_model: [smi, bending], arc_count: {from: 3, to: 6}}"
+    found = plan_over(tmp_path, f"{{method: latin_hypercube, count: 8, over: {over}}}")
+    words, counts = zip(*(found.points.texts(number) for number in range(8)), strict=True)
+    assert sorted(words) == ["bending"] * 4 + ["smi"] * 4
+    assert sorted(counts) == ["3", "3", "4", "4", "5", "5", "6", "6"]
+
+
+def test_bad_or_too_many_cells_are_refused_with_advice(tmp_path: Path) -> None:
+    with pytest.raises(StudyError, match=r"study.yaml:2:\d+: module.current: '99 A' is above the upper limit"):
+        plan_over(tmp_path, "{over: {pcl_thickness: [1 mm], current: [1 A, 99 A]}}")
+    with pytest.raises(StudyError, match="no unit"):
+        plan_over(tmp_path, "{over: {pcl_thickness: [1 mm, 1 furlong]}}")
+    over = "over: {current: {from: 1 A, to: 2 A, count: 1000}, pcl_thickness: {from: 1 mm, to: 2 mm, count: 1000}}"
+    with pytest.raises(InputError, match=r"1000000 cells; the limit is 100000; .*say `most: 1000000`"):
+        plan_over(tmp_path, f"{{{over}}}")
+    assert plan_over(tmp_path, f"{{most: 1000000, {over}}}").count == 1_000_000
+    path = tmp_path / "study.yaml"
+    path.write_text("mode: shear\n")
+    with pytest.raises(InputError, match=r"there is no `sweep:`; add, for one, sweep: {over: "):
+        plan(path)
+
+
+@pytest.mark.parametrize(
+    "sweep",
+    [
+        "{over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 3}, require.holding_torque: ['>= 5 N.m', '>= 6 N.m']}}",
+        "{over: {require.module_mass: {from: <= 200 g, to: <= 300 g, count: 3}, rate_model: [smi, bending]}}",
+        "{over: {operating_points.hot.temperature: {from: 90 degC, to: 110 degC, count: 3}, arc_count: [3, 4]}}",
+        "{over: {wire_diameter: [2 mm], coil_diameter: [20 mm, 25 mm], pcl_thickness: [1 mm, 1.2 mm]}}",
+        "{method: latin_hypercube, count: 4, over: {wire_diameter: {from: 2 mm, to: 3 mm}, solver.starts: [1, 2]}}",
+    ],
+)
+def test_every_cell_has_a_key_of_its_own(tmp_path: Path, sweep: str) -> None:
+    found = plan_over(tmp_path, sweep, OPTIMISED)
+    keys = CellKeys(found)
+    assert len({keys.key(found.points.texts(number)) for number in range(found.count)}) == found.count
+
+
+def test_a_key_changes_with_study_and_record_not_with_other_cells(tmp_path: Path) -> None:
+    def key(sweep: str = "{over: {current: [1 A, 2 A]}}", study: str = "mode: shear\n") -> str:
+        found = plan_over(tmp_path, sweep, study)
+        return CellKeys(found).key(found.points.texts(0))
+
+    own = "mode: shear\ncatalog: records\nmodule: {pcl_grade: own}\n"
+    records = tmp_path / "records/polymers"
+    records.mkdir(parents=True)
+
+    def with_record(title: str) -> str:
+        (records / "own.yaml").write_text(f"title: {title}\nbased_on: pcl_80k\n")
+        return key(study=own)
+
+    assert key() == key() == key("{over: {current: [1 A, 3 A, 4 A]}}")
+    assert key() == key("{over: {current: {from: 1000 mA, to: 2 A, count: 4}}}")
+    assert key() != key(study="mode: shear\nmodule: {wire_diameter: 2.3 mm}\n")
+    assert key() != key(study="mode: shear\nsolver: {cells: 20}\n")
+    assert key() == key(study="mode: shear\nname: other\nwrite: {cad: false}\n")
+    assert with_record("a") == with_record("a") != with_record("b")
+
+
+def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswer]:
+    asked = plan(path, *settings)
+    found = CellAnswers(SweptStudy.of(asked))
+    return {number: found.answer(Cell("", asked.points.texts(number))) for number in order}
+
+
+def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
+    over = "sweep.over={pcl_thickness: [0.6 mm, 1 mm], arc_count: [3, 4]}"
+    forward, backward = answers(study_file, [0, 1, 2, 3], over), answers(study_file, [3, 0], over)
+    assert backward == {number: forward[number] for number in backward}
+    assert len({one.values for one in forward.values()}) == 4
+
+
+@pytest.mark.gate
+def test_a_cell_below_its_yield_says_by_how_much(tmp_path: Path) -> None:
+    path = tmp_path / "study.yaml"
+    band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
+    path.write_text(f"{band}robust: {{yield: 95 %}}\nsweep: {{over: {{link_thickness: [5 mm]}}}}\n")
+    (cell,) = answers(path, [0]).values()
+    assert cell.status == "below_yield"
+    assert re.match(r"yield [\d.]+% of 95% asked, most lost to \w*spring_stiffness [<>]= 5", cell.reason)
+
+
+@pytest.mark.slow
+def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
+    path = tmp_path / "study.yaml"
+    path.write_text(tvim.load(study_path("paper_shear")).text)
+    over = "sweep={over: {pcl_thickness: [0.6 mm, 0.9 mm], require.holding_torque: ['>= 12 N.m', '>= 120 N.m']}}"
+    one = "solver.starts=1"
+    forward, backward = answers(path, [0, 1, 2, 3], over, one), answers(path, [2, 0], over, one)
+    assert backward == {number: forward[number] for number in backward}
+    assert [forward[number].warm for number in (0, 2)] == [True, True]
+    assert forward[1].status == "infeasible"
+    assert "breaks" in forward[1].reason
+
+
+def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file: Path) -> None:
+    asked = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
+    cells = [Cell(str(number), asked.points.texts(number)) for number in range(4)]
+    left = CellQueue(cells, SweptStudy.of(asked), workers=2)
+    first, other, second = left.next(1), left.next(2), left.next(1)
+    assert [one.texts[1] for one in (*first, *other, *second)] == ["smi", "bending", "smi"]
+    left.done(1000, 1.0)
+    left.put_back([*first, *second])
+    assert [len(left.next(1)) for _ in range(3)] == [1, 1, 1]
+    assert left.next(1) == []
+    assert len(left) == 0
+
+
+def test_own_records_are_found_by_a_worker_that_began_in_another_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = "mode: shear\ncatalog: records\nsolver: {cells: 6}\nsweep: {over: {spring_material: [own]}}\n"
+    own = "title: Own\nbased_on: music_wire\nvalues: {stress_relief_temperature: {value: 250, unit: degC, "
+    (tmp_path / "records/spring_materials").mkdir(parents=True)
+    (tmp_path / "records/spring_materials/own.yaml").write_text(f"{own}status: datasheet, source: a sheet}}}}\n")
+    (tmp_path / "study.yaml").write_text(study)
+    monkeypatch.chdir(tmp_path)
+    asked = plan(Path("study.yaml"))
+    job = SweptStudy.of(asked)
+    monkeypatch.chdir("/")
+    assert CellAnswers(job).answer(Cell("key", asked.points.texts(0))).status == "evaluated"

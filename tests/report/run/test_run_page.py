@@ -1,5 +1,7 @@
-"""The page of a run says what summary.txt and results.json say, and what to do where there is nothing to show."""
+"""The page of a run, and why a design is as it is."""
 
+import csv
+import io
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,13 +10,19 @@ from xml.etree.ElementTree import Element
 import html5lib
 import pytest
 import sample_pages
+from small_studies import FOUR_SIZES_IN_SHEAR
 from support import Command
 
+from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Folded, Grid
 from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.blocks.sections import assumptions_section
-from tvimdesign.report.run.blocks.tables import moves
+from tvimdesign.report.run.blocks.tables import checks_grid, moves
+from tvimdesign.report.run.reasons import active, sentences, slack, why_csv, why_rows
 from tvimdesign.report.run.run_page import glance
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import read_study_text
 
 
 def words(element: Element) -> str:
@@ -102,3 +110,64 @@ def test_a_page_tells_how_sure_it_is_and_what_a_measurement_bought(answered: Ans
     assert isinstance(table, Grid)
     shown = dict(zip((head.text for head in table.heads), (cell.text for cell in table.rows[0]), strict=True))
     assert (shown["low"], shown["high"], shown["before measuring"]) == ("90", "120", "40 to 240")
+
+
+TABLE = table_for("shear")
+ACTIVE_STUDY = f"""{FOUR_SIZES_IN_SHEAR}
+require: {{spring_stiffness: [">= 5 N.m/rad", "<= 8 N.m/rad"], peak_power: "<= 9 W"}}
+minimize: {{module_mass: 1, response_time: 1}}
+solver: {{starts: 1}}
+"""
+
+
+@pytest.fixture(scope="module")
+def optimum() -> StudyResult:
+    return answer(read_study_text(ACTIVE_STUDY, "a test"))
+
+
+def test_more_stiffness_costs_mass_and_less_power_time(optimum: StudyResult) -> None:
+    held = next(held for held in active(optimum) if held.name == "spring_stiffness_full_stroke >=")  # the least
+    cost = held.sensitivity["module_mass"]
+    assert 0.0 < cost < 1.0
+    begin = "1 % more spring_stiffness_full_stroke (now >= 5 N·m/rad) costs"
+    said = next(one for one in sentences(optimum) if one.startswith(begin))
+    assert f"{cost:.2g} % module_mass" in said
+    said = next(one for one in sentences(optimum) if "peak_power" in one)
+    assert said.startswith("1 % less peak_power (now <= 9 W) costs")
+    assert "response_time" in said
+
+
+def test_each_limit_is_active_touches_or_has_room_in_its_order(optimum: StudyResult) -> None:
+    rows = why_rows(optimum, TABLE)
+    assert len(rows) == len(optimum.solution.held)
+    by_text = {row["limit"]: row for row in rows}
+    assert by_text["spring_stiffness_full_stroke >= 5 N·m/rad"]["stands"] == "active"
+    assert by_text["spring_stiffness >= 5 N·m/rad"]["stands"] == "slack"  # at rest the springs are stiffer
+    upper = by_text["spring_stiffness <= 8 N·m/rad"]
+    assert upper["stands"] == "slack"
+    assert upper["margin"] == pytest.approx(1.0 - optimum.design.value("spring_stiffness") / 8.0, rel=1e-3)
+    for row in rows:
+        assert (row["stands"] == "slack") == (row["margin"] > 0.0 and row["shadow_price"] < 1e-3) or row[
+            "stands"
+        ] == "touches"
+    rooms = [held.margin for held in slack(optimum)]
+    assert rooms == sorted(rooms)
+    room = optimum.design.value("spring_stiffness_seven_tenths_stroke") / 5.0 - 1.0
+    assert by_text["spring_stiffness_seven_tenths_stroke >= 5 N·m/rad"]["margin"] == pytest.approx(room, rel=1e-3)
+    rows = list(csv.DictReader(io.StringIO(why_csv(optimum, TABLE))))
+    first = active(optimum)[0]
+    assert rows[0]["limit"] == first.text
+    for name, saving in first.sensitivity.items():
+        assert float(rows[0][f"sensitivity of {name} [%]"]) == pytest.approx(saving, rel=1e-5, abs=1e-12)
+
+
+def test_a_limit_active_at_its_tolerance_margin_is_so_everywhere(optimum: StudyResult) -> None:
+    costly = {held.text for held in active(optimum)}
+    assert "peak_power <= 9 W" in costly
+    checks = tuple(replace(each, margin=0.05, worst=0.05) for each in optimum.checks if each.text in costly)
+    with_margins = replace(optimum, checks=checks)
+    (row,) = [row for row in requirements(with_margins, {}) if row.name == "peak_power"]
+    assert row.stands == "5 %, active"
+    table = checks_grid(with_margins)
+    assert len(table.rows) == len(checks) >= 2
+    assert {row[0].text for row in table.rows} == {"active"}

@@ -1,11 +1,16 @@
-"""The yield and the assumptions of a first screen, against `tolerate` and against the table evaluated once more."""
+"""The yield and the assumptions of a first screen, and a run whose uncertainty is not computed."""
 
+import json
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from comparable import COARSE
+from support import Command
 
+from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import table_for
 from tvimdesign.report.output.numbers import label
@@ -99,3 +104,42 @@ def test_limits_on_what_follows_a_profile_are_left_out_and_named(found: StudyRes
     assert profiled_uncertainty.left_out == ("response_time <=",)
     assert "response_time" not in profiled_uncertainty.intervals
     assert np.isfinite(profiled_uncertainty.together.share)
+
+
+ARM = """
+mode: shear
+module: {transmission: unity, leg_model: ignored, spring_material: paper_wire}
+require: {spring_stiffness: [">= 5.3 N.m/rad", "<= 6 N.m/rad"]}
+"""
+
+
+@pytest.mark.gate
+def test_an_uncertainty_that_is_not_computed_is_a_warning(
+    tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_start(*_: Any, **__: Any) -> None:
+        raise TvimError("no start")
+
+    (tmp_path / "arm.yaml").write_text(ARM)
+    monkeypatch.setattr(Uncertainty, "data", no_start)
+    done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", cwd=tmp_path, spread="on")
+    assert done.returncode == 4, done.stderr
+    said = " ".join(done.stdout.split())
+    assert "Warning: the uncertainty of the design could not be computed: no start" in said
+    assert "run the study again" in said
+    assert "the uncertainty of the design could not be computed" in done.stderr
+    assert "could not be computed" in (tmp_path / "out/summary.txt").read_text()
+    assert "uncertainty" not in json.loads((tmp_path / "out/results.json").read_text())
+    assert (tmp_path / "out/design.json").exists()
+
+
+def test_steps_left_out_are_on_the_screen_and_in_the_results(tvimdesign: Command, tmp_path: Path) -> None:
+    (tmp_path / "arm.yaml").write_text(ARM)
+    done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", "--time-limit", "1 ms", cwd=tmp_path,
+                      spread="on")  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    said = " ".join(done.stdout.split())
+    assert "Warning: the time limit of 0 s ended before these were done: yield and intervals" in said
+    assert "Manufacturing" not in done.stdout
+    assert "ended before these were done" in (tmp_path / "out/summary.txt").read_text()
+    assert json.loads((tmp_path / "out/results.json").read_text())["left_out"] == ["yield and intervals"]

@@ -1,4 +1,4 @@
-"""The page of a sweep: what it shows and what it leaves out."""
+"""The page and the figure of a sweep: what they show and leave out."""
 
 import json
 import re
@@ -10,7 +10,9 @@ import html5lib
 import pytest
 
 from tvimdesign.page.page_file import FILE
+from tvimdesign.report.figures.analysis_figures import sweep
 from tvimdesign.report.output.command import Command
+from tvimdesign.report.sweep.sweep_figures import figure_data
 from tvimdesign.report.sweep.sweep_page import sweep_page
 from tvimdesign.study.tree import tree_of_values
 from tvimdesign.sweep import swept_cells as cell_table
@@ -95,3 +97,42 @@ def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path: Path, monke
     assert "3 of 8 cells are in this table, one in 3. cells.csv and cells.sqlite have all." in text
     assert "The first 1 of 2; `reason` in cells.csv has all." in text
     assert [point["number"] for point in drawn(text)["brushed"]["points"]] == [1, 4, 7]
+
+
+def plan_of_section(**section: object) -> SweepPlan:
+    return plan_of(tree_of_values({"mode": "shear", "sweep": section}, "study", Path()))
+
+
+def seen_cells(asked: SweepPlan, masses: list[float | None]) -> CellTable:
+    table = CellTable(asked)
+    ends = [["evaluated", 0, 0.1, ""] if mass else ["refused", None, None, "no"] for mass in masses]
+    rows = [[number + 1, *asked.axis_values(number), *end, mass, 100.0, float("inf")]
+            for number, (mass, end) in enumerate(zip(masses, ends, strict=True))]  # fmt: skip
+    assert list(table.seeing(rows)) == rows
+    return table
+
+
+def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers() -> None:
+    asked = plan_of_section(over={"pcl_thickness": {**THICKNESS, "count": 3}, "rate_model": ["smi", "bending"]})
+    table = seen_cells(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0])
+    data = figure_data(asked, table)
+    masses = data["panels"][0]["series"]
+    assert {series["label"]: series["y"] for series in masses} == {"smi": [5.0, 4.0, 3.0], "bending": [6.0, 2.0]}
+    assert data["panels"][2]["series"][0]["y"] == []  # what never happens
+    assert data["joined"]
+    assert table.best["module_mass"] == {"cell": 6, "value": 2.0, "unit": "g"}
+    assert table.statuses == {"evaluated": 5, "refused": 1}
+    figure = sweep(data)
+    assert [axes.get_ylabel() for axes in figure.axes] == [panel["label"] for panel in data["panels"]]
+    assert figure.axes[2].get_xlabel() == "PCL thickness (mm)"
+
+
+@pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
+def test_a_sample_is_a_cloud_over_two_axes(method: str) -> None:
+    asked = plan_of_section(
+        method=method, count=8, over={"pcl_thickness": THICKNESS, "current": {"from": "1 A", "to": "2 A"}}
+    )
+    data = figure_data(asked, seen_cells(asked, [float(number + 1) for number in range(8)]))
+    assert data["y"] == "Current (A)"
+    assert data["panels"][0]["series"][0]["colour"] == [float(number + 1) for number in range(8)]
+    assert len(sweep(data).axes) == 6  # each panel has its scale
