@@ -54,6 +54,7 @@ class Contender:
 def by_tvimdesign(_: Reference, begin: Array) -> Found:
     """Build and solve, as `tvimdesign run` does for one start."""
     asked = study()
+    device_functions.STRUCTURES.forget()
     optimizer = Optimizer(asked)
     inputs = optimizer.model.start.copy()
     places = [optimizer.model.index[free.name] for free in optimizer.free]

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tvimdesign.base.errors import TvimError
+from tvimdesign.simulation.working_cycle.device_functions import STRUCTURES
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study
@@ -48,6 +49,7 @@ def measure(name: str, repeats: int) -> Taken:
     """Measure one study."""
     study = read_study(STUDIES / f"{name}.yaml")
     began = time.process_time()
+    STRUCTURES.forget()
     optimizer = Optimizer(study)
     problem, parameters = optimizer.problem, optimizer.parameters(Objective(study.minimize))
     x = optimizer.guess(optimizer.model.start)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from quick import Quick
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.device_functions import STRUCTURES, DeviceFunctions
 from tvimdesign.solve.nlp.constraints import impossible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study
@@ -96,6 +96,7 @@ class Reference:
         """The model as symbols of CasADi's own arrays, nothing of it written yet: how its users write equations."""
         known = self.model
         given = {**dict(zip(known.names, known.start.tolist(), strict=True)), **known.words}
+        STRUCTURES.forget()
         return DeviceFunctions(known.table, given, known.points, known.cells)
 
     def _heat_functions(self) -> tuple[Quick, Quick, Quick]:

@@ -39,8 +39,12 @@ class _Structures(threading.local):
         self._last.append((structure, {}))
         return self._last[-1][1]
 
+    def forget(self) -> None:
+        """Let the next device write its equations anew."""
+        self._last.clear()
 
-_structures = _Structures()
+
+STRUCTURES = _Structures()
 
 
 def built_once(build: Callable[[Any], Any]) -> Any:
@@ -69,7 +73,7 @@ class DeviceFunctions:
         self.switch_names = tuple(row.name for row in table.supplied)
         self._rotor_cells = int(self.start[self.index["rotor_cells"]])
         """A shape, not a number of the model."""
-        self._built = _structures.functions_of(
+        self._built = STRUCTURES.functions_of(
             (table, self.names, self.words, self.points, cells, self._rotor_cells, *self._apart)
         )
         """What is built, by the name of its property or by the outputs of a function."""
