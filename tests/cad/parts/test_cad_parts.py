@@ -4,7 +4,7 @@ from math import radians
 
 import cadquery as cq
 import pytest
-from cad_designs import all_checks, broken_rules, design_of
+from cad_designs import CASES, all_checks, broken_rules, design_of
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, build, drawn_parts
@@ -23,6 +23,33 @@ def test_the_cases_keep_the_rules_in_valid_solids(design: Design) -> None:
     for solid in parts.values():
         assert isinstance(solid, cq.Solid)
         assert solid.isValid()
+
+
+SIZED = {
+    **{name: CASES[name] for name in ("paper", "blocks", "bearings", "bearings among blocks")},
+    "three arcs": ("shear", {
+        "arc_count": 3, "arc_span": 1.3, "spring_pairs": 3, "wire_diameter": 1.8e-3, "coil_diameter": 17e-3,
+        "key_count": 5, "key_diameter": 4e-3, "pcl_inner_radius": 24e-3, "pcl_outer_radius": 41e-3,
+        "floor_thickness": 5e-3, "core_radius": 8e-3, "link_dowel": "iso_8734_2", "link_thickness": 6e-3,
+        "preload_angle": 0.4, "pcl_thickness": 1.6e-3,
+    }),
+    "tall vanes": ("compression", {
+        "vane_count": 4, "block_height": 13e-3, "block_depth": 4e-3, "vane_thickness": 3e-3, "slot_share": 0.6,
+        "core_radius": 8e-3, "link_dowel": "iso_8734_2", "pcl_inner_radius": 13e-3, "pcl_outer_radius": 24e-3,
+        "rotor_rim": 8e-3, "coil_diameter": 12e-3, "coil_count": 7.5, "running_clearance": 0.6e-3,
+        "floor_thickness": 5e-3, "spring_pairs": 3,
+    }),
+}  # fmt: skip
+# Springs to what the kernel sweeps a wire to; the housing's holes and corners count at one radius in its inertia.
+WITHIN = {"spring_right_volume": 1e-5, "spring_left_volume": 1e-5, "module_mass": 2e-6, "housing_inertia": 1e-3}
+
+
+@pytest.mark.parametrize("name", SIZED)
+def test_volumes_and_inertias_are_those_of_the_kernel(name: str) -> None:
+    mode, changes = SIZED[name]
+    design = design_of(name, changes, mode)
+    for check in size_checks(design, build(design)):
+        assert abs(check.value) < WITHIN.get(check.name, 1e-9), check.text
 
 
 @pytest.mark.slow
