@@ -26,7 +26,7 @@ def test_the_cases_keep_the_rules_in_valid_solids(design: Design) -> None:
 
 
 SIZED = {
-    **{name: CASES[name] for name in ("paper", "blocks", "bearings", "bearings among blocks")},
+    **{name: CASES[name] for name in ("paper", "blocks", "bearings", "bearings among blocks", "driven")},
     "three arcs": ("shear", {
         "arc_count": 3, "arc_span": 1.3, "spring_pairs": 3, "wire_diameter": 1.8e-3, "coil_diameter": 17e-3,
         "key_count": 5, "key_diameter": 4e-3, "pcl_inner_radius": 24e-3, "pcl_outer_radius": 41e-3,
@@ -41,7 +41,8 @@ SIZED = {
     }),
 }  # fmt: skip
 # Springs to what the kernel sweeps a wire to; the housing's holes and corners count at one radius in its inertia.
-WITHIN = {"spring_right_volume": 1e-5, "spring_left_volume": 1e-5, "module_mass": 2e-6, "housing_inertia": 1e-3}
+WITHIN = {"spring_right_volume": 1e-5, "spring_left_volume": 1e-5, "module_mass": 2e-6, "housing_inertia": 1e-3,
+          "motor_hub_inertia": 1e-6}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", SIZED)
