@@ -1,18 +1,29 @@
-"""Solids of a motor below the feet, and the drawn rotor turned to its stops."""
+"""Solids of a motor below the feet, the rotor turned to its stops, and springs."""
+
+from math import hypot, pi, sin, sqrt
+from typing import Any
 
 import cadquery as cq
+import numpy as np
 import pytest
+import trimesh
 from cad_designs import CASES, DRIVEN, broken_rules, design_of
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import build, drawn_part, drawn_parts
+from tvimdesign.cad.export.mesh import spring_mesh
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.features import tight_box
 from tvimdesign.cad.geometry.kinds import KINDS, TURNING, kind_of
 from tvimdesign.cad.geometry.solids import turned
-from tvimdesign.cad.geometry.spring_solids import installed_coil, spring_solid
+from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil, spring_solid
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks, setting_checks
 from tvimdesign.cad.inspection.milling import corner_checks
 from tvimdesign.cad.inspection.size_checks import _polar_moment, bearing_checks, interference_checks, stop_checks
 from tvimdesign.cad.parts import jigs
+from tvimdesign.study.design import Design
 
 
 def test_the_motor_s_hub_and_housing_weigh_what_the_table_gives() -> None:
@@ -109,3 +120,122 @@ def test_a_leg_lies_on_its_pin_at_either_stop() -> None:
     for angle in (dims.stop_angle, -dims.stop_angle):
         spring = spring_solid(installed_coil(dims, angle)).translate(cq.Vector(dims.placement_radius, 0.0, 0.0))
         assert turned(rotor, angle).distance(spring) == pytest.approx(0.0, abs=1e-3), angle
+
+
+def coil(**changes: float) -> Coil:
+    shape = {"wire_diameter": 2.0, "diameter": 20.0, "turns": 3.25, "pitch": 2.1, "leg_length": 20.0,
+             "tang_length": 4.0, "bend_radius": 4.0, "leg_azimuth": 0.4}  # fmt: skip
+    return Coil(**(shape | changes))
+
+
+@settings(max_examples=12, deadline=None)
+@given(index=st.floats(4.0, 16.0), turns=st.floats(2.0, 12.0), leg_azimuth=st.floats(-pi, pi))
+def test_any_coil_is_one_solid_with_the_volume_of_its_wire(index: float, turns: float, leg_azimuth: float) -> None:
+    shape = coil(diameter=2.0 * index, turns=turns, leg_azimuth=leg_azimuth)
+    solid = spring_solid(shape)
+    assert solid.isValid()
+    assert solid.Volume() == pytest.approx(0.25 * pi * 4.0 * shape.wire_length, rel=1e-4)
+
+
+def test_free_spring_is_the_wire_of_the_model_and_reaches_its_pin(design: Design) -> None:
+    shape = free_coil(dimensions(design))
+    assert shape.wire_length == pytest.approx(1e3 * design.values["wire_length"], rel=1e-12)
+    assert shape.start_level == pytest.approx(1e3 * design.values["coil_start_level"], rel=1e-12)
+    assert spring_solid(shape).Volume() == pytest.approx(1e9 * design.values["spring_volume"], rel=1e-4)
+    good = design_of("paper", {})
+    design = good.model_copy(update={"values": good.values | {"pin_radius": 0.05}})
+    with pytest.raises(GeometryError, match="cannot reach"):
+        build(design)
+
+
+def test_winding_keeps_the_wire_and_the_tang(design: Design) -> None:
+    dims = dimensions(design)
+    wire = dims.coil_count * hypot(pi * dims.coil_diameter, dims.coil_pitch)
+    rest = installed_coil(dims)
+    assert rest.turns == pytest.approx(dims.coil_count + dims.preload_angle / (2.0 * pi), rel=1e-12)
+    for angle in np.linspace(-dims.stroke, dims.stroke, 5):
+        moved = installed_coil(dims, angle)
+        assert moved.turns * hypot(pi * moved.diameter, moved.pitch) == pytest.approx(wire, rel=1e-12)
+        assert sin(moved.start_azimuth - rest.start_azimuth) == pytest.approx(0.0, abs=1e-12)
+        assert (moved.turns > rest.turns) == (angle < 0.0)
+    assert rest.end_level == pytest.approx(1e3 * design.values["coil_end_level"], abs=1e-3)
+
+
+def test_leg_lies_against_its_pin_on_the_winding_side(design: Design) -> None:
+    dims = dimensions(design)
+    for angle in (-dims.stroke, 0.0, dims.stroke):
+        shape = installed_coil(dims, angle)
+        pin = np.array([dims.pin_radius * np.cos(angle) - dims.placement_radius, dims.pin_radius * np.sin(angle)])
+        along = np.array([np.cos(shape.leg_azimuth), np.sin(shape.leg_azimuth)])
+        right = np.array([along[1], -along[0]])
+        leg_offset = 0.5 * shape.diameter  # the leg leaves a counter-clockwise coil on its right
+        assert pin @ right - leg_offset == pytest.approx(0.5 * (dims.wire_diameter + dims.pin_diameter), rel=1e-9)
+        assert pin @ along == pytest.approx(sqrt(pin @ pin - (pin @ right) ** 2), rel=1e-9)
+
+
+def _legs_touch_their_pins(design: Design) -> None:
+    for angle in (0.0, 0.7 * design.values["stroke"]):
+        parts = build(design, angle)
+        for name in ("spring_right_1", "spring_left_2"):
+            assert parts["rotor"].distance(parts[name]) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_solid_leg_touches_the_pin(paper: Design) -> None:
+    _legs_touch_their_pins(paper)
+
+
+@pytest.mark.slow
+def test_solid_leg_of_every_case_touches_the_pin(design: Design) -> None:
+    _legs_touch_their_pins(design)
+
+
+def test_mesh_is_the_solid() -> None:
+    shape = coil(turns=4.6)
+    mesh = spring_mesh(shape)
+    body = trimesh.Trimesh(mesh.vertices, mesh.faces)
+    solid = spring_solid(shape)
+    assert body.is_watertight
+    assert body.volume == pytest.approx(solid.Volume(), rel=2e-3)
+    box = solid.BoundingBox()
+    limits = [[box.xmin, box.ymin, box.zmin], [box.xmax, box.ymax, box.zmax]]
+    assert np.allclose(body.bounds, limits, atol=0.05)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [({"diameter": 1.5}, "coil diameter"), ({"pitch": 1.9}, "gap between coils"), ({"leg_length": 0.0}, "leg_length")],
+)
+def test_a_wire_that_cannot_be_bent_is_an_error(changes: dict[str, float], words: str) -> None:
+    with pytest.raises(GeometryError, match=words):
+        spring_solid(coil(**changes))
+
+
+SIDES = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")
+
+
+def sides(box: Any) -> list[float]:
+    return [getattr(box, side) for side in SIDES]
+
+
+def pin_on_plate(plate: float) -> cq.Solid:
+    """Draw a pin of 4 mm with a fillet of 1.5 mm at its foot, on a square plate of a side [mm]."""
+    body = cq.Workplane().box(plate, plate, 4.0).faces(">Z").workplane().circle(2.0).extrude(9.0)
+    return body.edges(cq.selectors.RadiusNthSelector(0)).edges("<Z").fillet(1.5).solids().val()
+
+
+@pytest.mark.parametrize("plate", [7.5, 30.0])
+@pytest.mark.parametrize("turn", [0.0, 17.0, 211.3])
+def test_a_fillet_within_the_rest_is_left_out(plate: float, turn: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    solid = pin_on_plate(plate).rotate(cq.Vector(), cq.Vector(0.2, 0.1, 1.0), turn)
+    expected = sides(solid.BoundingBox())
+    assert "TORUS" in [face.geomType() for face in solid.Faces()]
+    monkeypatch.setattr(cq.Shape, "BoundingBox", lambda _self: pytest.fail("the kernel's search"))
+    assert sides(tight_box(solid)) == expected
+
+
+def test_a_tight_box_counts_what_is_outermost() -> None:
+    foot = cq.Workplane("XZ").moveTo(1.0, 0.0).lineTo(3.0, 0.0).radiusArc((1.5, 1.5), 1.5).lineTo(1.0, 1.5).close()
+    solid = foot.revolve(360.0, (0.0, 0.0), (0.0, 1.0)).solids().val()
+    assert sides(tight_box(solid)) == sides(solid.BoundingBox())
+    for solid in (cq.Solid.makeTorus(9.0, 2.0), cq.Solid.makeBox(1, 2, 3), cq.Solid.makeSphere(3.0)):
+        assert sides(tight_box(solid)) == sides(solid.BoundingBox())
