@@ -10,7 +10,14 @@ from cad_designs import TILES, design_of
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, fixtures
-from tvimdesign.cad.assembly.heater_leads import fuse_in_words, heater_order, thermistor_in_words, thermistors, wires
+from tvimdesign.cad.assembly.heater_leads import (
+    fuse_in_words,
+    heater_order,
+    set_points_in_words,
+    thermistor_in_words,
+    thermistors,
+    wires,
+)
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.catalog import Catalog
@@ -108,6 +115,27 @@ def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(
     cutout = listed(switched(changes, hottest))["thermal_cutout"]
     assert ("Not to be ordered" in cutout) == (margin < 0.0)
     assert margin < 0.0 or ("ask the maker how long" in cutout) == (holding < 0.0)
+
+
+def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin() -> None:
+    design = switched({"peltier_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}, 83.0)
+    for current, rated in ((15.9, True), (16.1, False)):
+        design.values["peak_current"] = current
+        peaks = {name: design.values[name] for name in ("peak_current", "stiffening_peak_current")}
+        study = read_study_text("mode: shear\nmodule: {peltier_module: silicone_9ar_08_24v}\n")
+        margins = table_for("shear").evaluate(given(study) | peaks, ["cutout_current_margin"])
+        assert margins["cutout_current_margin"] == pytest.approx(16.0 - current)
+        assert ("None fits" in fuse_in_words(FUSE, design)) != rated
+
+
+def test_set_points_are_those_of_the_thermistor_in_the_list() -> None:
+    # By hand: 10 kohm exp(3988 K (1/373.15 K - 1/298.15 K)) is 680 ohm, and 3.3 V x 680 / 10680 is 0.21 V.
+    said = set_points_in_words(switched({"process": "print_pei_1010", "target_temperature": 100.0 + ZERO_CELSIUS}))
+    assert "B57862S0103F040" in said
+    assert "heated to 100 °C (0.68 kohm, 0.21 V at the divider)" in said
+    assert "stopped at 120 °C (" in said
+    none = set_points_in_words(switched({"thermistor_diameter": 0.7e-3, "thermistor_length": 4e-3}))
+    assert "thermistor's own table" in none
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.bill_of_materials import MADE_TO_ORDER, Item, cost, greased
+from tvimdesign.cad.assembly.heater_leads import set_points_in_words
 from tvimdesign.cad.assembly.offers import between
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
@@ -345,6 +346,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "sorting": _sorting,
     "bonding_heat": _bonding_heat,
     "most_current": _most_current,
+    "set_points": lambda design, _: set_points_in_words(design),
     "cutout_place": _cutout_place,
     "heated_parts": _heated_parts,
     "hot_side": _hot_side,

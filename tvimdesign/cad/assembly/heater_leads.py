@@ -33,6 +33,10 @@ HOLDING = "for a week at its rated current"
 """Meaning of a holding temperature, by IEC 60691."""
 _SMALL_FOIL = 2e-4
 """Area [m^2] below which the note asks whether a foil has room for its leads, assumed."""
+NOMINAL = 10e3
+"""Resistance [ohm] of a thermistor at 25 degC, and of the resistor it divides a voltage with."""
+_DIVIDED = 3.3
+"""Voltage [V] over both."""
 _ROUNDING = 1e-6
 _WIRES = Path(__file__).with_name("wire_ratings.yaml")
 _THERMISTORS = Path(__file__).with_name("thermistors.yaml")
@@ -113,14 +117,37 @@ def _ratings(design: Design) -> dict[str, float]:
 def thermistor_in_words(design: Design) -> str:
     """Return a thermistor for the temperature the heater is rated for: its number, and the bead that is drawn where
     one is."""
-    rated, bears = design.value("peltier_max_temperature"), f"for {rating(design)}"
-    bead = None
-    if design.values.get("thermistor_diameter", 0.0) > 0.0:
-        bead = Bead(design.value("thermistor_diameter"), design.value("thermistor_length"))
+    bears, bead, fits = f"for {rating(design)}", _bead(design), _thermistor(design)
     said = f"bead of {bead.in_words()} with insulated wires, {bears}" if bead else f"{bears}, with insulated wires"
-    fits = next((one for one in thermistors() if one.fits(bead, rated)), None)
     which = f": {fits.in_words()}; another one" if fits else ", of a maker whose bead fits: it"
     return f"Thermistor, {said}; NTC 10 kohm at 25 °C{which} needs its own table in the controller"
+
+
+def set_points_in_words(design: Design) -> str:
+    """Return what the controller reads where the PCL is soft, and at what heater, structure and liner bear."""
+    points = {"heated to": design.value("target_temperature"), "stopped at": min(_ratings(design).values())}
+    if (sensor := _thermistor(design)) is None:
+        at = " and ".join(f"{kelvin - ZERO_CELSIUS:.3g} °C" for kelvin in points.values())
+        return f"Take the controller's set-points, at {at}, from the thermistor's own table"
+    texts = []
+    for words, kelvin in points.items():
+        ohms = sensor.resistance(kelvin)
+        volts = _DIVIDED * ohms / (ohms + NOMINAL)
+        texts.append(f"{words} {kelvin - ZERO_CELSIUS:.3g} °C ({1e-3 * ohms:.3g} kohm, {volts:.3g} V at the divider)")
+    return f"Set-points of the controller with {sensor.number}, by its B value: {' and '.join(texts)}"
+
+
+def _bead(design: Design) -> Bead | None:
+    """Return the bead that is drawn; None where none is."""
+    if design.values.get("thermistor_diameter", 0.0) <= 0.0:
+        return None
+    return Bead(design.value("thermistor_diameter"), design.value("thermistor_length"))
+
+
+def _thermistor(design: Design) -> Thermistor | None:
+    """Return the first thermistor that fits; None where none does."""
+    bead, rated = _bead(design), design.value("peltier_max_temperature")
+    return next((thermistor for thermistor in thermistors() if thermistor.fits(bead, rated)), None)
 
 
 class Bead(NamedTuple):
@@ -140,12 +167,18 @@ class Thermistor(NamedTuple):
     number: str
     maker: str
     curve: str
-    """Its material's constant, in words."""
+    """Temperatures [degC] between which its material has the constant `beta`, in words."""
+    beta: float
+    """Constant of its material [K]."""
     wires: str
     temperature: float
     """The highest that it measures [K]."""
     bead: Bead | None
     """The most that its bead measures; None where that is not known."""
+
+    def resistance(self, kelvin: float) -> float:
+        """Return resistance [ohm] by the law R = R25 exp(B (1/T - 1/T25))."""
+        return NOMINAL * math.exp(self.beta * (1.0 / kelvin - 1.0 / (ZERO_CELSIUS + 25.0)))
 
     def fits(self, bead: Bead | None, rated: float) -> bool:
         """Return whether it bears a temperature [K] and goes where a bead of that size is drawn.
@@ -162,7 +195,7 @@ class Thermistor(NamedTuple):
         """Return what to order, and what to know of it."""
         size = f", bead of at most {self.bead.in_words()}" if self.bead else ""
         most = f"to {self.temperature - ZERO_CELSIUS:.3g} °C"
-        return f"{self.number} of {self.maker} ({self.curve}, {most}{size}, {self.wires})"
+        return f"{self.number} of {self.maker} ({self.curve} {self.beta:.4g} K, {most}{size}, {self.wires})"
 
 
 @cache
@@ -171,9 +204,9 @@ def thermistors() -> tuple[Thermistor, ...]:
     found = []
     for one in plain_data(_THERMISTORS.read_text("utf-8"))["thermistors"]:
         sizes = [parse_quantity(one[name], "m") for name in ("diameter", "length") if name in one]
-        most = parse_quantity(one["temperature"], "degC")
+        most, beta = parse_quantity(one["temperature"], "degC"), parse_quantity(one["beta"], "K")
         bead = Bead(*sizes) if sizes else None
-        found.append(Thermistor(one["number"], one["maker"], one["curve"], one["wires"], most, bead))
+        found.append(Thermistor(one["number"], one["maker"], one["curve"], beta, one["wires"], most, bead))
     return tuple(found)
 
 

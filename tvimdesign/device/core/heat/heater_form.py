@@ -296,6 +296,7 @@ def cutout_retainer_gap(m: Module) -> Scalar:
 
 
 _LATE = "the thermal cut-out opens above what it saves: a cooler heater, another heater_fuse, or a better structure"
+_WEAK = "the thermal cut-out takes more than its rated current: another heater_fuse, or heaters in series"
 _SHORT = "the thermal cut-out holds less than the heater's peak for a week at its rated current: ask its maker"
 
 
@@ -318,6 +319,17 @@ def cutout_holding_margin(m: Module) -> Scalar:
     which `cutout_margin` shows.
     """
     return np.where(m.cutout_margin >= 0.0, _best_room(m.heater_fuse, "holding_temperature", _borne(m), _peak(m)), 0.0)
+
+
+@heat.output("A", advice=(at_least(0.0, _WEAK),))
+def cutout_current_margin(m: Module) -> Scalar:
+    """Rated current of the thermal cut-out's strongest type less the highest of the whole heater."""
+    return _strongest(m.heater_fuse) - np.fmax(m.peak_current, m.stiffening_peak_current)
+
+
+def _strongest(record: Record) -> float:
+    """Return the rated current [A] of a record's strongest type."""
+    return record.value("high_rated_current" if record.has("high_rated_current") else "rated_current")
 
 
 def _borne(m: Module) -> Scalar:
@@ -363,8 +375,7 @@ def heater_fuse(record: Record, hottest: float, current: float, ratings: Mapping
         most = max(kind["functioning_temperature"] for kind in record.table("types")) - band - margin
         held, asked = (f"{kelvin - ZERO_CELSIUS:.4g} degC" for kelvin in (most, hottest))
         raise InputError(f"{record.title}: no type stays closed at the heater's {asked}, the highest at {held}")
-    bears = record.value("high_rated_current" if record.has("high_rated_current") else "rated_current")
-    if current > bears:
+    if current > (bears := _strongest(record)):
         raise InputError(f"{record.title}: no type bears the heater's {current:.3g} A, the strongest {bears:.3g} A")
     least = min(ratings.values())
     saving = [kind for kind in stays if kind["functioning_temperature"] <= least]
