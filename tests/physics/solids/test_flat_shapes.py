@@ -1,4 +1,4 @@
-"""Areas and polar second moments against quadrature that never uses the closed forms."""
+"""Areas and polar second moments by quadrature; other shapes are held by the CAD kernel's volumes and inertias."""
 
 from collections.abc import Callable
 
@@ -20,27 +20,6 @@ def by_strips(height: Callable[[float], float], start: float, end: float) -> sha
     return shapes.Section(area, polar)
 
 
-def test_sectors_are_their_thin_arcs_and_have_the_papers_area() -> None:
-    span, inner, outer = 0.85, 26e-3, 40e-3
-    area = integrate(lambda r: span * r, inner, outer)
-    polar = integrate(lambda r: span * r**3, inner, outer)
-    assert shapes.sector(span, inner, outer) == pytest.approx((area, polar), rel=1e-9)
-    # Exley et al., table I: 1579.2 mm^2. The arcs from 26 to 40 mm are the reference layout.
-    assert shapes.sector(4.0 * np.radians(49.0), 26e-3, 40e-3).area == pytest.approx(1579.2e-6, rel=5e-3)
-    disc = by_strips(lambda x: np.sqrt(40e-3**2 - x**2), -40e-3, 40e-3)
-    hole = by_strips(lambda x: np.sqrt(26e-3**2 - x**2), -26e-3, 26e-3)
-    assert shapes.ring(26e-3, 40e-3) == pytest.approx(disc - hole, rel=1e-8)
-
-
-@pytest.mark.parametrize("distance", [0.0, 3e-3, 28.5e-3])
-def test_disc_off_the_axis_is_its_strips(distance: float) -> None:
-    radius = 2e-3
-    strips = by_strips(
-        lambda x: np.sqrt(max(radius**2 - (x - distance) ** 2, 0.0)), distance - radius, distance + radius
-    )
-    assert shapes.disc_at(radius, distance) == pytest.approx(strips, rel=1e-8)
-
-
 @pytest.mark.parametrize("corner", [0.0, 1.5e-3])
 def test_rectangle_off_the_axis_is_its_strips(corner: float) -> None:
     radial, along, distance = 10e-3, 20e-3, 33e-3
@@ -53,14 +32,6 @@ def test_rectangle_off_the_axis_is_its_strips(corner: float) -> None:
     found = shapes.rectangle_at(radial, along, distance, corner)
     assert found.area == pytest.approx(strips.area, rel=1e-7)
     assert found.polar == pytest.approx(strips.polar, rel=1e-3 if corner else 1e-8)  # fillets count at the corners
-
-
-@pytest.mark.parametrize(("half_width", "length"), [(12e-3, 62.6e-3), (5e-3, 3e-3)])
-def test_slot_is_its_strips(half_width: float, length: float) -> None:
-    near = by_strips(lambda x: np.sqrt(max(half_width**2 - x**2, 0.0)), -half_width, 0.0)
-    strip = by_strips(lambda _: half_width, 0.0, length)
-    far = by_strips(lambda x: np.sqrt(max(half_width**2 - (x - length) ** 2, 0.0)), length, length + half_width)
-    assert shapes.slot(half_width, length) == pytest.approx(near.plus(strip, far), rel=1e-8)
 
 
 def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
@@ -123,52 +94,13 @@ def test_beyond_a_depth_fillets_take_what_is_further_from_the_radial_lines(depth
     assert shapes.corners_beyond(radius, inner, outer, offset, offset) == pytest.approx(whole, rel=1e-9)
 
 
-def test_slots_across_a_disc_small_corners_and_trapezoids() -> None:
-    half, radius = 0.6e-3, 2.7e-3
-    expected = integrate(lambda y: 2.0 * np.sqrt(radius**2 - y**2), -half, half)
-    assert shapes.bar_across(half, radius) == pytest.approx(expected, rel=1e-9)
+def test_small_corners_and_trapezoids() -> None:
     # A fillet takes (1 - pi/4) r^2 from a right angle; sides that point to the axis meet every circle at one.
     assert shapes.corners(0.02e-3, 26e-3, 40e-3) == pytest.approx((4.0 - np.pi) * 0.02e-3**2, rel=1e-3)
     span, inset = np.radians(40.0), 3e-3
     singles = [shapes.wedge(span, inset, 6e-3, 26e-3 + shift) for shift in (-9e-3, 0.0, 9e-3)]
     row = shapes.wedge(span, inset, 6e-3, 26e-3, 3, 9e-3)
     assert row == pytest.approx(singles[0].plus(*singles[1:]), rel=1e-12)
-
-
-@pytest.mark.parametrize("radius", [2.4e-3, 20e-3])
-def test_a_disc_centred_on_a_circle_has_the_strips_of_it_that_lie_inside(radius: float) -> None:
-    circle = 30e-3
-    meet = circle - 0.5 * radius**2 / circle  # x of the points where both rims cross
-    disc = integrate(lambda x: 2.0 * np.sqrt(radius**2 - (x - circle) ** 2), circle - radius, meet)
-    rest = integrate(lambda x: 2.0 * np.sqrt(circle**2 - x**2), meet, circle)
-    assert shapes.lens(radius, circle) == pytest.approx(disc + rest, rel=1e-8)
-
-
-@pytest.mark.parametrize("corner", [0.5e-3, 3e-3])
-def test_a_fillet_beside_a_disc_on_a_circle_has_the_area_of_its_points(corner: float) -> None:
-    disc, circle = 2.4e-3, 30e-3
-    # Its centre is as far from the disc's, on x, and from the circle's, as it touches both: two circles, met by hand.
-    x = (circle**2 + (circle - corner) ** 2 - (disc + corner) ** 2) / (2.0 * circle)
-    y = np.sqrt((circle - corner) ** 2 - x**2)
-    step = corner / 400.0
-    at_x, at_y = np.meshgrid(np.arange(x - corner, circle, step), np.arange(0.0, y + corner, step))
-    void = (np.hypot(at_x, at_y) < circle) & (np.hypot(at_x - circle, at_y) > disc)
-    # Between the rays from both centres to that of the fillet, and outside of its circle.
-    between = (at_y * x < at_x * y) & (at_y * (circle - x) > (circle - at_x) * y)
-    filled = void & between & (np.hypot(at_x - x, at_y - y) > corner)
-    assert shapes.lens_corner(disc, circle, corner) == pytest.approx(filled.sum() * step**2, rel=5e-3)
-    assert shapes.lens_corner(disc, circle, 0.0) == pytest.approx(0.0, abs=1e-18)
-
-
-def test_a_spoke_is_what_an_obround_adds_to_a_disc() -> None:
-    b, rim, length = 3.5, 6.0, 20.0
-    start = np.sqrt(rim**2 - b**2)  # where the strip leaves the disc
-    strip = by_strips(lambda _: b, start, length)
-    end = by_strips(lambda x: np.sqrt(b**2 - (x - length) ** 2), length, length + b)
-    disc = by_strips(lambda x: np.sqrt(rim**2 - x**2), start, rim)
-    found = shapes.spoke(b, rim, length)
-    assert found.area == pytest.approx(strip.area + end.area - disc.area, rel=1e-9)
-    assert found.polar == pytest.approx(strip.polar + end.polar - disc.polar, rel=1e-9)
 
 
 @pytest.mark.parametrize("corner", [0.0, 1.5e-3])
