@@ -19,6 +19,7 @@ from tvimdesign.simulation.working_cycle.melt_history import intervals
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, given_profiles
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.best_so_far import SearchInterrupted
+from tvimdesign.solve.duty import DutyResult, duty_of
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
     advice_of,
@@ -85,6 +86,7 @@ class StudyResult:
     """What the same module does where currents that follow a profile stay at their default; empty where none does."""
     cooling: Cooling
     """What cooling by current buys on the way back."""
+    duty: DutyResult | None
 
     @property
     def found(self) -> bool:
@@ -198,6 +200,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         intervals=open_values,
         constant_current=_at_constant_current(model, inputs, set(current_profiles)),
         cooling=cooling(model, inputs, values, current_profiles),
+        duty=duty_of(study, model, inputs, current_profiles) if _is_found(design, solution) else None,
     )  # fmt: skip
 
 

@@ -138,6 +138,18 @@ class GivenTrajectory(_Part):
     at_rest: bool = Field(True, description="the housing starts and ends at rest; else at constant speed")
 
 
+class DutyOptions(_Part):
+    """Repeated switching, at the module's `ambient_temperature`."""
+
+    switches_per_hour: float = Field(
+        0.0, ge=0.0, le=3600.0, description="switches an hour, each to soft and back; 0 asks for no duty"
+    )
+    soft: float = Field(
+        0.0, ge=0.0, le=1e6, description="time for which each switch keeps the joint soft, by its hold current",
+        json_schema_extra={"unit": "s"},
+    )  # fmt: skip
+
+
 class FrontOptions(_Part):
     """Two or three outputs to be traded against one another."""
 
@@ -172,6 +184,7 @@ class Study(_Part):
     """Currents over time by phase, of a study that evaluates its module; constant ones are inputs of it."""
     trajectory: GivenTrajectory | None = None
     """Motion of the housing in the task."""
+    duty: DutyOptions = DutyOptions()
     tolerances: dict[str, Tolerance] = {}
     robust: Robust | None = None
     solver: SolverOptions = SolverOptions()

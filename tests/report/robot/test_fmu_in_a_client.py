@@ -16,9 +16,10 @@ from robot_models import module_of
 
 from tvimdesign.robot.fmu_file import write_fmu
 from tvimdesign.simulation.joint_tests.release import release
-from tvimdesign.simulation.working_cycle.curves import Curves, phase_history
+from tvimdesign.simulation.working_cycle.curves import Curves, phase_history, temperature_names
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.solve.duty import Duty
 
 pytestmark = pytest.mark.slow  # a compiler builds each
 SHARE = 0.005
@@ -232,3 +233,32 @@ def test_a_state_that_is_kept_goes_on_as_it_did(fmus: Mapping[str, Path]) -> Non
         joint.step(1.0)
         assert np.array_equal(joint.get("torque", "temperature_hot_side"), once)
         joint.slave.freeFMUState(kept)
+
+
+DUTY_STEP = 5.0
+"""Communication step of repeated switching [s]."""
+
+
+def test_its_temperatures_after_fifty_cycles_are_those_of_the_duty(mode: str, fmus: Mapping[str, Path]) -> None:
+    resolved = module_of(mode)
+    model = resolved.functions
+    duty = Duty(model, model.start, {}, soft := 60.0)
+    first = duty.cycle(duty.ambient, 0.0)
+    assert first is not None
+    period = 1.2 * first.taken
+    found = duty.periodic(period)
+    assert found is not None
+    state, cycle = found
+    times = [cycle.values["response_time"], soft, cycle.values["return_time"], period - cycle.taken]
+    assert duty.hold is not None
+    currents = [duty.drives["softening"].currents[0], duty.hold.currents[0], duty.drives["stiffening"].currents[0], 0.0]
+    seen = np.asarray(model.either_way.temperatures(state, 0.0, model.start)).ravel()
+    expected = dict(zip(temperature_names(model, model.start, model.either_way), seen, strict=True))
+    with _joint(fmus[mode], ambient_temperature=float(model.start[model.index["ambient_temperature"]])) as joint:
+        for _ in range(50):
+            for current, seconds in zip(currents, times, strict=True):
+                joint.set(current=current)
+                for _ in range(count := int(np.ceil(seconds / DUTY_STEP))):
+                    joint.step(seconds / count)
+        reached = joint.get(*_TEMPERATURES)
+    assert reached == pytest.approx([expected[place] for place in _TEMPERATURES.values()], abs=1.0)

@@ -109,6 +109,17 @@ class CoolingEntry(Entry):
     unpowered: dict[str, NumberEntry]
 
 
+class DutyEntry(Entry):
+    """Repeated switching: its periodic cycle, and the most switches an hour that keep the ratings."""
+
+    values: dict[str, NumberEntry]
+    exceeded: list[str]
+    settling_time: NumberEntry
+    energy_a_day: NumberEntry
+    most_switches_per_hour: float
+    limited_by: str
+
+
 class BestConstant(Entry):
     """The best design with constant currents, where the study lets them follow a profile."""
 
@@ -337,6 +348,7 @@ class RunResults(Answered):
     starts: NotRequired[Starts]
     conflict_set: NotRequired[Conflict | None]
     doubts: NotRequired[list[str]]
+    duty: NotRequired[DutyEntry]
     front: NotRequired[FrontEntry]
     uncertainty: NotRequired[UncertaintyEntry]
     left_out: NotRequired[list[str]]

@@ -14,8 +14,17 @@ from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Input, Table
 from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
 from tvimdesign.report.output.numbers import all_finite, csv_text, finite, head, in_unit, number, number_entry, percent
-from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, IntervalEntry, ValueEntry, Yield
+from tvimdesign.report.output.results_format import (
+    Answered,
+    BestConstant,
+    CheckEntry,
+    DutyEntry,
+    IntervalEntry,
+    ValueEntry,
+    Yield,
+)
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.solve.duty import DutyResult
 from tvimdesign.solve.nlp.solution import ActiveConstraint, YieldReached
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import Design, catalog_of
@@ -203,6 +212,18 @@ def results(answer: StudyResult, table: Table) -> Answered:
             answer.solution.choosing if answer.solution else None, table, choices_with_margins(answer)
         ),
         "solution": all_finite(design.solution) or None,
+    }
+
+
+def duty_entry(duty: DutyResult, table: Table) -> DutyEntry:
+    """Return the result of a duty, with units."""
+    return {
+        "values": {name: number_entry(value, table.unit(name)) for name, value in duty.values.items()},
+        "exceeded": list(duty.exceeded),
+        "settling_time": number_entry(duty.settling, "min"),
+        "energy_a_day": number_entry(duty.energy_a_day, "kJ"),
+        "most_switches_per_hour": duty.most,
+        "limited_by": duty.limited_by,
     }
 
 

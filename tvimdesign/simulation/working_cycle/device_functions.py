@@ -131,6 +131,11 @@ class DeviceFunctions:
         return PhaseFunctions(self.table, phase, self._symbols[0], self._settled, self.cells, self.names)
 
     @built_once
+    def either_way_engine(self) -> PhaseEngine:
+        """Return the engine of that phase."""
+        return PhaseEngine(self.either_way)
+
+    @built_once
     def output_names(self) -> list[str]:
         """Return every output's full name in the table's order."""
         return self.table.names(self.points)

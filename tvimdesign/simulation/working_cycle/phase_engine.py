@@ -162,15 +162,17 @@ class PhaseEngine:
 
     def simulate(
         self, inputs: Array, profile: CurrentProfile, before: Array | None, sought: list[str], horizon: float,
-        tolerance: float, deadline: Deadline = NEVER, *, throughout: bool = False,
+        tolerance: float, deadline: Deadline = NEVER, *, throughout: bool = False, going_on: bool = False,
     ) -> tuple[PhaseRun, dict[str, Instant], bool]:  # fmt: skip
         """Step with a current that may follow a profile, without derivatives, until all that is sought has happened, or
-        `throughout` the horizon.
+        `throughout` the horizon. What starts `going_on` has the history of the state before, too.
 
         Returns the run, the instants of the events, and whether nothing will change any more. Raises SimulationError.
         """
         state = None if before is None else Instant(0.0, _NONE, before, np.zeros((len(before), 0)), 0.0, _NONE)
         run, start, pace, _ = self._begin(inputs, np.zeros((len(inputs), 0)), state)
+        if going_on and before is not None:
+            start.state[: self.size] = before
         return run, *run.simulate(start, pace, sought, horizon, profile, tolerance, deadline, throughout=throughout)
 
 

@@ -23,6 +23,7 @@ from tvimdesign.study.sections.section import (
 )
 from tvimdesign.study.study import (
     STANDARD_POINTS,
+    DutyOptions,
     GivenCurrent,
     ProfileOptions,
     Range,
@@ -168,6 +169,7 @@ PROFILE = settings(
     _check_profile,
 )
 SOLVER = settings("solver", "effort of the search and fineness of the heat model", SolverOptions)
+DUTY = settings("duty", "repeated switching, whose periodic state and highest rate are reported", DutyOptions)
 WRITE = settings("write", "files in the results folder besides the numbers", WriteOptions)
 
 

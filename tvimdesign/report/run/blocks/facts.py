@@ -98,6 +98,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         Fact("Times", list(_times(value))),
         *_impedance(value),
         *_task(value, answer.design.choices),
+        *_duty(answer),
         Fact("Heating", [value("switch_energy"), peaks]),
     ]
     doubts = (*_manufacturing(uncertainty), *_model(uncertainty))
@@ -172,6 +173,24 @@ def _task(value: _Values, choices: Mapping[str, str]) -> list[Fact]:
     torque, safety = value("task_torque@cold"), number(value.values["load_safety"], _DIGITS)
     load = f"{value('payload')} at {value('arm_length')}"
     return [Fact("Task", [f"holds {load}: {torque} x safety {safety}", f"sags {value('sag@cold')} frozen"])]
+
+
+def _duty(answer: StudyResult) -> list[Fact]:
+    """Return what repeated switching makes of times and temperatures, and the most that keeps the ratings."""
+    duty, rate = answer.duty, answer.design.study.get("duty", {}).get("switches_per_hour")
+    if duty is None:
+        return []
+    limit = "time" if duty.limited_by == "time" else label(duty.limited_by)
+    most = f"at most {number(duty.most, _DIGITS)} (limit: {limit})"
+    if not duty.values:
+        return [Fact("Duty", [f"{number(rate, _DIGITS)} switches an hour leave too little time", most])]
+    pads = with_unit(duty.values["peak_peltier_temperature"], "degC", _DIGITS)
+    above = [f"exceeds {', '.join(map(label, duty.exceeded))}"] if duty.exceeded else []
+    times = " and back ".join(with_unit(duty.values[name], "s", _DIGITS) for name in ("response_time", "return_time"))
+    energy = f"{with_unit(duty.energy_a_day, 'kJ', _DIGITS)} a day"
+    note = f"periodic after {with_unit(duty.settling, 'min', _DIGITS)}"
+    parts = [f"{number(rate, _DIGITS)} switches an hour", f"switch {times}", f"heater {pads}", energy, *above, most]
+    return [Fact("Duty", parts, note)]
 
 
 def _active_constraints(answer: StudyResult) -> list[Fact]:

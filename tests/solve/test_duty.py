@@ -1,0 +1,88 @@
+"""Repeated switching: its periodic state against many cycles, its limit, and what a study reports."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from robot_models import module_of
+from support import study_path
+
+from tvimdesign.report.output.tables import duty_entry
+from tvimdesign.report.run.blocks.facts import main_facts
+from tvimdesign.solve.duty import HOUR, Duty, DutyCycle
+from tvimdesign.solve.result import answer
+from tvimdesign.study.reader import read_study_text
+from tvimdesign.study.sections.all_sections import written
+
+SOFT = 60.0
+
+
+@cache
+def _duty(mode: str) -> Duty:
+    resolved = module_of(mode)
+    return Duty(resolved.functions, resolved.functions.start, {}, SOFT)
+
+
+@pytest.mark.parametrize("mode", ["shear", "compression"])
+def test_fifty_cycles_end_in_the_periodic_state(mode: str) -> None:
+    duty = _duty(mode)
+    first = duty.cycle(duty.ambient, 0.0)
+    assert first is not None
+    period = 1.2 * first.taken
+    found = duty.periodic(period)
+    assert found is not None
+    state, cycle = found
+    now, last = duty.ambient, first
+    for _ in range(50):
+        step = duty.cycle(now, period)
+        assert isinstance(step, DutyCycle)
+        now, last = step.end, step
+    rise = np.max(np.abs(state - duty.ambient)[: duty.heat])
+    assert np.max(np.abs(now - state)[: duty.heat]) < 0.01 * rise
+    assert last.energy == pytest.approx(cycle.energy, rel=0.01)
+    assert last.values == pytest.approx(cycle.values, rel=0.01)
+    # It begins warmer than ambient, so that it is soft sooner and stiff later than once.
+    assert cycle.values["response_time"] < duty.cold.values["response_time"]
+    assert cycle.values["return_time"] > duty.cold.values["return_time"]
+    assert 0.0 < duty.settling(state, period) < 50.0 * period
+
+
+def test_the_first_cycle_is_the_one_of_a_run() -> None:
+    duty = _duty("shear")
+    cycle = Duty(duty.model, duty.inputs, {}, 0.0).cycle(duty.ambient, 0.0)
+    assert cycle is not None
+    # It melts `melting_time` behind the equilibrium curve, which a run follows.
+    for name in ("response_time", "return_time", "peak_peltier_temperature", "peak_cold_side_temperature"):
+        assert cycle.values[name] == pytest.approx(duty.cold.values[name], rel=0.01)
+
+
+def test_the_highest_duty_is_the_last_that_keeps_the_ratings() -> None:
+    duty = _duty("shear")
+    alone = duty.above({}, ())
+    most, by = duty.most(alone, 3.0)
+    assert most > 0.0
+    assert by
+    assert duty.limit(HOUR / most, alone, None)[0] == ""
+    assert duty.limit(HOUR / (1.05 * most), alone, None)[0] == by
+    if alone:
+        assert duty.most((), 3.0) == (0.0, alone[0])
+
+
+def test_a_study_reports_its_duty() -> None:
+    text = study_path("paper_reconstructed").read_text()
+    study = read_study_text(f"{text}\nduty: {{switches_per_hour: 2, soft: 1 min}}\n")
+    assert (study.duty.switches_per_hour, study.duty.soft) == (2.0, SOFT)
+    assert written(study)["duty"] == {"switches_per_hour": 2.0, "soft": "60 s"}
+    asked = answer(study)
+    assert asked.duty is not None
+    reported = duty_entry(asked.duty, study.table)
+    assert reported["energy_a_day"]["si"]["value"] > 48.0 * asked.design.values["switch_energy"] * 0.8
+    assert reported["values"]["response_time"]["value"] > 0.0
+    assert "2 switches an hour" in next(fact for fact in main_facts(asked, {}) if fact.label == "Duty").text
+    hurried = study.model_copy(update={"duty": study.duty.model_copy(update={"switches_per_hour": 60.0})})
+    too_often = answer(hurried).duty
+    assert too_often is not None
+    assert too_often.values == {}
+    without = answer(read_study_text(text))
+    assert without.duty is None
+    assert without.design.values == asked.design.values
