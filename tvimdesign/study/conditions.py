@@ -160,7 +160,7 @@ def _conditions(of: Case) -> Iterator[_Condition]:
     for name in ("cells", "fineness"):
         value = getattr(study.solver, name)
         yield _Condition(name, f"solver.{name}", value, str(value))
-    robust = study.robust and (study.robust.sigma, study.robust.share)
+    robust = study.robust and (study.robust.sigma, study.robust.share, study.robust.plausible)
     yield _Condition("robust", "robust", robust, _robust_in_words(study.robust))
     if study.vary:
         shares = ", ".join(f"{name} {weight:g}" for name, weight in study.minimize.items())
@@ -169,7 +169,8 @@ def _conditions(of: Case) -> Iterator[_Condition]:
 
 def _robust_in_words(robust: Robust | None) -> str:
     if robust is not None and robust.share is not None:
-        return f"{robust.share:.3g} of the modules satisfy the limits"
+        plausible = f", each in {robust.plausible:.3g} of the plausible cases" if robust.plausible else ""
+        return f"{robust.share:.3g} of the modules satisfy the limits{plausible}"
     return f"limits are satisfied by {robust.sigma if robust and robust.sigma else 0.0:.3g} standard deviations"
 
 

@@ -84,6 +84,8 @@ class Robust(_Part):
 
     sigma: float | None = None
     share: float | None = None
+    plausible: float | None = None
+    """Beside a share: in which share of the plausible cases of the assumed values each limit must be met."""
 
 
 class SolverOptions(_Part):

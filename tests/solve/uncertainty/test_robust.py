@@ -13,7 +13,7 @@ from tvimdesign.base.deadline import NEVER
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.run.uncertainty_data import below_yield, changes, yield_of
+from tvimdesign.report.run.uncertainty_data import Uncertainty, below_yield, changes, yield_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.solver_run import Run
@@ -38,6 +38,10 @@ minimize: peak_power
 tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
 solver: {starts: 1, cells: 12}
 """
+
+UNMEASURED = ALGEBRAIC.replace("springs_mass", "module_mass").replace(
+    "3, 8]", "3, 8], retainer_screw_length: [8 mm, 16 mm]"
+)
 
 
 def _solved(text: str) -> tuple[StudyResult, Spread]:
@@ -93,6 +97,18 @@ def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
     assert _share(all_kept, "spring_stiffness") == 1.0
     assert _share(spread, "spring_stiffness") == pytest.approx(0.993, abs=3e-3)
     assert asked.design.values["springs_mass"] < 0.97 * sigma.design.values["springs_mass"]
+
+
+@pytest.mark.gate
+def test_each_limit_is_met_in_as_many_plausible_cases_as_asked() -> None:
+    held = []
+    for asked in ("yield: 95 %", "yield: 95 %, plausible: 90 %"):
+        study = read_study_text(UNMEASURED + f"robust: {{{asked}}}\n", "a test")
+        found = answer(study)
+        assert found.design.status == "optimal"
+        held.append(Uncertainty(study).data(found.design)["held"].get("retainer_thread_margin >=", 1.0))
+    assert held[0] < 0.5
+    assert held[1] == pytest.approx(0.9, abs=0.02)
 
 
 @pytest.mark.gate
@@ -228,6 +244,7 @@ def test_margins_are_of_what_each_limit_spreads_and_fall_for_none() -> None:
     drawn = Drawn((A, B), _drawn(0.1, 0.1).residuals - np.array([[0.0], [1.0]]))
     assert set(_moves(drawn, 0.95, {}, {A.name})) == {A.name}
     assert _moves(drawn, 0.95, {B.name: 0.3}, {A.name})[B.name] == pytest.approx(-0.3)
+    assert _moves(drawn, 0.95, {B.name: 0.3}, {A.name}, {B.name: 0.1})[B.name] == pytest.approx(-0.2)
 
 
 def test_an_active_limit_that_nothing_spreads_is_kept_and_needs_no_margin() -> None:

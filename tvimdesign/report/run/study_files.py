@@ -112,7 +112,10 @@ def sized_text(task: JointTask, name: str, progress: Callable[[str], None] = lam
     Raises InfeasibleError, with the nearest numbers that were tried and have such hardware.
     """
     more_friction = replace(task, friction=_MORE_FRICTION)
-    for allowed, words in ((task, ""), (more_friction, f", friction up to {_MORE_FRICTION:g} of the springs' torque")):
+    for allowed, words in (
+        (replace(task, cautious=True), ", with room for the assumed values"), (task, ""),
+        (more_friction, f", friction up to {_MORE_FRICTION:g} of the springs' torque"),
+    ):  # fmt: skip
         progress(f"choosing the hardware{words}")
         if hardware := _hardware(allowed):
             return study_text(allowed, hardware, name)

@@ -78,6 +78,8 @@ class Optimizer:
         self.free += tuple(Free(name, 0.0, 1.0, 1.0) for mixture in self.mixtures for name in mixture.shares)
         self.margins: dict[str, float] = {}
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
+        self.floors: dict[str, float] = {}
+        """By limit, the margin below which the search for a yield gives none back."""
         limits = constraints_of(study, self.table, self.model.words)
         if without_cycle:
             limits = [limit for limit in limits if not on_cycle(self.table, limit.output)]

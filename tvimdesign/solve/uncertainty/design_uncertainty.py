@@ -16,7 +16,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of
 from tvimdesign.solve.sensitivity.output_sensitivity import behind_profiles
 from tvimdesign.solve.uncertainty.intervals import Interval, covered, draw, intervals
 from tvimdesign.solve.uncertainty.uncertain_inputs import (
@@ -70,6 +70,7 @@ class UncertaintyModel:
         lost = behind_profiles(table, {*study.profile.pieces(), *resolved.current_profiles})
         self.asked = tuple(name for name in dict.fromkeys(asked) if not _behind(table, name, lost))
         unmeasured = [quantity.name for quantity in unmeasured_inputs(resolved)]
+        self._free = set(free)
         self._spreading = {name.partition("@")[0] for name in study.tolerances}
         moved = self._spreading | set(unmeasured)
         every = constraints_of(study, table, resolved.values)
@@ -117,6 +118,27 @@ class UncertaintyModel:
             self._pace = self._model.fitted(pace, inputs, beside=self._pace)
             parts = self._yield(resolved, spreading, modules, partial(self._rows, resolved, self._pace, deadline))
         return DesignUncertainty(parts, len(spreading), left_out, *result, self._before(resolved, draws, rows))
+
+    def margins(self, resolved: ResolvedModule, share: float) -> dict[str, float]:
+        """Return by limit the margin [share of its scale] that a share of the plausible cases needs, where it lacks.
+
+        Limits that none of the free inputs moves are left out.
+        """
+        moved = [quantity for quantity in unmeasured_inputs(resolved) if quantity.name in self.names]
+        if self._model is None or not moved:
+            return {}
+        inputs = np.array([float(value) for value in resolved.values.values() if isinstance(value, int | float)])
+        rows, places = partial(self._rows, resolved, self._model.pace_at(inputs), NEVER), [each.name for each in moved]
+        nominal, cases = rows(np.zeros((0, 1)), ()), rows(draw(moved, DRAWS, resolved.study.solver.seed), places)
+        needed = {}
+        for limit in self.limits:
+            if limit.output not in self.outputs or not _behind(resolved.table, limit.output, self._free):
+                continue
+            at = self.outputs.index(limit.output)
+            worst = float(np.quantile(np.nan_to_num(limit.residual(cases[at]), nan=np.inf), share))
+            if ALGEBRAIC_TOLERANCE < worst < np.inf and np.isfinite(nominal[at, 0]):
+                needed[limit.name] = worst - float(limit.residual(nominal[at, 0]))
+        return needed
 
     def _rows(
         self, resolved: ResolvedModule, pace: Pace | None, deadline: Deadline, columns: Array, places: Sequence[str],

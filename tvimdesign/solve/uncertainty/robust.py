@@ -7,6 +7,7 @@ for what needs no working cycle; the optimum is then sought again. By a yield: s
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from tvimdesign.base.errors import InfeasibleError, TimeOverError
@@ -19,12 +20,13 @@ from tvimdesign.solve.nlp.solver_run import MARGINS, Ends, Run
 from tvimdesign.solve.nlp.spread import moments_at
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
+from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
-from tvimdesign.solve.uncertainty.yield_search import PRESSING, Robust, pressing, reach_yield
+from tvimdesign.solve.uncertainty.yield_search import PRESSING, Robust, pressing, reach_yield, tightened
 from tvimdesign.study import ProfileOptions, Study
 from tvimdesign.study.study import Robust as RobustOptions
 
-ROUNDS = 6
+ROUNDS, _PLAUSIBLE_ROUNDS = 6, 4
 _SETTLED = 1e-3
 """Change of a margin, as a share of its limit's scale, below which it is settled."""
 _STARTS, SIGMA = 3, 2.5
@@ -52,7 +54,7 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
             break
         _, best = min(tried, key=_rank, default=(0, None))
         optimizer.margins = {}
-        if best is not None and best.reached:
+        if best is not None and best.reached and best.plausible:
             run = _with_margins(optimizer, run, within, best)
             if not run.start.converged or run.start.objective > best.run.start.objective * (1.0 - _GAIN):
                 continue
@@ -68,10 +70,10 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
     return place, robust.run
 
 
-def _rank(tried: tuple[int, Robust]) -> tuple[bool, float]:
+def _rank(tried: tuple[int, Robust]) -> tuple[bool, bool, float]:
     """Rank designs that reach what is asked by their objectives, then the others by how near they come."""
     robust = tried[1]
-    return not robust.reached, robust.run.start.objective if robust.reached else -robust.kept
+    return not robust.reached, not robust.plausible, robust.run.start.objective if robust.reached else -robust.kept
 
 
 def _with_margins(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], other: Robust) -> Run:
@@ -107,8 +109,46 @@ def _robust(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objectiv
     if options.share is None:
         run = _settled(optimizer, run, within, objective)
     elif run.start.converged:
-        return reach_yield(optimizer, run, within, options.share, objective)
+        optimizer.floors = {}
+        robust = reach_yield(optimizer, run, within, options.share, objective)
+        return _plausible(optimizer, robust, within, options, objective)
     return Robust(run, optimizer.margins, 0.0, reached=options.share is None)
+
+
+def _plausible(
+    optimizer: Optimizer, robust: Robust, within: Mapping[str, Ends], options: RobustOptions,
+    objective: Objective | None,
+) -> Robust:  # fmt: skip
+    """Seek a design again whose limits are met in enough of the plausible cases; as near to it as a yield allows."""
+    if options.plausible is None or options.share is None:
+        return robust
+    model = UncertaintyModel(_resolved(optimizer, robust.run), (), [free.name for free in optimizer.free])
+    part = 1.0
+    for _ in range(_PLAUSIBLE_ROUNDS):
+        needed = model.margins(_resolved(optimizer, robust.run), options.plausible) if robust.reached else {}
+        robust = replace(robust, plausible=robust.reached and not needed)
+        if not needed:
+            break
+        optimizer.progress("adding margins for the assumed values")
+        optimizer.margins = dict(robust.margins)
+        short = {name: margin - robust.margins.get(name, 0.0) for name, margin in needed.items()}
+        moves = {name: part * margin for name, margin in short.items() if margin > 0.0}
+        run = tightened(optimizer, robust.run, within, objective, moves) if moves else None
+        optimizer.floors = {**robust.margins, **{name: optimizer.margins[name] for name in moves}} if run else {}
+        after = reach_yield(optimizer, run, within, options.share, objective) if run else robust
+        if run and after.reached:
+            robust = after
+        else:
+            part *= 0.5
+    optimizer.margins = robust.margins
+    return robust
+
+
+def _resolved(optimizer: Optimizer, run: Run) -> ResolvedModule:
+    """Return the module of a run."""
+    model = optimizer.model
+    numbers = {name: float(run.inputs[i]) for name, i in model.index.items()}
+    return ResolvedModule(optimizer.study, {**numbers, **model.words}, run.current_profiles)
 
 
 def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
@@ -175,9 +215,7 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
 
 def _deviations(optimizer: Optimizer, run: Run, wanted: list[str]) -> dict[str, float]:
     """Standard deviations of what follows from the working cycle, by output."""
-    model, study = optimizer.model, optimizer.study
-    numbers = {name: float(run.inputs[i]) for name, i in model.index.items()}
-    resolved = ResolvedModule(study, {**numbers, **model.words}, run.current_profiles)
+    resolved = _resolved(optimizer, run)
     contributors = contributors_of(resolved)
     names = [contributor.name for contributor in contributors]
     exact = output_sensitivities(resolved, wanted, names)

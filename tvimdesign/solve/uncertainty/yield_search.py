@@ -56,6 +56,8 @@ class Robust:
     kept: float
     reached: bool
     """Whether that is as many as asked, to the lower end of its interval of 95 %."""
+    plausible: bool = True
+    """Whether enough plausible cases satisfy each limit."""
 
 
 def reach_yield(
@@ -88,7 +90,7 @@ def reach_yield(
         margins = dict(optimizer.margins)
         candidates.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
         multipliers = pressing(optimizer, run)
-        moves = _moves(drawn, aim, margins, multipliers)
+        moves = _moves(drawn, aim, margins, multipliers, optimizer.floors)
         gain = -sum(multipliers.get(name, 0.0) * move for name, move in moves.items())
         if not moves or (candidates[-1].reached and gain < _GAIN * abs(run.start.objective)) or _no_better(candidates):
             break
@@ -120,7 +122,7 @@ def _settled(
     """Return the optimum whose margins fit its predicted modules; the run itself if there is none."""
     first = run
     for _ in range(PREDICTIONS):
-        following = _tightened(optimizer, run, within, objective, moves, SHAKES if run is first else 0)
+        following = tightened(optimizer, run, within, objective, moves, SHAKES if run is first else 0)
         if following is None:
             break
         settled, run = same_optimum(run.start, following.start), following
@@ -130,15 +132,15 @@ def _settled(
             predicted = yields.beside(run.inputs, first.inputs, drawn)
         except SimulationError:
             break
-        moves = _moves(predicted, aim, optimizer.margins, pressing(optimizer, run))
+        moves = _moves(predicted, aim, optimizer.margins, pressing(optimizer, run), optimizer.floors)
         if not moves:
             break
     return run
 
 
-def _tightened(
+def tightened(
     optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None, moves: Mapping[str, float],
-    shakes: int,
+    shakes: int = SHAKES,
 ) -> Run | None:  # fmt: skip
     """Return the optimum with moved margins, or with the largest share of the moves that a design nearby bears.
 
@@ -172,10 +174,16 @@ def _no_better(candidates: Sequence[Robust]) -> bool:
     return not last.reached or same_optimum(before.run.start, last.run.start)
 
 
-def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], active: Collection[str]) -> dict[str, float]:
+def _moves(
+    drawn: Drawn,
+    share: float,
+    margins: Mapping[str, float],
+    active: Collection[str],
+    floors: Mapping[str, float] | None = None,
+) -> dict[str, float]:
     """By how much to move the margin of each limit; empty where all are settled.
 
-    A limit that holds the design, or has a margin, gives back what it has too much; no margin falls below zero.
+    A limit that holds the design, or has a margin, gives back what it has too much, down to its floor or zero.
     """
     ordered = np.sort(np.where(np.isnan(drawn.residuals), np.inf, drawn.residuals), axis=1)
     before = np.array([margins.get(limit.name, 0.0) for limit in drawn.limits])
@@ -188,7 +196,7 @@ def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], active: Col
         else:
             first = middle + 1
     shifts = np.where(np.isinf(shifts := _shifts(ordered, last, may_give)), _UNKNOWN, shifts)
-    moved = np.maximum(before + shifts, 0.0) - before
+    moved = np.maximum(before + shifts, [(floors or {}).get(limit.name, 0.0) for limit in drawn.limits]) - before
     middle, beyond = (ordered[:, int(share_of * (ordered.shape[1] - 1))] for share_of in (_MEDIAN, _DEVIATION))
     settled = _SETTLED if drawn.together.low >= share else _SHORT
     deviations = np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)

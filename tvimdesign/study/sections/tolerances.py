@@ -45,6 +45,10 @@ _KEYS = ["plus_minus", "row", "distribution", "sigma", "adjustable", "adjusted_t
 _ROBUST_KEYS: Schema = {
     "sigma": {"description": "standard deviations between each limit and the nominal design", **NUMBER_VALUE},
     "yield": {"description": "share of modules that must satisfy all limits", **NUMBER_VALUE},
+    "plausible": {
+        "description": "beside it: share of the plausible cases that must satisfy each limit",
+        **NUMBER_VALUE,
+    },
 }
 _MOST_SIGMAS = 6.0
 
@@ -235,8 +239,12 @@ def _read_robust(reading: Reading, node: Node | None) -> Robust | None:
     if not parts:
         return None
     assert node is not None
-    if len(parts) == 2:
-        reading.problems.add(node, "robust", "both 'sigma' and 'yield'", expected)
+    if len(parts) > 1 and "sigma" in parts:
+        other = next(key for key in parts if key != "sigma")
+        reading.problems.add(node, "robust", f"both 'sigma' and '{other}'", expected)
+        return None
+    if "yield" not in parts and "sigma" not in parts:
+        reading.problems.add(node, "robust", "'plausible' without 'yield'", "{yield: 95 %, plausible: 80 %}")
         return None
     if not reading.section("tolerances"):
         message = "there is nothing to be robust against: `tolerances` is missing"
@@ -247,13 +255,17 @@ def _read_robust(reading: Reading, node: Node | None) -> Robust | None:
     if "sigma" in parts:
         sigma = _sigmas(reading, parts["sigma"], "robust.sigma")
         return None if sigma is None else Robust(sigma=sigma)
-    share = number(reading.problems, parts["yield"], "robust.yield", "a share such as 99 %")
-    if share is None:
+    shares = {key: _share(reading, value, f"robust.{key}") for key, value in parts.items()}
+    return None if None in shares.values() else Robust(share=shares["yield"], plausible=shares.get("plausible"))
+
+
+def _share(reading: Reading, node: Node, path: str) -> float | None:
+    """Return a share of modules or of cases; None after a mistake."""
+    share = number(reading.problems, node, path, "a share such as 99 %")
+    if share is not None and not 0.5 < share < 1.0 - 1e-9:
+        reading.problems.add(node, path, f"{share:g} is out of range", "above 50 % and below 100 %")
         return None
-    if not 0.5 < share < 1.0 - 1e-9:
-        reading.problems.add(parts["yield"], "robust.yield", f"{share:g} is out of range", "above 50 % and below 100 %")
-        return None
-    return Robust(share=share)
+    return share
 
 
 # --- schema and writer ---
@@ -311,7 +323,7 @@ def _written_size(tolerance: Tolerance, unit: str) -> str | None:
 
 
 def _write_robust(study: Study) -> dict[str, float]:
-    sizes = (study.robust.sigma, study.robust.share) if study.robust else ()
+    sizes = (study.robust.sigma, study.robust.share, study.robust.plausible) if study.robust else ()
     return {key: size for key, size in zip(_ROBUST_KEYS, sizes, strict=False) if size is not None}
 
 
@@ -321,5 +333,7 @@ TOLERANCES = Section(
 )  # fmt: skip
 ROBUST = Section(
     "robust", "distance from each limit in standard deviations, or the share of modules that must satisfy all limits",
-    _read_robust, mapping(_ROBUST_KEYS) | {"maxProperties": 1}, _write_robust,
+    _read_robust,
+    mapping(_ROBUST_KEYS) | {"dependencies": {"plausible": ["yield"]}, "not": {"required": ["sigma", "yield"]}},
+    _write_robust,
 )  # fmt: skip
