@@ -23,7 +23,7 @@ def robot(
     overwrite: options.Overwrite = False,
     json: options.AsJson = False,
 ) -> None:
-    """Write the joint for simulators: MJCF, URDF, FMU. The folder is results/<name>-robot."""
+    """Write the joint for simulators: MJCF, URDF, SDF, FMU. The folder is results/<name>-robot."""
     from tvimdesign.base.units import parse_quantity
     from tvimdesign.report.robot_files import write_robot
 

@@ -15,7 +15,7 @@ from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.parts_of_design import refuse_failed
 from tvimdesign.robot.fmu_file import WrittenFmu, write_fmu
 from tvimdesign.robot.joint_model import JointModel, joint_model, make_bodies, refuse_step
-from tvimdesign.robot.model_files import mjcf, urdf
+from tvimdesign.robot.model_files import mjcf, ros2_control, sdf, urdf
 from tvimdesign.simulation.working_cycle.curves import impedance_sweep
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design, write_design
@@ -75,7 +75,7 @@ def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, a
         title = f"{model.name}: joint for simulators, time step {number(1e3 * model.step)} ms"
         command.headline, command.shown = title, [Section("states", "", model_blocks(model, fmu))]
         command.finish("written", {"design": source}, design.study)
-    command.report(plain_model(model, fmu), "MJCF, URDF, FMU, meshes and tables are")
+    command.report(plain_model(model, fmu), "MJCF, URDF, SDF, FMU, meshes and tables are")
 
 
 def write_models(
@@ -92,6 +92,8 @@ def write_models(
     for state in model.states:
         folder.write(f"joint_{state.point}.xml", mjcf(model, state))
         folder.write(f"joint_{state.point}.urdf", urdf(model, state))
+        folder.write(f"joint_{state.point}.sdf", sdf(model, state))
+    folder.write("joint.ros2_control.xacro", ros2_control(model))
     swept = over_temperature(resolved, model)
     for name, columns in (("states", states(model)), ("elements", elements(model)), ("temperatures", swept)):
         folder.write(f"{name}.csv", curves_csv(columns, {column: unit_of(column) for column in columns}, "1"))
@@ -115,7 +117,7 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
         "states": {
             state.point: {
                 **{name: getattr(state, name) for name in _STATE},
-                "files": [f"joint_{state.point}.xml", f"joint_{state.point}.urdf"],
+                "files": [f"joint_{state.point}.{ending}" for ending in ("xml", "urdf", "sdf")],
             }
             for state in model.states
         },

@@ -1,4 +1,4 @@
-"""The joint as MJCF and URDF files, and how their XML is written.
+"""The joint as MJCF, URDF and SDF files and as a `ros2_control` description, and how their XML is written.
 
 The PCL of a state as hinges, dampers and springs, which is all that a simulator of rigid bodies has.
 
@@ -176,6 +176,60 @@ def _link(root: Xml.Element, body: RigidBody) -> None:
     visual = Xml.SubElement(link, "visual")
     Xml.SubElement(visual, "origin", xyz="0 0 0", rpy="0 0 0")
     Xml.SubElement(Xml.SubElement(visual, "geometry"), "mesh", filename=body.mesh)
+
+
+def sdf(model: JointModel, state: JointState) -> str:
+    """Return one state of the joint as an SDF file; the joint has the state's stiffness and damping (Kelvin-Voigt)."""
+    root = Xml.Element("sdf", version="1.7")
+    root.append(comment([*header(model, state), _ONE_FREQUENCY]))
+    whole = Xml.SubElement(root, "model", name=f"{model.slug}_{state.point}")
+    for body in (model.base, model.moving):
+        link = Xml.SubElement(whole, "link", name=body.name)
+        (xx, xy, xz), (_, yy, yz), (_, _, zz) = body.inertia
+        inertial = _with_texts(link, "inertial", pose=numbers(*body.centre, 0.0, 0.0, 0.0), mass=numbers(body.mass))
+        tensor = {"ixx": xx, "ixy": xy, "ixz": xz, "iyy": yy, "iyz": yz, "izz": zz}
+        _with_texts(inertial, "inertia", **{name: numbers(value) for name, value in tensor.items()})
+        visual = Xml.SubElement(link, "visual", name=body.name)
+        _with_texts(Xml.SubElement(visual, "geometry"), "mesh", uri=body.mesh)
+    joint = _with_texts(whole, "joint", parent=model.base.name, child=model.moving.name)
+    joint.attrib.update(name=JOINT, type="revolute")
+    axis = _with_texts(joint, "axis", xyz="0 0 1")
+    limits = {"lower": -model.stop_angle, "upper": model.stop_angle, "effort": model.holding_torque}
+    _with_texts(axis, "limit", **{name: numbers(value) for name, value in limits.items()})
+    _with_texts(
+        axis, "dynamics", damping=numbers(state.damping), friction=numbers(state.friction),
+        spring_reference="0", spring_stiffness=numbers(state.stiffness),
+    )  # fmt: skip
+    return document(root)
+
+
+def _with_texts(owner: Xml.Element, kind: str, **texts: str) -> Xml.Element:
+    """Add an element with a text in each of its own elements."""
+    element = Xml.SubElement(owner, kind)
+    for own, text in texts.items():
+        Xml.SubElement(element, own).text = text
+    return element
+
+
+_ONE_FREQUENCY = "Stiffness and damping are those of the whole joint at the state's frequency; nothing relaxes."
+
+
+def ros2_control(model: JointModel) -> str:
+    """Return the `ros2_control` description: the joint commanded by its stiffness, which heaters change.
+
+    A robot's URDF includes it; in place of its mock stands the plugin of the heaters' driver.
+    """
+    root = Xml.Element("robot", name=model.slug)
+    system = Xml.SubElement(root, "ros2_control", name=model.slug, type="system")
+    _with_texts(system, "hardware", plugin="mock_components/GenericSystem")
+    joint = Xml.SubElement(system, "joint", name=JOINT)
+    command = Xml.SubElement(joint, "command_interface", name="impedance")
+    stiffnesses = [state.stiffness for state in model.states]
+    for name, value in (("min", min(stiffnesses)), ("max", max(stiffnesses))):
+        Xml.SubElement(command, "param", name=name).text = numbers(value)
+    for name in ("position", "velocity", "effort", "temperature", "stiffness"):
+        Xml.SubElement(joint, "state_interface", name=name)
+    return document(root)
 
 
 JOINT = "joint"

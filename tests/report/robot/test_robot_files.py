@@ -13,6 +13,7 @@ from functools import cache
 from pathlib import Path
 from threading import Thread
 from typing import Any
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -32,7 +33,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.robot.fmu_file import compiled, write_fmu
 from tvimdesign.robot.joint_model import JointModel, JointState, make_bodies
-from tvimdesign.robot.model_files import held_angles, maxwell_hinges, mjcf, urdf, without_spring
+from tvimdesign.robot.model_files import held_angles, maxwell_hinges, mjcf, ros2_control, sdf, urdf, without_spring
 from tvimdesign.simulation.joint_tests.release import ANGLE, release
 from tvimdesign.simulation.trial import Trial
 from tvimdesign.study.design import write_design
@@ -57,7 +58,7 @@ def test_the_folder_of_a_design_is_loaded_by_its_clients(folder: tuple[Path, dic
     expected = shipped_answer("paper_reconstructed").design.value("load_inertia")
     assert told["load_inertia"] == pytest.approx(expected, rel=1e-4)
     for state in told["states"].values():
-        scene, tree = (place / name for name in state["files"])
+        scene, tree, _ = (place / name for name in state["files"])
         loaded = mujoco.MjModel.from_xml_path(str(scene))
         assert loaded.opt.timestep == pytest.approx(1e-4)
         assert loaded.nmesh == 2
@@ -139,6 +140,42 @@ def test_a_parser_reads_the_bodies_and_the_joint(mode: str, monkeypatch: pytest.
     assert (joint.limit.lower, joint.limit.upper) == pytest.approx((-model.stop_angle, model.stop_angle))
     assert joint.limit.effort == pytest.approx(float(module_of(mode).quantity("holding_torque")))
     assert joint.dynamics.damping == pytest.approx(float(module_of(mode).quantity(f"joint_damping@{state.point}")))
+
+
+def test_sdf_has_the_bodies_the_stiffness_and_the_damping(mode: str) -> None:
+    model = model_of(mode)
+    state = model.states[0]
+    read = ElementTree.fromstring(sdf(model, state))
+    moving = read.find("model/link[@name='moving']/inertial")
+    assert moving is not None
+    assert float(moving.findtext("mass", "")) == pytest.approx(model.moving.mass)
+    assert [float(word) for word in moving.findtext("pose", "").split()] == pytest.approx(
+        [*model.moving.centre, 0, 0, 0]
+    )
+    assert float(moving.findtext("inertia/iyz", "")) == pytest.approx(model.moving.inertia[1][2])
+    joint = read.find("model/joint")
+    assert joint is not None
+    assert (joint.findtext("parent"), joint.findtext("child"), joint.findtext("axis/xyz")) == (
+        "base",
+        "moving",
+        "0 0 1",
+    )
+    names = ("limit/upper", "dynamics/spring_stiffness", "dynamics/damping")
+    quantities = ("stop_angle", f"joint_stiffness@{state.point}", f"joint_damping@{state.point}")
+    for name, quantity in zip(names, quantities, strict=True):
+        assert float(joint.findtext(f"axis/{name}", "")) == pytest.approx(float(module_of(mode).quantity(quantity)))
+
+
+def test_ros2_control_commands_the_impedance_between_the_states(mode: str) -> None:
+    model = model_of(mode)
+    joint = ElementTree.fromstring(ros2_control(model)).find("ros2_control/joint")
+    assert joint is not None
+    assert joint.get("name") == "joint"
+    command = joint.find("command_interface[@name='impedance']")
+    assert command is not None
+    ends = [float(command.findtext(f"param[@name='{name}']", "")) for name in ("min", "max")]
+    assert ends == pytest.approx([end(state.stiffness for state in model.states) for end in (min, max)], rel=1e-9)
+    assert {one.get("name") for one in joint.iter("state_interface")} >= {"temperature", "stiffness"}
 
 
 @pytest.fixture(scope="module")
