@@ -1,14 +1,19 @@
 """Repeated switching: its periodic state against many cycles, its limit, and what a study reports."""
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 from robot_models import module_of
+from scipy.integrate import solve_ivp
 from support import study_path
 
+from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.report.output.tables import duty_entry
-from tvimdesign.report.run.blocks.facts import main_facts
+from tvimdesign.report.run.blocks.facts import main_facts, more_facts
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import symbols
 from tvimdesign.solve.duty import HOUR, Duty, DutyCycle
 from tvimdesign.solve.result import answer
 from tvimdesign.study.reader import read_study_text
@@ -47,6 +52,53 @@ def test_fifty_cycles_end_in_the_periodic_state(mode: str) -> None:
     assert 0.0 < duty.settling(state, period) < 50.0 * period
 
 
+def _lost(now: heat.Profile, stack: heat.Stack, current: Any) -> Any:
+    """Heat that all surfaces and links give to the air [W]."""
+    bodies, temperatures = (*stack.beside, *stack.around), (*now.beside, *now.around)
+    faces = [(body.surface, at) for body, at in zip(bodies, temperatures, strict=True)]
+    faces.append((stack.cold_surface, now.cold) if stack.sink is None else (stack.sink.surface, now.sink[0]))
+    by_links = heat._linked(now, stack, current)["ambient"][0]
+    return sum(lumps.surface_heat(*face, stack.ambient) for face in faces) + now.through_plate[-1] + by_links
+
+
+@pytest.mark.parametrize("mode", ["shear", "compression"])
+def test_the_heat_of_a_period_is_lost_in_it(mode: str) -> None:
+    duty = _duty(mode)
+    first = duty.cycle(duty.ambient, 0.0)
+    assert first is not None
+    period = 1.2 * first.taken
+    found = duty.periodic(period)
+    assert found is not None
+    assert duty.hold is not None
+    state, cycle = found
+    up, back = (float(duty.drives[name].currents[0]) for name in ("softening", "stiffening"))
+    phases = (
+        (duty.heating, up, cycle.values["response_time"]),
+        (duty.heating, float(duty.hold.currents[0]), SOFT),
+        (duty.cooling, back, cycle.values["return_time"]),
+        (duty.cooling, 0.0, period - cycle.taken),
+    )
+    # LSODA in place of the engine's steps; beside the state what comes in and what is lost.
+    y = np.append(state, [0.0, 0.0])
+    for engine, current, seconds in phases:
+        compiled = engine.phase
+        stack, drive = compiled._stack, symbols(compiled._drive)[0]
+
+        def columns(rates: Any, now: heat.Profile, stack: heat.Stack = stack, drive: Any = drive) -> list[Any]:
+            supplied = heat.electrical_power(now, stack, drive) + stack.motion_heat
+            return [ca.vertcat(rates), supplied, _lost(now, stack, drive)]
+
+        rates = compiled.evaluated(["state_rates", "stack_profile"], columns)
+
+        def right(_: float, y: np.ndarray, rates: Any = rates, current: float = current) -> np.ndarray:
+            return np.asarray(rates(y[:-2], current, duty.inputs)).ravel()
+
+        y = solve_ivp(right, (0.0, seconds), y, method="LSODA", rtol=1e-7, atol=1e-9).y[:, -1]
+    assert y[-1] == pytest.approx(y[-2], rel=1e-3)
+    assert cycle.energy == pytest.approx(y[-2], rel=1e-2)
+    assert y[: duty.heat] == pytest.approx(state[: duty.heat], abs=1e-3)  # a tenth of a kelvin
+
+
 def test_the_first_cycle_is_the_one_of_a_run() -> None:
     duty = _duty("shear")
     cycle = Duty(duty.model, duty.inputs, {}, 0.0).cycle(duty.ambient, 0.0)
@@ -79,6 +131,9 @@ def test_a_study_reports_its_duty() -> None:
     assert reported["energy_a_day"]["si"]["value"] > 48.0 * asked.design.values["switch_energy"] * 0.8
     assert reported["values"]["response_time"]["value"] > 0.0
     assert "2 switches an hour" in next(fact for fact in main_facts(asked, {}) if fact.label == "Duty").text
+    peaks = next(fact for fact in more_facts(asked, {}, None) if fact.label == "Duty").text
+    assert "heater" in peaks
+    assert "mean power" in peaks
     hurried = study.model_copy(update={"duty": study.duty.model_copy(update={"switches_per_hour": 60.0})})
     too_often = answer(hurried).duty
     assert too_often is not None

@@ -33,6 +33,8 @@ from tvimdesign.solve.result import StudyResult
 _DIGITS = 3
 _GOOD = 0.9973
 """Yield from which a module is no concern: three standard deviations to either side."""
+DAY = 86400.0
+"""[s]."""
 STALLS = 3.5
 """Per cent of time for one per cent of the temperature's rise: 1 if a layer warms evenly, 2 as the root of time."""
 
@@ -193,6 +195,16 @@ def _duty(answer: StudyResult) -> list[Fact]:
     return [Fact("Duty", parts, note)]
 
 
+def _duty_peaks(answer: StudyResult) -> Iterator[str]:
+    """Say what parts bear in the periodic cycle, and its mean power."""
+    duty = answer.duty
+    if duty is None or not duty.values:
+        return
+    for name in filter(lambda name: name.startswith("peak_"), duty.values):
+        yield f"{label(name)} {with_unit(duty.values[name], 'degC', _DIGITS)}"
+    yield f"mean power {with_unit(duty.energy_a_day / DAY, 'W', _DIGITS)}"
+
+
 def _active_constraints(answer: StudyResult) -> list[Fact]:
     """Return the active constraints in words, the costliest first, with what a step of the first is worth."""
     held = active(answer)
@@ -241,6 +253,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
     facts = [
         Fact("Soft", _soft(answer)),
         Fact("Stiff", list(_stiff(answer, uncertainty))),
+        Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *_lost_motion(_Values(answer, uncertainty), much=False),
