@@ -20,7 +20,6 @@ _USUAL = {
     "linear_solver": "mumps",
     # Second derivatives of the cycle are not to be had for less than as many evaluations as there are unknowns.
     "hessian_approximation": "limited-memory",
-    "limited_memory_max_history": 12,
     # Dense rows and few unknowns: both settings together take two thirds of the usual ones' time.
     "limited_memory_aug_solver": "extended",
     "mumps_pivot_order": 0,
@@ -275,6 +274,7 @@ def solver_of(unknowns: int, rows: int, options: SolverOptions, beginning: Begin
     ipopt: dict[str, Any] = {
         **_USUAL,
         **_SETTINGS.get(beginning, {}),
+        "limited_memory_max_history": unknowns,  # of 34 unknowns, 12 take half as many iterations again
         "max_iter": min(most, _MOST_ITERATIONS.get(beginning, most)),
         "tol": min(options.tolerance, _SHARP) if beginning == "sharp" else options.tolerance,
     }
