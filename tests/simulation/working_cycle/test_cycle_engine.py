@@ -108,8 +108,12 @@ def test_values_of_a_study_s_optimum_are_near_those_of_cvodes(path: Path) -> Non
     grids: dict[str, Grid] = {}
     found = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0)), None, grids).values
     judge = fine(model).run(model.start).values
-    for i, name in enumerate(model.switch_names):
-        assert found[i] == pytest.approx(judge[name], rel=EXACT), name
+    endless = {name for name, phase in model.phases.items() if np.isinf(judge[phase.phase.ends])}
+    for i, row in enumerate(study.table.supplied):
+        if row.phase in endless:  # CVODES has what it reaches, the engine nothing
+            assert np.isinf(found[i])
+        else:
+            assert found[i] == pytest.approx(judge[row.name], rel=EXACT), row.name
     assert max(len(grid.shares) for grid in grids.values()) <= 80
 
 
