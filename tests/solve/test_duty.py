@@ -130,6 +130,8 @@ def test_a_study_reports_its_duty() -> None:
     reported = duty_entry(asked.duty, study.table)
     assert reported["energy_a_day"]["si"]["value"] > 48.0 * asked.design.values["switch_energy"] * 0.8
     assert reported["values"]["response_time"]["value"] > 0.0
+    settling = reported["settling_time"]
+    assert (settling["unit"], settling["si"]["unit"], settling["si"]["value"]) == ("min", "s", asked.duty.settling)
     assert "2 switches an hour" in next(fact for fact in main_facts(asked, {}) if fact.label == "Duty").text
     peaks = next(fact for fact in more_facts(asked, {}, None) if fact.label == "Duty").text
     assert "heater" in peaks

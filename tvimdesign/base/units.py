@@ -261,7 +261,7 @@ def pretty(unit: str) -> str:
 
 _SI_UNITS = {
     "mm": "m", "cm": "m", "um": "m", "g": "kg", "deg": "rad", "degC": "K", "percent": "1", "MPa": "Pa", "GPa": "Pa",
-    "kPa": "Pa", "kJ": "J", "mV": "V", "mA": "A", "mrad": "rad",
+    "kPa": "Pa", "kJ": "J", "mV": "V", "mA": "A", "mrad": "rad", "ms": "s", "min": "s", "h": "s",
 }  # fmt: skip
 
 
