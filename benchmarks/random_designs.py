@@ -3,7 +3,8 @@
 Designs are drawn from the study's ranges (seeded); what a study does not vary is as it says. Those that violate a
 rule of the table are counted by rule. The others are built, each in a process of its own with a time limit and checked:
 one valid solid a part, a watertight mesh, the volumes of the model, nothing in each other's way at rest and through the
-stroke; with `--inspect` also all that the process wants. Ends with code 1 where one that keeps the rules fails.
+stroke; with `--inspect` also all that the process wants; with `--slivers` walls and slots of made parts alone. Ends
+with code 1 where one that keeps the rules fails.
 """
 
 from __future__ import annotations
@@ -180,6 +181,34 @@ def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
     return wrong, [check.name for check in checks if check.level == "warning"]
 
 
+def slivers(design: Design) -> list[str]:
+    """Walls and slots of a design's made parts under what its process makes; edges may taper to nothing."""
+    from tvimdesign.cad.assembly.assembly import drawn_parts
+    from tvimdesign.cad.export.mesh import solid_mesh
+    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.geometry.kinds import is_of_structure
+    from tvimdesign.cad.inspection.inspect import sliver_checks
+    from tvimdesign.cad.inspection.rays import Triangles
+
+    dims = dimensions(design)
+    made = {kind: solid for kind, solid in drawn_parts(dims).items() if is_of_structure(kind)}
+    checked = [sliver_checks(dims, kind, solid, Triangles(solid_mesh(solid))) for kind, solid in made.items()]
+    checks = [check for slot, wall, _ in checked for check in (slot, wall) if check.level != "pass"]
+    return [f"{check.text}: {check.value:.4g}, limit {check.limit:.4g}" for check in checks]
+
+
+def measured(study: Study, count: int, seed: int) -> Tally:
+    """Draw, refuse, draw the parts and measure their walls and slots."""
+    tally = Tally()
+    for design in Draws(study, seed).keeping_rules(count, tally):
+        thin = slivers(design)
+        print(f"{design.name}: {'; '.join(thin) or 'no sliver'}", file=sys.stderr, flush=True)
+        tally.built += 1
+        tally.failed += [f"{design.name}: {text}" for text in thin]
+    tally.seconds = time.process_time()
+    return tally
+
+
 def _child(design: Design, inspect: bool, mouth: Connection) -> None:
     try:
         wrong, warned = faults(design, inspect)
@@ -258,10 +287,12 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--hands", type=int, default=os.cpu_count() or 1, help="designs that are built at once")
     parser.add_argument("--inspect", action="store_true", help="also walls, overhang, order of assembly ...")
+    parser.add_argument("--slivers", action="store_true", help="walls and slots of made parts alone")
     asked = parser.parse_args(arguments)
     failed = False
     for path in asked.studies or [STUDIES / "wrist_joint.yaml", STUDIES / "wrist_compression.yaml"]:
-        tally = run(read_study(path), asked.designs, asked.seed, asked.inspect, asked.hands)
+        study, many, seed = read_study(path), asked.designs, asked.seed
+        tally = measured(study, many, seed) if asked.slivers else run(study, many, seed, asked.inspect, asked.hands)
         each = tally.seconds / max(1, tally.built)
         print(
             f"{path.stem}: {tally.drawn} drawn, {tally.built} that keep the rules built, {each:.1f} s of processor each"

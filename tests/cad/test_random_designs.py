@@ -36,6 +36,15 @@ def test_a_design_that_is_not_sound_is_told() -> None:
     assert [text.split(":")[0] for text in wrong] == ["housing_volume"]
 
 
+@pytest.mark.slow
+def test_slivers_are_told_where_a_process_makes_but_thick_walls() -> None:
+    draws = random_designs.Draws(read_study(study_path("wrist_compression")), seed=20)
+    good = next(draws.keeping_rules(1, random_designs.Tally()))
+    assert random_designs.slivers(good) == []
+    thick = good.model_copy(update={"values": good.values | {"minimum_wall": 1.5 * good.value("minimum_wall")}})
+    assert any("the thinnest wall" in text for text in random_designs.slivers(thick))
+
+
 def test_random_choices_are_refused_by_name_or_satisfy_the_rules() -> None:
     drawn = [random_choices.drawn(index, 3, inspect=True) for index in range(12)]
     ended = [one for one in drawn if isinstance(one, random_choices.Ended)]

@@ -187,14 +187,7 @@ def part_checks(
     """Compare one made part with its process: all it needs is its own solid, and its mesh if that is there."""
     mesh = mesh or solid_mesh(solid)
     triangles, bed = Triangles(mesh), (dims.bed_length, dims.bed_width, dims.bed_height)
-    made = with_wider_holes(solid, dims.hole_compensation, link_dowels(dims))
-    walls = triangles if made is solid else Triangles(solid_mesh(made))
-    found = [solid_check(kind, solid), slot_check(kind, walls, dims.minimum_running_clearance)]
-    what = "wall"
-    if kind == "adjuster":  # what is left between the dots of its scale is lower than it is thick
-        plain = join(solid, scale(dims)).Solids()[0]
-        walls, what = Triangles(solid_mesh(with_wider_holes(plain, dims.hole_compensation))), "wall beside its scale"
-    found.extend(wall_checks(kind, walls, dims.minimum_wall, dims.thinnest_wall, what))
+    found = [solid_check(kind, solid), *sliver_checks(dims, kind, solid, triangles)]
     if design.choices.get("making_method") == "milled":
         drilled = holes(solid)
         found += milling_checks(kind, triangles, drilled, dims.pocket_depth_ratio)
@@ -203,6 +196,17 @@ def part_checks(
         return [*found, bed_check(kind, triangles.upper - triangles.lower, bed)]
     down, levels = PRODUCTION[kind].down, supported_levels(kind, dims)
     return [*found, *printing_checks(kind, mesh, down, dims.overhang_angle, dims.bridge_span, bed, levels)]
+
+
+def sliver_checks(dims: Dimensions, kind: str, solid: cq.Solid, triangles: Triangles) -> list[SolidCheck]:
+    """Compare slots and walls of a part with its process, the holes as wide as they are printed."""
+    made = with_wider_holes(solid, dims.hole_compensation, link_dowels(dims))
+    walls, what = triangles if made is solid else Triangles(solid_mesh(made)), "wall"
+    slot = slot_check(kind, walls, dims.minimum_running_clearance)
+    if kind == "adjuster":  # what is left between the dots of its scale is lower than it is thick
+        plain = join(solid, scale(dims)).Solids()[0]
+        walls, what = Triangles(solid_mesh(with_wider_holes(plain, dims.hole_compensation))), "wall beside its scale"
+    return [slot, *wall_checks(kind, walls, dims.minimum_wall, dims.thinnest_wall, what)]
 
 
 def solid_check(kind: str, shape: cq.Shape) -> SolidCheck:

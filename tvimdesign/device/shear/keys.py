@@ -108,6 +108,6 @@ def key_width_margin(m: Module) -> Scalar:
 
 @rules.output("mm", at_least(0.0, "the keys stand too close in their arcs: fewer or thinner ones"))
 def key_pitch_margin(m: Module) -> Scalar:
-    """Distance of neighbouring keys beyond the least wall between their pockets, and half of it to the arc's ends."""
+    """Distance of neighbouring keys beyond the least wall between printed pockets, and half of it to the arc's ends."""
     apart = 2.0 * m.key_circle_radius * np.sin(0.5 * m.arc_span / np.fmax(m.key_count, 1.0))
-    return apart - m.has_keys * (m.key_diameter + m.minimum_wall)
+    return apart - m.has_keys * (m.key_diameter + 2.0 * m.hole_wall - m.minimum_wall)
