@@ -1,5 +1,6 @@
 """Another simulator of the working cycle, which judges the product's: CVODES over each phase, scipy for its events."""
 
+import contextlib
 from collections.abc import Collection, Mapping
 from functools import cached_property
 from typing import Any
@@ -198,11 +199,12 @@ class _Phase:
             return np.asarray(gap).ravel(), np.asarray(slopes)
 
         x = begin = np.append(trajectory.states[:, -1], trajectory.currents[-1])
-        for _ in range(50):  # Newton's full steps: shorter ones may stop dead where half of the layer has molten
-            gap, slopes = standing(x)
-            change = np.linalg.solve(slopes, gap)
-            x = x - change
-            if np.max(np.abs(change)) < 1e-10:
-                return x
+        with contextlib.suppress(np.linalg.LinAlgError):  # a step too long
+            for _ in range(50):  # Newton's full steps: shorter ones may stop dead where half of the layer has molten
+                gap, slopes = standing(x)
+                change = np.linalg.solve(slopes, gap)
+                x = x - change
+                if np.max(np.abs(change)) < 1e-10:
+                    return x
         found = root(standing, begin, jac=True)
         return np.asarray(found.x) if found.success else None

@@ -93,7 +93,7 @@ class Problem:
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
         self._cycle_model: CycleModel | None = None
         self._last: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
-        self._placed: deque[tuple[Array, Array, dict[str, Grid]]] = deque(maxlen=16)
+        self._placed: deque[tuple[bytes, dict[str, Grid]]] = deque(maxlen=REMEMBERED)
         self._last_modelled: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
 
     # --- evaluation ---
@@ -112,17 +112,18 @@ class Problem:
         factors = np.array([(1.0 if limit.sense == "<=" else -1.0) / limit.scale for limit in self.limits])
         return places, factors, np.array([limit.limit for limit in self.limits])
 
-    def place_grids(self, x: Array, parameters: Parameters, near: float = 0.0) -> None:
-        """Choose the steps of each phase by their errors at a point, or take those of a point as `near` as that.
+    def place_grids(self, x: Array, parameters: Parameters) -> None:
+        """Choose the steps of each phase by their errors at a point; they stay until they are placed again.
 
-        They stay until they are placed again. Those of the last points are remembered.
+        Those of the last points are remembered; of a point beside, they would make results depend on what came before.
         """
-        for point, inputs, grids in reversed(self._placed):
-            if np.max(np.abs(point - x), initial=0.0) <= near and np.array_equal(inputs, parameters.inputs):
+        key = x.tobytes() + parameters.inputs.tobytes()
+        for known, grids in self._placed:
+            if known == key:
                 self.grids = grids
                 return
         self.grids = {}
-        self._placed.append((x.copy(), parameters.inputs, self.grids))
+        self._placed.append((key, self.grids))
         inputs, _ = self.inputs_at(x, parameters.inputs)
         try:
             self.engine.run(inputs, np.zeros((len(inputs), 0)), self._needed, self.grids, self._drives(x, 0))

@@ -31,8 +31,6 @@ from tvimdesign.study import ProfileOptions, Range, Study, given
 
 SETTLED = 1e-4
 """Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
-NEAR = 0.3
-"""Difference of the unknowns up to which a run begins with the steps of another."""
 MOST_GRIDS = 4
 """Times the steps are placed anew for one run."""
 _BESIDE, _TRIALS = (0.1, 0.3, 1.0), 10
@@ -287,7 +285,7 @@ class Optimizer:
 
         An event that never comes has no derivatives for a search to begin with.
         """
-        self.problem.place_grids(x, parameters, NEAR)
+        self.problem.place_grids(x, parameters)
         if self.mixtures or not self._never_ends(x, parameters):
             return x
         count, random = len(self.free), np.random.default_rng(self.study.solver.seed)
