@@ -216,7 +216,7 @@ def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
     assert backward == {number: forward[number] for number in backward}
     assert [forward[number].warm for number in (0, 2)] == [True, True]
     assert forward[1].status == "infeasible"
-    assert "breaks" in forward[1].reason
+    assert "violates" in forward[1].reason
 
 
 def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file: Path) -> None:
