@@ -28,6 +28,7 @@ def _duty(mode: str) -> Duty:
     return Duty(resolved.functions, resolved.functions.start, {}, SOFT)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 def test_fifty_cycles_end_in_the_periodic_state(mode: str) -> None:
     duty = _duty(mode)
@@ -120,6 +121,7 @@ def test_the_highest_duty_is_the_last_that_keeps_the_ratings() -> None:
         assert duty.most((), 3.0) == (0.0, alone[0])
 
 
+@pytest.mark.gate
 def test_a_study_reports_its_duty() -> None:
     text = study_path("paper_reconstructed").read_text()
     study = read_study_text(f"{text}\nduty: {{switches_per_hour: 2, soft: 1 min}}\n")
