@@ -162,7 +162,7 @@ class _Phase:
         return float(times[k - 1] + share * (times[k] - times[k - 1])), at(share)
 
     def _watch(self, states: Array, currents: Array, inputs: Array) -> Array:
-        """What the events wait for, zero or more once they happen, and what has its peak: a row each."""
+        """Return what events wait for, zero or more once they happen, and what has its peak, a row each."""
         return self.seen([*self._events, *self._peaks], states, currents, inputs)
 
     def seen(self, names: list[str], states: Array, currents: Array, inputs: Array) -> Array:
@@ -184,7 +184,7 @@ class _Phase:
 
     @cached_property
     def _standing(self) -> Any:
-        """What is zero where everything stays and the ending event is due, and its Jacobian."""
+        """Return a function that is zero where all stays and the ending event is due, and its Jacobian."""
         unknowns, inputs = ca.MX.sym("unknowns", self.size + 1), ca.MX.sym("inputs", self.phase.rates.size1_in(2))
         at = (unknowns[:-1], unknowns[-1], inputs)
         parts = [self.phase.rates(*at), self.phase.watch([self.phase.phase.ends])(*at)]

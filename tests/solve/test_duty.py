@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from robot_models import module_of
 from scipy.integrate import solve_ivp
 from support import study_path
@@ -28,16 +29,22 @@ def _duty(mode: str) -> Duty:
     return Duty(resolved.functions, resolved.functions.start, {}, SOFT)
 
 
-@pytest.mark.gate
-@pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_fifty_cycles_end_in_the_periodic_state(mode: str) -> None:
+@cache
+def _returning(mode: str) -> tuple[Duty, DutyCycle, float, tuple[NDArray[np.float64], DutyCycle]]:
+    """Return a duty, its first cycle, a period of a fifth more, and the periodic state with its cycle."""
     duty = _duty(mode)
     first = duty.cycle(duty.ambient, 0.0)
     assert first is not None
     period = 1.2 * first.taken
-    found = duty.periodic(period)
-    assert found is not None
-    state, cycle = found
+    returning = duty.periodic(period)
+    assert returning is not None
+    return duty, first, period, returning
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize("mode", ["shear", "compression"])
+def test_fifty_cycles_end_in_the_periodic_state(mode: str) -> None:
+    duty, first, period, (state, cycle) = _returning(mode)
     now, last = duty.ambient, first
     for _ in range(50):
         step = duty.cycle(now, period)
@@ -64,14 +71,8 @@ def _lost(now: heat.Profile, stack: heat.Stack, current: Any) -> Any:
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 def test_the_heat_of_a_period_is_lost_in_it(mode: str) -> None:
-    duty = _duty(mode)
-    first = duty.cycle(duty.ambient, 0.0)
-    assert first is not None
-    period = 1.2 * first.taken
-    found = duty.periodic(period)
-    assert found is not None
+    duty, _, period, (state, cycle) = _returning(mode)
     assert duty.hold is not None
-    state, cycle = found
     up, back = (float(duty.drives[name].currents[0]) for name in ("softening", "stiffening"))
     phases = (
         (duty.heating, up, cycle.values["response_time"]),
