@@ -128,14 +128,29 @@ def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin() -> None:
         assert ("None fits" in fuse_in_words(FUSE, design)) != rated
 
 
-def test_set_points_are_those_of_the_thermistor_in_the_list() -> None:
+def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out() -> None:
     # By hand: 10 kohm exp(3988 K (1/373.15 K - 1/298.15 K)) is 680 ohm, and 3.3 V x 680 / 10680 is 0.21 V.
-    said = set_points_in_words(switched({"process": "print_pei_1010", "target_temperature": 100.0 + ZERO_CELSIUS}))
+    foil = {"peltier_module": "polyimide_foil_24v", "process": "print_pc_bambu", "heater_fuse": "microtemp_g4a"}
+    design = switched({"process": "print_pei_1010"}, hottest=101.0)
+    assert "was not switched" in set_points_in_words(design)
+    design.values["sensed_temperature"] = 100.0 + ZERO_CELSIUS
+    said = set_points_in_words(design)
     assert "B57862S0103F040" in said
-    assert "heated to 100 °C (0.68 kohm, 0.21 V at the divider)" in said
-    assert "stopped at 120 °C (" in said
-    none = set_points_in_words(switched({"thermistor_diameter": 0.7e-3, "thermistor_length": 4e-3}))
-    assert "thermistor's own table" in none
+    assert "heating ends at 100 °C (0.68 kohm, 0.21 V at the divider), as in the simulation, and" in said
+    # What stays closed at 101 °C opens from 112 °C: half the 11 K that the heater has, above the bead.
+    assert "emergency stop at 106 °C (" in said
+    assert said.endswith("below the 112 °C where the cut-out may open")
+    design = switched(foil, hottest=85.6)  # opens from 94 °C
+    design.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
+    assert "emergency stop at 88.4 °C (" in set_points_in_words(design)
+    bare = switched(foil | {"heater_fuse": "none"}, hottest=85.6)
+    bare.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
+    assert set_points_in_words(bare).endswith("below the 105 °C that the structure bears")
+    bare.values["peak_peltier_temperature"] = 103.4 + ZERO_CELSIUS
+    assert "no emergency stop fits between that and the 105 °C that the structure" in set_points_in_words(bare)
+    none = switched({"thermistor_diameter": 0.7e-3, "thermistor_length": 4e-3})
+    none.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
+    assert "thermistor's own table: heating ends at 84.2 °C, as" in set_points_in_words(none)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -13,7 +14,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device.core.heat.heater_form import HeaterFuse, heater_fuse
-from tvimdesign.study.design import Design
+from tvimdesign.study.design import Design, catalog_of
 
 _HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")
 _STRONGEST = ("peak_current", "stiffening_peak_current")
@@ -37,6 +38,8 @@ NOMINAL = 10e3
 """Resistance [ohm] of a thermistor at 25 degC, and of the resistor it divides a voltage with."""
 _DIVIDED = 3.3
 """Voltage [V] over both."""
+_ACCURACY = 1.0
+"""Error [K] of a thermistor read by its B value, assumed."""
 _ROUNDING = 1e-6
 _WIRES = Path(__file__).with_name("wire_ratings.yaml")
 _THERMISTORS = Path(__file__).with_name("thermistors.yaml")
@@ -124,17 +127,43 @@ def thermistor_in_words(design: Design) -> str:
 
 
 def set_points_in_words(design: Design) -> str:
-    """Return what the controller reads where the PCL is soft, and at what heater, structure and liner bear."""
-    points = {"heated to": design.value("target_temperature"), "stopped at": min(_ratings(design).values())}
-    if (sensor := _thermistor(design)) is None:
-        at = " and ".join(f"{kelvin - ZERO_CELSIUS:.3g} °C" for kelvin in points.values())
-        return f"Take the controller's set-points, at {at}, from the thermistor's own table"
-    texts = []
-    for words, kelvin in points.items():
-        ohms = sensor.resistance(kelvin)
-        volts = _DIVIDED * ohms / (ohms + NOMINAL)
-        texts.append(f"{words} {kelvin - ZERO_CELSIUS:.3g} °C ({1e-3 * ohms:.3g} kohm, {volts:.3g} V at the divider)")
-    return f"Set-points of the controller with {sensor.number}, by its B value: {' and '.join(texts)}"
+    """Return what the thermistor reads as the joint is soft, and where the controller stops before a cut-out opens."""
+    soft, hottest = (largest(design, names) for names in (("sensed_temperature",), _heating_peaks(design)))
+    if soft is None or hottest is None:
+        return "Take the controller's set-points from a run of the study: it was not switched"
+    sensor = _thermistor(design)
+    by = f"with {sensor.number}, by its B value" if sensor else "by the thermistor's own table"
+    points = f"Set-points of the controller {by}: heating ends at {_reads(sensor, soft)}, as in the simulation,"
+    ends = {f"that {what} bears": bears for what, bears in _ratings(design).items()} | _opening(design)
+    what = min(ends, key=lambda words: ends[words])
+    stop, end = soft + 0.5 * (ends[what] - hottest), f"{ends[what] - ZERO_CELSIUS:.3g} °C {what}"
+    if stop - soft < _ACCURACY:
+        return f"{points} and no emergency stop fits between that and the {end}: limit the time of heating"
+    return f"{points} and an emergency stop at {_reads(sensor, stop)}, below the {end}"
+
+
+def _heating_peaks(design: Design) -> tuple[str, ...]:
+    """Return the quantities with the heater's highest temperatures while it heats; a Peltier cools its outer side."""
+    return _HOTTEST[:1] if design.values.get("peltier_seebeck") else _HOTTEST
+
+
+def _reads(sensor: Thermistor | None, kelvin: float) -> str:
+    """Return a temperature, and a thermistor's resistance and voltage there."""
+    text = f"{kelvin - ZERO_CELSIUS:.3g} °C"
+    if sensor is None:
+        return text
+    ohms = sensor.resistance(kelvin)
+    return f"{text} ({1e-3 * ohms:.3g} kohm, {_DIVIDED * ohms / (ohms + NOMINAL):.3g} V at the divider)"
+
+
+def _opening(design: Design) -> dict[str, float]:
+    """Return the least temperature [K] at which a design's cut-out may open; nothing without one that can be found."""
+    with suppress(InputError):
+        record = catalog_of(design).record("thermal_fuses", design.choices["heater_fuse"])
+        hottest, current = largest(design, _HOTTEST), largest(design, _STRONGEST)
+        if hottest is not None and current is not None:
+            return {"where the cut-out may open": heater_fuse(record, hottest, current, _ratings(design)).opens_from}
+    return {}
 
 
 def _bead(design: Design) -> Bead | None:

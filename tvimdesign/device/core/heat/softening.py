@@ -115,6 +115,12 @@ def softened_temperature(m: Module) -> Scalar:
     return m.stack_profile.far
 
 
+@quantities.path(SOFTENING, "degC", "end")
+def sensed_temperature(m: Module) -> Scalar:
+    """Temperature at the thermistor when the switch ends: the layer's face, or the pads' outer side without a bead."""
+    return np.where(m.thermistor_diameter > 0.0, m.stack_profile.near, m.stack_profile.cold)
+
+
 @quantities.output(
     "K",
     advice=(
