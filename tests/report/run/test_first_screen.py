@@ -17,6 +17,7 @@ from support import Command, sample_text, study_path
 
 from tvimdesign.report.output.numbers import ends_text, label
 from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.blocks.facts import _model
 from tvimdesign.report.run.blocks.requirements import Requirement, requirements
 from tvimdesign.report.run.first_screen import LINES, NARROW_LINES, first_screen, requirement_lines, verdict_of
 from tvimdesign.report.run.reasons import active
@@ -216,6 +217,20 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     name, share = next(iter(one.uncertainty["held"].items()))
     assert f"limits may fail, most often {label(name.split()[0])}, in {100.0 * (1.0 - share):.0f} % of" in text
     assert intervals[name.split()[0]]["shares"]
+
+
+def test_a_share_asked_of_each_limit_is_compared_with_the_least() -> None:
+    held = {"cover_wall_margin >=": 0.52, "module_mass <=": 0.7, "peak_power <=": 0.8}
+    uncertainty = {"held": held, "ranges_hold": {"share": 0.1}, "needs": "minimum wall <= 1.2 mm"}
+    (fact,) = _model(uncertainty, {"robust": {"plausible": 0.79}})
+    assert fact.text == (
+        "79 % asked of each limit with assumed values anywhere in their ranges · 2 are met in fewer, "
+        "least wall around the cover's screws in 52 % · needs minimum wall <= 1.2 mm"
+    )
+    (fact,) = _model(uncertainty, {"robust": {"plausible": 0.5}})
+    assert "all are met in as many, least wall around" in fact.text
+    (fact,) = _model(uncertainty, {"robust": None})
+    assert fact.text.startswith("3 limits may fail, most often wall around the cover's screws, in 48 % of cases")
 
 
 TABLES = ("At the operating points", "What the module is", "What depends on assumed values")

@@ -103,7 +103,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         *_duty(answer),
         Fact("Heating", [value("switch_energy"), peaks]),
     ]
-    doubts = (*_manufacturing(uncertainty), *_model(uncertainty))
+    doubts = (*_manufacturing(uncertainty), *_model(uncertainty, answer.design.study))
     return [*facts, *_lost_motion(value), *_active_constraints(answer), *doubts]
 
 
@@ -234,17 +234,24 @@ _SELDOM = 0.95
 """Share of the cases in which a limit is met from which on it is not counted."""
 
 
-def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
-    """Return the limit most in doubt; none if the ranges of unmeasured inputs were not looked at."""
+def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fact]:
+    """Return the limit most in doubt, and the share of cases asked of each; none without ranges."""
     if not uncertainty or uncertainty["ranges_hold"] is None:
         return []
     name, share = most_in_doubt(uncertainty)
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
+    needs = f"needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
+    target = (study.get("robust") or {}).get("plausible")
+    if target is not None:
+        count = sum(met < target for met in uncertainty["held"].values())
+        fewer = f"{count} {'is' if count == 1 else 'are'} met in fewer" if count else "all are met in as many"
+        parts = [f"{percent(target)} asked of each limit with assumed values anywhere in their ranges"]
+        return [Fact("Model", [*parts, f"{fewer}, least {label(name)} in {percent(share)}"], needs)]
     count = sum(met < _SELDOM for met in uncertainty["held"].values())
     limits = f"{count} limits may fail, most often {label(name)}" if count > 1 else f"{label(name)} may fail"
     text = f"{limits}, in {100.0 * (1.0 - share):.0f} % of cases"
-    return [Fact("Model", [text], f"needs {uncertainty['needs']}" if uncertainty.get("needs") else "")]
+    return [Fact("Model", [text], needs)]
 
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
