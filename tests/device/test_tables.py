@@ -185,6 +185,7 @@ MODULES = {
     "shear, motor": ("shear", MOTOR),
     "shear, tiles": ("shear", TILES),
     "shear, extras": ("shear", {**EXTRAS, "key_count": 0.0, "melt_lip": "rings"}),
+    "lock": ("lock", {"cover": "plate", "axial_preload": "wave_21x25"}),
     "compression": ("compression", {}),
     "compression, tiles": ("compression", VANE_TILE_ROWS),
     "compression, extras": ("compression", {**EXTRAS, "vane_thickness": 9e-3}),
@@ -295,7 +296,9 @@ def test_rules_and_headlines_are_those_of_the_table(mode: str) -> None:
         assert not (found.headline and (found.group == "Gaps" or found.hidden or "screw" in found.name)), found.name
     numbers = {found.name: found for found in table_for(mode).inputs}
     free = {name for name, found in numbers.items() if found.variable}
-    assert {"wire_diameter", "coil_diameter", "coil_count", "placement_radius", "preload_angle"} <= free
+    of_springs = {"wire_diameter", "coil_diameter", "coil_count", "preload_angle"}
+    assert free & of_springs == (set() if mode == "lock" else of_springs)
+    assert "placement_radius" in free
     # A property of a material or of what is bought, the air, or what the user asks for is nobody's to choose.
     of_records = {name for name, found in numbers.items() if found.record is not None and not found.falls_back}
     assert not free & of_records

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import ModuleType
+
 from tvimdesign.device.components import (
     axial_preload,
     bearing,
@@ -35,6 +37,7 @@ from tvimdesign.device.core.impedance import (
     warm_structure,
 )
 from tvimdesign.device.core.springs import spring_as_drawn, torsion_springs
+from tvimdesign.device.lock import free_joint
 from tvimdesign.device.motor import motor_clearances, motor_layout, motor_mass_properties
 from tvimdesign.device.shear import (
     arc_laps,
@@ -56,7 +59,7 @@ SHARED_FILES = (
     process, heater_form, screws, tang, dowels, hard_stops, heater_adhesive, liner, bearing, preload_adjuster, cover,
     motor_choice, motor_layout, motor_mass_properties, motor_clearances, task,
 )  # fmt: skip
-FILES_OF_MODE = {
+FILES_OF_MODE: dict[str, tuple[ModuleType, ...]] = {
     "shear": (
         pad_layout, layer_impedance, arc_laps, layer_heat, layer_end, melt_lip, floor_heat, arcs, leads, keys,
         spreader_seat,
@@ -64,4 +67,5 @@ FILES_OF_MODE = {
     "compression": (
         vane_layout, block_impedance, vane_stiffness, block_heat, ring_heat, vane_heat, vane_clearances, vane_tiles,
     ),
+    "lock": (free_joint,),
 }  # fmt: skip

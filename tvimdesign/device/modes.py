@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.device.table.quantity import PHASES
+from tvimdesign.device.table.module import Module
+from tvimdesign.device.table.quantity import PHASES, Output, Quantity, Scalar
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-MODES = ("shear", "compression")
+LOCK = "lock"
+MODES = ("shear", "compression", LOCK)
 """The modes a study may name."""
 
 
@@ -20,4 +24,51 @@ def table_for(mode: str) -> Table:
         raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")
     from tvimdesign.device.mode_files import FILES_OF_MODE, SHARED_FILES
 
-    return Table(gather((*SHARED_FILES, *FILES_OF_MODE[mode]), mode), PHASES)
+    if mode != LOCK:
+        return Table(gather((*SHARED_FILES, *FILES_OF_MODE[mode]), (mode,)), PHASES)
+    sprung = gather((*SHARED_FILES, *FILES_OF_MODE["shear"]), ("shear", LOCK))
+    return Table(without_springs(sprung, gather(FILES_OF_MODE[LOCK], ())), PHASES)
+
+
+def without_springs(quantities: Iterable[Quantity], own: Iterable[Quantity]) -> tuple[Quantity, ...]:
+    """Return the quantities of a mode without springs; its own are in place of those of the same name, or follow.
+
+    Outputs of springs that others read are constants. Inputs and choices go if only what is of springs reads them.
+    """
+    instead = {quantity.name: quantity for quantity in own}
+    listed = [instead.pop(quantity.name, quantity) for quantity in quantities]
+    listed += instead.values()
+    sprung = [quantity for quantity in listed if isinstance(quantity, Output) and quantity.sprung]
+    read = _read_by(quantity for quantity in listed if isinstance(quantity, Output) and not quantity.sprung)
+    gone = {quantity.name for quantity in sprung} - read
+    idle = _read_by(sprung) - read
+    given = [quantity for quantity in listed if not isinstance(quantity, Output)]
+    sources = {quantity.name: quantity.record[0] for quantity in given if quantity.record}
+    while (
+        more := {quantity.name for quantity in given if quantity.name in idle}
+        - gone
+        - {source for name, source in sources.items() if name not in gone}
+    ):
+        gone |= more
+        idle |= {sources[name] for name in more if name in sources} - read
+    return tuple(_constant(quantity) for quantity in listed if quantity.name not in gone)
+
+
+def _read_by(outputs: Iterable[Output]) -> set[str]:
+    """Return the names of what outputs read."""
+    return {need.partition("@")[0] for output in outputs for need in output.needs}
+
+
+def _constant(quantity: Quantity) -> Quantity:
+    """Return the default of an output of springs as an output without limits; other quantities as they are."""
+    if not (isinstance(quantity, Output) and quantity.sprung):
+        return quantity
+    default = quantity.default
+
+    def constant(_: Module) -> Scalar:
+        return default
+
+    return replace(
+        quantity, function=constant, requires=(), rules=(), advice=(), ratings=(), headline=False,
+        least_of=(), also_limited=(), parts_differ_with=None,
+    )  # fmt: skip

@@ -207,11 +207,14 @@ def refuse_step(step: float | None) -> None:
 
 def _left_out(resolved: ResolvedModule) -> tuple[str, ...]:
     """Return what the models leave out, and how much that is."""
-    middle, end = (float(resolved.quantity(name)) for name in ("spring_stiffness", "spring_stiffness_full_stroke"))
     holds = float(resolved.quantity("holding_torque"))
+    springs: tuple[str, ...] = ()
+    if middle := float(resolved.quantity("spring_stiffness")):
+        end = float(resolved.quantity("spring_stiffness_full_stroke"))
+        share = f"{100.0 * (end / middle - 1.0):+.1f} %"
+        springs = (f"The springs are linear; drawn, their stiffness changes by {share} to the end of the stroke.",)
     return (
-        "The springs are linear; drawn, their stiffness changes by "
-        f"{100.0 * (end / middle - 1.0):+.1f} % to the end of the stroke.",
+        *springs,
         f"The PCL neither yields nor slips: the joint bears {holds:.3g} N·m frozen, and the model bears any torque.",
         "Temperatures do not change in a model: each state is one temperature, reached on heating. Going from one to "
         "another takes the time that results.csv has as softening_time and stiffening_time; joint.fmu has the heat.",

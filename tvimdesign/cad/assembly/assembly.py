@@ -43,7 +43,7 @@ def drawn_parts(dims: Dimensions, progress: Progress | None = None) -> dict[str,
 
 def drawn_part(dims: Dimensions, kind: str, progress: Progress | None = None) -> cq.Solid:
     """Build one part that is no spring, in the module's coordinates."""
-    if dims.count("spring_count") % 2:
+    if dims.spring_count % 2:
         raise GeometryError(f"spring_count is {dims.spring_count:g}; half of them are left-hand, so it must be even")
     return _built(kind, partial(MODULES[dims.mode].drawn(dims)[kind], dims), progress)
 
@@ -56,7 +56,8 @@ def free_spring(dims: Dimensions, kind: str) -> cq.Solid:
 
 def installed_coils(dims: Dimensions, rotor_angle: float = 0.0) -> dict[str, Coil]:
     """Return shape of the springs on their pins, by kind; the left-hand one is the mirror image of what is returned."""
-    return {"spring_right": installed_coil(dims, rotor_angle), "spring_left": installed_coil(dims, -rotor_angle)}
+    angles = {"spring_right": rotor_angle, "spring_left": -rotor_angle} if dims.spring_count else {}
+    return {kind: installed_coil(dims, angle) for kind, angle in angles.items()}
 
 
 def spring_locations(dims: Dimensions) -> dict[str, cq.Location]:
@@ -73,7 +74,8 @@ def installed_springs(
     dims: Dimensions, rotor_angle: float = 0.0, progress: Progress | None = None
 ) -> dict[str, cq.Solid]:
     """Build and place the springs on their pins, by name."""
-    coils = installed_coils(dims, rotor_angle)
+    if not (coils := installed_coils(dims, rotor_angle)):
+        return {}
     solids = {
         "right": _built("spring_right", lambda: _swept(coils["spring_right"]), progress),
         "left": _built("spring_left", lambda: _mirrored(coils["spring_left"]), progress),
@@ -140,7 +142,7 @@ class ModuleParts:
 
     def kinds(self, dims: Dimensions) -> tuple[str, ...]:
         """Return all kinds of part a design has, springs and all."""
-        return (*self.drawn(dims), *SPRINGS)
+        return (*self.drawn(dims), *(SPRINGS if dims.spring_count else ()))
 
     def stand(self, dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0) -> dict[str, cq.Solid]:
         """Place the drawn parts, all but the springs, by name."""
@@ -153,6 +155,7 @@ class ModuleParts:
 
 MODULES = {
     "shear": ModuleParts(made=shear_parts.DRAWN, stand_heaters=shear_parts.stand),
+    "lock": ModuleParts(made=shear_parts.DRAWN, stand_heaters=shear_parts.stand),
     "compression": ModuleParts(made=compression_parts.DRAWN, stand_heaters=compression_parts.stand),
 }
 """By mode."""

@@ -16,7 +16,7 @@ from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.export.mesh import RING, Instance, Mesh, coil_points, part_meshes, wire_centre
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.exact_kernel import placement
-from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, TURNING, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, TURNING, kind_of
 from tvimdesign.study.design import Design
 
 _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1.0]])
@@ -70,7 +70,7 @@ _DIGITS = 3  # of millimetres
 def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], placed: Mapping[str, Instance]) -> bytes:
     """Return the data as JSON. Lengths in mm, masses in g, angles in rad; names are those of the parts in the GLB."""
     by_kind = {one.kind: one for one in items}
-    apart = lifts(placed)
+    apart, coils = lifts(placed), installed_coils(dims)
     data = {
         "mode": design.mode,
         "stroke": dims.stroke,
@@ -79,7 +79,7 @@ def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], place
             for name in placed
         ],
         "steps": [brought(step, placed) for step in written_steps(design, dims, items)],
-        "wires": {"ring": RING, "shares": SHARES, "moved": {kind: _moved(dims, kind) for kind in SPRINGS}},
+        "wires": {"ring": RING, "shares": SHARES, "moved": {kind: _moved(dims, kind) for kind in coils}},
     }  # fmt: skip
     return (json.dumps(data, separators=(",", ":")) + "\n").encode()
 

@@ -307,9 +307,14 @@ def _bonding_heat(design: Design, _: Dimensions) -> str:
     """
     current, time, hold = (design.values.get(name, math.nan) for name in _HEATED)
     if not all(math.isfinite(one) and one > 0.0 for one in (current, time, hold)):
-        return "heat the PCL until the rotor turns by hand against its springs alone, and hold that for two minutes"
+        return "heat the PCL until the rotor turns by hand, and hold that for two minutes"
     by = "the study's current profile" if "softening" in design.current_profiles else f"{current:.3g} A"
     return f"heat with {by} for {time:.3g} s, then hold {hold:.3g} A for two minutes"
+
+
+def _rest_mark(_: Design, dims: Dimensions) -> str:
+    """Return where the link's long end points at rest."""
+    return "the first spring" if dims.spring_count else "a notch of the skirt"
 
 
 def _cutout_place(_: Design, dims: Dimensions) -> str:
@@ -343,6 +348,7 @@ def _hot_side(design: Design, _: Dimensions) -> str:
 
 _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "preload_force": _preload_force,
+    "rest_mark": _rest_mark,
     "sorting": _sorting,
     "bonding_heat": _bonding_heat,
     "most_current": _most_current,

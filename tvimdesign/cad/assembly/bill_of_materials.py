@@ -212,9 +212,10 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
              fixture=True)
         for kind in jigs.MAKING
     ]  # fmt: skip
-    holds = "Fixture: holds the rotor at rest while its springs are set"
-    fork = (cad_report.step(jigs.FORK), cad_report.print_3mf(jigs.FORK))
-    jig.append(Item(jigs.FORK, jigs.FORK_COUNT, True, record, holds, 0.0, fork, fixture=True))
+    if design.value("spring_count"):
+        holds = "Fixture: holds the rotor at rest while its springs are set"
+        fork = (cad_report.step(jigs.FORK), cad_report.print_3mf(jigs.FORK))
+        jig.append(Item(jigs.FORK, jigs.FORK_COUNT, True, record, holds, 0.0, fork, fixture=True))
     release = "Mould release for thermoplastics at 80 °C, wiped thinly on mould and lid"
     return [*jig, Item("mould_release", 1, False, "", release, 0.0, ())]
 
@@ -246,7 +247,7 @@ def _beside_the_module(design: Design, titles: Mapping[str, str]) -> list[Item]:
     items = [Item("grease", 1, False, "", grease + ", ".join(places), 0.0, ())] if places else []
     if design.values.get("drive_height", 0.0) > 0.0:
         return items
-    record, count = str(design.choices["mount_screw"]), round(design.value("spring_count"))
+    record, count = str(design.choices["mount_screw"]), round(design.value("foot_count"))
     longer = f"longer than {1e3 * (design.value('floor_thickness') + design.value('foot_height')):.3g} mm"
     title = f"{titles.get('mount_screw', record)}, {longer} by what bears the module"
     return [*items, Item("mount_screw", count, False, record, title, 0.0, ())]
@@ -260,7 +261,7 @@ def greased(design: Design) -> list[str]:
         places += ["wave spring", "retainer"]
     if plain and design.value("bore_friction") < _DRY:
         places.append("bore")
-    if design.value("pin_friction") < (_DRY_METAL if design.choices["making_method"] == "milled" else _DRY):
+    if design.values.get("pin_friction", _DRY) < (_DRY_METAL if design.choices["making_method"] == "milled" else _DRY):
         places.append("pins")
     return places
 
@@ -273,7 +274,7 @@ def _under_pads(design: Design, titles: Mapping[str, str]) -> list[Item]:
     if design.mode == "compression" or design.choices.get("heater_form", "flexible") != "flexible":
         grease = f"Thermal grease for {rating(design)}, a film behind each heater"
         items = [Item("thermal_grease", 1, False, "", grease, 0.0, ())]
-        if design.mode == "shear":
+        if design.mode != "compression":
             gap, deep = 1e3 * design.value("spreader_gap"), 1e3 * design.value("spreader_depth")
             where = f"along both rims of each spreader, {gap:.2g} mm wide and {deep:.2g} mm deep"
             items.append(_adhesive(design, titles, where))
@@ -325,7 +326,7 @@ def _of_the_heater(design: Design) -> list[Item]:
 
 def _has_lead_holes(design: Design) -> bool:
     """Return whether the floor has a hole for a thermistor at each spreader: below arcs, not beside vanes."""
-    return design.mode == "shear" and design.values.get("spreader_depth", 0.0) > 0.0
+    return design.mode != "compression" and design.values.get("spreader_depth", 0.0) > 0.0
 
 
 def _supply(design: Design) -> list[Item]:

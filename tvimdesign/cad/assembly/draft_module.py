@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, installed_coils, lifts, spring_locations
-from tvimdesign.cad.export.mesh import Instance, Mesh, spring_mesh
+from tvimdesign.cad.export.mesh import Instance, Mesh, spring_meshes
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.draft_kernel import DraftKernel, DraftSolid
 from tvimdesign.cad.geometry.exact_kernel import placement
-from tvimdesign.cad.geometry.kinds import SPRINGS, kind_of
+from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.geometry.solids import drawn_by
 
 Array = NDArray[np.float64]
@@ -56,10 +56,7 @@ def draft_module(dims: Dimensions) -> Draft:
         placed = MODULES[dims.mode].stand(dims, solids)
     bodies = {kind_of(name): solid.body for name, solid in placed.items()}
     meshes = {kind: _mesh(body) for kind, body in bodies.items()}
-    coils = installed_coils(dims)
-    for kind in SPRINGS:
-        right = spring_mesh(coils[kind], AROUND)
-        meshes[kind] = _tube(right if kind == SPRINGS[0] else right.mirrored())
+    meshes |= {kind: _tube(mesh) for kind, mesh in spring_meshes(installed_coils(dims), AROUND).items()}
     places = {name: solid.matrix for name, solid in placed.items()}
     places |= {name: placement(location) for name, location in spring_locations(dims).items()}
     seen = {kind: Mesh(mesh.points, mesh.triangles) for kind, mesh in meshes.items()}

@@ -23,7 +23,7 @@ def strings(design: Design) -> list[list[int]]:
         return [heaters]
     if wiring == _ALL_PARALLEL:
         return [[heater] for heater in heaters]
-    groups = design.value("arc_count" if design.mode == "shear" else "vane_count")
+    groups = design.value("arc_count" if design.mode != "compression" else "vane_count")
     each = max(len(heaters) // max(round(groups), 1), 1)
     return [heaters[start : start + each] for start in range(0, len(heaters), each)]
 

@@ -202,7 +202,7 @@ def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tu
 
 def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[str]:
     """Return further remarks on a kind of part, for the choices of its design."""
-    tang_hole = figure(dims.wire_diameter + 2.0 * dims.tang_clearance)
+    tang_hole = figure(dims.wire_diameter + 2.0 * dims.tang_clearance) if dims.spring_count else ""
     written = requirements_data()["remarks"].get(kind, ())
     return [
         one["text"].format(tang_hole=tang_hole) for one in written

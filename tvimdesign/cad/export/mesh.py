@@ -171,6 +171,10 @@ def part_meshes(
     `known` are those that are made already.
     """
     meshes = {kind: known[kind] if kind in known else solid_mesh(solid) for kind, solid in drawn.items()}
-    meshes["spring_right"] = spring_mesh(coils["spring_right"])
-    meshes["spring_left"] = spring_mesh(coils["spring_left"]).mirrored()
-    return meshes
+    return meshes | spring_meshes(coils)
+
+
+def spring_meshes(coils: Mapping[str, Coil], points: int = RING) -> dict[str, Mesh]:
+    """Return meshes of the springs by kind."""
+    right = {kind: spring_mesh(coil, points) for kind, coil in coils.items()}
+    return {kind: mesh if kind == "spring_right" else mesh.mirrored() for kind, mesh in right.items()}

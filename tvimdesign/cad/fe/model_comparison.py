@@ -111,7 +111,7 @@ WORDS = {
 
 def model_values(module: ResolvedModule) -> dict[str, float]:
     """Return what the model says, by row; stiffness in N*m/rad, stress in MPa at one newton metre, frequency in Hz."""
-    shear = module.study.mode == "shear"
+    shear = module.study.mode != "compression"
     names = [
         "spring_rate", "held_spring_rate", "coil_stress_per_angle", "tang_stress_per_angle", "structure_stiffness",
         "pcl_stiffness@cold", "core_stiffness", "plate_stiffness", "floor_stiffness", "link_stiffness",
@@ -166,7 +166,7 @@ def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float
 def _mean_plate_stress(module: ResolvedModule, thickness: float, core: float) -> float:
     """Return the mean stress around a core with a sharp foot and no holes [Pa]."""
     sheared = structure.mises(plate_beside_core.shear_beside_core(1.0, thickness, core, structure.FOOT_MEAN))
-    if module.study.mode == "shear":
+    if module.study.mode != "compression":
         return float(sheared)
     names = ("block_lean_out", "block_between", "vanes_plate")
     lean, block, plate = module.table.evaluate(_drawn(module), names).values()

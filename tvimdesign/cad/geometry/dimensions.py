@@ -60,8 +60,8 @@ class Dimensions:
         return round(value)
 
     def azimuths(self, name: str) -> list[float]:
-        """Return azimuths [rad] of the things that row counts, evenly spread, the first at zero."""
-        count = self.count(name)
+        """Return azimuths [rad] of the things that row counts, evenly spread, the first at zero; none of no things."""
+        count = self.count(name) if getattr(self, name) else 0
         return [2.0 * math.pi * index / count for index in range(count)]
 
     def holes(self, name: str) -> list[tuple[float, list[tuple[float, float]]]]:

@@ -25,7 +25,7 @@ from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles, slot_check, wall_checks
 from tvimdesign.cad.inspection.size_checks import TOUCHING, interference_checks
 from tvimdesign.cad.parts import jigs
-from tvimdesign.cad.parts.common_parts import between_springs, link_dowels, link_screws, mounts, stop_azimuths
+from tvimdesign.cad.parts.common_parts import by_feet, link_dowels, link_screws, mounts, stop_azimuths
 from tvimdesign.cad.parts.fasteners import insert_length, insert_places
 from tvimdesign.cad.parts.fittings import scale
 from tvimdesign.device import table_for
@@ -82,6 +82,8 @@ TIGHT = 0.04
 
 def coil_checks(dims: Dimensions) -> Iterator[SolidCheck]:
     """Compare the springs with their posts and each other, free and at five angles from stop to stop; exact."""
+    if not dims.spring_count:
+        return
     yield from _checks(dims, free_coil(dims), "as bought")
     for share in (-1.0, -0.5, 0.0, 0.5, 1.0):
         where = "at rest" if share == 0.0 else f"at {share * dims.stop_angle:+.4f} rad"
@@ -170,7 +172,7 @@ def bought_checks(placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
 
 def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:
     """Return from what a part lies on: off the floor, off the plate, or sideways off its vane and up from the floor."""
-    if dims.mode == "shear":
+    if dims.mode != "compression":
         return cq.Vector(0.0, 0.0, -1.0 if kind == "liner" else 1.0)
     middle = solid.Center()
     around = atan2(middle.y, middle.x)
@@ -250,7 +252,7 @@ def rule_checks(design: Design) -> Iterator[SolidCheck]:
 def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """Yield how much of each kind of screw is in its thread, over its diameter; read off the solids."""
     x, y = link_screws(dims)[0]
-    bosses = between_springs(dims, dims.housing_inner_radius)
+    bosses = by_feet(dims, dims.housing_inner_radius)
     for joint, host, at in (
         ("link", "rotor", (x, y)),
         ("retainer", "rotor", (0.0, 0.0)),

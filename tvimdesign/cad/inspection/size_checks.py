@@ -156,7 +156,7 @@ def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterato
 
 def bearing_checks(dims: Dimensions) -> Iterator[SolidCheck]:
     """Yield how far the legs reach beyond the pins they bear on, at rest and at either stop [mm]."""
-    for angle in (-dims.stop_angle, 0.0, dims.stop_angle):
+    for angle in (-dims.stop_angle, 0.0, dims.stop_angle) if dims.spring_count else ():
         coil = installed_coil(dims, angle)
         offset = 0.5 * (coil.diameter + coil.wire_diameter + dims.pin_diameter)
         distance = pin_distance(dims.pin_radius, dims.placement_radius, angle)

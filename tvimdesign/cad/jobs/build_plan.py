@@ -50,6 +50,7 @@ _READ_BACK = 1e-6
 def build_plan(dims: Dimensions) -> list[Work]:
     """Return all pieces of work for a module."""
     kinds = tuple(MODULES[dims.mode].drawn(dims))
+    coils = SPRINGS if dims.spring_count else ()
     parts = [
         work
         for kind in kinds
@@ -65,7 +66,12 @@ def build_plan(dims: Dimensions) -> list[Work]:
             ),
         )
     ]
-    springs = [Work(name=kind, do=partial(_spring, kind), words=f"drawing: {_words(kind)}") for kind in SPRINGS]
+    springs = [Work(name=kind, do=partial(_spring, kind), words=f"drawing: {_words(kind)}") for kind in coils]
+    setting = [
+        Work(name=jigs.FORK, do=_setting_fork),
+        Work(name="inspect_setting", do=_inspect_setting, needs=("housing", "rotor", jigs.FORK)),
+        Work(name="spring_sheet", do=_spring_sheet, named=True),
+    ]  # fmt: skip
     clearances = [
         Work(
             name=f"interference_{index + 1}",
@@ -88,12 +94,10 @@ def build_plan(dims: Dimensions) -> list[Work]:
         *clearances,
         *inspections,
         *(Work(name=kind, do=partial(_casting_jig, kind)) for kind in jigs.DRAWN),
-        Work(name=jigs.FORK, do=_setting_fork),
-        Work(name="inspect_setting", do=_inspect_setting, needs=("housing", "rotor", jigs.FORK)),
+        *(setting if coils else ()),
         Work(name="inspect_casting", do=_inspect_casting, needs=(jigs.part_of(kinds), *jigs.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True, words="assembly files"),
-        Work(name="spring_sheet", do=_spring_sheet, named=True),
         Work(name="script", do=_script, named=True, words="script of the parts"),
         Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True, words="bill of materials"),
     ]

@@ -133,13 +133,11 @@ AROUND = 6
 def coarse_meshes(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> dict[str, Mesh]:
     """Return a coarse mesh of each kind of part, in its own coordinates [mm]."""
     from tvimdesign.cad.assembly.assembly import installed_coils
-    from tvimdesign.cad.export.mesh import solid_mesh, spring_mesh
+    from tvimdesign.cad.export.mesh import solid_mesh, spring_meshes
 
     coils = installed_coils(dims)
     meshes = {kind: solid_mesh(solid, CHORD, TURN) for kind, solid in drawn.items()}
-    meshes["spring_right"] = spring_mesh(coils["spring_right"], AROUND)
-    meshes["spring_left"] = spring_mesh(coils["spring_left"], AROUND).mirrored()
-    return meshes
+    return meshes | spring_meshes(coils, AROUND)
 
 
 def body_stl(meshes: Mapping[str, Mesh], placed: Mapping[str, cq.Solid], names: Sequence[str]) -> bytes:

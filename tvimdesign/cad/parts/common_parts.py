@@ -64,8 +64,8 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
 
 
 def stop_azimuths(dims: Dimensions) -> list[float]:
-    """Return azimuths of the rotor's teeth at rest [rad]: two opposite each other, midway between springs."""
-    first = pi / dims.count("spring_count")
+    """Return azimuths of the rotor's teeth at rest [rad]: two opposite each other, at the azimuths of feet."""
+    first = pi / dims.count("foot_count")
     return [first + 2.0 * pi * index / STOPS for index in range(STOPS)]
 
 
@@ -80,6 +80,8 @@ def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
     """Draw what stands on the floor for the springs, and what is cut from it: posts and tang holes, or pockets."""
     floor_bottom = -dims.floor_thickness
     axes = spring_axes(dims)
+    if not axes:
+        return [], []
     if not dims.adjuster_radius:
         hole_radius = 0.5 * dims.wire_diameter + dims.tang_clearance
         holes = [cylinder(hole_radius, floor_bottom, 0, at) for at in tang_positions(dims)]
@@ -124,13 +126,18 @@ def spring_axes(dims: Dimensions) -> list[tuple[float, float]]:
 
 def mounts(dims: Dimensions) -> list[tuple[float, float]]:
     """Return the axes of the screws that fix the housing: midway between the springs."""
-    return between_springs(dims, dims.placement_radius)
+    return by_feet(dims, dims.placement_radius)
 
 
-def between_springs(dims: Dimensions, radius: float) -> list[tuple[float, float]]:
-    """Return places midway between the springs at a radius."""
-    half_pitch = pi / dims.count("spring_count")
-    return [polar(radius, azimuth + half_pitch) for azimuth in dims.azimuths("spring_count")]
+def foot_azimuths(dims: Dimensions) -> list[float]:
+    """Return the azimuths of the feet [rad], which are midway between the springs."""
+    half_pitch = pi / dims.count("foot_count")
+    return [azimuth + half_pitch for azimuth in dims.azimuths("foot_count")]
+
+
+def by_feet(dims: Dimensions, radius: float) -> list[tuple[float, float]]:
+    """Return places at the azimuths of the feet at a radius."""
+    return [polar(radius, azimuth) for azimuth in foot_azimuths(dims)]
 
 
 def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shape], list[cq.Shape]]:
@@ -138,21 +145,19 @@ def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shap
     inner, outer, rim = dims.housing_inner_radius, dims.housing_outer_radius, dims.rim_level
     if not dims.cover_height:
         return [ring(inner, outer, ground, rim)], []
-    axes = between_springs(dims, inner)
-    half_pitch = pi / dims.count("spring_count")
-    azimuths = [azimuth + half_pitch for azimuth in dims.azimuths("spring_count")]
-    wall = bossed_ring((inner, outer), dims.cover_boss_radius, dims.cover_corner_radius, azimuths, (0, rim))
+    axes = by_feet(dims, inner)
+    wall = bossed_ring((inner, outer), dims.cover_boss_radius, dims.cover_corner_radius, foot_azimuths(dims), (0, rim))
     point, bottom = dims.drill_point_ratio, rim - dims.cover_screw_depth
     holes = [hole for at in axes for hole in blind_hole(dims.cover_screw_hole, rim, bottom, point, at)]
     return [ring(inner, outer, ground, 0), wall], holes
 
 
 def notches(dims: Dimensions) -> list[cq.Shape]:
-    """Draw what is cut from the skirt outside each spring: air for the pads' cold sides, and a way for their wires."""
+    """Draw what is cut from the skirt midway between feet: air for the pads' cold sides, and a way for their wires."""
     width, floor_bottom = dims.notch_width, -dims.floor_thickness
     inside = sqrt(dims.housing_inner_radius**2 - (0.5 * width) ** 2)
     opening = block((inside, dims.housing_outer_radius + 1.0), width, floor_bottom - dims.foot_height, floor_bottom)
-    return [turned(opening, azimuth) for azimuth in dims.azimuths("spring_count")]
+    return [turned(opening, azimuth) for azimuth in dims.azimuths("foot_count")]
 
 
 def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Iterable[cq.Shape] = ()) -> cq.Shape:

@@ -13,7 +13,7 @@ import cadquery as cq
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import TURNING
 from tvimdesign.cad.geometry.solids import cylinder, join, ring, turned
-from tvimdesign.cad.parts.common_parts import between_springs, link_dowels, link_screws, mounts, spring_axes
+from tvimdesign.cad.parts.common_parts import by_feet, link_dowels, link_screws, mounts, spring_axes
 
 Point = tuple[float, float]
 INSERTED = ("link", "retainer", "adjuster", "cover")
@@ -72,7 +72,7 @@ def axes(dims: Dimensions, joint: str) -> list[Point]:
         case "adjuster":
             return spring_axes(dims)
         case "cover":
-            return between_springs(dims, dims.housing_inner_radius)
+            return by_feet(dims, dims.housing_inner_radius)
         case "mount":
             return mounts(dims)
     return list(_ON_AXIS)

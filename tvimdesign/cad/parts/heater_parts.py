@@ -19,7 +19,7 @@ _SIDES = (1.0, -1.0)
 
 def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
     """Return how one of each kind is drawn, of what this module has."""
-    in_arcs = dims.mode == "shear"
+    in_arcs = dims.mode != "compression"
     return {
         **({"spreader": arc_spreader if in_arcs else vane_spreader} if dims.spreader_depth else {}),
         **({"heater_lead": heater_lead} if in_arcs and dims.spreader_depth else {}),
@@ -237,7 +237,7 @@ def cutout(dims: Dimensions) -> cq.Shape:
 def fits_in_window(dims: Dimensions, beside: float = 0.0) -> bool:
     """Return whether body and a running clearance around it go into the window below the first heater, and `beside`
     [mm] of its wires at both ends."""
-    if dims.mode != "shear":
+    if dims.mode == "compression":
         return False
     half = 0.5 * dims.cutout_length + dims.running_clearance + beside
     across = dims.cutout_diameter + 2.0 * dims.running_clearance

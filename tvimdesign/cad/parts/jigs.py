@@ -41,7 +41,7 @@ def part_of(kinds: tuple[str, ...]) -> str:
 
 def levels(dims: Dimensions) -> tuple[float, float]:
     """Return lower and upper face of the part in the module, its keys left out [mm]."""
-    if dims.mode == "shear":
+    if dims.mode != "compression":
         return 0.0, dims.pcl_thickness
     return dims.running_clearance, dims.vane_height
 

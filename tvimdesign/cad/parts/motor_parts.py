@@ -9,7 +9,7 @@ import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import blind_hole, block, cylinder, join, polar, ring, spoked_disc, turned
-from tvimdesign.cad.parts.common_parts import mounts
+from tvimdesign.cad.parts.common_parts import foot_azimuths, mounts
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 
 Draw = Callable[[Dimensions], cq.Shape]
@@ -22,8 +22,7 @@ def hub(dims: Dimensions) -> cq.Shape:
     """
     bottom = dims.motor_plate_level
     top = bottom + dims.motor_plate_thickness
-    half_pitch = pi / dims.count("spring_count")
-    azimuths = [azimuth + half_pitch for azimuth in dims.azimuths("spring_count")]
+    azimuths = foot_azimuths(dims)
     plate = spoked_disc(
         dims.motor_disc_radius, dims.mount_boss_radius, dims.placement_radius, dims.motor_corner_radius, azimuths,
         (bottom, top),

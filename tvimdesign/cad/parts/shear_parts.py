@@ -120,4 +120,4 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
 
 def _azimuths(dims: Dimensions) -> list[float]:
     """Return the middles of the PCL arcs [rad]: between the springs where there are as many of both."""
-    return [azimuth + pi / dims.count("spring_count") for azimuth in dims.azimuths("arc_count")]
+    return [azimuth + pi / dims.count("foot_count") for azimuth in dims.azimuths("arc_count")]

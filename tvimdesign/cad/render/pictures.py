@@ -187,15 +187,15 @@ def write_section(path: Path, solids: Mapping[str, cq.Solid], placed: Mapping[st
 
 
 def wedge_of(placed: Mapping[str, Instance]) -> tuple[float, float]:
-    """Return azimuths [rad] between which the module is cut away: through the axis of a spring, and the middle of the
-    polymer.
+    """Return azimuths [rad] between which the module is cut away: through the axis of a spring, if there is one, and
+    the middle of the polymer.
 
     Of all pairs that which lies nearest to a wedge whose faces both show; the second is the larger by less than pi.
     """
     springs, polymer = (
         [_azimuth(one) for name, one in placed.items() if kind_of(name) in kinds] for kinds in (SPRINGS, POLYMER)
     )
-    pairs = [(a, b) for one, other in product(springs, polymer) for a, b in ((one, other), (other, one))]
+    pairs = [(a, b) for one, other in product(springs or polymer, polymer) for a, b in ((one, other), (other, one))]
     wedges = [(a, a + (b - a) % (2.0 * pi)) for a, b in pairs]
     return min(wedges, key=lambda wedge: (round(abs(wedge[1] - wedge[0] - _BEST_WEDGE), 6), wedge))
 

@@ -65,7 +65,7 @@ def stop_tooth_span(m: Module) -> Scalar:
     return m.stop_tooth_width / m.stop_contact_radius
 
 
-@places.helper()
+@places.helper(sprung=True)
 def stop_spring_angle(m: Module) -> Scalar:
     """Angle between a spring's azimuth and the nearest place for a stop [rad].
 

@@ -23,25 +23,25 @@ def none_or_least(gap: Scalar, least: Scalar) -> Scalar:
     return gap * (gap - least) / least
 
 
-@quantities.output("mm", at_least(0.0, "the springs must clear the rotor plate"))
+@quantities.output("mm", at_least(0.0, "the springs must clear the rotor plate"), sprung=True)
 def rotor_spring_gap(m: Module) -> Scalar:
     """Room between the rotor plate and the springs beyond the radial clearance."""
     return m.placement_radius - m.spring_reach - m.rotor_radius - m.radial_clearance
 
 
-@quantities.output("mm", at_least(0.0, "the rotor-side legs must pass above the rotor plate"))
+@quantities.output("mm", at_least(0.0, "the rotor-side legs must pass above the rotor plate"), sprung=True)
 def leg_rotor_gap(m: Module) -> Scalar:
     """Room between the rotor-side legs and the rotor plate below them beyond the axial clearance."""
     return m.coil_end_level - 0.5 * m.wire_diameter - m.rotor_top_level - m.axial_clearance
 
 
-@quantities.output("mm", at_least(0.0, "the pins must stand on the rotor plate"))
+@quantities.output("mm", at_least(0.0, "the pins must stand on the rotor plate"), sprung=True)
 def pin_rim_gap(m: Module) -> Scalar:
     """Room between the pins and the rim of the rotor plate beyond the radial clearance."""
     return m.rotor_radius - m.pin_radius - 0.5 * m.pin_diameter - m.radial_clearance
 
 
-@quantities.output("mm", at_least(0.0, "the legs must clear the core"))
+@quantities.output("mm", at_least(0.0, "the legs must clear the core"), sprung=True)
 def leg_core_gap(m: Module) -> Scalar:
     """Room between the ends of the rotor-side legs and the core at the stops beyond the radial clearance."""
     # At the stop that unwinds the spring its leg points nearest to the core. The axis lies `beside` the
@@ -52,7 +52,7 @@ def leg_core_gap(m: Module) -> Scalar:
     return np.sqrt(beside**2 + ahead**2) - 0.5 * m.wire_diameter - m.core_radius - m.radial_clearance
 
 
-@quantities.output("mm", at_least(0.5 * MM, "the leg would slip off its pin"))
+@quantities.output("mm", at_least(0.5 * MM, "the leg would slip off its pin"), sprung=True)
 def leg_overhang_margin(m: Module) -> Scalar:
     """Leg that is left beyond its pin at the stops."""
     return (
@@ -66,6 +66,7 @@ def leg_overhang_margin(m: Module) -> Scalar:
     "mm",
     at_least(0.0, "the tang would press on its hole as the coil winds and unwinds"),
     requires=(Feature("tang_hold", "bonded"),),
+    sprung=True,
 )
 def tang_margin(m: Module) -> Scalar:
     """Play of the tang in its hole that the changing coil diameter leaves; zero where the tang is bonded."""
@@ -73,19 +74,19 @@ def tang_margin(m: Module) -> Scalar:
     return m.tang_clearance - m.coil_diameter * turned / (4.0 * np.pi * m.coil_count)
 
 
-@quantities.output("mm", at_least(1.0 * MM, "the leg must reach its pin", 0.0))
+@quantities.output("mm", at_least(1.0 * MM, "the leg must reach its pin", 0.0), sprung=True)
 def leg_reach_gap(m: Module) -> Scalar:
     """Distance of pin and spring axis beyond the offset of the leg."""
     return m.placement_radius - m.pin_radius - m.leg_offset
 
 
-@quantities.output("mm", at_least(0.0, "a spring needs a post inside it", 0.0))
+@quantities.output("mm", at_least(0.0, "a spring needs a post inside it", 0.0), sprung=True)
 def post_thickness(m: Module) -> Scalar:
     """Radius of the spring posts."""
     return m.post_radius
 
 
-@quantities.output("mm", at_least(0.0, "neighbouring springs must clear each other"))
+@quantities.output("mm", at_least(0.0, "neighbouring springs must clear each other"), sprung=True)
 def spring_spring_gap(m: Module) -> Scalar:
     """Room between neighbouring springs beyond the radial clearance."""
     return 2.0 * m.placement_radius * np.sin(np.pi / m.spring_count) - 2.0 * m.spring_reach - m.radial_clearance

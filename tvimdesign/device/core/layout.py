@@ -17,47 +17,53 @@ quantities = QuantityGroup("Layout")
 quantities.inputs()
 
 
-@quantities.output("1")
+@quantities.output("1", sprung=True)
 def spring_count(m: Module) -> Scalar:
     """Torsion springs, half of them of either hand."""
     return 2.0 * m.spring_pairs
 
 
+@quantities.output("1")
+def foot_count(m: Module) -> Scalar:
+    """Feet of the housing: one between each two springs."""
+    return m.spring_count
+
+
 # --- radii -----------------------------------------------------------------------------------------------------------
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def pin_radius(m: Module) -> Scalar:
     """Distance of the rotor pins from the axis."""
     return m.pin_radius_ratio * m.placement_radius
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def tang_bend_radius(m: Module) -> Scalar:
     """Mean radius of the bend between a spring's coils and its tang."""
     return (m.tang_bend_ratio + 0.5) * m.wire_diameter
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def spring_reach(m: Module) -> Scalar:
     """Radius of the circle around a spring's axis that holds its coils and its tang."""
     # The tang leaves the coil along the tangent and turns down over its bend.
     return np.sqrt((0.5 * m.coil_diameter) ** 2 + m.tang_bend_radius**2) + 0.5 * m.wire_diameter
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def leg_offset(m: Module) -> Scalar:
     """Distance of the spring axis from the line through the pin along which the leg points."""
     return 0.5 * (m.coil_diameter + m.wire_diameter + m.pin_diameter)
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def leg_arm(m: Module) -> Scalar:
     """Length of the rotor-side leg from the coil to the pin."""
     return np.sqrt((m.placement_radius - m.pin_radius) ** 2 - m.leg_offset**2)
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def leg_length(m: Module) -> Scalar:
     """Length of the rotor-side leg."""
     return m.leg_arm + m.leg_overhang
@@ -102,31 +108,31 @@ def link_bolt_circle_radius(m: Module) -> Scalar:
 # --- levels ----------------------------------------------------------------------------------------------------------
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def coil_pitch(m: Module) -> Scalar:
     """Axial pitch of the coils."""
     return m.wire_diameter + m.coil_gap
 
 
-@quantities.output("1")
+@quantities.output("1", sprung=True)
 def helix_slope(m: Module) -> Scalar:
     """Rise of the wire over its way around the coil, tan of the helix angle."""
     return m.coil_pitch / (np.pi * m.coil_diameter)
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def coil_start_level(m: Module) -> Scalar:
     """Level of the wire's centre where the coils start; the tang's bend below it ends on the floor."""
     return m.tang_bend_radius / np.sqrt(1.0 + m.helix_slope**2)
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def coil_end_level(m: Module) -> Scalar:
     """Level of the wire's centre where the coils of the preloaded spring end and the rotor-side leg begins."""
     return m.coil_start_level + m.coil_pitch * (m.coil_count + m.preload_angle / (2.0 * np.pi))
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def leg_top_level(m: Module) -> Scalar:
     """Highest point of a rotor-side leg, which keeps rising as the coil does."""
     return m.coil_end_level + m.helix_slope * m.leg_length + 0.5 * m.wire_diameter
@@ -138,7 +144,7 @@ def rotor_top_level(m: Module) -> Scalar:
     return m.rotor_bottom_level + m.rotor_thickness
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def pin_top_level(m: Module) -> Scalar:
     """Upper end of the rotor pins."""
     return m.leg_top_level + m.axial_clearance
@@ -183,7 +189,7 @@ def link_bottom_level(m: Module) -> Scalar:
     return m.rim_level + m.cover_height + m.axial_clearance
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def post_radius(m: Module) -> Scalar:
     """Radius of a spring's post: 90 % of the inner radius of the fully wound spring."""
     # Shigley, section 10-12: mandrel about 10 % under the inner diameter at full deflection.

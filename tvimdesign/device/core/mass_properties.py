@@ -7,19 +7,29 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.solids.shapes import Section, disc_at, fillet_at_foot, notch, point_at, ring, slot, stacked
+from tvimdesign.physics.solids.shapes import (
+    NOTHING,
+    Section,
+    disc_at,
+    fillet_at_foot,
+    notch,
+    point_at,
+    ring,
+    slot,
+    stacked,
+)
 
 quantities = QuantityGroup("Size and weight")
 LINK_SCREWS = 4
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def helix_length(m: Module) -> Scalar:
     """Length of the wire in the coils of one spring."""
     return m.coil_count * np.sqrt((np.pi * m.coil_diameter) ** 2 + m.coil_pitch**2)
 
 
-@quantities.output("mm")
+@quantities.output("mm", sprung=True)
 def wire_length(m: Module) -> Scalar:
     """Length of the wire of one spring: leg, coils, quarter bend and tang."""
     # The leg rises with the helix, so it is a little longer than its plan view; the bend turns from the helix to -z.
@@ -28,7 +38,7 @@ def wire_length(m: Module) -> Scalar:
     return leg + m.helix_length + bend + m.tang_length
 
 
-@quantities.output("mm^3")
+@quantities.output("mm^3", sprung=True)
 def spring_volume(m: Module) -> Scalar:
     """Volume of one spring."""
     return 0.25 * np.pi * m.wire_diameter**2 * m.wire_length
@@ -38,9 +48,9 @@ def spring_volume(m: Module) -> Scalar:
 def skirt_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the housing below its floor: skirt, notches and feet."""
     skirt = ring(m.housing_inner_radius, m.housing_outer_radius)
-    notches = notch(0.5 * m.notch_width, m.housing_inner_radius, m.housing_outer_radius).times(m.spring_count)
+    notches = notch(0.5 * m.notch_width, m.housing_inner_radius, m.housing_outer_radius).times(m.foot_count)
     foot = disc_at(m.mount_boss_radius, m.placement_radius) - disc_at(0.5 * m.mount_hole, m.placement_radius)
-    return (skirt - notches).plus(foot.times(m.spring_count)).times(m.foot_height)
+    return (skirt - notches).plus(foot.times(m.foot_count)).times(m.foot_height)
 
 
 @quantities.helper()
@@ -55,7 +65,7 @@ def hub_moments(m: Module) -> Section:
 def floor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the floor around the hub, less holes and the mode's openings."""
     holes = disc_at(0.5 * m.mount_hole, m.placement_radius).plus(m.spring_hole_section)
-    solid = ring(m.hub_radius, m.housing_outer_radius) - holes.times(m.spring_count)
+    solid = ring(m.hub_radius, m.housing_outer_radius) - holes.times(m.foot_count)
     return solid.times(m.floor_thickness) - m.floor_openings
 
 
@@ -84,20 +94,32 @@ def bare_rotor_moments(m: Module) -> Section:
         (ring(0.0, m.core_radius), m.link_bottom_level - m.rotor_bottom_level),
         (ring(0.0, m.collar_radius), m.rotor_bottom_level - m.hub_top_level),
         (ring(0.0, m.journal_radius), m.hub_top_level - m.core_bottom_level),
-        (disc_at(0.5 * m.pin_diameter, m.pin_radius).times(m.spring_count), m.pin_top_level - m.rotor_top_level),
+        (m.pins_section, m.pin_top_level - m.rotor_top_level),
         (disc_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS), -m.link_screw_depth),
         (ring(0.0, 0.5 * m.retainer_screw_hole), -m.retainer_screw_depth),
         (m.link_dowel_section, -m.link_dowel_depth),
-        (_foot_fillets(m), 1.0),
+        (fillet_at_foot(m.core_radius, m.foot_fillet).plus(m.pin_fillets), 1.0),
         (_core_drill_points(m), -1.0),
     )
 
 
-def _foot_fillets(m: Module) -> Section:
-    """Return the volume and its polar moment about the axis, of the fillets at the feet of core and pins."""
+@quantities.helper(sprung=True, default=NOTHING)
+def pins_section(m: Module) -> Section:
+    """Plan view of the pins on the rotor plate."""
+    return disc_at(0.5 * m.pin_diameter, m.pin_radius).times(m.spring_count)
+
+
+@quantities.helper(sprung=True, default=NOTHING)
+def pin_fillets(m: Module) -> Section:
+    """Volume and its polar moment about the axis, of the fillets at the feet of the pins."""
     of_pin = fillet_at_foot(0.5 * m.pin_diameter, m.foot_fillet)
-    beside = Section(of_pin.area, of_pin.polar + of_pin.area * m.pin_radius**2)
-    return fillet_at_foot(m.core_radius, m.foot_fillet).plus(beside.times(m.spring_count))
+    return Section(of_pin.area, of_pin.polar + of_pin.area * m.pin_radius**2).times(m.spring_count)
+
+
+@quantities.helper(sprung=True)
+def springs_inertia(m: Module) -> Scalar:
+    """Moment of inertia about the axis of springs and adjusters, as rings about the springs' axes."""
+    return (m.springs_mass + m.adjusters_mass) * (m.placement_radius**2 + 0.25 * m.coil_diameter**2)
 
 
 def _core_drill_points(m: Module) -> Section:
@@ -184,7 +206,7 @@ def retainer_mass(m: Module) -> Scalar:
     return m.retainer_volume * m.structure_density
 
 
-@quantities.output("g")
+@quantities.output("g", sprung=True)
 def springs_mass(m: Module) -> Scalar:
     """Mass of all springs together."""
     return m.spring_count * m.spring_volume * m.spring_density

@@ -31,7 +31,7 @@ def motor_foot_gap(m: Module) -> Scalar:
 @quantities.output("mm", at_least(0.0, "the spokes of the motor's hub would meet outside its disc: a larger motor"))
 def motor_spoke_gap(m: Module) -> Scalar:
     """Half of the gap between the corners of neighbouring spokes of the motor hub's disc; zero without a motor."""
-    centres = (m.motor_disc_radius + m.motor_corner_radius) * np.sin(np.pi / m.spring_count)
+    centres = (m.motor_disc_radius + m.motor_corner_radius) * np.sin(np.pi / m.foot_count)
     return centres - m.mount_boss_radius - m.motor_corner_radius
 
 

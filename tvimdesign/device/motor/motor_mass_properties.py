@@ -37,8 +37,8 @@ def motor_hub_moments(m: Module) -> Section:
     corners = 2.0 * inner_corner(m.motor_corner_radius, m.motor_disc_radius, m.mount_boss_radius)
     return stacked(
         (ring(0.0, m.motor_disc_radius), m.motor_plate_thickness),
-        (spokes.times(m.spring_count), m.motor_plate_thickness),
-        (Section(corners, corners * m.motor_disc_radius**2).times(m.spring_count), m.motor_plate_thickness),
+        (spokes.times(m.foot_count), m.motor_plate_thickness),
+        (Section(corners, corners * m.motor_disc_radius**2).times(m.foot_count), m.motor_plate_thickness),
         (ring(m.motor_barrel_radius, m.motor_disc_radius), m.motor_plate_level - m.motor_rotor_bottom_level),
         (ring(0.0, m.motor_collar_radius), m.motor_plate_level - m.stator_top_level),
         (ring(0.0, m.motor_journal_radius), m.stator_top_level - m.motor_journal_level),
@@ -111,7 +111,7 @@ def motor_screw_volume(m: Module) -> Scalar:
 def mount_screw_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the screws between housing and motor hub."""
     return screw_moments(
-        m.spring_count, m.placement_radius, m.mount_screw_pilot, m.mount_screw_length, m.mount_screw_head,
+        m.foot_count, m.placement_radius, m.mount_screw_pilot, m.mount_screw_length, m.mount_screw_head,
         m.mount_screw_head_height,
     )  # fmt: skip
 
@@ -228,9 +228,8 @@ def driven_inertia(m: Module) -> Scalar:
     Springs and adjusters as rings about the springs' axes, PCL and pads spread over their ring; a cover's screws not
     counted, nor the outer rings of the module's bearings, near the axis.
     """
-    at_springs = m.placement_radius**2 + 0.25 * m.coil_diameter**2
     at_pcl = 0.5 * (m.pcl_inner_radius**2 + m.pcl_outer_radius**2)
     on_arcs = m.pcl_mass + m.peltier_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
-    carried = (m.springs_mass + m.adjusters_mass) * at_springs + on_arcs * at_pcl
+    carried = m.springs_inertia + on_arcs * at_pcl
     cover = m.cover_section.polar * m.cover_height * m.structure_density
     return m.drive_inertia + m.housing_inertia + cover + carried

@@ -179,12 +179,18 @@ def bond_strength(m: Module) -> Scalar:
     return m.pcl_bond_strength * (m.bond_derating if m.bond_rating == "derated" else 1.0)
 
 
+@quantities.helper()
+def bearing_polar_moment(m: Module) -> Scalar:
+    """Polar moment of what bears of the frozen layer [m^4]: all of it."""
+    return m.layer_polar_moment
+
+
 @quantities.output("N*m")
 def layer_holding_torque(m: Module) -> Scalar:
     """Torque at which the frozen layer's bond, its shear yield, or a liner on it fails at its outer rim."""
     traction = np.fmin(m.bond_strength, structure.shear_yield(m.pcl_tensile_yield))
     traction = traction_with_liner(m.liner_material, traction, m.liner_traction)
-    return layer.torque_at_traction(traction, m.layer_polar_moment, m.pcl_outer_radius)
+    return layer.torque_at_traction(traction, m.bearing_polar_moment, m.pcl_outer_radius)
 
 
 _PARTS = ("layer_holding_torque", *TILE_PARTS, *PAD_PARTS, *CORE_PARTS, *LINK_PARTS, "bearing_holding_torque")

@@ -39,7 +39,7 @@ GROUPS = (
 class QuantityGroup:
     """Quantities of one group in the order they are written."""
 
-    def __init__(self, group: str, requires: tuple[Feature, ...] = ()) -> None:
+    def __init__(self, group: str, requires: tuple[Feature, ...] = (), sprung: bool = False) -> None:
         """Start an empty group.
 
         Parameters
@@ -48,9 +48,12 @@ class QuantityGroup:
             The heading under which reports list the quantities, one of `GROUPS`.
         requires
             Features that a module needs to have the quantities, unless they say otherwise.
+        sprung
+            Whether only modules with torsion springs have the outputs.
         """
         self.group = group
         self.requires = requires
+        self.sprung = sprung
         self.quantities: list[Quantity] = []
         self.anchors: dict[int, str] = {}
         """Name of the quantity that the one at a place here is listed after."""
@@ -59,9 +62,12 @@ class QuantityGroup:
         """List the next quantities after a quantity that another file defines under this heading."""
         self.anchors[len(self.quantities)] = name
 
-    def inputs(self) -> None:
-        """Add the inputs that `inputs.yaml` lists under this group."""
-        for name, entry in _all_inputs()[self.group].items():
+    def inputs(self, *names: str, **changes: Any) -> None:
+        """Add the inputs that `inputs.yaml` lists under this group, or some of them with `changes` of their entries."""
+        for name, listed in _all_inputs()[self.group].items():
+            if names and name not in names:
+                continue
+            entry = {**listed, **changes}
             unit, record = str(entry["unit"]), _words(entry, "record")
             source = f"{entry['status']}: {entry['source']}" if "value" in entry or not record else _of_record(record)
             numbers = {field: to_si(float(entry[key]), unit) for field, key in _NUMBERS.items() if key in entry}
@@ -155,6 +161,7 @@ class QuantityGroup:
         at_end: str = "",
         parts_differ_with: Feature | None = None,
         requires: tuple[Feature, ...] | None = None,
+        sprung: bool = False,
         default: Any = 0.0,
     ) -> Callable[[F], F]:
         """Add a function as a quantity; in a module that lacks one of its features it is `default`."""
@@ -163,7 +170,7 @@ class QuantityGroup:
             Output, unit, rules=rules, advice=advice, ratings=ratings, per_point=per_point, instant=instant,
             hidden=hidden, headline=headline, least_of=least_of, also_limited=also_limited, at_end=at_end,
             parts_differ_with=parts_differ_with, requires=self.requires if requires is None else requires,
-            default=default,
+            sprung=sprung or self.sprung, default=default,
         )  # fmt: skip
 
     def from_template(
@@ -190,6 +197,7 @@ class QuantityGroup:
             better=directions().get(template_name(function.__name__, of)),
             of=of,
             requires=requires,
+            sprung=self.sprung,
         )
         self.quantities.append(quantity)
 
@@ -199,10 +207,13 @@ class QuantityGroup:
         per_point: bool = False,
         instant: bool = False,
         requires: tuple[Feature, ...] | None = None,
+        sprung: bool = False,
         default: Any = 0.0,
     ) -> Callable[[F], F]:
         """Add an intermediate result that other quantities use and nobody asks for."""
-        return self.output("1", per_point=per_point, instant=instant, hidden=True, requires=requires, default=default)
+        return self.output(
+            "1", per_point=per_point, instant=instant, hidden=True, requires=requires, sprung=sprung, default=default
+        )
 
     def event(self, phase: Phase, *, headline: bool = True) -> Callable[[F], F]:
         """Add a time: the first instant of a phase at which the function, which rises, passes zero."""
@@ -237,8 +248,8 @@ class QuantityGroup:
         return add
 
 
-def gather(files: Iterable[ModuleType], mode: str) -> tuple[Quantity, ...]:
-    """Return the quantities of a mode that the files define, those of a group together."""
+def gather(files: Iterable[ModuleType], modes: tuple[str, ...]) -> tuple[Quantity, ...]:
+    """Return the quantities that the files define, those of a group together, with the inputs of some modes."""
     gathered: dict[str, list[Quantity]] = {group: [] for group in GROUPS}
     for group in (group for file in files for group in _groups_of(file)):
         together = gathered[group.group]
@@ -246,7 +257,7 @@ def gather(files: Iterable[ModuleType], mode: str) -> tuple[Quantity, ...]:
         for i, quantity in enumerate(group.quantities):
             if i in group.anchors:
                 place = 1 + next(k for k, other in enumerate(together) if other.name == group.anchors[i])
-            if not (isinstance(quantity, Input) and quantity.mode not in {None, mode}):
+            if not (isinstance(quantity, Input) and quantity.mode not in {None, *modes}):
                 together.insert(place, quantity)
                 place += 1
     return tuple(quantity for together in gathered.values() for quantity in together)

@@ -43,11 +43,11 @@ _LEAST = 5e-3
 FIRST_SCREEN = (
     "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
     "softened_stiffness", "softened_damping", "softened_temperature", "joint_stiffness@cold", "frozen_time",
-    "lost_motion", "friction_torque", "friction_share",
+    "lost_motion", "friction_torque", "friction_share", "drag_torque",
     "peak_voltage", "stiffening_peak_voltage", "peak_current", "stiffening_peak_current", "peak_power",
     "switch_energy", "cycle_energy",
 )  # fmt: skip
-"""Outputs that the first screen shows of every module."""
+"""Outputs that the first screen shows of every module that has them."""
 
 
 class Uncertainty:
@@ -65,7 +65,8 @@ class Uncertainty:
             for requirement in study.require
             for name in (requirement.output, *study.limited_with(requirement.output))
         ]
-        self.asked = list(dict.fromkeys([*required, *study.minimize, *FIRST_SCREEN]))
+        shown = [name for name in FIRST_SCREEN if name.partition("@")[0] in self.table.by_name]
+        self.asked = list(dict.fromkeys([*required, *study.minimize, *shown]))
         self._start = self._tolerant(resolve_study(study))
         self.model = UncertaintyModel(self._start, self.asked, list(study.vary))
 

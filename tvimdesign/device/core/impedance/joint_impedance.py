@@ -221,13 +221,13 @@ def damping_ratio(m: Module) -> Scalar:
     return motion.damping_ratio(m.joint_damping, m.joint_stiffness, m.moving_inertia)
 
 
-@quantities.output("Hz")
+@quantities.output("Hz", sprung=True)
 def spring_natural_frequency(m: Module) -> Scalar:
     """Undamped natural frequency on the springs alone."""
     return motion.natural_frequency(m.spring_stiffness, m.moving_inertia)
 
 
-@quantities.output("N*m*s/rad")
+@quantities.output("N*m*s/rad", sprung=True)
 def critical_damping(m: Module) -> Scalar:
     """Damping above which the joint on its springs no longer rings."""
     return motion.critical_damping(m.spring_stiffness, m.moving_inertia)

@@ -30,13 +30,13 @@ quantities = QuantityGroup("Lost motion")
 quantities.inputs()
 
 
-@quantities.output("N")
+@quantities.output("N", sprung=True)
 def pin_force(m: Module) -> Scalar:
     """Force of a spring's leg on its pin at rest."""
     return m.held_spring_rate * m.preload_angle / m.leg_arm
 
 
-@quantities.output("N*m")
+@quantities.output("N*m", sprung=True)
 def pin_friction_torque(m: Module) -> Scalar:
     """Torque by which the friction of all legs on their pins resists the rotor.
 
@@ -50,7 +50,9 @@ WEAR_STROKES = 1e6
 """Full strokes to both sides for which wear counts, as fatigue does [1]."""
 
 
-@quantities.output("mm", advice=(Rule(sense="<=", value=1e-4, reason="legs wear into their pins: grease them"),))
+@quantities.output(
+    "mm", advice=(Rule(sense="<=", value=1e-4, reason="legs wear into their pins: grease them"),), sprung=True
+)
 def pin_wear(m: Module) -> Scalar:
     """Depth that a leg wears into its pin in 1e6 full strokes to both sides, all of the wear on the pin.
 
@@ -61,7 +63,7 @@ def pin_wear(m: Module) -> Scalar:
     return crossed_groove_depth(volume, 0.5 * m.wire_diameter, 0.5 * m.pin_diameter)
 
 
-@quantities.output("rad")
+@quantities.output("rad", sprung=True)
 def friction_play(m: Module) -> Scalar:
     """Angle from rest within which the springs do not overcome the friction on their pins, the PCL molten."""
     return m.pin_friction_torque / m.spring_stiffness
@@ -73,7 +75,9 @@ def friction_torque(m: Module) -> Scalar:
     return m.pin_friction_torque + m.bearing_friction_torque + m.preload_friction_torque
 
 
-@quantities.output("1", advice=(Rule(sense="<=", value=0.5, reason="friction holds the soft joint far off its rest"),))
+@quantities.output(
+    "1", advice=(Rule(sense="<=", value=0.5, reason="friction holds the soft joint far off its rest"),), sprung=True
+)
 def friction_share(m: Module) -> Scalar:
     """Friction torque over the springs' torque at full stroke; beyond one the springs do not bring the joint back."""
     return m.friction_torque / m.spring_torque_full_stroke

@@ -82,11 +82,11 @@ def floor_stiffness(m: Module) -> Scalar:
         m.structure_youngs_modulus, m.structure_shear_modulus, m.mount_boss_radius, 0.5 * m.mount_hole, m.foot_height,
         tilt,
     )  # fmt: skip
-    between = np.pi * m.placement_radius / m.spring_count
+    between = np.pi * m.placement_radius / m.foot_count
     spot = structure.spot_stiffness(
         m.structure_shear_modulus, m.structure_poissons_ratio, left, m.mount_boss_radius, between
     )
-    footed = structure.footed_floor_stiffness(ring, spot, foot, m.spring_count, m.placement_radius)
+    footed = structure.footed_floor_stiffness(ring, spot, foot, m.foot_count, m.placement_radius)
     return 1.0 / (m.under_arcs_compliance + 1.0 / footed)
 
 

@@ -29,7 +29,7 @@ from tvimdesign.physics.polymers import plastics
 from tvimdesign.physics.springs import drawn_spring as drawn
 from tvimdesign.physics.springs import spring
 
-quantities = QuantityGroup("Springs")
+quantities = QuantityGroup("Springs", sprung=True)
 
 quantities.inputs()
 
@@ -84,7 +84,7 @@ def pin_distance(pin_radius: float, placement_radius: float, rotor_angle: float)
 
 FROM_STOCK = (Feature("stock_spring", "none"),)
 
-stock = QuantityGroup("Springs", FROM_STOCK)
+stock = QuantityGroup("Springs", FROM_STOCK, sprung=True)
 
 
 @stock.output("mm", at_least(0.0, "the stock spring's leg does not reach the pin"))

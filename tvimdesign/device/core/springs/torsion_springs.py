@@ -14,7 +14,7 @@ from tvimdesign.physics.solids import structure
 from tvimdesign.physics.springs import spring
 from tvimdesign.physics.springs.spring import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
 
-quantities = QuantityGroup("Springs")
+quantities = QuantityGroup("Springs", sprung=True)
 
 quantities.option(
     "rate_model", ("bending", "smi"), "Spring rate: pure bending, or the handbook's, 6 % softer by friction"

@@ -7,7 +7,7 @@ const [SOLID, MELTING, LIQUID] = [new Color(0x1f5fb4), new Color(0xf2f2ee), new 
 export function layerColours(parts, mode, [start, end], hottest, coldest) {
   const layers = [...parts.values()].filter((part) => part.isLayer);
   const pads = [...parts.values()].filter(({ kind }) => kind === "heater" || kind === "spreader");
-  const depths = new Map(layers.map((part) => [part, depthsOf(part, mode === "shear" ? null : pads)]));
+  const depths = new Map(layers.map((part) => [part, depthsOf(part, mode === "compression" ? pads : null)]));
   const own = new Map(layers.map((part) => [part, part.outside.color.clone()]));
   const colourOf = (temperature, colour) => {
     if (temperature < start) return colour.lerpColors(SOLID, MELTING, 0.75 * clamp((temperature - coldest) / (start - coldest)));

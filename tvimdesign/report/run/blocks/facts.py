@@ -99,6 +99,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
         *_impedance(value),
+        *_drag(value),
         *_task(value, answer.design.choices),
         *_duty(answer),
         Fact("Heating", [value("switch_energy"), peaks]),
@@ -136,7 +137,8 @@ def _lost_motion(value: _Values, *, much: bool = True) -> list[Fact]:
     The note names what adds most.
     """
     shares = {"lost_motion": value.values["lost_motion"] / value.values["stroke"]}
-    shares["friction_share"] = value.values["friction_share"]
+    if "friction_share" in value.values:
+        shares["friction_share"] = value.values["friction_share"]
     wholes = {"lost_motion": f"the ±{from_si(value.values['stroke'], 'deg'):.3g}° stroke"}
     wholes["friction_share"] = "spring torque"
     shown = [name for name, share in shares.items() if (share > _LARGE) is much]
@@ -166,6 +168,14 @@ def _impedance(value: _Values) -> list[Fact]:
     )
     damping = with_unit(value.values["softened_damping"], value.table.unit("softened_damping"), _DIGITS)
     return [Fact("Stiffness", [f"frozen {frozen}, soft {soft} {pretty(unit)}", f"damping {damping}"])]
+
+
+def _drag(value: _Values) -> list[Fact]:
+    """Return what the frozen joint holds, and what turns the molten joint; none of a joint with springs."""
+    if "drag_torque" not in value.values:
+        return []
+    turned = f"drags {value('drag_torque')} molten at {value('turn_speed')}"
+    return [Fact("Lock", [f"holds {value('holding_torque')} frozen", turned])]
 
 
 def _task(value: _Values, choices: Mapping[str, str]) -> list[Fact]:
