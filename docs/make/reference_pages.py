@@ -100,7 +100,7 @@ def _cells(quantity: Quantity, modes: list[str]) -> list[str]:
     """Return name, kind, unit, default, allowed values, meaning and source of a quantity as cells of a table."""
     point = "@point" if getattr(quantity, "per_point", False) else ""
     name = f'<span id="{quantity.name}"></span>`{quantity.name}{point}`'
-    meaning = quantity.description + ("" if len(modes) == len(MODES) else f" ({modes[0]} mode only)")
+    meaning = quantity.description + ("" if len(modes) == len(MODES) else f" ({' and '.join(modes)} mode only)")
     if isinstance(quantity, Choice):
         records = Catalog().names(quantity.category) if quantity.category else ()
         allowed = ", ".join(f"`{word}`" for word in (*quantity.options, *records))

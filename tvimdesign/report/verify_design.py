@@ -61,6 +61,8 @@ def verify_page(command: Command, name: str, data: dict[str, Any], rows: list[Co
 
 def refuse_other_parts(module: ResolvedModule) -> None:
     """Raise InputError for parts that the solvers do not draw."""
+    if module.study.mode == "lock":
+        raise InputError("verify: FE compares springs as well, and a lock has none")
     form = module.values.get("heater_form", "flexible")
     if form != "flexible" and module.study.mode == "compression":
         raise InputError(
