@@ -87,7 +87,7 @@ def test_the_time_to_stiffen_is_required_where_it_is_asked() -> None:
     ],
 )
 def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers: dict[str, str]) -> None:
-    with pytest.raises(InfeasibleError, match="Hardware fits, by arithmetic and with the other numbers") as refusal:
+    with pytest.raises(InfeasibleError, match="fit at nominal sizes, with margins by estimate only") as refusal:
         sized(**numbers)
     enough = re.search(r"--diameter '(\d+) mm'", str(refusal.value))
     assert enough
