@@ -169,7 +169,7 @@ def _refusal(task: JointTask, name: str, least_changed: float, progress: Callabl
     progress(f"looking for another {'torque' if task.assumes_stroke else 'stroke'} or stiffness that fits")
     ways = ["  " + " ".join(f"--{option} '{value}'" for option, value in way.items()) for way in _nearest(task, wider)]
     if ways:
-        lines.append("These fit at nominal sizes, with margins by estimate only: a run decides. Other numbers as given:")
+        lines.append("These fit at nominal sizes, with margins by estimate only: a run decides. Others as given:")
     return "\n".join([*lines, *ways] if ways else [*lines, "No one of the numbers cures it: ask for less of several."])
 
 
