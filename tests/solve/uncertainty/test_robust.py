@@ -1,5 +1,7 @@
 """A robust optimum keeps its limits by margins of one quantile, and Monte Carlo finds that yield."""
 
+import re
+from collections.abc import Callable
 from statistics import NormalDist
 from types import SimpleNamespace
 from typing import Any
@@ -10,13 +12,16 @@ from numpy.typing import NDArray
 from small_studies import ALGEBRAIC
 
 from tvimdesign.base.deadline import NEVER
+from tvimdesign.report.run.blocks.facts import _manufacturing
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.run.uncertainty_data import Uncertainty, below_yield, changes, yield_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.constraints import Constraint
+from tvimdesign.solve.nlp.solution import TightenedTolerance
 from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.nlp.spread import Contributor
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, trace_front
 from tvimdesign.solve.pareto.tradeoff import Tradeoff
@@ -25,7 +30,7 @@ from tvimdesign.solve.search import optimize
 from tvimdesign.solve.uncertainty import robust
 from tvimdesign.solve.uncertainty.tolerance import Spread, Tolerancing
 from tvimdesign.solve.uncertainty.yield_search import _moves
-from tvimdesign.solve.uncertainty.yields import FEW_MODULES, MODULES, Drawn, Yields, yields_of
+from tvimdesign.solve.uncertainty.yields import FEW_MODULES, MODULES, Array, Drawn, Yields, tightened, yields_of
 from tvimdesign.study import read_study_text
 
 TIMED = """
@@ -136,6 +141,11 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance() -> None:
     # d^4 with 0.05 mm at 2 mm against D with the coil's 2 to 3 %: the wire carries most of it.
     assert "spring_stiffness" in said
     assert "its spread is of wire_diameter" in said
+    assert re.search("At these sizes (no tolerance alone gives 95 %: )?(wire|coil) diameter with", said)
+    data = {"parts_yield": {"share": yield_of(found).together}, "tolerances": "study"}
+    (fact,) = _manufacturing(found, data)
+    assert re.match(r"\d+ of 100 modules meet every limit, [\d.]+ % meet ", fact.parts[0])
+    assert "±" in fact.parts[1]
 
 
 @pytest.mark.slow
@@ -235,6 +245,28 @@ def test_two_independent_limits_share_what_may_be_lost() -> None:
     expected = 0.1 * NormalDist().inv_cdf(0.957**0.5)  # 95.7 %: the lower end of the interval of 4096 modules is 95 %
     assert moves[A.name] == pytest.approx(expected, rel=0.05)
     assert moves[B.name] == pytest.approx(expected, rel=0.05)
+
+
+def _tightened(residuals: Callable[[Array, Array], Array]) -> TightenedTolerance:
+    """Return what two tolerances of ±3, of three standard deviations, come to for a yield of 95 %."""
+    columns = np.random.default_rng(3).standard_normal((2, MODULES))
+    contributors = [Contributor(name, 0.0, 3.0) for name in ("current", "pcl_thickness")]
+    drawn = Drawn((A,), residuals(*columns)[None], ("current", "pcl_thickness"), columns)
+    found = tightened(drawn, contributors, 0.95)
+    assert found is not None
+    return found
+
+
+def test_the_tolerance_that_needs_least_tightening_is_found() -> None:
+    inverse = NormalDist().inv_cdf(0.95)
+    one = _tightened(lambda first, _: first - 1.0)  # 84 % at a deviation of 1; 95 % at 1/1.645
+    assert (one.name, one.share) == ("current", pytest.approx(0.95, abs=2e-3))
+    assert one.to == pytest.approx(3.0 / inverse, rel=0.05)
+    both = _tightened(lambda first, second: 0.3 * first + second - 1.0)
+    assert both.name == "pcl_thickness"
+    assert both.to == pytest.approx(3.0 * ((1.0 / inverse) ** 2 - 0.3**2) ** 0.5, rel=0.05)
+    none = _tightened(lambda first, second: first + second - 1.0)
+    assert (none.to, none.share) == (0.0, pytest.approx(NormalDist().cdf(1.0), abs=0.02))
 
 
 def test_margins_are_of_what_each_limit_spreads_and_fall_for_none() -> None:

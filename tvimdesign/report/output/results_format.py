@@ -142,6 +142,15 @@ class LostTo(Entry):
     carriers: dict[str, float]
 
 
+class TightenedEntry(Entry):
+    """The tolerance that needs least tightening for a requested yield; `to` is zero if none alone is enough."""
+
+    name: str
+    plus_minus: float
+    to: float
+    share: float
+
+
 class Yield(Entry):
     """Yield of a design with margins, and of the one without margins, by random modules."""
 
@@ -152,6 +161,7 @@ class Yield(Entry):
     lost_to: list[LostTo]
     nominal_together: float
     nominal: dict[str, NumberEntry]
+    tightened: TightenedEntry | None
 
 
 class Listed(Entry):

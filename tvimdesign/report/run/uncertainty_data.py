@@ -15,7 +15,7 @@ import numpy as np
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Table
+from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.numbers import finite, in_unit, label, number_entry, percent, with_unit
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.report.output.terminal import duration
@@ -31,6 +31,7 @@ from tvimdesign.solve.uncertainty.intervals import Interval, Swing
 from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
+from tvimdesign.study.text.values import difference_unit
 
 _SPREAD = "TVIMDESIGN_SPREAD"
 """Variable of the environment: `off` leaves yield and ranges out, where many runs share few processors."""
@@ -226,8 +227,21 @@ def below_yield(answer: StudyResult) -> str:
         f"the best has {percent(reached.together)}. Most is lost to"
     ]
     lines += [f"  {lost_in_words(loss)}" for loss in reached.lost_to]
+    lines += [f"At these sizes {words}." for words in lever(reached, table_for(answer.design.mode))]
     lines.append("Ease these limits, widen a range under `vary`, tighten these tolerances, or ask `robust` for less.")
     return "\n".join(lines)
+
+
+def lever(reached: YieldReached, table: Table) -> list[str]:
+    """Return what the one tolerance to tighten must be for the yield asked for, in words; nothing if it is reached."""
+    tolerance, target = reached.tightened, percent(reached.asked)
+    if tolerance is None:
+        return []
+    unit, of = difference_unit(table.unit(tolerance.name)), label(tolerance.name)
+    now, to = (with_unit(size, unit, 2) for size in (tolerance.plus_minus, tolerance.to))
+    if tolerance.to > 0.0:
+        return [f"{of} within about ±{to}, not ±{now}, gives {target}"]
+    return [f"no tolerance alone gives {target}: {of} without its ±{now} gives {percent(tolerance.share)}"]
 
 
 def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float | None) -> str:

@@ -188,6 +188,19 @@ class LostTo:
 
 
 @dataclass(frozen=True)
+class TightenedTolerance:
+    """The tolerance that needs least tightening for a requested yield, to first order at the same sizes."""
+
+    name: str
+    plus_minus: float
+    """As the study has it [SI]."""
+    to: float
+    """What it must be [SI]; zero if no tolerance alone is enough."""
+    share: float
+    """Yield with it."""
+
+
+@dataclass(frozen=True)
 class YieldReached:
     """Yield of random modules of a design, against the requested yield, and its cost."""
 
@@ -204,6 +217,8 @@ class YieldReached:
     """Share of modules that keeps all at the optimum without margins."""
     nominal: dict[str, float]
     """Headline values and minimised outputs (SI) of the optimum without margins."""
+    tightened: TightenedTolerance | None = None
+    """What would reach it; None where it is reached."""
 
     @property
     def reached(self) -> bool:

@@ -5,7 +5,7 @@ Account of a requested yield: modules that satisfy the limits, limits that lose 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -21,7 +21,7 @@ from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, in_words, on_cycle
-from tvimdesign.solve.nlp.solution import LostTo, YieldReached
+from tvimdesign.solve.nlp.solution import LostTo, TightenedTolerance, YieldReached
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.sensitivity.output_sensitivity import OutputDerivatives
@@ -153,8 +153,7 @@ class Yields:
         """Return the limits' residuals in the modules of a design, to first order."""
         key = inputs.tobytes()
         if key not in self._first_orders:
-            model = self._model
-            contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
+            model, contributors = self._model, self.contributors(inputs)
             names = [contributor.name for contributor in contributors]
             values, slopes, _ = self._derivatives.at(inputs, names)
             points = spread.sobol_points(len(names), MODULES, self._study.solver.seed)
@@ -168,9 +167,12 @@ class Yields:
     def _derivatives(self) -> OutputDerivatives:
         return OutputDerivatives(self._model, self._outputs)
 
+    def contributors(self, inputs: Array) -> list[spread.Contributor]:
+        """Return the tolerances at the design with these inputs."""
+        return contributors_of(self._rig(dict(zip(self._model.names, inputs, strict=True))))
+
     def _draw(self, inputs: Array, seed: int | None, deadline: Deadline, which: range) -> Drawn:
-        model = self._model
-        contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
+        model, contributors = self._model, self.contributors(inputs)
         if self._many is None or not contributors:  # nothing moves any limit
             return Drawn((), np.zeros((0, len(which))))
         places = [self._moving.index(contributor.name) for contributor in contributors]
@@ -223,7 +225,42 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
         asked=share, modules=drawn.residuals.shape[1], shares=drawn.shares, together=drawn.together.share,
         lost_to=tuple(_lost(drawn, optimizer)), nominal_together=without,
         nominal={name: float(values[name]) for name in dict.fromkeys([*optimizer.study.minimize, *names])},
+        tightened=tightened(drawn, yields.contributors(run.inputs), share),
     )  # fmt: skip
+
+
+_HALVINGS = 10
+
+
+def tightened(drawn: Drawn, contributors: Sequence[spread.Contributor], share: float) -> TightenedTolerance | None:
+    """Return the tolerance that needs least tightening for a yield; None where that is reached.
+
+    The modules that were drawn are moved by the limits' slopes, which are fitted to them.
+    """
+    if drawn.together.share >= share or not contributors:
+        return None
+    off = drawn.columns - np.array([contributor.nominal for contributor in contributors])[:, None]
+    centred = off - np.mean(off, axis=1, keepdims=True)
+    residuals = np.where(np.isfinite(drawn.residuals), drawn.residuals, np.nan)
+    around = np.nan_to_num(residuals - np.nanmean(residuals, axis=1, keepdims=True))
+    slopes = around @ centred.T / np.sum(centred**2, axis=1)
+
+    def kept(i: int, factor: float) -> float:
+        moved = drawn.residuals + (factor - 1.0) * slopes[:, i, None] * off[i]
+        return spread.share_kept(np.all(moved <= ALGEBRAIC_TOLERANCE, axis=0)).share
+
+    def least(i: int) -> float:
+        low, high = 0.0, 1.0
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if kept(i, middle) >= share else (low, middle)
+        return low
+
+    without = {i: kept(i, 0.0) for i in range(len(contributors))}
+    factors = {i: least(i) for i in without if without[i] >= share}
+    best = max(factors or without, key=lambda i: (factors or without)[i])
+    size, factor = contributors[best].plus_minus, factors.get(best, 0.0)
+    return TightenedTolerance(contributors[best].name, size, factor * size, kept(best, factor))
 
 
 def _lost(drawn: Drawn, optimizer: Optimizer) -> list[LostTo]:

@@ -26,7 +26,7 @@ from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.run.blocks.verdict import most_in_doubt
 from tvimdesign.report.run.reasons import active
-from tvimdesign.report.run.uncertainty_data import changes, yield_of
+from tvimdesign.report.run.uncertainty_data import changes, lever, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
 
@@ -104,7 +104,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         *_duty(answer),
         Fact("Heating", [value("switch_energy"), peaks]),
     ]
-    doubts = (*_manufacturing(uncertainty), *_model(uncertainty, answer.design.study))
+    doubts = (*_manufacturing(answer, uncertainty), *_model(uncertainty, answer.design.study))
     return [*facts, *_lost_motion(value), *_active_constraints(answer), *doubts]
 
 
@@ -227,8 +227,8 @@ def _active_constraints(answer: StudyResult) -> list[Fact]:
     return [Fact(title, [in_labels(constraint.text) for constraint in held], note, listing=True)]
 
 
-def _manufacturing(uncertainty: Mapping[str, Any]) -> list[Fact]:
-    """Return the yield; none if it was not computed."""
+def _manufacturing(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
+    """Return the yield; below the one asked for, what it is lost to and what raises it; none if it was not computed."""
     if not uncertainty:
         return []
     share = uncertainty["parts_yield"]
@@ -236,6 +236,11 @@ def _manufacturing(uncertainty: Mapping[str, Any]) -> list[Fact]:
         return [Fact("Manufacturing", [f"no limit depends on {_tolerances(uncertainty)}"])]
     whole = math.floor(100.0 * share["share"] + 1e-9)
     count = "fewer than 1" if whole == 0 and share["share"] > 0.0 else f"{whole}"
+    reached = yield_of(answer)
+    if reached and reached.tightened and reached.lost_to:
+        worst = reached.lost_to[0]
+        lost = f"{count} of 100 modules meet every limit, {percent(worst.share)} meet {in_labels(worst.text)}"
+        return [Fact("Manufacturing", [lost, *lever(reached, table_for(answer.design.mode))])]
     text = f"{count} of 100 modules meet every limit if assumed values hold"
     return [Fact("Manufacturing", [text], f"by {_tolerances(uncertainty)}")]
 
