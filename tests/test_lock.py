@@ -83,6 +83,15 @@ def test_a_lock_has_nothing_of_springs() -> None:
         read_study_text("mode: lock\nmodule: {wire_diameter: 1 mm}\n")
 
 
+def test_the_lock_of_all_defaults_keeps_every_rule() -> None:
+    table, module = table_for("lock"), inputs_of("lock")
+    for row in table.outputs:
+        if row.rules and row.exists(module) and row.name not in table.behind_supplied:
+            value = table.evaluate(module, [row.name])[row.name]
+            for rule in row.rules:
+                assert value <= rule.value if rule.sense == "<=" else value >= rule.value - 1e-15, row.name
+
+
 def test_the_page_s_lock_is_optimal_as_the_page_says() -> None:
     assert LISTING is not None
     optimum = answer(read_study_text(LISTING[1]))

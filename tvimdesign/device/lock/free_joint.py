@@ -26,6 +26,10 @@ from tvimdesign.physics.polymers.viscoelasticity import zero_shear_viscosity
 
 places = QuantityGroup("Layout")
 places.inputs("stroke", value=0.8, to=1.4, status="chosen", source="a finger's joint turns by 90 deg")
+places.inputs(
+    "axial_clearance", value=5, about="Axial gap between rotor plate, wall and link",
+    source="what link screws of 12 mm want of the core, which no legs keep long",
+)  # fmt: skip
 
 
 @places.output("1")
@@ -61,6 +65,15 @@ def stop_post_span(m: Module) -> Scalar:
     room = np.pi / STOPS - m.stop_angle - 0.5 * (m.stop_tooth_span + m.minimum_wall / m.stop_contact_radius)
     length = evened_least(m.stop_length, room * m.stop_contact_radius)
     return np.fmax(length, SLIVER) / m.stop_contact_radius
+
+
+rules = QuantityGroup("Gaps")
+
+
+@rules.output("mm", at_least(0.0, "a cutter does not come down between feet and skirt: more radial_clearance"))
+def foot_pocket_margin(m: Module) -> Scalar:
+    """Depth the place between feet and skirt may have for its width beyond the one it has."""
+    return m.pocket_depth_ratio * m.radial_clearance - m.foot_height
 
 
 holds = QuantityGroup("Hold")
