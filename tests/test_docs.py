@@ -185,6 +185,14 @@ def test_the_glossary_is_in_order_and_has_the_words_of_the_screen() -> None:
     assert [word for word in of_parts if word not in quantities or word not in known] == []
 
 
+def test_the_prints_that_measure_a_printer_are_described() -> None:
+    page = (ROOT / "docs/how-to/my-printer.md").read_text()
+    records = "".join(path.read_text() for path in (ROOT / "tvimdesign/catalog/data/processes").glob("print_*.yaml"))
+    prints = set(re.findall(r"test: ([\w ]+) as in docs/how-to/my-printer.md", records))
+    assert {"comb of walls", "comb of pins", "plate of holes", "row of bridges"} <= prints
+    assert [words for words in prints if words.split()[-1] not in page] == []
+
+
 def test_links_lead_somewhere() -> None:
     for page in (ROOT / "README.md", ROOT / "cad/README.md", *sorted((ROOT / "docs").rglob("*.md"))):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
