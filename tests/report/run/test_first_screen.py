@@ -221,11 +221,11 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
 
 def test_a_share_asked_of_each_limit_is_compared_with_the_least() -> None:
     held = {"cover_wall_margin >=": 0.52, "module_mass <=": 0.7, "peak_power <=": 0.8}
-    uncertainty = {"held": held, "ranges_hold": {"share": 0.1}, "needs": "minimum wall <= 1.2 mm"}
+    uncertainty = {"held": held, "ranges_hold": {"share": 0.1}, "needs": "bond >= 1 MPa"}
     (fact,) = _model(uncertainty, {"robust": {"plausible": 0.79}})
     assert fact.text == (
         "79 % asked of each limit with assumed values anywhere in their ranges · 2 are met in fewer, "
-        "least wall around the cover's screws in 52 % · needs minimum wall <= 1.2 mm"
+        "least wall around the cover's screws in 52 % · needs bond >= 1 MPa"
     )
     (fact,) = _model(uncertainty, {"robust": {"plausible": 0.5}})
     assert "all are met in as many, least wall around" in fact.text

@@ -17,7 +17,7 @@ from tvimdesign.report.run.blocks.facts import (
     time_over_rise,
 )
 from tvimdesign.report.run.blocks.verdict import TARGET, starts_in_words, verdict
-from tvimdesign.report.run.blocks.warnings import RunWarning
+from tvimdesign.report.run.blocks.warnings import RunWarning, advice_text
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Side, SolverEffort, Standard
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import Design
@@ -33,6 +33,10 @@ BOTH = {
         "friction_share": {"shares": {"pin_friction": 0.6}}, "pin_wear": {"shares": {"bond_strength": 0.6}},
     },
 }  # fmt: skip
+MANY = BOTH | {"held": BOTH["held"] | {"pin_wear <=": 0.7}}
+RUBS = RunWarning(
+    advice_text("friction_share", 13.7, "", table_for("shear")), "", "grave", "it does not return by its springs"
+)
 GRAVE = RunWarning("pin fillet safety is 0.93: pins may crack at their fillet", "", "grave")
 HOT = {"output": "joint_stiffness@hot", "sense": "<=", "limit": 1.5}
 COOL = {"softened_temperature": 340.15, "temperature@hot": 373.15, "softened_stiffness": 2.5, "softened_range": 50.0}
@@ -83,6 +87,7 @@ def sides(*texts: str) -> ConflictSet:
          "Not at the temperature you asked for: 67 of 77 °C, for PCL stiffness"),
         (answer(), SURE | {"parts_yield": {"share": 0.005}}, [GRAVE], "Nominal optimum: add margins (yield 0.5 %)"),
         (answer(), SURE, [GRAVE], "Not yet: pin fillet safety is 0.93"),
+        (answer(), SURE, [RUBS], "Not yet: it does not return by its springs (friction over spring torque is 13.7)"),
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.2}}, [],
          "Measure the structure layer strength first: it decides on the retainer thread"),
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
@@ -96,6 +101,9 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | {"intervals": {}}, [], "Build it: one first, and check the retainer thread"),
         (answer(), SURE | BOTH, [],
          "Build it: one first, and measure the structure layer strength and the pin friction"),
+        (answer(), SURE | MANY, [],
+         "Build it: one first, and measure the structure layer strength, the pin friction and 1 more "
+         "(summary.txt: Measure first)"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip

@@ -13,7 +13,7 @@ from tvimdesign.report.output.choices_tables import choice_text, shares
 from tvimdesign.report.output.numbers import ends_text, in_unit, number, range_text
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
-from tvimdesign.report.run.blocks.verdict import measure_first
+from tvimdesign.report.run.blocks.verdict import TO_MEASURE, measure_first
 from tvimdesign.report.run.blocks.warnings import unreached_points
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
@@ -225,4 +225,4 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
         test = values[first]["source"].partition("test: ")[2] if first else ""
         rows.append((limit, f"{100.0 * share:.3g} %", first, test))
     heads = ("limit", "met in", "measure first", "test")
-    return grid("Limits met in a part of the ranges only", heads, rows, right=(1,))
+    return grid(f"{TO_MEASURE}: limits met in a part of the ranges only", heads, rows, right=(1,))

@@ -41,6 +41,9 @@ DOUBT = 0.25
 _MOST_NAMED = 2
 """Unmeasured inputs that a verdict names."""
 
+TO_MEASURE = "Measure first"
+"""First words of the table that lists all of them."""
+
 Kind = Literal[
     "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build_one",
     "build", "unassessed",
@@ -175,7 +178,10 @@ def _add_margins(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict
 
 def _not_yet(warnings: Sequence[RunWarning]) -> Verdict | None:
     grave = next((warning for warning in warnings if warning.grave), None)
-    return Verdict("not_yet", f"Not yet: {grave.text.partition(': ')[0]}") if grave else None
+    if grave is None:
+        return None
+    what = grave.text.partition(": ")[0]
+    return Verdict("not_yet", f"Not yet: {f'{grave.but} ({what})' if grave.but else what}")
 
 
 def _measure(uncertainty: Mapping[str, Any]) -> Verdict | None:
@@ -218,7 +224,8 @@ def _to_measure(uncertainty: Mapping[str, Any]) -> str:
     first = dict.fromkeys(measure_first(name, uncertainty) for name in doubtful)
     inputs = [f"the {label(name)}" for name in first if name]
     named, more = inputs[:_MOST_NAMED], len(inputs) - _MOST_NAMED
-    return f"{', '.join(named)} and {more} more" if more > 0 else " and ".join(named)
+    listed = f" (summary.txt: {TO_MEASURE})"
+    return f"{', '.join(named)} and {more} more{listed}" if more > 0 else " and ".join(named)
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:

@@ -42,7 +42,7 @@ class RunWarning(NamedTuple):
     """A line of the study behind *write* if it was tried, behind *untried:* if it was not, else in words."""
     level: str = ""
     but: str = ""
-    """What the verdict *Build it* says besides, of a part that is not to be had."""
+    """What the verdict says besides: of a part that is not to be had, or of what a grave warning means."""
 
     @property
     def grave(self) -> bool:
@@ -69,9 +69,10 @@ def hints() -> dict[str, dict[str, Any]]:
     return dict(plain_data(file.read_text(encoding="utf-8")))
 
 
-def _hint(name: str) -> dict[str, Any]:
-    """Return the entry of a rating or an advice; empty if it has none."""
-    return dict((hints()["ratings"] | hints()["advice"]).get(name, {}))
+def _hint(name: str, value: float = -math.inf) -> dict[str, Any]:
+    """Return the entry of a rating or an advice with a value [SI]; empty if it has none."""
+    entry = dict((hints()["ratings"] | hints()["advice"]).get(name, {}))
+    return entry | entry["above"] if "above" in entry and value > entry["above"]["value"] else entry
 
 
 def filled(text: str, places: Mapping[str, str]) -> str:
@@ -95,7 +96,7 @@ def _of_the_switch(answer: StudyResult) -> Iterator[RunWarning]:
 def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
     """Yield ratings and advice that the design does not follow, the gravest first."""
     table, above, remedies = table_for(answer.design.mode), answer.design.above_rating, Remedies(answer, deadline)
-    levels = {check.output: "grave" if check.output in above else _hint(check.output).get("level", "")
+    levels = {check.output: "grave" if check.output in above else _hint(check.output, check.value).get("level", "")
               for check in answer.warnings}  # fmt: skip
     harmless = "" if missed_points(answer) else "hot_point_margin"
     levels[harmless] = ""
@@ -108,13 +109,13 @@ def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
             cure = f"{_VARY} {remedy.line}"
         if check.output in above:
             cure = f"{cure} or accept: [{check.output}]".removeprefix(" or ")
-        text, but = advice_text(check.output, check.value, check.origin, table), _hint(check.output).get("but", "")
-        yield RunWarning(text, cure, levels[check.output], but)
+        text = advice_text(check.output, check.value, check.origin, table)
+        yield RunWarning(text, cure, levels[check.output], _hint(check.output, check.value).get("but", ""))
 
 
 def advice_text(output: str, value: float, origin: str, table: Table) -> str:
     """Return advice or a rating that is not followed, with its value (SI) and its reason, `origin` or a shorter one."""
-    hint, shown = _hint(output), format_quantity(value, table.unit(output), 3)
+    hint, shown = _hint(output, value), format_quantity(value, table.unit(output), 3)
     if "text" in hint:
         return filled(hint["text"], {"size": shown.lstrip("-")})
     return f"{label(output)} is {shown}: {hint.get('say', origin)}"
