@@ -16,6 +16,7 @@ from support import Command
 from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Folded, Grid
 from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.blocks.facts import _active_constraints
 from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.blocks.sections import assumptions_section
 from tvimdesign.report.run.blocks.tables import checks_grid, moves
@@ -135,6 +136,15 @@ def test_more_stiffness_costs_mass_and_less_power_time(optimum: StudyResult) -> 
     said = next(one for one in sentences(optimum) if "peak_power" in one)
     assert said.startswith("1 % less peak_power (now <= 9 W) costs")
     assert "response_time" in said
+
+
+def test_a_step_that_costs_more_than_everything_has_no_room(optimum: StudyResult) -> None:
+    held = replace(active(optimum)[0], shadow_price=2.4e3, sensitivity={})
+    steep = replace(optimum, solution=replace(optimum.solution, held=(held,)))
+    (said,) = sentences(steep)
+    assert said.endswith(f"(now{held.text.removeprefix(held.output)}): no room.")
+    (fact,) = _active_constraints(steep)
+    assert fact.note == f"no room for {held.step} of the first"
 
 
 def test_each_limit_is_active_touches_or_has_room_in_its_order(optimum: StudyResult) -> None:

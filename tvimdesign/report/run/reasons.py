@@ -20,6 +20,8 @@ from tvimdesign.solve.result import ConstraintCheck, StudyResult
 PRICE_SHOWN = 1e-3
 """Percent of the objective below which a step of a limit is not worth a line."""
 _SAVING_SHOWN = 5e-3
+NO_ROOM = 100.0
+"""Percent of the objective above which the slope at the optimum says nothing of a whole step."""
 
 
 def active(answer: StudyResult) -> list[ActiveConstraint]:
@@ -49,6 +51,8 @@ def _sentence(held: ActiveConstraint) -> str:
     """Return `1 % more spring_stiffness (now >= 5.2 N·m/rad) costs 0.11 % module_mass and saves ...`."""
     more = "more" if ">=" in held.name else "less"
     subject = f"{held.step} {more} {held.output} (now{held.text.removeprefix(held.output)})"
+    if held.shadow_price > NO_ROOM:
+        return f"{subject}: no room."
     if not held.sensitivity:
         share = f"{held.shadow_price:.2g} % of the objective"
         return f"{subject} costs {share}. Its share of each output cannot be computed: {_WHY_NOT}."

@@ -25,7 +25,7 @@ from tvimdesign.report.output.numbers import (
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.run.blocks.verdict import most_in_doubt
-from tvimdesign.report.run.reasons import active
+from tvimdesign.report.run.reasons import NO_ROOM, active
 from tvimdesign.report.run.uncertainty_data import changes, lever, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
@@ -222,7 +222,8 @@ def _active_constraints(answer: StudyResult) -> list[Fact]:
         return []
     outputs = list(answer.design.study["minimize"])
     of = label(outputs[0]) if len(outputs) == 1 else "objective"
-    note = f"{held[0].step} of the first is worth {held[0].shadow_price:.2g} % of the {of}"
+    worth = f"{held[0].step} of the first is worth {held[0].shadow_price:.2g} % of the {of}"
+    note = worth if held[0].shadow_price <= NO_ROOM else f"no room for {held[0].step} of the first"
     title = "Active constraints with margins" if answer.design.study.get("robust") else "Active constraints"
     return [Fact(title, [in_labels(constraint.text) for constraint in held], note, listing=True)]
 
