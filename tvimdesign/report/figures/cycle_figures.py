@@ -54,9 +54,10 @@ def stiffness_and_damping(data: dict[str, Any]) -> Figure:
     stiffness = theme.place(figure, _LEFT, 2.42, 6.1, 1.72)
     damping = theme.place(figure, _LEFT, 0.42, 6.1, 1.72, sharex=stiffness)
     _phases(stiffness, data, "joint_stiffness")
-    stiffness.axhline(data["springs"], label="springs alone", **theme.LIMIT)
-    low, high = stiffness.get_ylim()
-    stiffness.set_ylim(min(low, 0.8 * data["springs"]), high)
+    if data["springs"]:
+        stiffness.axhline(data["springs"], label="springs alone", **theme.LIMIT)
+        low, high = stiffness.get_ylim()
+        stiffness.set_ylim(min(low, 0.8 * data["springs"]), high)
     theme.log_ticks(stiffness.yaxis)
     _phases(damping, data, "joint_damping")
     damping.set_xlabel("Time (s)")

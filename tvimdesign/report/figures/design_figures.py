@@ -79,7 +79,7 @@ def impedance(data: dict[str, Any]) -> Figure:
             axes.fill_between(sweep["temperature"], *ends, alpha=0.25, color=style["color"], linewidth=0.0)
         axes.set_yscale("log")
         axes.axvspan(*data["melting"], label="melting range", **{**theme.BAND, "color": "0.5"})
-        if kind == "stiffness":
+        if kind == "stiffness" and data["springs"]:
             axes.axhline(data["springs"], label="springs alone", **theme.LIMIT)
         theme.log_ticks(axes.yaxis)
         axes.locator_params(axis="x", nbins=theme.TICKS)
@@ -96,7 +96,8 @@ def torque(data: dict[str, Any]) -> Figure:
     for loop, left, _, wide in theme.in_rows(loops, len(loops), 0.55, 0.62):
         axes = theme.place(figure, left, 0.42, wide, 1.55)
         axes.plot(loop["angle"], loop["torque"], label="joint", **theme.style_of(0))
-        axes.plot(loop["angle"], loop["springs"], label="springs alone", **theme.style_of(1))
+        if any(loop["springs"]):
+            axes.plot(loop["angle"], loop["springs"], label="springs alone", **theme.style_of(1))
         axes.set(xlabel=data["labels"]["angle"], ylabel=data["labels"]["torque"])
         theme.heading(axes, loop["title"])
         axes.locator_params(nbins=theme.TICKS)

@@ -97,7 +97,10 @@ def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
     for point in design.study["operating_points"]:
         frequency, springs = design.value(f"frequency@{point}"), design.value("spring_stiffness")
         stiffness, damping = (design.value(f"joint_{kind}@{point}") for kind in ("stiffness", "damping"))
-        angle, torque = torque_loop(stiffness, damping, frequency, design.value("stroke"))
+        swing = design.value("stroke")
+        if not springs:  # a lock turns far, but frozen not beyond what it holds
+            swing = min(swing, design.value("holding_torque") / stiffness)
+        angle, torque = torque_loop(stiffness, damping, frequency, swing)
         title = f"{name_in_words(point)}: {shown(f'temperature@{point}'):.0f} °C, {frequency:g} Hz"
         loops.append({"title": title, "angle": angle.tolist(), "torque": torque.tolist(),
                       "springs": (springs * angle).tolist()})  # fmt: skip
