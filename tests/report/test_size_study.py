@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +53,14 @@ def test_a_stroke_moves_the_preload_and_is_named_as_assumed_if_not_given() -> No
     assert preload.lower == pytest.approx(1.15 * task.stroke, rel=5e-3)
     assert task.stroke < preload.start < preload.upper
     assert "assumed, as --stroke was not given" in study_text(JointTask.read(**WRIST), "middle")
+
+
+def test_a_study_names_what_gives_room_for_the_assumed_values() -> None:
+    task = JointTask.read(**WRIST)
+    line = study_text(replace(task, cautious=True), "middle").splitlines()[1]
+    assert line.startswith("# Room for assumed values: minimum_feature, slip_clearance, ")
+    assert line.endswith(", softening_band, plausible.")
+    assert study_text(task, "middle").splitlines()[1].startswith("# No room for assumed values")
 
 
 def test_a_range_of_stiffness_and_the_supply_are_taken_as_written() -> None:

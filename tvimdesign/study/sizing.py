@@ -193,6 +193,7 @@ def study_text(task: JointTask, hardware: str, name: str = "Joint", record: tupl
         )
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
+# {_caution(task, caution)}
 #   tvimdesign run FILE        optimises it again after a change
 #   tvimdesign explore FILE    shows it in a browser, with sliders
 # yaml-language-server: $schema={SCHEMA_FILE}
@@ -232,6 +233,14 @@ robust: {{yield: 95 %{", plausible: 79 %" if task.cautious else ""}}}
 
 solver: {{starts: 1, seed: 1}}
 """
+
+
+def _caution(task: JointTask, values: str) -> str:
+    """Return what gives room for the assumed values, in words."""
+    if not task.cautious:
+        return "No room for assumed values: `size` found no hardware with it."
+    named = ", ".join([*re.findall(r"(?m)^(\w+):", values), "softening_band", "plausible"])
+    return f"Room for assumed values: {named}."
 
 
 _ROOMY = 0.93
