@@ -15,7 +15,7 @@ import pytest
 from comparable import COARSE
 from support import Command, sample_text, study_path
 
-from tvimdesign.report.output.numbers import ends_text, label
+from tvimdesign.report.output.numbers import at_its_least, ends_text, label
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.facts import _model
 from tvimdesign.report.run.blocks.requirements import Requirement, requirements
@@ -217,6 +217,16 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     name, share = next(iter(one.uncertainty["held"].items()))
     assert f"limits may fail, most often {label(name.split()[0])}, in {100.0 * (1.0 - share):.0f} % of" in text
     assert intervals[name.split()[0]]["shares"]
+
+
+def test_a_margin_that_must_not_be_negative_is_at_its_least() -> None:
+    shown = {
+        "hub_step_margin >= 0 mm": "step between floor and end of the hub at its least",
+        "peltier_temperature_margin >= 5 K": "heaters' heat margin >= 5 K",
+        "friction_share >= 0": "friction over spring torque at its least",
+        "envelope_diameter <= 70 mm": "diameter <= 70 mm",
+    }
+    assert {text: at_its_least(text) for text in shown} == shown
 
 
 def test_a_share_asked_of_each_limit_is_compared_with_the_least() -> None:

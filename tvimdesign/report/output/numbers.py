@@ -52,6 +52,14 @@ def in_labels(text: str) -> str:
     return _NAME.sub(lambda match: label(match[0]), text)
 
 
+_NO_MARGIN = re.compile(r" >= 0( [^\s]+)?$")
+
+
+def at_its_least(text: str) -> str:
+    """Return a limit in labels: `wall of the posts at its least` for a margin that must not be negative."""
+    return in_labels(_NO_MARGIN.sub(" at its least", text))
+
+
 def axis_label(name: str, unit: str) -> str:
     """Return what stands at an axis: the quantity in words, and its unit; a dash for a number without one."""
     words = name_in_words(name)

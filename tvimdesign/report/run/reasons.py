@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from tvimdesign.base.units import pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.choices_tables import choice_text
-from tvimdesign.report.output.numbers import csv_text, listed
+from tvimdesign.report.output.numbers import at_its_least, csv_text, label, listed
 from tvimdesign.report.output.results_format import Conflict, LimitEntry, Optimum, SideEntry, Stands, Starts, Why
 from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words
@@ -50,7 +50,7 @@ def sentences(answer: StudyResult) -> list[str]:
 def _sentence(held: ActiveConstraint) -> str:
     """Return `1 % more spring_stiffness (now >= 5.2 N·m/rad) costs 0.11 % module_mass and saves ...`."""
     more = "more" if ">=" in held.name else "less"
-    subject = f"{held.step} {more} {held.output} (now{held.text.removeprefix(held.output)})"
+    subject = f"{held.step} {more} {held.output} (now{at_its_least(held.text).removeprefix(label(held.output))})"
     if held.shadow_price > NO_ROOM:
         return f"{subject}: no room."
     if not held.sensitivity:

@@ -13,6 +13,7 @@ from tvimdesign.device import Table, table_for
 from tvimdesign.device.core.task import ARM
 from tvimdesign.report.output.choices_tables import choice_text, own_choices
 from tvimdesign.report.output.numbers import (
+    at_its_least,
     ends_text,
     in_labels,
     in_unit,
@@ -225,7 +226,7 @@ def _active_constraints(answer: StudyResult) -> list[Fact]:
     worth = f"{held[0].step} of the first is worth {held[0].shadow_price:.2g} % of the {of}"
     note = worth if held[0].shadow_price <= NO_ROOM else f"no room for {held[0].step} of the first"
     title = "Active constraints with margins" if answer.design.study.get("robust") else "Active constraints"
-    return [Fact(title, [in_labels(constraint.text) for constraint in held], note, listing=True)]
+    return [Fact(title, [at_its_least(constraint.text) for constraint in held], note, listing=True)]
 
 
 def _manufacturing(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
@@ -405,8 +406,8 @@ def _yield(answer: StudyResult, uncertainty: Mapping[str, Any], table: Table) ->
     robust = answer.design.study.get("robust") or {}
     if share is not None:
         low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
-        text = f"{percent(share['share'])} ({low} to {high}) of {uncertainty['modules']} modules meet the"
-        parts.append(f"{text} {uncertainty['limits']} limits that {_tolerances(uncertainty)} can move")
+        text = f"{percent(share['share'])} ({low} to {high}) of {uncertainty['modules']} modules meet all"
+        parts.append(f"{text} {uncertainty['limits']} limits that depend on {_tolerances(uncertainty)}")
         if uncertainty["left_out"]:
             parts.append(f"{len(uncertainty['left_out'])} that never happen or follow a profile are not counted")
     if reached is not None:
@@ -426,9 +427,8 @@ def _together(uncertainty: Mapping[str, Any]) -> list[Fact]:
     if share is None:
         return []
     cases = f"in {percent(share['share'])} of {uncertainty['draws']} cases"
-    return [
-        Fact("Assumed", [f"every limit is met {cases}, each assumed value anywhere in its range", "no probability"])
-    ]
+    chance = "not the chance of success: within a range no value is known to be likelier"
+    return [Fact("Assumed", [f"every limit is met {cases}, each assumed value anywhere in its range", chance])]
 
 
 def _tolerances(uncertainty: Mapping[str, Any]) -> str:
