@@ -262,9 +262,11 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
     target = (study.get("robust") or {}).get("plausible")
     if target is not None:
         count = sum(met < target for met in uncertainty["held"].values())
-        fewer = f"{count} {'is' if count == 1 else 'are'} met in fewer" if count else "all are met in as many"
-        parts = [f"{percent(target)} asked of each limit with assumed values anywhere in their ranges"]
-        return [Fact("Model", [*parts, f"{fewer}, least {label(name)} in {percent(share)}"], needs)]
+        fewer = (
+            f"{count} {'limit is' if count == 1 else 'limits are'} met in fewer cases than the {percent(target)} asked"
+        )
+        met = fewer if count else f"each limit is met in the {percent(target)} of cases asked"
+        return [Fact("Model", [f"{met}, {label(name)} in {percent(share, 2)}"], needs)]
     count = sum(met < _SELDOM for met in uncertainty["held"].values())
     limits = f"{count} limits may fail, most often {label(name)}" if count > 1 else f"{label(name)} may fail"
     text = f"{limits}, in {100.0 * (1.0 - share):.0f} % of cases"
