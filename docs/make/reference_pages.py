@@ -27,6 +27,7 @@ ABOUT = {
     "Softening": "Heating until the joint is soft.",
     "Stiffening": "Cooling until the joint is stiff again.",
     "Size and weight": "Volumes, masses and inertias of the parts.",
+    "Cost": "Prices of what is bought and of material, and what the module costs.",
     "Gaps": "Distances that must not vanish, and the rules that hold them.",
 }
 """Subject of each group of quantities, in the order of the pages."""

@@ -72,6 +72,8 @@ _EXAMPLES = (
     ("kJ/mol", "a molar energy", "35 kJ/mol"),
     ("kg/mol", "a molar mass", "80 kg/mol"),
     ("mV/K", "a Seebeck coefficient", "25 mV/K"),
+    ("USD", "a price", "25 USD"),
+    ("USD/kg", "a price of a mass", "40 USD/kg"),
 )
 _COMMON = (
     "mm cm m um in ft meter metre millimeter millimetre inch mm^2 cm^2 m^2 in^2 mm^3 cm^3 m^3 L deg degree rad radian "

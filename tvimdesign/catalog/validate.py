@@ -13,6 +13,7 @@ from tvimdesign.base import units
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.record import STATUSES, Entry, Record, RecordTable
 from tvimdesign.catalog.category import AGREEMENT, CATEGORIES, Columns, following
+from tvimdesign.catalog.offers import piece_price
 from tvimdesign.catalog.yaml_file import Tree
 
 _ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")
@@ -38,6 +39,8 @@ def build_record(category: str, name: str, file: str, tree: dict[str, Tree]) -> 
     check.agreeing(entries, sheets)
     if not check.problems:
         entries.update(following(check.category, entries, sheets))
+        if "price" in check.category.may_have and "price" not in entries and (price := piece_price(name, title)):
+            entries["price"] = price
     return Record(category, name, title, entries, sheets, words, file), check.problems
 
 

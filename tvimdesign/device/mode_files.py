@@ -7,6 +7,7 @@ from types import ModuleType
 from tvimdesign.device.components import (
     axial_preload,
     bearing,
+    cost,
     cover,
     dowels,
     hard_stops,
@@ -57,7 +58,7 @@ SHARED_FILES = (
     materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
     warm_structure, large_motion, thermal_stack, softening, stiffening, mass_properties, clearances, axial_preload,
     process, heater_form, screws, tang, dowels, hard_stops, heater_adhesive, liner, bearing, preload_adjuster, cover,
-    motor_choice, motor_layout, motor_mass_properties, motor_clearances, task,
+    motor_choice, motor_layout, motor_mass_properties, motor_clearances, task, cost,
 )  # fmt: skip
 FILES_OF_MODE: dict[str, tuple[ModuleType, ...]] = {
     "shear": (

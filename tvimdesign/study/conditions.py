@@ -24,7 +24,7 @@ from tvimdesign.study.text.source import printable, read_text
 from tvimdesign.study.text.values import ROUNDING
 from tvimdesign.study.text.yaml_text import Mapping, compose
 
-_OWN_GROUPS = ("Layout", "Springs")
+_OWN_GROUPS = ("Layout", "Springs", "Cost")
 _OWN_CHOICES = ("spring_material",)
 _ASKED_OF_THE_LAYOUT = ("stroke",)
 """Inputs that stand with the layout and are no dimension of it: what the joint must do."""

@@ -17,6 +17,8 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.catalog.category import inherited_law_warnings
 from tvimdesign.device import Choice, Input, Output, Table
+from tvimdesign.device.components.cost import COSTS
+from tvimdesign.device.components.cost import GROUP as COST_GROUP
 from tvimdesign.device.core.heat.heater_form import CUT, contradiction
 from tvimdesign.device.core.task import ARM, Trajectory
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
@@ -261,7 +263,33 @@ def record_checks(study: Study) -> list[str]:
         title = values["peltier_module"].title
         messages.append(f"cooling_current of {heats} heats: {title} cannot cool; leave it out, and the air cools")
     messages += [warning for record in records for warning in inherited_law_warnings(record)]
-    return [message for message in messages if message] + _pressed(study, values)
+    return [message for message in messages if message] + _pressed(study, values) + _unpriced(study, values)
+
+
+def asks_cost(study: Study) -> bool:
+    """Return whether a study limits, minimises or trades what the module costs."""
+    traded = study.front.of if study.front else ()
+    return any(name in COSTS for name in (*study.minimize, *traded, *(limit.output for limit in study.require)))
+
+
+def _unpriced(study: Study, values: Mapping[str, Any]) -> list[str]:
+    """Return a warning that names what a cost leaves out where a study asks for one."""
+    if not asks_cost(study):
+        return []
+    prices = [row for row in study.table.inputs if row.group == COST_GROUP and row.record and row.exists(values)]
+    missing = [row for row in prices if not values[row.name] and _is_bought(row, values)]
+    if not missing:
+        return []
+    kinds = ", ".join(row.name.removesuffix("_price").replace("_", " ") for row in missing)
+    return [
+        f"cost leaves out what has no price: {kinds}; ask for a quote and set {missing[0].name} and the like under "
+        "`module`, or `price` in a record"
+    ]
+
+
+def _is_bought(row: Input, values: Mapping[str, Any]) -> bool:
+    """Return whether a module buys by a price: springs wound to order have no record."""
+    return row.name == "spring_price" or not (row.record and isinstance(values[row.record[0]], str))
 
 
 def _pressed(study: Study, values: Mapping[str, Any]) -> list[str]:

@@ -8,7 +8,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, WRIST, design_of
+from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, WRIST, design_of, given
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.base.record import Record
@@ -23,6 +23,7 @@ from tvimdesign.cad.geometry.solids import block, cylinder, drawn_by, join, ring
 from tvimdesign.cad.jobs.build_plan import fits
 from tvimdesign.cad.jobs.main import _ordered_by, _titles
 from tvimdesign.catalog.catalog import Catalog
+from tvimdesign.device import table_for
 
 DESIGNS = [
     pytest.param("shear", BEARINGS, id="bearings"),
@@ -37,7 +38,8 @@ DESIGNS = [
 def test_every_solid_is_on_the_bill_with_its_count_and_the_reverse(
     mode: str, changes: Mapping[str, float | str]
 ) -> None:
-    design = design_of("listed", changes, mode)
+    priced = {**changes, "structure_price": 40.0, "pcl_price": 50.0, "heater_price": 18.0, "spring_price": 4.0}
+    design = design_of("listed", priced, mode)
     placed = place(dimensions(design), drawn_parts(dimensions(design)))
     there = Counter(kind_of(name) for name in placed)
     reported = bill_csv([*bill(design, {}, placed), *beside(design, {})]).decode("utf-8-sig")
@@ -46,6 +48,8 @@ def test_every_solid_is_on_the_bill_with_its_count_and_the_reverse(
     assert listed == there
     named = [kind for row in rows for kind in row["solids"].split()]
     assert len(named) == len(set(named))
+    cost = table_for(mode).evaluate(given(priced, mode), ["cost"])["cost"]
+    assert sum(float(row["cost_all_usd"] or 0.0) for row in rows) == pytest.approx(float(cost), rel=1e-4)
     assert all(row["title"] and int(row["quantity"]) > 0 and row["price"] for row in rows)
     if "bearing" in changes:  # one bearing is two solids, and is bought once
         (bearing,) = (row for row in rows if row["part"] == "bearing")

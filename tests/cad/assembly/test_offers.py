@@ -12,9 +12,9 @@ from cad_designs import TILES, design_of
 
 from tvimdesign.cad.assembly.bill_of_materials import Item, beside
 from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
-from tvimdesign.cad.assembly.offers import QUOTE, offer_for, offers, total
 from tvimdesign.cad.assembly.wiring import strings, wiring_svg
 from tvimdesign.catalog import Catalog
+from tvimdesign.catalog.offers import QUOTE, offer_for, offers, total
 
 KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
 KINDS |= {"preload_spring", "heater", "thermal_cutout", "controller_supply", "divider_resistor", "heater_wire"}

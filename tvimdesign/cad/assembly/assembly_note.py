@@ -16,10 +16,10 @@ from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.bill_of_materials import MADE_TO_ORDER, Item, cost, greased
 from tvimdesign.cad.assembly.heater_leads import set_points_in_words
-from tvimdesign.cad.assembly.offers import between
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
 from tvimdesign.cad.parts.heater_parts import fits_in_window
+from tvimdesign.catalog.offers import between
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
 

@@ -23,10 +23,10 @@ from tvimdesign.cad.assembly.heater_leads import (
     up,
     wire_in_words,
 )
-from tvimdesign.cad.assembly.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, is_of_structure, kind_of
 from tvimdesign.cad.parts import jigs
+from tvimdesign.catalog.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.device.components.tang import BONDED
 from tvimdesign.study.design import Design
 
@@ -53,6 +53,10 @@ DIVIDER = "10 kohm, 1 %"
 """Resistor between 3.3 V and a thermistor: that of the NTC at 25 °C. A smaller one would warm a hot bead."""
 _BY_RATING = ("supply", "driver", "controller", "controller_supply", "divider_resistor")
 """Kinds whose type the builder chooses where no offer is known."""
+_BY_MASS = {"pcl_arc": "pcl", "pcl_block": "pcl", "liner": "liner"}
+"""Material that a kind is paid by, by its mass."""
+_PRICED_AS = {"spring_right": "spring", "spring_left": "spring", "bearing_inner": "bearing"}
+"""Name that a kind has in the name of its price; of a bearing's two rings one stands for both."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
 
 
@@ -81,6 +85,8 @@ class Item:
     """Volts and amperes that a supply or a driver must bear."""
     treatment: str = ""
     """Treatment of the specimens that gave its material's strength."""
+    cost: float = 0.0
+    """Of one [USD], as the quantity `cost` counts it; zero for what that leaves out."""
 
     @property
     def is_ordered(self) -> bool:
@@ -101,7 +107,8 @@ class Item:
     def price(self) -> str:
         """Price of a pack in words, or how else one comes by it."""
         if self.is_ordered:
-            return self.offer.in_words if self.offer else QUOTE
+            known = self.offer.in_words if self.offer else QUOTE
+            return f"{self.cost:.2f} USD a piece, by the study or its record" if known == QUOTE and self.cost else known
         return "made" if self.made else "with its module" if self.kind == "heater_lead" else NOT_TO_BE_ORDERED.lower()
 
     @property
@@ -128,10 +135,23 @@ def bill(
         treatment = titles.get(cad_report.TREATMENT, "") if is_of_structure(kind) else ""
         made = PRODUCTION[kind].down != "bought"
         fit = (fits or {}).get(kind, "")
-        item = Item(kind, len(solids), made, what.material, title, mass, _papers(kind), (kind,), fit)
+        item = Item(
+            kind, len(solids), made, what.material, title, mass, _papers(kind), (kind,), fit,
+            cost=_cost_of_one(design, kind, mass),
+        )  # fmt: skip
         words = title if treatment in title else f"{title}; {treatment}"
         items.append(replace(item, title=words, treatment=treatment))
     return items
+
+
+def _cost_of_one(design: Design, kind: str, mass: float) -> float:
+    """Return what one part costs [USD] by the prices of the table; a motor's parts are not counted."""
+    if kind.startswith("motor_"):
+        return 0.0
+    material = "structure" if is_of_structure(kind) else _BY_MASS.get(kind)
+    if material:
+        return 1e-3 * mass * design.values.get(f"{material}_price", 0.0)
+    return design.values.get(f"{_PRICED_AS.get(kind, kind)}_price", 0.0)
 
 
 def as_ordered(items: Sequence[Item]) -> list[Item]:
@@ -386,8 +406,8 @@ def bill_csv(items: Sequence[Item]) -> bytes:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["item", "part", "quantity", "made_or_bought", "catalogue_record", "title", "fit",
-                     "mass_each_g", "mass_all_g", "supplier", "number", "pack", "price", "lead_time", "link",
-                     "solids", "files"])  # fmt: skip
+                     "mass_each_g", "mass_all_g", "supplier", "number", "pack", "price", "cost_all_usd",
+                     "lead_time", "link", "solids", "files"])  # fmt: skip
     for number, item in enumerate(as_ordered(items), start=1):
         offer = item.offer
         chosen = "to be chosen" if item.kind in _BY_RATING or not item.fits else ""
@@ -395,6 +415,7 @@ def bill_csv(items: Sequence[Item]) -> bytes:
         writer.writerow([
             number, item.kind, item.quantity, _come_by(item), item.material, item.title,
             item.fit, f"{item.mass:.3f}", f"{item.mass * item.quantity:.3f}", *ordered, item.price,
-            item.lead_time, offer.link if offer else "", " ".join(item.solids), " ".join(item.papers),
+            f"{item.cost * item.quantity:.4f}" if item.cost else "", item.lead_time, offer.link if offer else "",
+            " ".join(item.solids), " ".join(item.papers),
         ])  # fmt: skip
     return stream.getvalue().encode(TABLE_ENCODING)

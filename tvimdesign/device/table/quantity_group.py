@@ -31,7 +31,7 @@ F = TypeVar("F", bound=Callable[[Module], Any])
 
 GROUPS = (
     "Materials", "Process", "Layout", "Springs", "Impedance", "Lost motion", "Hold", "Task", "Switch", "Softening",
-    "Stiffening", "Size and weight", "Gaps", "Axial play",
+    "Stiffening", "Size and weight", "Gaps", "Axial play", "Cost",
 )  # fmt: skip
 """The headings under which reports list quantities, in their order."""
 

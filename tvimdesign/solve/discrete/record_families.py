@@ -13,12 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import Choice, Input, Output, Table
+from tvimdesign.device.components.cost import GROUP as COST_GROUP
 from tvimdesign.device.table.quantity import FirstOscillation, Supplied
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture, discrete_records, listed_records, with_records
 from tvimdesign.study import Study, given
+from tvimdesign.study.resolve import asks_cost
 
 Records = dict[str, str]
 
@@ -49,6 +51,7 @@ def families_of(study: Study) -> list[Family]:
     profile, which is compared with constant currents and the same records.
     """
     listed = listed_records(study, study.table)
+    _refuse_unpriced(study, listed)
     if study.robust or study.profile.pieces():
         return [Family(records, ()) for records in discrete_records(study, study.table)]
     first = {name: values[0] for name, values in listed.items()}
@@ -60,6 +63,25 @@ def families_of(study: Study) -> list[Family]:
             fixed |= mixture.records[0]
         families.append(Family(fixed, tuple(mixture for mixture in chosen if len(mixture.records) > 1)))
     return families
+
+
+def _refuse_unpriced(study: Study, listed: Mapping[str, Sequence[str]]) -> None:
+    """Raise InputError where a study asks for a cost and lists records with and without a price: none is no bargain."""
+    if not asks_cost(study):
+        return
+    first = {name: values[0] for name, values in listed.items()}
+    prices = {row.name: row.record[0] for row in study.table.inputs if row.group == COST_GROUP and row.record}
+    options = {row.name: row.options for row in study.table.choices}
+    for name, values in listed.items():
+        facts = {value: _facts(study, {**first, name: value}) for value in values}
+        for price, choice in prices.items():
+            known = {value: fact[price] for value, fact in facts.items() if fact[choice] not in options[choice]}
+            missing = [value for value, paid in known.items() if not paid]
+            if missing and len(missing) < len(known):
+                raise InputError(
+                    f"vary.{name}: cost cannot compare records without a price: {', '.join(missing)}. Give `price` in "
+                    f"records of your own, or leave them out"
+                )
 
 
 def _groups(study: Study, first: Records, listed: Mapping[str, Sequence[str]]) -> list[tuple[str, ...]]:

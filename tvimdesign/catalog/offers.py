@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tvimdesign.base.record import Entry
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.base.yaml_data import plain_data
 
@@ -94,6 +95,26 @@ def offer_for(kind: str, record: str, title: str, volts: float = 0.0, amperes: f
         if is_it and named and offer.size in f"{title} " and offer.voltage >= volts and offer.current >= amperes:
             return replace(offer, number=named[0]) if offer.pattern else offer
     return None
+
+
+def piece_price(record: str, title: str) -> Entry | None:
+    """Return what one piece of a record costs, whatever its size: the geometric mean of least and largest price.
+
+    An offer of the record's own comes before a neighbour's, and that before one for all that its title names. None
+    where no list gives a price.
+    """
+    priced = [offer for offer in offers() if offer.price is not None]
+    own = [offer for offer in priced if offer.record == record]
+    alike = [offer for offer in priced if not (offer.record or offer.kind) and offer.size in f"{title} "]
+    listed = [offer for offer in own if not offer.like] or own or alike
+    if not listed:
+        return None
+    low = min((offer.price or 0.0) / offer.pack for offer in listed)
+    high = max((offer.high or offer.price or 0.0) / offer.pack for offer in listed)
+    ends = f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"
+    dates = sorted({offer.date for offer in listed})
+    when = dates[0] if len(dates) == 1 else f"{dates[0]} to {dates[-1]}"
+    return Entry(math.sqrt(low * high), "USD", f"offers: {ends} USD a piece, {when}", "handbook")
 
 
 class Total(NamedTuple):
