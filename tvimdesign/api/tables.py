@@ -32,6 +32,8 @@ def quantity(value_si: float, unit: str) -> Quantity[float]:
     formatter = pint.application_registry.formatter
     if formatter.default_sort_func is _pint_order():
         formatter.default_sort_func = None
+    if "USD" in unit and not hasattr(pint.application_registry, "USD"):
+        pint.application_registry.define("dollar = [currency] = USD")  # pint itself knows no money
     return pint.Quantity(from_si(value_si, unit), unit)
 
 
