@@ -13,9 +13,10 @@ from tvimdesign.report.output.numbers import curves_csv, head, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.parts_of_design import refuse_failed
-from tvimdesign.robot.fmu_file import WrittenFmu, write_fmu
+from tvimdesign.robot.fmu_file import WrittenFmu, controller_files, write_fmu
 from tvimdesign.robot.joint_model import JointModel, joint_model, make_bodies, refuse_step
 from tvimdesign.robot.model_files import mjcf, ros2_control, sdf, urdf
+from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.curves import impedance_sweep
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design, write_design
@@ -98,7 +99,10 @@ def write_models(
     for name, columns in (("states", states(model)), ("elements", elements(model)), ("temperatures", swept)):
         folder.write(f"{name}.csv", curves_csv(columns, {column: unit_of(column) for column in columns}, "1"))
     progress("building the FMU")
-    fmu = write_fmu(resolved, folder.path / "joint.fmu")
+    controller = controller_of(resolved)
+    fmu = write_fmu(resolved, folder.path / "joint.fmu", controller)
+    for name, text in controller_files(controller).items():
+        folder.write(f"controller/{name}", text)
     folder.write_json("joint.json", plain_model(model, fmu))
     return model, fmu
 

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -29,6 +29,8 @@ from tvimdesign.robot.joint_equations import (
     model_description,
     sizes,
 )
+from tvimdesign.simulation.control.controller import Controller
+from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 COMPILERS = ("cc", "gcc", "clang")
@@ -63,17 +65,19 @@ class WrittenFmu:
         )
 
 
-def write_fmu(resolved: ResolvedModule, path: Path) -> WrittenFmu:
-    """Write the FMU of a module. Raises InputError where a compiler was found and fails, OutputError."""
+def write_fmu(resolved: ResolvedModule, path: Path, controller: Controller | None = None) -> WrittenFmu:
+    """Write the FMU of a module, with its own controller or that of another. Raises InputError, OutputError."""
     with TemporaryDirectory(dir=path.parent, prefix=_BESIDE) as folder:
-        return _written(resolved, path, Path(folder))
+        return _written(resolved, path, Path(folder), controller or controller_of(resolved))
 
 
-def _written(resolved: ResolvedModule, path: Path, beside: Path) -> WrittenFmu:
+def _written(resolved: ResolvedModule, path: Path, beside: Path, controller: Controller | None) -> WrittenFmu:
     """Return the FMU, with what it is made of in a folder beside it."""
     equations = joint_equations(resolved)
     variables = fmu_variables(equations, resolved)
     sources = source_files(equations, variables, beside)
+    sources["controller_constants.h"] = controller_constants(controller)
+    sources["sizes.h"] = sources["sizes.h"].replace("@DRIVER@", repr(resolved.study.control.driver_lag))
     guid = hashlib.sha256("".join(sources.values()).encode()).hexdigest()[:32]
     sources["sizes.h"] = sources["sizes.h"].replace("@GUID@", guid)
     description = model_description(
@@ -101,8 +105,16 @@ def source_files(equations: JointEquations, variables: tuple[Variable, ...], bes
         file.name: file.read_text(encoding="utf-8") for file in own.iterdir() if file.name.endswith((".c", ".h"))
     }
     inputs = [variable.start for variable in variables if variable.causality == "input"]
+    lag = next(variable.start for variable in variables if variable.name == "thermistor_lag")
     constants = [variable.start for variable in variables if variable.constant]
-    defined = {**SETTINGS, "CONSTANTS": len(constants), "FREQUENCY_START": repr(equations.start[2]), "GUID": '"@GUID@"'}
+    defined = {
+        **SETTINGS,
+        "CONSTANTS": len(constants),
+        "FREQUENCY_START": repr(equations.start[2]),
+        "GUID": '"@GUID@"',
+        "DRIVER_LAG": "@DRIVER@",
+        "THERMISTOR_LAG_START": lag,
+    }
     lines = [f"#define {name} {value}" for name, value in defined.items()]
     lines += [listed("input_start", inputs), listed("constants", constants), sizes(equations)]
     head = "/* What tvimdesign knows of the module when the code is built. */\n#ifndef SIZES_H\n#define SIZES_H\n"
@@ -111,6 +123,30 @@ def source_files(equations: JointEquations, variables: tuple[Variable, ...], bes
         **equations.code(beside),
         "sizes.h": head + "\n".join(lines) + "\n#endif\n",
     }
+
+
+def controller_constants(controller: Controller | None) -> str:
+    """Return the header with a controller's constants, without any where there is none."""
+    lines = ["#define CONTROLLED 0", "#define LAYER_CELLS 1"]
+    if controller is not None:
+        plain = asdict(controller)
+        tables = {name: value for name, value in plain.items() if isinstance(value, tuple)}
+        rows = {name: len(tables[f"{name}_{first}"]) for name, first in (("layer", "enthalpy"), ("profile", "time"))}
+        lines = ["#define CONTROLLED 1"]
+        lines += [f"#define {name.upper()} {value!r}" for name, value in plain.items() if name not in tables]
+        lines += [f"#define {name.upper()}_ROWS {count}" for name, count in rows.items()]
+        lines += [listed(name, value) for name, value in tables.items()]
+    head = "/* Constants of the module's controller; SI units. */\n#ifndef CONTROLLER_CONSTANTS_H\n"
+    return head + "#define CONTROLLER_CONSTANTS_H\n" + "\n".join(lines) + "\n#endif\n"
+
+
+def controller_files(controller: Controller | None) -> dict[str, str]:
+    """Return the controller's C code for a microcontroller by file; nothing where the module never gets soft."""
+    if controller is None:
+        return {}
+    own = files("tvimdesign.robot") / "fmu_source"
+    texts = {name: (own / name).read_text(encoding="utf-8") for name in ("controller.c", "controller.h")}
+    return {**texts, "controller_constants.h": controller_constants(controller)}
 
 
 def binary_place() -> tuple[str, str]:

@@ -147,7 +147,7 @@ def sizes(equations: JointEquations) -> str:
     counts = {
         "STATES": jacobian.size1(), "OBSERVED": len(equations.observed), "CELLS": equations.cells,
         "MODES": equations.modes, "SIDES": equations.sides, "ELEMENTS": len(equations.elements),
-        "JACOBIAN_ENTRIES": jacobian.nnz(),
+        "JACOBIAN_ENTRIES": jacobian.nnz(), "NEAR_FACE": equations.observed.index("temperature_near_face"),
         **{f"WORK_{name}": int(size) + 1 for name, size in zip(_WORK, work, strict=True)},
     }  # fmt: skip
     lines = [*(f"#define {name} {count}" for name, count in counts.items())]
@@ -162,7 +162,8 @@ LASTS = 1e12
 
 
 UNITS = {
-    "A": {"A": 1}, "rad": {"rad": 1}, "K": {"K": 1}, "Hz": {"s": -1}, "1": {}, "W": {"kg": 1, "m": 2, "s": -3},
+    "s": {"s": 1}, "A": {"A": 1}, "rad": {"rad": 1}, "K": {"K": 1}, "Hz": {"s": -1}, "1": {},
+    "W": {"kg": 1, "m": 2, "s": -3},
     "V": {"kg": 1, "m": 2, "s": -3, "A": -1}, "N*m": {"kg": 1, "m": 2, "s": -2},
     "N*m/rad": {"kg": 1, "m": 2, "s": -2, "rad": -1}, "N*m*s/rad": {"kg": 1, "m": 2, "s": -1, "rad": -1},
 }  # fmt: skip
@@ -200,11 +201,37 @@ def fmu_variables(equations: JointEquations, resolved: ResolvedModule) -> tuple[
         Variable(
             "ambient_temperature", "input", "K", "Temperature of the air, and of all parts at the start.", ambient
         ),
+        Variable(
+            "impedance_command",
+            "input",
+            "N*m/rad",
+            "Impedance that the controller heats or cools for; at 0 `current` drives the pads.",
+            0.0,
+        ),
         Variable("frequency", "parameter", "Hz", "Frequency of joint_stiffness and joint_damping.", frequency),
+        Variable(
+            "thermistor_lag",
+            "parameter",
+            "s",
+            "Time constant of the thermistor.",
+            resolved.study.control.thermistor_lag,
+        ),
         Variable("torque", "output", "N*m", "Torque of the joint on what moves; springs, PCL and structure."),
         *_observed(equations.observed),
+        *(Variable(name, "output", unit, meaning) for name, unit, meaning in _OF_CONTROL),
         *(_constant(name, float(resolved.quantity(quantity))) for name, quantity in CONSTANTS.items()),
     )
+
+
+_OF_CONTROL = (
+    ("heater_current", "A", "Current through the pads."),
+    ("thermistor_temperature", "K", "Reading of a thermistor at the layer's hot face."),
+    (
+        "impedance_estimate",
+        "N*m/rad",
+        "Impedance of the joint by the controller; 0 while it does not run.",
+    ),
+)
 
 
 def _observed(names: Sequence[str]) -> list[Variable]:

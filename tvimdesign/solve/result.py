@@ -19,6 +19,7 @@ from tvimdesign.simulation.working_cycle.melt_history import intervals
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, given_profiles
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.best_so_far import SearchInterrupted
+from tvimdesign.solve.control import ControlResult, control_of
 from tvimdesign.solve.duty import DutyResult, duty_of
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
@@ -87,6 +88,7 @@ class StudyResult:
     cooling: Cooling
     """What cooling by current buys on the way back."""
     duty: DutyResult | None
+    control: ControlResult | None
 
     @property
     def found(self) -> bool:
@@ -201,6 +203,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         constant_current=_at_constant_current(model, inputs, set(current_profiles)),
         cooling=cooling(model, inputs, values, current_profiles),
         duty=duty_of(study, model, inputs, current_profiles) if _is_found(design, solution) else None,
+        control=control_of(resolved) if _is_found(design, solution) else None,
     )  # fmt: skip
 
 

@@ -152,6 +152,25 @@ class DutyOptions(_Part):
     )  # fmt: skip
 
 
+class ControlOptions(_Part):
+    """The heater's controller, from a thermistor at the layer's hot face."""
+
+    draws: int = Field(
+        0, ge=0, le=4096, description="modules drawn within tolerances and assumed values under it; 0 asks for none"
+    )
+    period: float = Field(
+        0.1, ge=1e-3, le=10.0, description="time between two steps of the controller", json_schema_extra={"unit": "s"}
+    )
+    thermistor_lag: float = Field(
+        2.0, ge=0.01, le=100.0, description="time constant of the thermistor in its seat, assumed",
+        json_schema_extra={"unit": "s"},
+    )  # fmt: skip
+    driver_lag: float = Field(
+        0.05, ge=1e-3, le=10.0, description="time constant of the driver's current, assumed",
+        json_schema_extra={"unit": "s"},
+    )  # fmt: skip
+
+
 class FrontOptions(_Part):
     """Two or three outputs to be traded against one another."""
 
@@ -187,6 +206,7 @@ class Study(_Part):
     trajectory: GivenTrajectory | None = None
     """Motion of the housing in the task."""
     duty: DutyOptions = DutyOptions()
+    control: ControlOptions = ControlOptions()
     tolerances: dict[str, Tolerance] = {}
     robust: Robust | None = None
     solver: SolverOptions = SolverOptions()

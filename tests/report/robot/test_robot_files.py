@@ -201,7 +201,7 @@ def test_current_and_angle_go_in_and_torque_and_temperatures_come_out(without_co
     description = read_model_description(str(without_compiler))
     found = {variable.name: variable for variable in description.modelVariables}
     inputs = {name for name, variable in found.items() if variable.causality == "input"}
-    assert inputs == {"current", "angle", "ambient_temperature"}
+    assert inputs == {"current", "angle", "ambient_temperature", "impedance_command"}
     assert {found[name].causality for name in ("torque", "temperature_far_face", "frozen")} == {"output"}
     cells = module_of("shear").study.solver.cells
     assert f"temperature_cell_{cells}" in found

@@ -120,6 +120,19 @@ class DutyEntry(Entry):
     limited_by: str
 
 
+class ControlEntry(Entry):
+    """The heater's controller on drawn modules: values that a share of them does not exceed."""
+
+    controller: dict[str, Any]
+    share: float
+    overshoot: NumberEntry
+    hottest_pads: NumberEntry
+    settling: float
+    settling_of_nominal: float
+    controlled: ShareEntry
+    stays_soft: ShareEntry
+
+
 class BestConstant(Entry):
     """The best design with constant currents, where the study lets them follow a profile."""
 
@@ -359,6 +372,7 @@ class RunResults(Answered):
     conflict_set: NotRequired[Conflict | None]
     doubts: NotRequired[list[str]]
     duty: NotRequired[DutyEntry]
+    control: NotRequired[ControlEntry]
     front: NotRequired[FrontEntry]
     uncertainty: NotRequired[UncertaintyEntry]
     left_out: NotRequired[list[str]]

@@ -18,12 +18,15 @@ from tvimdesign.report.output.results_format import (
     Answered,
     BestConstant,
     CheckEntry,
+    ControlEntry,
     DutyEntry,
     IntervalEntry,
+    ShareEntry,
     ValueEntry,
     Yield,
 )
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.solve.control import SHARE, ControlResult
 from tvimdesign.solve.duty import DutyResult
 from tvimdesign.solve.nlp.solution import ActiveConstraint, YieldReached
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
@@ -224,6 +227,20 @@ def duty_entry(duty: DutyResult, table: Table) -> DutyEntry:
         "energy_a_day": number_entry(duty.energy_a_day, "kJ"),
         "most_switches_per_hour": duty.most,
         "limited_by": duty.limited_by,
+    }
+
+
+def control_entry(control: ControlResult) -> ControlEntry:
+    """Return the controller and what it does, with units."""
+    return {
+        "controller": asdict(control.controller),
+        "share": SHARE,
+        "overshoot": number_entry(control.overshoot, "K"),
+        "hottest_pads": number_entry(control.hottest_pads, "degC"),
+        "settling": control.settling,
+        "settling_of_nominal": control.settling_of_nominal,
+        "controlled": cast("ShareEntry", asdict(control.controlled)),
+        "stays_soft": cast("ShareEntry", asdict(control.stays_soft)),
     }
 
 

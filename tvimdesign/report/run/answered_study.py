@@ -13,7 +13,7 @@ from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import Table
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
-from tvimdesign.report.output.tables import duty_entry, results
+from tvimdesign.report.output.tables import control_entry, duty_entry, results
 from tvimdesign.report.output.terminal import Progress, duration
 from tvimdesign.report.run.blocks.warnings import RunWarning, warnings_of
 from tvimdesign.report.run.front_report import FrontOfRun
@@ -109,6 +109,8 @@ def _reported(result: StudyResult, table: Table) -> RunResults:
     reported = cast("RunResults", results(result, table))
     if result.duty:
         reported["duty"] = duty_entry(result.duty, table)
+    if result.control:
+        reported["control"] = control_entry(result.control)
     reported["why"] = why(result, table)
     if result.solution:
         reported["starts"] = starts_reported(result)

@@ -31,8 +31,8 @@ typedef struct {
     char name[128];
 } Instance;
 
-/* Value references: inputs, the frequency, the torque, what is observed, constants. */
-enum { R_FREQUENCY = INPUTS, R_TORQUE, R_OBSERVED };
+/* Value references: inputs, the frequency, the thermistor's lag, the torque, what is observed, control, constants. */
+enum { R_FREQUENCY = INPUTS, R_LAG, R_TORQUE, R_OBSERVED, R_CONTROL = R_OBSERVED + OBSERVED, R_CONSTANTS = R_CONTROL + 3 };
 
 static fmi2Status refuse(Instance *me, const char *message)
 {
@@ -46,6 +46,7 @@ static void at_start(Joint *joint)
     memset(joint, 0, sizeof *joint);
     memcpy(joint->input, input_start, sizeof joint->input);
     joint->frequency = FREQUENCY_START;
+    joint->thermistor_lag = THERMISTOR_LAG_START;
     joint_start(joint);
 }
 
@@ -116,9 +117,13 @@ EXPORTED fmi2Status fmi2GetReal(void *c, const Reference *references, size_t cou
         Reference r = references[i];
         if (r < INPUTS) values[i] = joint->input[r];
         else if (r == R_FREQUENCY) values[i] = joint->frequency;
+        else if (r == R_LAG) values[i] = joint->thermistor_lag;
         else if (r == R_TORQUE) values[i] = joint->torque;
         else if (r < R_OBSERVED + OBSERVED) values[i] = joint->observed[r - R_OBSERVED];
-        else if (r < R_OBSERVED + OBSERVED + CONSTANTS) values[i] = constants[r - R_OBSERVED - OBSERVED];
+        else if (r == R_CONTROL) values[i] = joint->driven;
+        else if (r == R_CONTROL + 1) values[i] = joint->thermistor;
+        else if (r == R_CONTROL + 2) values[i] = joint->controlling ? joint->controller.impedance : 0.0;
+        else if (r < R_CONSTANTS + CONSTANTS) values[i] = constants[r - R_CONSTANTS];
         else return refuse(me, "fmi2GetReal: no variable has this value reference");
     }
     return fmi2OK;
@@ -129,11 +134,16 @@ EXPORTED fmi2Status fmi2SetReal(void *c, const Reference *references, size_t cou
     Instance *me = c;
     size_t i;
     for (i = 0; i < count; i++) {
+        if (references[i] == COMMAND && values[i] > 0.0 && !CONTROLLED)
+            return refuse(me, "impedance_command: the module never gets soft, so it has no controller");
         if (references[i] < INPUTS) me->joint.input[references[i]] = values[i];
         else if (references[i] == R_FREQUENCY) {
             if (!(values[i] > 0.0)) return refuse(me, "frequency: must be above 0 Hz");
             me->joint.frequency = values[i];
-        } else return refuse(me, "fmi2SetReal: only inputs and the frequency can be set");
+        } else if (references[i] == R_LAG) {
+            if (!(values[i] > 0.0)) return refuse(me, "thermistor_lag: must be above 0 s");
+            me->joint.thermistor_lag = values[i];
+        } else return refuse(me, "fmi2SetReal: only inputs, the frequency and the thermistor's lag can be set");
     }
     return fmi2OK;
 }

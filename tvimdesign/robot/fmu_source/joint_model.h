@@ -4,9 +4,10 @@
 
 #include "sizes.h"
 #include "equations.h"
+#include "controller.h"
 
 /* What is given from outside, in the order of the value references. */
-enum { CURRENT, ANGLE, AMBIENT, INPUTS };
+enum { CURRENT, ANGLE, AMBIENT, COMMAND, INPUTS };
 /* What the equations take beside the state. */
 enum { DRIVE, AIR, FREQUENCY, GIVEN };
 
@@ -20,7 +21,7 @@ typedef struct {
 typedef struct {
     double time;
     double input[INPUTS], slope[INPUTS];
-    double frequency;
+    double frequency, thermistor_lag;
     double heat[STATES];
     double step;                      /* the next that the heat's integration tries [s] */
     double angle;                     /* of the link now [rad] */
@@ -28,6 +29,10 @@ typedef struct {
     double stiffness[CELLS][MODES];   /* of the elements when the torques were last found [N.m/rad] */
     double support[ELEMENTS + 1];
     double observed[OBSERVED];
+    Controller controller;            /* runs while COMMAND is above zero */
+    int controlling;
+    double due, requested;            /* until its next step [s]; what it asked for in the last [A] */
+    double driven, thermistor;        /* current in the heater [A]; reading [K] */
     double torque;                    /* that the joint puts on what moves [N.m] */
 } Joint;
 

@@ -42,7 +42,7 @@ static void properties_now(const Joint *joint, Properties *now)
 {
     double given[GIVEN], flat[2 * CELLS * MODES + 3];
     const double *support = flat + 2 * CELLS * MODES;
-    given[DRIVE] = joint->input[CURRENT];
+    given[DRIVE] = joint->driven;
     given[AIR] = joint->input[AMBIENT];
     given[FREQUENCY] = joint->frequency;
     evaluate(mechanics, joint->heat, given, flat, 0);

@@ -23,6 +23,7 @@ from tvimdesign.study.sections.section import (
 )
 from tvimdesign.study.study import (
     STANDARD_POINTS,
+    ControlOptions,
     DutyOptions,
     GivenCurrent,
     ProfileOptions,
@@ -170,6 +171,7 @@ PROFILE = settings(
 )
 SOLVER = settings("solver", "effort of the search and fineness of the heat model", SolverOptions)
 DUTY = settings("duty", "repeated switching, whose periodic state and highest rate are reported", DutyOptions)
+CONTROL = settings("control", "the heater's controller, and modules drawn under it", ControlOptions)
 WRITE = settings("write", "files in the results folder besides the numbers", WriteOptions)
 
 

@@ -29,6 +29,7 @@ from tvimdesign.report.run.blocks.verdict import most_in_doubt
 from tvimdesign.report.run.reasons import NO_ROOM, active
 from tvimdesign.report.run.uncertainty_data import changes, lever, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
+from tvimdesign.solve.control import LATE, OVERSHOOT, SHARE
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3
@@ -103,6 +104,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         *_drag(value),
         *_task(value, answer.design.choices),
         *_duty(answer),
+        *_control(answer),
         Fact("Heating", [value("switch_energy"), peaks]),
     ]
     doubts = (*_manufacturing(answer, uncertainty), *_model(uncertainty, answer.design.study))
@@ -204,6 +206,21 @@ def _duty(answer: StudyResult) -> list[Fact]:
     note = f"periodic after {with_unit(duty.settling, 'min', _DIGITS)}"
     parts = [f"{number(rate, _DIGITS)} switches an hour", f"switch {times}", f"heater {pads}", energy, *above, most]
     return [Fact("Duty", parts, note)]
+
+
+def _control(answer: StudyResult) -> list[Fact]:
+    """Return what the heater's controller does on drawn modules."""
+    control = answer.control
+    if control is None:
+        return []
+    times = [f"{number(time, _DIGITS)}" for time in (control.settling, control.settling_of_nominal)]
+    parts = [
+        f"overshoot {number(control.overshoot, _DIGITS)} K",
+        f"soft after {times[0]} of the module's own time, {times[1]} of the nominal one",
+        f"pads {with_unit(control.hottest_pads, 'degC', _DIGITS)}",
+        f"{percent(control.controlled.share)} below {number(OVERSHOOT)} K and {number(LATE)}",
+    ]
+    return [Fact("Control", parts, f"at most, of {percent(SHARE)} of the modules drawn")]
 
 
 def _duty_peaks(answer: StudyResult) -> Iterator[str]:

@@ -1,0 +1,1 @@
+"""Closed-loop control of the joint's state by its heater's current."""
