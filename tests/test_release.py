@@ -1,15 +1,11 @@
-"""A release, and prices of stock."""
+"""A release."""
 
 import re
 import tomllib
 
-import pytest
-import stock_price
 import yaml
 from packaging.requirements import Requirement
-from support import ROOT, study_path
-
-from tvimdesign.study import read_study_text
+from support import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 RECIPE = yaml.safe_load((ROOT / "release/conda/recipe.yaml").read_text("utf-8"))
@@ -84,31 +80,3 @@ def test_container_and_page_name_interpreters_and_extras_that_there_are() -> Non
     assert told
     assert [told[1], told[2]] == [versions[0], versions[-1]]
     assert all(f"on {one}" in page for one in versions)
-
-
-def test_the_page_holds_the_tables_of_the_figures() -> None:
-    page = stock_price.PAGE.read_text(encoding="utf-8")
-    tables = list(stock_price.tables(stock_price.read_figures()))
-    assert tables
-    assert all(table in page for table in tables)
-
-
-def test_each_step_is_a_study_and_the_last_is_the_shipped_one() -> None:
-    for case, about in stock_price.cases().items():
-        for index in range(len(about["steps"])):
-            read_study_text(yaml.safe_dump(stock_price.study_of(case, index), allow_unicode=True), case)
-        shipped = yaml.safe_load(study_path(case).read_text(encoding="utf-8"))
-        assert stock_price.study_of(case, len(about["steps"]) - 1) == shipped
-
-
-@pytest.mark.slow
-def test_the_figures_are_those_of_runs() -> None:
-    figures = stock_price.read_figures()
-    for case, about in stock_price.cases().items():
-        for index in (0, len(about["steps"]) - 1):
-            step = about["steps"][index]["name"]
-            if (case, step) not in figures:
-                continue  # no figures yet; the page has no table of it either
-            found = stock_price.run(stock_price.study_of(case, index))
-            known = {name: figures[case, step][name] for name in stock_price.OUTPUTS}
-            assert {name: found[name] for name in stock_price.OUTPUTS} == pytest.approx(known, rel=0.02), (case, step)
