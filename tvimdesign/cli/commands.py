@@ -9,7 +9,7 @@ import typer
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cli import options
-from tvimdesign.cli.design_commands import compare, explore, robot, simulate, sweep, tolerate, verify
+from tvimdesign.cli.design_commands import atlas, compare, explore, robot, simulate, sweep, tolerate, verify
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -257,6 +257,7 @@ def fit(
 
 app.command()(compare)
 app.command()(sweep)
+app.command()(atlas)
 app.command()(explore)
 
 

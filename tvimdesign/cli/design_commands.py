@@ -128,6 +128,27 @@ def sweep(
     )  # fmt: skip
 
 
+def atlas(
+    plan: Annotated[Path | None, typer.Argument(metavar="[PLAN]", help="Plan; the shipped one unless given.")] = None,
+    kinds: Annotated[
+        list[str] | None, typer.Option("--kind", help="Kind of module; repeat it. All unless given.")
+    ] = None,
+    out: options.Out = None,
+    overwrite: options.Overwrite = False,
+    resume: options.Resume = False,
+    workers: options.Workers = 0,
+    plots: options.Plots = True,
+    json: options.AsJson = False,
+) -> None:
+    """Map the lightest modules over torque and cycle time, for kinds of modules. The folder is results/atlas."""
+    from tvimdesign.report.atlas.make_atlas import make_atlas
+
+    make_atlas(
+        plan, out or Path("results/atlas"), kinds=tuple(kinds or ()), workers=workers, overwrite=overwrite,
+        resume=resume, plots=plots, as_json=json,
+    )  # fmt: skip
+
+
 def explore(
     source: Annotated[
         Path,

@@ -170,8 +170,13 @@ def records_of(hardware: str) -> set[str]:
     return set(re.findall(r"(?m)^(\w+):", f"{shared[entry['springs']]}{entry['module']}"))
 
 
-def study_text(task: JointTask, hardware: str, name: str = "Joint", record: tuple[str, str] | None = None) -> str:
-    """Return a commented study of a joint with one set of hardware; a record may replace the set's own of a choice."""
+def study_text(
+    task: JointTask, hardware: str, name: str = "Joint", record: tuple[str, str] | None = None, widen: float = 1.0
+) -> str:
+    """Return a commented study of a joint with one set of hardware; a record may replace the set's own of a choice.
+
+    A factor to `widen` ranges takes wire of any diameter in place of what one buys.
+    """
     entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
     low, high = task.stiffness
     heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
@@ -204,7 +209,7 @@ mode: {SIZED_MODE}
 module:
 {module}
 vary:                                  # ranges that follow the diameter
-{_vary(task)}
+{_vary(task, widen)}
 require:
   joint_stiffness@hot: [">= {low:.4g} N.m/rad", "<= {high:.4g} N.m/rad"]   # as heating stops, too
   holding_torque: ">= {task.torque:.4g} N.m"
@@ -256,17 +261,21 @@ def _indented(lines: str) -> str:
     return "".join(f"  {line}\n" for line in lines.splitlines())
 
 
-def _vary(task: JointTask) -> str:
+def _vary(task: JointTask, widen: float) -> str:
     """Return the variables with ranges for a diameter and a stiffness."""
     wire = _WIRE * (math.sqrt(task.stiffness[0] * task.stiffness[1]) * task.diameter) ** 0.25
     rows = _inputs()
     thinnest = rows["wire_diameter"].lower
-    thin, thick = (_mm(max(factor * wire, thinnest)) for factor in _WIRE_RANGE)
-    lines = [f"wire_diameter: {{catalog: metric, from: {thin}, to: {thick}}}"]
+    reach = (widen**-0.5, 1.0, widen)
+    thin, thick = (
+        _mm(max(beyond * factor * wire, thinnest)) for factor, beyond in zip(_WIRE_RANGE, reach[::2], strict=True)
+    )
+    bought = "catalog: metric, " if widen == 1.0 else ""
+    lines = [f"wire_diameter: {{{bought}from: {thin}, to: {thick}}}"]
     for name, factors in _SCALED.items():
         least, start, most = (
-            _mm(max(factor * task.diameter, beyond * rows[name].lower))
-            for factor, beyond in zip(factors, (1.0, 1.1, 1.2), strict=True)
+            _mm(min(max(wider * factor * task.diameter, beyond * rows[name].lower), rows[name].upper))
+            for factor, beyond, wider in zip(factors, (1.0, 1.1, 1.2), reach, strict=True)
         )
         lines.append(f"{name}: {{from: {least}, to: {most}, start: {start}}}")
     share, start_beyond, most_beyond = _PRELOAD

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -162,3 +163,57 @@ def _cloud(figure: Figure, axes: Any, panel: dict[str, Any], scale: Any) -> None
             hollow = {"marker": "o", "linewidths": 0.0} if some is satisfied else {"marker": "."}
             axes.scatter(x, y, c=colour, cmap=theme.SEQUENCE, s=size, **hollow, **ends)
     figure.colorbar(ScalarMappable(Normalize(**ends), theme.SEQUENCE), cax=scale, label=panel["label"])
+
+
+def atlas(data: dict[str, Any]) -> Figure:
+    """Draw the fronts of torque over mass against the full cycle, and the map of the densest module of each cell."""
+    figure = theme.new_figure(4.4)
+    fronts = theme.place(figure, 0.6, 1.15, 3.2, 2.75)
+    for number, series in enumerate(data["series"]):
+        colour = ATLAS_COLOURS[number % len(ATLAS_COLOURS)]
+        marker = theme.MARKERS[number % len(theme.MARKERS)]
+        sizes = [2.0 + 4.0 * max(math.log10(max(energy, 1.0)), 0.0) for energy in series["energy"]]
+        fronts.plot(series["cycle"], series["density"], color=colour, linewidth=0.9)
+        fronts.scatter(series["cycle"], series["density"], s=sizes, color=colour, marker=marker, zorder=3,
+                       label=series["label"])  # fmt: skip
+        for cycle, density, band in zip(series["cycle"], series["density"], series["bands"], strict=True):
+            if band:
+                low, high, fast, slow = band
+                line: dict[str, Any] = {"color": colour, "linewidth": 0.4, "alpha": 0.4}
+                fronts.plot([cycle, cycle], [low, high], **line)
+                fronts.plot([fast, min(slow, 1e3)], [density, density], **line)
+    for device in data.get("devices", ()):
+        fronts.plot(*device["place"], device["marker"], color="0.35", markersize=3.5, fillstyle=device["fill"])
+    fronts.set(xscale="log", yscale="log", xlabel="full cycle: soft and stiff again [s]")
+    fronts.set_ylabel("torque asked over mass [N·m/kg]")
+    for axis in (fronts.xaxis, fronts.yaxis):
+        theme.log_ticks(axis)
+    handles, labels = fronts.get_legend_handles_labels()
+    figure.legend(
+        handles, labels, loc="lower left", ncols=3, fontsize=theme.SMALL, columnspacing=0.8, handletextpad=0.2
+    )
+    _map(figure, data["map"])
+    theme.caption(figure, data["caption"])
+    return figure
+
+
+def _map(figure: Figure, data: dict[str, Any]) -> None:
+    """Draw the densest module of each cell of torque and longest cycle; grey cells are empty."""
+    axes = theme.place(figure, 4.45, 1.15, 1.95, 2.75)
+    mesh = axes.pcolormesh(
+        range(len(data["cycles"]) + 1), range(len(data["torques"]) + 1),
+        [[math.nan if value is None else value for value in row] for row in data["density"]],
+        cmap=theme.SEQUENCE, norm=LogNorm(),
+    )  # fmt: skip
+    axes.set_facecolor("0.8")
+    axes.grid(visible=False)
+    for name, values in (("x", data["cycles"]), ("y", data["torques"])):
+        ticks = [place + 0.5 for place in range(len(values))]
+        axes.set(**{f"{name}ticks": ticks, f"{name}ticklabels": [f"{value:g}" for value in values]})
+    axes.tick_params(axis="x", labelrotation=90)
+    axes.set(xlabel="longest cycle [s]", ylabel="torque asked [N·m]")
+    scale = figure.colorbar(mesh, cax=theme.place(figure, 6.5, 1.15, 0.1, 2.75), label="N·m/kg")
+    theme.log_ticks(scale.ax.yaxis)
+
+
+ATLAS_COLOURS = (*theme.COLOURS, "#882255", "#999933", "#661100")

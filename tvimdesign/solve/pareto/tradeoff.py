@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, in_words, on_cycle
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, in_words, make_constraint, on_cycle
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress, Run, Trace, meaning
@@ -128,6 +128,27 @@ class Tradeoff:
             self.found.append(answer)
             self._leave_time()
         return answer
+
+    def beside(self, point: Point, objective: Objective, where: str) -> Point | Failure:
+        """Return the best design for an objective, sought from one point alone: warm, then cold."""
+        answer = self._from(point, objective, where, math.inf)
+        if isinstance(answer, Failure) and point.trace is not None:
+            answer = self._from(replace(point, trace=None), objective, where, math.inf)
+        if isinstance(answer, Point):
+            self.found.append(answer)
+        return answer
+
+    def prices(self, point: Point) -> dict[str, float]:
+        """Return the multiplier of each limit and end of a range at a point, by its words, the largest first."""
+        assert point.trace is not None  # a point that a solver found has one
+        table, problem = self.optimizer.table, self.optimizer.problem
+        rows = point.trace.multipliers[problem.equation_count :]
+        prices = {in_words(limit, table): abs(float(row)) for limit, row in zip(problem.limits, rows, strict=False)}
+        for free, multiplier in zip(self.optimizer.free, point.trace.bound_multipliers, strict=False):
+            upper = make_constraint(table, free.name, "<=", free.upper, "vary")
+            lower = make_constraint(table, free.name, ">=", free.lower, "vary")
+            prices[in_words(upper if multiplier > 0.0 else lower, table)] = abs(float(multiplier))
+        return dict(sorted(prices.items(), key=lambda item: -item[1]))
 
     def _leave_time(self) -> None:
         """Leave time for the whole cycle of every point to be simulated, which takes about as long as setting up."""

@@ -1,0 +1,89 @@
+"""An atlas of one family: its cells against searches of their own and attacks, its keys, its folder."""
+
+import csv
+import itertools
+import json
+from pathlib import Path
+
+import attack
+import pytest
+import yaml
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.solve.nlp.constraints import constraints_of
+from tvimdesign.solve.search import optimize
+from tvimdesign.study import read_study
+from tvimdesign.study.atlas_studies import Atlas
+from tvimdesign.sweep.atlas import _key, cells_of, compute, study_of
+
+PLAN = Path(__file__).parent / "atlas.yaml"
+MASS = "module_mass"
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return Atlas.read(PLAN)
+
+
+@pytest.fixture(scope="module")
+def folder(plan, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("atlas")
+    compute(plan, folder, 1, lambda _: None)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def cells(plan, folder):
+    return {(cell.torque, cell.cycle): cell for cell in cells_of(plan, folder)}
+
+
+def test_more_torque_and_less_time_cost_mass(cells):
+    masses = {place: cell.values[MASS] for place, cell in cells.items() if cell.status == "optimal"}
+    assert set(masses) == set(itertools.product((5.0, 7.0), (120.0, 300.0)))
+    for (torque, cycle), mass in masses.items():
+        for (other, longer), less in masses.items():
+            if other <= torque and longer >= cycle:
+                assert less <= mass * (1.0 + 2e-3)
+
+
+def test_a_cell_is_what_its_own_study_comes_to(plan, cells):
+    cell = cells[7.0, 120.0]
+    solution = optimize(study_of(plan, cell))
+    assert solution.status == "optimal"
+    assert solution.values[MASS] == pytest.approx(cell.values[MASS], rel=5e-3)
+
+
+def test_an_empty_cell_names_what_ends_it_and_withstands_an_attack(plan, cells, monkeypatch):
+    monkeypatch.setattr(attack, "TRIED", 1500)
+    cell = cells[5.0, 20.0]
+    assert cell.status == "empty" and cell.limits
+    assert cell.values["cycle_time"] > 20.0
+    assert not attack.Attack(study_of(plan, cell)).finds_a_design(seed=1)
+
+
+def test_a_family_is_computed_again_only_after_a_change(plan, folder):
+    assert compute(plan, folder, 1, lambda _: None)["computed"] == 0
+    study = plan.study("foil", "middle")
+    assert _key(plan, study) != _key(
+        plan, study.model_copy(update={"module": {**study.module, "pcl_grade": "pcl_80k"}})
+    )
+
+
+def test_a_plan_refuses_a_kind_it_lacks(plan):
+    with pytest.raises(InputError, match="no kind 'wood' in the atlas; it has foil"):
+        plan.only(("wood",))
+
+
+@pytest.mark.gate
+def test_the_command_writes_tables_and_studies(tvimdesign, tmp_path):
+    values = yaml.safe_load(PLAN.read_text(encoding="utf-8"))
+    small = tmp_path / "small.yaml"
+    small.write_text(yaml.safe_dump({**values, "torques": ["5 N.m"], "cycles": ["300 s"]}), encoding="utf-8")
+    out = tmp_path / "atlas"
+    answer = json.loads(tvimdesign("atlas", small, "--out", out, "--workers", "1", "--json").stdout)
+    assert answer["statuses"] == {"optimal": 1}
+    (row,) = csv.DictReader((out / "atlas.csv").open(encoding="utf-8"))
+    assert float(row["density [N*m/kg]"]) == pytest.approx(5e3 / float(row["module_mass [g]"]))
+    study = read_study(out / "studies/foil-5Nm-300s.yaml")
+    assert {limit.output for limit in constraints_of(study, study.table, {})} >= {"holding_torque", "cycle_time"}
+    assert (out / "atlas.svg").exists() and (out / "report.html").exists()

@@ -1,0 +1,1 @@
+"""The atlas: figure, page and tables of the lightest modules over torque and time."""

@@ -1,0 +1,179 @@
+"""The page of an atlas: what was asked, the map to brush, and every cell with its study or the limits that end it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from tvimdesign.base.units import from_si
+from tvimdesign.page.blocks import Cell, Drawn, Facts, Grid, Head, Page, Section
+from tvimdesign.report.output.command import Command
+from tvimdesign.report.output.numbers import axis_label, number
+from tvimdesign.report.output.page_sections import number_cell
+from tvimdesign.solve.nlp.solver_run import OPTIMAL
+from tvimdesign.solve.pareto.torque_time_map import CYCLE, EMPTY, MASS, TORQUE, UNANSWERED
+from tvimdesign.study.atlas_studies import Atlas
+from tvimdesign.sweep.atlas import OUTPUTS, AtlasCell
+
+STUDIES = "studies"
+_UNITS = dict(zip(OUTPUTS, ("g", "N*m", "N*m/rad", "s", "J", "mm"), strict=True))
+_ALIKE = 0.01
+"""Share of a cycle by which a design of the front must be faster than a denser one."""
+_BRUSHED = (CYCLE, MASS, TORQUE, "cycle_energy", "envelope_diameter")
+
+
+def rows_of(cells: Sequence[AtlasCell]) -> list[dict[str, Any]]:
+    """Return a row a cell in the units of its columns; empty cells have the limits that end them."""
+    rows = []
+    for cell in cells:
+        there = cell.status == OPTIMAL
+        row: dict[str, Any] = {
+            "kind": cell.kind, "torque [N*m]": cell.torque, "cycle [s]": cell.cycle, "status": cell.status,
+            "hardware": cell.hardware, "density [N*m/kg]": cell.density if there else None,
+        }  # fmt: skip
+        for name in OUTPUTS:
+            row[f"{name} [{_UNITS[name]}]"] = from_si(cell.values[name], _UNITS[name]) if there else None
+        for name, (low, high) in cell.intervals.items():
+            row |= {f"{name} low": low, f"{name} high": high}
+        rows.append({**row, "limits": "; ".join(cell.limits)})
+    return rows
+
+
+def figure_data(plan: Atlas, cells: Sequence[AtlasCell]) -> dict[str, Any]:
+    """Return a series of each kind: the designs of its front, with energy and interval."""
+    series = []
+    for kind, entry in plan.kinds.items():
+        front = _front([cell for cell in cells if cell.kind == kind and cell.status == OPTIMAL])
+        series.append(
+            {
+                "label": entry["title"],
+                "cycle": [cell.values[CYCLE] for cell in front],
+                "density": [cell.density for cell in front],
+                "energy": [cell.values["cycle_energy"] for cell in front],
+                "bands": [_band(cell) for cell in front],
+            }
+        )
+    densest = {
+        (cell.torque, cell.cycle): cell.density
+        for cell in sorted((cell for cell in cells if cell.status == OPTIMAL), key=lambda cell: cell.density)
+    }
+    density = [[densest.get((torque, cycle)) for cycle in plan.cycles] for torque in plan.torques]
+    return {
+        "series": series, "map": {"torques": plan.torques, "cycles": plan.cycles, "density": density},
+        "caption": "Larger marks: more energy a cycle. Thin lines: intervals of assumed values. Grey: empty.",
+    }  # fmt: skip
+
+
+def _front(cells: Sequence[AtlasCell]) -> list[AtlasCell]:
+    """Return the designs that no other holds more for its mass in less time than, the fastest first."""
+    front: list[AtlasCell] = []
+    for cell in sorted(cells, key=lambda cell: -cell.density):
+        if not front or cell.values[CYCLE] < front[-1].values[CYCLE] * (1.0 - _ALIKE):
+            front.append(cell)
+    return front[::-1]
+
+
+def _band(cell: AtlasCell) -> list[float] | None:
+    """Return the ends of density and cycle time; None where the interval was not drawn."""
+    if {TORQUE, CYCLE} - set(cell.intervals):
+        return None
+    share = cell.density / cell.values[TORQUE]
+    return [share * end for end in cell.intervals[TORQUE]] + list(cell.intervals[CYCLE])
+
+
+def ending_limits(cells: Sequence[AtlasCell], status: str, count: int = 3) -> str:
+    """Return the limits that most often come first in cells of a status, with their shares."""
+    first = Counter(cell.limits[0] for cell in cells if cell.status == status and cell.limits)
+    total = sum(first.values())
+    return ", ".join(f"{text} ({number(100.0 * times / total)} %)" for text, times in first.most_common(count))
+
+
+def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, float], command: Command) -> Page:
+    """Return the page of an atlas."""
+    statuses = Counter(cell.status for cell in cells)
+    answered = sum(count for status, count in statuses.items() if status != UNANSWERED)
+    facts = [
+        (
+            "Torque, cycle",
+            f"{plan.torques[0]:g} to {plan.torques[-1]:g} N·m, {plan.cycles[0]:g} to {plan.cycles[-1]:g} s",
+        ),
+        ("Soft", f"at most {plan.softness:g} N·m/rad a newton metre of torque held"),
+        ("Cells", f"{len(cells)}: {', '.join(f'{count} {status}' for status, count in statuses.items())}"),
+        ("Families", f"{counts['families']:g}, {counts['computed']:g} computed now"),
+    ]
+    for kind, entry in plan.kinds.items():
+        facts.append((kind, _in_short(entry["title"], [cell for cell in cells if cell.kind == kind])))
+    found = [cell for cell in cells if cell.status == OPTIMAL]
+    sections = [
+        Section("map", "Map", [_brushed(plan, found), _grid(found)]),
+        Section("empty", "Empty cells", [_empty([cell for cell in cells if cell.status != OPTIMAL])]),
+    ]
+    files = {"atlas.csv": "every cell", "atlas.png": "the figure", "atlas.svg": "for print", "atlas.pdf": "for print"}
+    verdict = f"{number(100.0 * answered / len(cells))} % of the cells answered"
+    return command.page("Atlas", "the lightest modules", verdict, [Facts(facts)], sections, files=files)
+
+
+def _in_short(title: str, cells: Sequence[AtlasCell]) -> str:
+    found = [cell for cell in cells if cell.status == OPTIMAL]
+    if not found:
+        return f"{title}: no design"
+    fastest, densest = min(found, key=lambda c: c.values[CYCLE]), max(found, key=lambda c: c.density)
+    sentences = [
+        f"{title}: {len(found)} modules", f"fastest cycle {number(fastest.values[CYCLE])} s at {fastest.torque:g} N·m",
+        f"most torque a mass {number(densest.density)} N·m/kg at {densest.torque:g} N·m",
+    ]  # fmt: skip
+    ends = ending_limits(cells, EMPTY)
+    return "; ".join([*sentences, *([f"ended by {ends}"] if ends else [])])
+
+
+def _brushed(plan: Atlas, found: Sequence[AtlasCell]) -> Drawn:
+    names = ["torque", "density", *_BRUSHED]
+    labels = ["torque asked [N·m]", "torque over mass [N·m/kg]", *(axis_label(name, _UNITS[name]) for name in _BRUSHED)]
+    points = [
+        {
+            "number": place, "status": plan.kinds[cell.kind]["title"], "hollow": False,
+            "values": [cell.torque, cell.density, *(from_si(cell.values[name], _UNITS[name]) for name in _BRUSHED)],
+        }
+        for place, cell in enumerate(found, start=1)
+    ]  # fmt: skip
+    data = {
+        "of": [CYCLE, "density"], "names": names, "labels": labels, "points": points,
+        "words": {"title": "Modules", "one": "module", "many": "modules"},
+    }  # fmt: skip
+    says = "Each point is the lightest module of a cell. Drag along an axis below to keep only what lies within."
+    return Drawn("brushed", "front.js", says, data, libraries=["echarts"])
+
+
+def _grid(found: Sequence[AtlasCell]) -> Grid:
+    asked = [Head("torque [N·m]", True), Head("cycle [s]", True)]
+    outputs = [Head(axis_label(name, _UNITS[name]), True) for name in OUTPUTS]
+    heads = [Head("cell"), Head("kind"), *asked, Head("hardware"), Head("N·m/kg", True), *outputs, Head("study")]
+    rows = []
+    for place, cell in enumerate(found, start=1):
+        numbers = [cell.density, *(from_si(cell.values[name], _UNITS[name]) for name in OUTPUTS)]
+        study = Cell("", links=[(f"{cell.name}.yaml", f"{STUDIES}/{cell.name}.yaml")])
+        rows.append([Cell(str(place), place), Cell(cell.kind), number_cell(cell.torque), number_cell(cell.cycle),
+                     Cell(cell.hardware), *map(number_cell, numbers), study])  # fmt: skip
+    return Grid("Modules", heads, rows)
+
+
+def _empty(cells: Sequence[AtlasCell]) -> Grid:
+    heads = [
+        Head("kind"),
+        Head("torque [N·m]", True),
+        Head("cycle [s]", True),
+        Head("status"),
+        Head("limits that end it"),
+    ]
+    rows = [
+        [
+            Cell(cell.kind),
+            number_cell(cell.torque),
+            number_cell(cell.cycle),
+            Cell(cell.status),
+            Cell("; ".join(cell.limits)),
+        ]
+        for cell in cells
+    ]
+    return Grid("Cells without a module", heads, rows)

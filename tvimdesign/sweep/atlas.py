@@ -1,0 +1,191 @@
+"""Atlas of modules: families of designs computed by processes here, kept by key, and the lightest design of each cell.
+
+A family is a kind of module on a set of hardware. The key of its file is a hash of its study, of the records it stands
+on, of what is asked, and of the version: after a change of a record only families that use it are computed again.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from tvimdesign import __version__
+from tvimdesign.base.atomic_files import atomic_write, make_folder
+from tvimdesign.base.environment import ask_for_one_thread
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.solve.nlp.solver_run import OPTIMAL
+from tvimdesign.solve.pareto.torque_time_map import CYCLE, EMPTY, HOT, MASS, TORQUE, UNANSWERED, MapCell, map_of
+from tvimdesign.solve.pareto.tradeoff import ONE_POINT
+from tvimdesign.study import Study
+from tvimdesign.study.atlas_studies import Atlas
+from tvimdesign.study.study import Requirement
+from tvimdesign.study.written_studies import started_at
+from tvimdesign.sweep.run_sweep import key_of, records_hash
+
+FAMILIES = "families"
+"""Folder of the families in the folder of an atlas."""
+OUTPUTS = (MASS, TORQUE, HOT, CYCLE, "cycle_energy", "envelope_diameter")
+_DRAWS = 256
+"""Cases of the assumed values from which an interval is drawn."""
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class AtlasCell:
+    """Answer for a kind, a torque to be held [N*m], and a longest cycle [s]."""
+
+    kind: str
+    torque: float
+    cycle: float
+    status: str
+    hardware: str
+    """Set of hardware of the lightest design; of an empty cell that of the design that comes nearest."""
+    values: Mapping[str, float]
+    limits: tuple[str, ...]
+    intervals: Mapping[str, tuple[float, float]]
+    """Torque and cycle time with the assumed values anywhere in their ranges, of designs on the kind's front."""
+
+    @property
+    def density(self) -> float:
+        """Torque asked over mass [N*m/kg]."""
+        return self.torque / self.values[MASS]
+
+    @property
+    def name(self) -> str:
+        """Name of its study."""
+        return f"{self.kind}-{self.torque:g}Nm-{self.cycle:g}s"
+
+
+def compute(plan: Atlas, folder: Path, workers: int, say: Say) -> dict[str, float]:
+    """Compute the families that the folder lacks; return counts and seconds of the processor."""
+    make_folder(folder / FAMILIES)
+    ask_for_one_thread()
+    waiting = [family for family in plan.families if _known(plan, folder, *family) is None]
+    seconds = 0.0
+    with ProcessPoolExecutor(workers or os.cpu_count() or 1, get_context("spawn")) as pool:
+        jobs = {pool.submit(_answered, plan, folder, *family): family for family in waiting}
+        say(f"{len(plan.families) - len(waiting)} of {len(plan.families)} families are there")
+        for done, job in enumerate(as_completed(jobs), start=1):
+            seconds += job.result()
+            kind, hardware = jobs[job]
+            say(f"family {done} of {len(waiting)}: {kind} on {hardware} hardware")
+    return {"families": len(plan.families), "computed": len(waiting), "cpu_s": seconds}
+
+
+def _key(plan: Atlas, study: Study) -> str:
+    content = study.model_dump(mode="json", exclude={"name", "description"})
+    return key_of([content, records_hash(study), plan.torques, plan.cycles, plan.softness, __version__])
+
+
+def _known(plan: Atlas, folder: Path, kind: str, hardware: str) -> dict[str, Any] | None:
+    """Return what the folder has of a family, if its key is that of today."""
+    path = folder / FAMILIES / f"{kind}-{hardware}.json"
+    if not path.exists():
+        return None
+    family: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    return family if family["key"] == _key(plan, plan.study(kind, hardware)) else None
+
+
+def _answered(plan: Atlas, folder: Path, kind: str, hardware: str) -> float:
+    """Compute a family into its file; return seconds of the processor."""
+    began, study = time.process_time(), plan.study(kind, hardware)
+    cells = map_of(study, plan.torques, plan.cycles, plan.softness, lambda _: None)
+    names = dict.fromkeys([*OUTPUTS, *study.vary])
+    rows = [
+        {**asdict(cell), "values": {name: cell.values[name] for name in names if name in cell.values}} for cell in cells
+    ]
+    front = {place: _intervals(_started(plan, kind, hardware, cells[place])) for place in _front(cells)}
+    family = {"key": _key(plan, study), "cells": rows, "intervals": front, "seconds": time.process_time() - began}
+    text = json.dumps(family, indent=1)
+    atomic_write(folder / FAMILIES / f"{kind}-{hardware}.json", text.encode())
+    return time.process_time() - began
+
+
+def _front(cells: Sequence[MapCell]) -> list[int]:
+    """Return the places of the designs that no other of the family holds more for its mass in less time than."""
+    found = [
+        (cell.torque / cell.values[MASS], -cell.cycle, place)
+        for place, cell in enumerate(cells)
+        if cell.status == OPTIMAL
+    ]
+    return [
+        place for density, speed, place in found
+        if not any(d >= density and s >= speed and (d, s) != (density, speed) for d, s, _ in found)
+    ]  # fmt: skip
+
+
+def _intervals(study: Study) -> dict[str, tuple[float, float]]:
+    """Return the intervals of torque and cycle time of a study's start."""
+    from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel  # it loads the compiler
+
+    resolved = resolve_study(study)
+    told = UncertaintyModel(resolved, (TORQUE, CYCLE)).at(resolved, 0, _DRAWS).intervals
+    return {name: (told[name].low, told[name].high) for name in (TORQUE, CYCLE) if name in told}
+
+
+def _started(plan: Atlas, kind: str, hardware: str, cell: MapCell | AtlasCell) -> Study:
+    return started_at(plan.study(kind, hardware), cell.values, {})
+
+
+def study_of(plan: Atlas, cell: AtlasCell) -> Study:
+    """Return the study of a cell with a design, begun at that design."""
+    study, soft = _started(plan, cell.kind, cell.hardware, cell), plan.softness * cell.torque
+    limits = [
+        Requirement(output=TORQUE, sense=">=", limit=cell.torque, text=f">= {cell.torque:g} N.m"),
+        Requirement(output=HOT, sense="<=", limit=soft, text=f"<= {soft:g} N.m/rad"),
+        Requirement(output=CYCLE, sense="<=", limit=cell.cycle, text=f"<= {cell.cycle:g} s"),
+    ]
+    others = [limit for limit in study.require if limit.output != CYCLE]
+    return study.model_copy(update={"require": (*others, *limits), "name": cell.name})
+
+
+def cells_of(plan: Atlas, folder: Path) -> list[AtlasCell]:
+    """Return every cell of the atlas: the lightest of all designs of its kind that meet it, whatever they were for."""
+    cells: list[AtlasCell] = []
+    for kind in plan.kinds:
+        families = {hardware: _known(plan, folder, kind, hardware) for hardware in plan.hardware}
+        rows = [
+            (hardware, row, family["intervals"].get(str(place), {}))
+            for hardware, family in families.items()
+            if family
+            for place, row in enumerate(family["cells"])
+        ]
+        cells += [_cell(plan, kind, torque, cycle, rows) for torque in plan.torques for cycle in plan.cycles]
+    return cells
+
+
+def _cell(plan: Atlas, kind: str, torque: float, cycle: float, rows: list[Any]) -> AtlasCell:
+    meeting = [
+        (row["values"][MASS], hardware, row, intervals)
+        for hardware, row, intervals in rows
+        if row["status"] == OPTIMAL and _meets(plan, row["values"], torque, cycle)
+    ]
+    if meeting:
+        _, hardware, row, intervals = min(meeting, key=lambda entry: entry[0])
+        return AtlasCell(kind, torque, cycle, OPTIMAL, hardware, row["values"], tuple(row["limits"]), intervals)
+    here = [(hardware, row) for hardware, row, _ in rows if row["torque"] == torque and row["cycle"] == cycle]
+    status = EMPTY if all(row["status"] == EMPTY for _, row in here) else UNANSWERED
+    hardware, nearest = min(here, key=lambda entry: _distance(entry[1]["values"], torque, cycle))
+    return AtlasCell(kind, torque, cycle, status, hardware, nearest["values"], tuple(nearest["limits"]), {})
+
+
+def _meets(plan: Atlas, values: Mapping[str, float], torque: float, cycle: float) -> bool:
+    return bool(
+        values[TORQUE] >= torque * (1.0 - ONE_POINT)
+        and values[CYCLE] <= cycle * (1.0 + ONE_POINT)
+        and values[HOT] <= plan.softness * torque * (1.0 + ONE_POINT)
+    )
+
+
+def _distance(values: Mapping[str, float], torque: float, cycle: float) -> float:
+    """Factor by which a design misses torque and cycle; infinite without a design."""
+    if not values:
+        return float("inf")
+    return max(torque / values[TORQUE], 1.0) * max(values[CYCLE] / cycle, 1.0)
