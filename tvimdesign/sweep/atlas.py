@@ -21,8 +21,8 @@ from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.environment import ask_for_one_thread
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
-from tvimdesign.solve.pareto.torque_time_map import CYCLE, EMPTY, HOT, MASS, TORQUE, UNANSWERED, MapCell, map_of
 from tvimdesign.solve.pareto.tradeoff import ONE_POINT
+from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, HOT, MASS, TORQUE, UNANSWERED, MapCell, map_of
 from tvimdesign.study import Study
 from tvimdesign.study.atlas_studies import Atlas
 from tvimdesign.study.study import Requirement
@@ -110,14 +110,14 @@ def _answered(plan: Atlas, folder: Path, kind: str, hardware: str) -> float:
 
 def _front(cells: Sequence[MapCell]) -> list[int]:
     """Return the places of the designs that no other of the family holds more for its mass in less time than."""
-    found = [
+    optima = [
         (cell.torque / cell.values[MASS], -cell.cycle, place)
         for place, cell in enumerate(cells)
         if cell.status == OPTIMAL
     ]
     return [
-        place for density, speed, place in found
-        if not any(d >= density and s >= speed and (d, s) != (density, speed) for d, s, _ in found)
+        place for density, speed, place in optima
+        if not any(d >= density and s >= speed and (d, s) != (density, speed) for d, s, _ in optima)
     ]  # fmt: skip
 
 
@@ -126,8 +126,8 @@ def _intervals(study: Study) -> dict[str, tuple[float, float]]:
     from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel  # it loads the compiler
 
     resolved = resolve_study(study)
-    told = UncertaintyModel(resolved, (TORQUE, CYCLE)).at(resolved, 0, _DRAWS).intervals
-    return {name: (told[name].low, told[name].high) for name in (TORQUE, CYCLE) if name in told}
+    ranges = UncertaintyModel(resolved, (TORQUE, CYCLE)).at(resolved, 0, _DRAWS).intervals
+    return {name: (ranges[name].low, ranges[name].high) for name in (TORQUE, CYCLE) if name in ranges}
 
 
 def _started(plan: Atlas, kind: str, hardware: str, cell: MapCell | AtlasCell) -> Study:
@@ -135,7 +135,7 @@ def _started(plan: Atlas, kind: str, hardware: str, cell: MapCell | AtlasCell) -
 
 
 def study_of(plan: Atlas, cell: AtlasCell) -> Study:
-    """Return the study of a cell with a design, begun at that design."""
+    """Return the study of a cell with a design, started at that design."""
     study, soft = _started(plan, cell.kind, cell.hardware, cell), plan.softness * cell.torque
     limits = [
         Requirement(output=TORQUE, sense=">=", limit=cell.torque, text=f">= {cell.torque:g} N.m"),
@@ -171,6 +171,8 @@ def _cell(plan: Atlas, kind: str, torque: float, cycle: float, rows: list[Any]) 
         _, hardware, row, intervals = min(meeting, key=lambda entry: entry[0])
         return AtlasCell(kind, torque, cycle, OPTIMAL, hardware, row["values"], tuple(row["limits"]), intervals)
     here = [(hardware, row) for hardware, row, _ in rows if row["torque"] == torque and row["cycle"] == cycle]
+    if not here:
+        return AtlasCell(kind, torque, cycle, UNANSWERED, "", {}, (), {})
     status = EMPTY if all(row["status"] == EMPTY for _, row in here) else UNANSWERED
     hardware, nearest = min(here, key=lambda entry: _distance(entry[1]["values"], torque, cycle))
     return AtlasCell(kind, torque, cycle, status, hardware, nearest["values"], tuple(nearest["limits"]), {})

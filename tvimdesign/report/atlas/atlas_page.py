@@ -12,7 +12,7 @@ from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import axis_label, number
 from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
-from tvimdesign.solve.pareto.torque_time_map import CYCLE, EMPTY, MASS, TORQUE, UNANSWERED
+from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, MASS, TORQUE, UNANSWERED
 from tvimdesign.study.atlas_studies import Atlas
 from tvimdesign.sweep.atlas import OUTPUTS, AtlasCell
 
@@ -104,9 +104,9 @@ def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, flo
     ]
     for kind, entry in plan.kinds.items():
         facts.append((kind, _in_short(entry["title"], [cell for cell in cells if cell.kind == kind])))
-    found = [cell for cell in cells if cell.status == OPTIMAL]
+    modules = [cell for cell in cells if cell.status == OPTIMAL]
     sections = [
-        Section("map", "Map", [_brushed(plan, found), _grid(found)]),
+        Section("map", "Map", [_brushed(plan, modules), _grid(modules)]),
         Section("empty", "Empty cells", [_empty([cell for cell in cells if cell.status != OPTIMAL])]),
     ]
     files = {"atlas.csv": "every cell", "atlas.png": "the figure", "atlas.svg": "for print", "atlas.pdf": "for print"}
@@ -115,19 +115,19 @@ def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, flo
 
 
 def _in_short(title: str, cells: Sequence[AtlasCell]) -> str:
-    found = [cell for cell in cells if cell.status == OPTIMAL]
-    if not found:
+    modules = [cell for cell in cells if cell.status == OPTIMAL]
+    if not modules:
         return f"{title}: no design"
-    fastest, densest = min(found, key=lambda c: c.values[CYCLE]), max(found, key=lambda c: c.density)
+    fastest, densest = min(modules, key=lambda c: c.values[CYCLE]), max(modules, key=lambda c: c.density)
     sentences = [
-        f"{title}: {len(found)} modules", f"fastest cycle {number(fastest.values[CYCLE])} s at {fastest.torque:g} N·m",
+        f"{title}: {len(modules)} modules", f"fastest {number(fastest.values[CYCLE])} s at {fastest.torque:g} N·m",
         f"most torque a mass {number(densest.density)} N·m/kg at {densest.torque:g} N·m",
     ]  # fmt: skip
     ends = ending_limits(cells, EMPTY)
     return "; ".join([*sentences, *([f"ended by {ends}"] if ends else [])])
 
 
-def _brushed(plan: Atlas, found: Sequence[AtlasCell]) -> Drawn:
+def _brushed(plan: Atlas, modules: Sequence[AtlasCell]) -> Drawn:
     names = ["torque", "density", *_BRUSHED]
     labels = ["torque asked [N·m]", "torque over mass [N·m/kg]", *(axis_label(name, _UNITS[name]) for name in _BRUSHED)]
     points = [
@@ -135,7 +135,7 @@ def _brushed(plan: Atlas, found: Sequence[AtlasCell]) -> Drawn:
             "number": place, "status": plan.kinds[cell.kind]["title"], "hollow": False,
             "values": [cell.torque, cell.density, *(from_si(cell.values[name], _UNITS[name]) for name in _BRUSHED)],
         }
-        for place, cell in enumerate(found, start=1)
+        for place, cell in enumerate(modules, start=1)
     ]  # fmt: skip
     data = {
         "of": [CYCLE, "density"], "names": names, "labels": labels, "points": points,
@@ -145,12 +145,12 @@ def _brushed(plan: Atlas, found: Sequence[AtlasCell]) -> Drawn:
     return Drawn("brushed", "front.js", says, data, libraries=["echarts"])
 
 
-def _grid(found: Sequence[AtlasCell]) -> Grid:
-    asked = [Head("torque [N·m]", True), Head("cycle [s]", True)]
+def _grid(modules: Sequence[AtlasCell]) -> Grid:
+    limits = [Head("torque [N·m]", True), Head("cycle [s]", True)]
     outputs = [Head(axis_label(name, _UNITS[name]), True) for name in OUTPUTS]
-    heads = [Head("cell"), Head("kind"), *asked, Head("hardware"), Head("N·m/kg", True), *outputs, Head("study")]
+    heads = [Head("cell"), Head("kind"), *limits, Head("hardware"), Head("N·m/kg", True), *outputs, Head("study")]
     rows = []
-    for place, cell in enumerate(found, start=1):
+    for place, cell in enumerate(modules, start=1):
         numbers = [cell.density, *(from_si(cell.values[name], _UNITS[name]) for name in OUTPUTS)]
         study = Cell("", links=[(f"{cell.name}.yaml", f"{STUDIES}/{cell.name}.yaml")])
         rows.append([Cell(str(place), place), Cell(cell.kind), number_cell(cell.torque), number_cell(cell.cycle),

@@ -101,7 +101,7 @@ class _Walk:
         return cells
 
     def _faster(self, torque: float, near: Point) -> list[MapCell]:
-        """Return the cells of a torque, from the longest cycle to the shortest, begun at the lightest design."""
+        """Return the cells of a torque, from the longest cycle to the shortest, started at the lightest design."""
         cells: list[MapCell] = []
         for place, cycle in enumerate(self._cycles):
             if near.values[CYCLE] > cycle:
