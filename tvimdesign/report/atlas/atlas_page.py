@@ -44,7 +44,7 @@ def figure_data(plan: Atlas, cells: Sequence[AtlasCell]) -> dict[str, Any]:
     """Return a series of each kind: the designs of its front, with energy and interval."""
     series = []
     for kind, entry in plan.kinds.items():
-        front = _front([cell for cell in cells if cell.kind == kind and cell.status == OPTIMAL])
+        front = front_of([cell for cell in cells if cell.kind == kind and cell.status == OPTIMAL])
         series.append(
             {
                 "label": entry["title"],
@@ -65,7 +65,7 @@ def figure_data(plan: Atlas, cells: Sequence[AtlasCell]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _front(cells: Sequence[AtlasCell]) -> list[AtlasCell]:
+def front_of(cells: Sequence[AtlasCell]) -> list[AtlasCell]:
     """Return the designs that no other holds more for its mass in less time than, the fastest first."""
     front: list[AtlasCell] = []
     for cell in sorted(cells, key=lambda cell: -cell.density):
