@@ -1,6 +1,6 @@
 """Picture and tables of docs/atlas.md: the atlas in a folder, beside published devices.
 
-python docs/make/atlas.py results/atlas
+python docs/make/atlas.py results/atlas [KIND ...]
 """
 
 from __future__ import annotations
@@ -39,6 +39,8 @@ UNITS = {
     "energy": "J",
     "density": "N.m/kg",
 }
+MARGIN = 2.0
+"""Place [s], [N*m/kg] of a mark without that axis, or beyond it."""
 COLUMNS = ("ratio", *UNITS)
 MARKS = {"thermal": "o", "jamming": "s", "magnetorheological": "^", "electroadhesive": "D", "motor": "P"}
 
@@ -66,7 +68,7 @@ def marks() -> list[dict[str, Any]]:
         cycle, density = axes_of(device)
         if cycle or density:
             fill = "full" if cycle and density else "none"
-            marks.append({"place": (cycle or 2.0, density or 2.0), "marker": MARKS[device["kind"]], "fill": fill})
+            marks.append({"place": (max(cycle or 0.0, MARGIN), density or MARGIN), "marker": MARKS[device["kind"]], "fill": fill})
     return marks
 
 
@@ -145,9 +147,9 @@ def scaling(cells: Sequence[AtlasCell]) -> dict[str, float]:
     return exponents
 
 
-def write(folder: Path) -> None:
+def write(folder: Path, kinds: tuple[str, ...]) -> None:
     """Write the picture, the data, and the tables of the page."""
-    plan = Atlas.read()
+    plan = Atlas.read().only(kinds)
     cells = cells_of(plan, folder)
     figure = atlas({**figure_data(plan, cells), "devices": marks()})
     (ROOT / "docs/pictures/atlas.svg").write_bytes(theme.as_file(figure, "svg"))
@@ -170,4 +172,4 @@ def write(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    write(Path(sys.argv[1]))
+    write(Path(sys.argv[1]), tuple(sys.argv[2:]))
