@@ -68,7 +68,8 @@ def marks() -> list[dict[str, Any]]:
         cycle, density = axes_of(device)
         if cycle or density:
             fill = "full" if cycle and density else "none"
-            marks.append({"place": (max(cycle or 0.0, MARGIN), density or MARGIN), "marker": MARKS[device["kind"]], "fill": fill})
+            place = max(cycle or 0.0, MARGIN), density or MARGIN
+            marks.append({"place": place, "marker": MARKS[device["kind"]], "fill": fill})
     return marks
 
 
