@@ -166,8 +166,8 @@ def write(folder: Path, kinds: tuple[str, ...]) -> None:
     }
     page = PAGE.read_text(encoding="utf-8")
     for name, text in tables.items():
-        head, begin, rest = page.partition(f"<!-- {name} -->\n")
-        page = f"{head}{begin}{text}\n<!-- end -->{rest.partition('<!-- end -->')[2]}"
+        head, begin, after = page.partition(f"<!-- {name} -->\n")
+        page = f"{head}{begin}{text}\n<!-- end -->{after.partition('<!-- end -->')[2]}"
     PAGE.write_text(page, encoding="utf-8")
     print({kind: round(value, 2) for kind, value in scaling(cells).items()})
 

@@ -140,7 +140,7 @@ def atlas(
     plots: options.Plots = True,
     json: options.AsJson = False,
 ) -> None:
-    """Map the lightest modules over torque and cycle time, for kinds of modules. The folder is results/atlas."""
+    """Map the lightest modules over torque and time. The folder is results/atlas."""
     from tvimdesign.report.atlas.make_atlas import make_atlas
 
     make_atlas(
