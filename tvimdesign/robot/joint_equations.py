@@ -24,6 +24,7 @@ from tvimdesign.simulation.joint_tests.case import one_sided
 from tvimdesign.simulation.link_motion.sampled_motion import PER_DECADE
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, temperature_names
+from tvimdesign.simulation.working_cycle.melt_history import MEMORY
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 MOVING = ("ambient_temperature", "frequency@hot")
@@ -70,13 +71,18 @@ class JointEquations:
 
 
 def joint_equations(resolved: ResolvedModule) -> JointEquations:
-    """Return the equations of a module; the layer freezes with its history and melts, whatever the current."""
+    """Return the equations of a module; the layer freezes with its history and melts, whatever the current.
+
+    Its melt has a memory of its crystals while the current heats, as in the run's softening, and none otherwise.
+    """
     model = resolved.functions
     phase = model.either_way
     state, given = ca.SX.sym("state", phase.state_size), ca.SX.sym("given", 1 + len(MOVING))
     inputs = ca.SX(ca.DM(model.start))
     for place, name in enumerate(MOVING):
         inputs[model.index[name]] = given[1 + place]
+    if MEMORY in model.index:
+        inputs[model.index[MEMORY]] = ca.if_else(given[0] > 0.0, model.start[model.index[MEMORY]], 1.0)
     at = (state, given[0], inputs)
     names = temperature_names(model, model.start, phase)
     seen = phase.evaluated(tuple(INSTANT.values()), lambda *values: values)(*at)
