@@ -66,7 +66,7 @@ def test_an_empty_cell_names_what_ends_it_and_withstands_an_attack(plan, cells, 
 
 @pytest.mark.gate
 def test_a_family_is_computed_again_only_after_a_change(plan, folder):
-    assert compute(plan, folder, 1, lambda _: None)["computed"] == 0
+    assert compute(plan, folder, 1, lambda _: None)[0]["computed"] == 0
     study = plan.study("foil", "middle")
     assert _key(plan, study) != _key(
         plan, study.model_copy(update={"module": {**study.module, "pcl_grade": "pcl_80k"}})

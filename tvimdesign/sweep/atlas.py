@@ -19,6 +19,7 @@ from typing import Any
 from tvimdesign import __version__
 from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.environment import ask_for_one_thread
+from tvimdesign.base.errors import TvimError
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.pareto.tradeoff import ONE_POINT
@@ -63,20 +64,24 @@ class AtlasCell:
         return f"{self.kind}-{self.torque:g}Nm-{self.cycle:g}s"
 
 
-def compute(plan: Atlas, folder: Path, workers: int, say: Say) -> dict[str, float]:
-    """Compute the families that the folder lacks; return counts and seconds of the processor."""
+def compute(plan: Atlas, folder: Path, workers: int, say: Say) -> tuple[dict[str, float], list[TvimError]]:
+    """Compute the families that the folder lacks; return counts, seconds of the processor, and what failed."""
     make_folder(folder / FAMILIES)
     ask_for_one_thread()
     waiting = [family for family in plan.families if _known(plan, folder, *family) is None]
-    seconds = 0.0
+    seconds, failures = 0.0, list[TvimError]()
     with ProcessPoolExecutor(workers or os.cpu_count() or 1, get_context("spawn")) as pool:
         jobs = {pool.submit(_answered, plan, folder, *family): family for family in waiting}
         say(f"{len(plan.families) - len(waiting)} of {len(plan.families)} families are there")
         for done, job in enumerate(as_completed(jobs), start=1):
-            seconds += job.result()
             kind, hardware = jobs[job]
+            try:
+                seconds += job.result()
+            except Exception as error:  # of one family; the others go on
+                failures.append(TvimError(f"{kind} on {hardware} hardware: {type(error).__name__}: {error}"))
             say(f"family {done} of {len(waiting)}: {kind} on {hardware} hardware")
-    return {"families": len(plan.families), "computed": len(waiting), "cpu_s": seconds}
+    counts = {"families": len(plan.families), "computed": len(waiting) - len(failures), "cpu_s": seconds}
+    return counts, failures
 
 
 def _key(plan: Atlas, study: Study) -> str:

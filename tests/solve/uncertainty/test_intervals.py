@@ -167,6 +167,7 @@ def test_noise_has_no_share_and_even_steps_all() -> None:
     noise = np.random.default_rng(2)
     assert share_of_variance(noise.random(512), noise.random(512)) < 0.03
     assert share_of_variance(noise.random(512), np.full(512, 3.0)) == 0.0
+    assert share_of_variance(noise.random(512), np.where(noise.random(512) < 0.1, 1e300, 1.0)) == 0.0
     # Variance (16^2 - 1)/12 = 21.25, between groups 21; as many groups of noise would have 7/15 of it.
     steps = np.arange(16.0)
     assert share_of_variance(steps, steps) == pytest.approx(1.0 - 0.25 / 21.25 * 15.0 / 8.0, rel=1e-12)

@@ -28,7 +28,8 @@ def make_atlas(
     command = Command(out, overwrite=overwrite, as_json=as_json, plots=plots, resume=resume, keep=FAMILIES)
     with command:
         folder = command.folder
-        counts = compute(atlas, folder.path, workers, command.progress)
+        counts, failures = compute(atlas, folder.path, workers, command.progress)
+        command.failures += failures
         command.progress("gathering the cells")
         cells = cells_of(atlas, folder.path)
         rows = rows_of(cells)

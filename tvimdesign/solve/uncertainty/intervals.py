@@ -152,8 +152,9 @@ def share_of_variance(column: Array, values: Array) -> float:
 
     This is the correlation ratio, less what as many groups of a column of noise would have.
     """
-    total = float(np.var(values))
-    if total <= 1e-18 * float(np.mean(values)) ** 2 or total == 0.0 or len(values) < 2 * _BINS:
+    with np.errstate(over="ignore"):
+        total, mean = float(np.var(values)), float(np.mean(values))
+    if not 1e-18 * mean * mean < total < np.inf or len(values) < 2 * _BINS:  # the square of a large mean is infinite
         return 0.0
     groups = np.array_split(values[np.argsort(column, kind="stable")], _BINS)
     sizes, means = np.array([len(group) for group in groups]), np.array([np.mean(group) for group in groups])
