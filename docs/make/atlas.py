@@ -103,7 +103,7 @@ def kinds_table(plan: Atlas, cells: Sequence[AtlasCell]) -> str:
         fastest, densest = min(modules, key=lambda c: c.values[CYCLE]), max(modules, key=lambda c: c.density)
         columns = (
             entry["title"], f"{len(modules)}", f"{fastest.values[CYCLE]:.3g} s at {fastest.torque:g} N·m",
-            f"{densest.density:.3g} N·m/kg at {densest.torque:g} N·m", f"{densest.values['cycle_energy']:.3g} J",
+            f"{densest.density:.3g} N·m/kg at {densest.torque:g} N·m", f"{densest.values['cycle_energy']:.0f} J",
             ending_limits(own, EMPTY, 2), "; ".join(doubts(plan, front_of(modules))),
         )  # fmt: skip
         lines.append(f"|{'|'.join(columns)}|")
