@@ -59,9 +59,13 @@ def figure_data(plan: Atlas, cells: Sequence[AtlasCell]) -> dict[str, Any]:
         for cell in sorted((cell for cell in cells if cell.status == OPTIMAL), key=lambda cell: cell.density)
     }
     density = [[densest.get((torque, cycle)) for cycle in plan.cycles] for torque in plan.torques]
+    doubtful = {(cell.torque, cell.cycle) for cell in cells if cell.status == UNANSWERED} - densest.keys()
+    places = [[plan.cycles.index(cycle), plan.torques.index(torque)] for torque, cycle in sorted(doubtful)]
+    map_data = {"torques": plan.torques, "cycles": plan.cycles, "density": density, "unanswered": places}
     return {
-        "series": series, "map": {"torques": plan.torques, "cycles": plan.cycles, "density": density},
-        "caption": "Larger marks: more energy a cycle. Thin lines: intervals of assumed values. Grey: empty.",
+        "series": series,
+        "map": map_data,
+        "caption": "Larger marks: more energy a cycle. Thin lines: intervals of assumed values. Grey: empty; ?: open.",
     }  # fmt: skip
 
 

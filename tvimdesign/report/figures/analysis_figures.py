@@ -206,6 +206,8 @@ def _map(figure: Figure, data: dict[str, Any]) -> None:
         cmap=theme.SEQUENCE, norm=LogNorm(),
     )  # fmt: skip
     axes.set_facecolor("0.8")
+    for across, up in data["unanswered"]:
+        axes.text(across + 0.5, up + 0.5, "?", ha="center", va="center", fontsize=theme.SMALL)
     axes.grid(visible=False)
     for name, values in (("x", data["cycles"]), ("y", data["torques"])):
         ticks = [place + 0.5 for place in range(len(values))]
