@@ -86,7 +86,7 @@ def test_the_command_writes_tables_and_studies(tvimdesign, tmp_path):
     out = tmp_path / "atlas"
     answer = json.loads(tvimdesign("atlas", small, "--out", out, "--workers", "1", "--json").stdout)
     assert answer["statuses"] == {"optimal": 1}
-    (row,) = csv.DictReader((out / "atlas.csv").open(encoding="utf-8"))
+    (row,) = csv.DictReader((out / "atlas.csv").read_text(encoding="utf-8").splitlines())
     assert float(row["density [N*m/kg]"]) == pytest.approx(5e3 / float(row["module_mass [g]"]))
     study = read_study(out / "studies/foil-5Nm-300s.yaml")
     assert {limit.output for limit in study.require} >= {"holding_torque", "cycle_time", "joint_stiffness@hot"}
