@@ -114,7 +114,7 @@ function varies(values) {
 
 /** The colour of a point: a knee stands out, one that violates a limit steps back. */
 function colourOf(point, look) {
-  return point.status === "knee" ? look.accent : point.hollow ? look.quiet : look.colours[0];
+  return point.status === "knee" ? look.accent : point.hollow ? look.quiet : look.colours[(point.group ?? 0) % look.colours.length];
 }
 
 /** A label in short lines. */

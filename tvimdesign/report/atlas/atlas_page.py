@@ -137,6 +137,7 @@ def _brushed(plan: Atlas, modules: Sequence[AtlasCell]) -> Drawn:
     points = [
         {
             "number": place, "status": plan.kinds[cell.kind]["title"], "hollow": False,
+            "group": list(plan.kinds).index(cell.kind),
             "values": [cell.torque, cell.density, *(from_si(cell.values[name], _UNITS[name]) for name in _BRUSHED)],
         }
         for place, cell in enumerate(modules, start=1)
