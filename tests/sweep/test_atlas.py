@@ -3,6 +3,7 @@
 import csv
 import itertools
 import json
+import math
 from pathlib import Path
 
 import attack
@@ -10,10 +11,11 @@ import pytest
 import yaml
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.report.atlas.atlas_page import rows_of
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study
 from tvimdesign.study.atlas_studies import Atlas
-from tvimdesign.sweep.atlas import _key, cells_of, compute, study_of
+from tvimdesign.sweep.atlas import OUTPUTS, AtlasCell, _key, cells_of, compute, study_of
 
 PLAN = Path(__file__).parent / "atlas.yaml"
 MASS = "module_mass"
@@ -71,6 +73,14 @@ def test_a_family_is_computed_again_only_after_a_change(plan, folder):
     assert _key(plan, study) != _key(
         plan, study.model_copy(update={"module": {**study.module, "pcl_grade": "pcl_80k"}})
     )
+
+
+def test_a_time_that_may_never_come_has_no_high_end():
+    values = dict.fromkeys(OUTPUTS, 1.0)
+    cell = AtlasCell("foil", 5.0, 60.0, "optimal", "middle", values, (), {"cycle_time": (30.0, math.inf)})
+    (row,) = rows_of([cell])
+    assert row["cycle_time low"] == 30.0
+    assert row["cycle_time high"] is None
 
 
 def test_a_plan_refuses_a_kind_it_lacks(plan):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -24,7 +25,10 @@ _BRUSHED = (CYCLE, MASS, TORQUE, "cycle_energy", "envelope_diameter")
 
 
 def rows_of(cells: Sequence[AtlasCell]) -> list[dict[str, Any]]:
-    """Return a row a cell in the units of its columns; empty cells have the limits that end them."""
+    """Return a row a cell in the units of its columns; empty cells have the limits that end them.
+
+    An end at a time that never comes is nothing.
+    """
     rows = []
     for cell in cells:
         there = cell.status == OPTIMAL
@@ -35,7 +39,9 @@ def rows_of(cells: Sequence[AtlasCell]) -> list[dict[str, Any]]:
         for name in OUTPUTS:
             row[f"{name} [{_UNITS[name]}]"] = from_si(cell.values[name], _UNITS[name]) if there else None
         for name, (low, high) in cell.intervals.items():
-            row |= {f"{name} low": low, f"{name} high": high}
+            row |= {
+                f"{name} {end}": each if math.isfinite(each) else None for end, each in (("low", low), ("high", high))
+            }
         rows.append({**row, "limits": "; ".join(cell.limits)})
     return rows
 
