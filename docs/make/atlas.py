@@ -98,13 +98,13 @@ def kinds_table(plan: Atlas, cells: Sequence[AtlasCell]) -> str:
         own = [cell for cell in cells if cell.kind == kind]
         modules = [cell for cell in own if cell.status == OPTIMAL]
         if not modules:
-            lines.append(f"|{entry['title']}|0|||||{ending_limits(own, EMPTY, 2)}|")
+            lines.append(f"|{entry['title']}|0|||||{ending_limits(own, EMPTY, 1)}|")
             continue
         fastest, densest = min(modules, key=lambda c: c.values[CYCLE]), max(modules, key=lambda c: c.density)
         columns = (
             entry["title"], f"{len(modules)}", f"{fastest.values[CYCLE]:.3g} s at {fastest.torque:g} N·m",
             f"{densest.density:.3g} N·m/kg at {densest.torque:g} N·m", f"{densest.values['cycle_energy']:.0f} J",
-            ending_limits(own, EMPTY, 2), "; ".join(doubts(plan, front_of(modules))),
+            ending_limits(own, EMPTY, 1), "; ".join(doubts(plan, front_of(modules))),
         )  # fmt: skip
         lines.append(f"|{'|'.join(columns)}|")
     return "\n".join(lines)

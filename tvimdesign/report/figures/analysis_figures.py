@@ -190,7 +190,7 @@ def atlas(data: dict[str, Any]) -> Figure:
         theme.log_ticks(axis)
     handles, labels = fronts.get_legend_handles_labels()
     figure.legend(
-        handles, labels, loc="lower left", ncols=3, fontsize=theme.SMALL, columnspacing=0.8, handletextpad=0.2
+        handles, labels, loc="lower left", ncols=2, fontsize=theme.SMALL, columnspacing=0.8, handletextpad=0.2
     )
     _map(figure, data["map"])
     theme.caption(figure, data["caption"])
