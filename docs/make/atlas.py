@@ -130,7 +130,7 @@ def torque_table(plan: Atlas, cells: Sequence[AtlasCell], cycles: Sequence[float
         for cycle in cycles:
             here = [c for c in cells if (c.torque, c.cycle) == (torque, cycle) and c.status == OPTIMAL]
             best = max(here, key=lambda c: c.density, default=None)
-            texts.append(f"{best.density:.3g} N·m/kg, {best.kind}" if best else "empty")
+            texts.append(f"{best.density:.3g} N·m/kg, {best.kind}" if best else "none")
         lines.append(f"|{torque:g} N·m|{'|'.join(texts)}|")
     return "\n".join(lines)
 

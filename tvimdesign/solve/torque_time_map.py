@@ -82,6 +82,8 @@ class _Walk:
     def _along(self, torques: Sequence[float], near: Point, furthest: dict[str, float]) -> list[MapCell]:
         """Return the cells of torques, each sought from the one before; beyond a torque without a design is none.
 
+        Without a last design that limits end, what is left stays unanswered: a failed search proves nothing.
+
         `furthest` is the objective of the last design on the way, softest or strongest, which its limits end.
         """
         cells: list[MapCell] = []
@@ -94,8 +96,9 @@ class _Walk:
                 if isinstance(end, Point):
                     lightest = self._sought({MASS: 1.0}, end, f"{torque:g} N*m", *self._bounds(torque))
             if isinstance(lightest, Failure):
-                left, limits = torques[place:], self._limits(end) if isinstance(end, Point) else ()
-                return [*cells, *(MapCell(t, c, EMPTY, near.values, limits=limits) for t in left for c in self._cycles)]
+                left = torques[place:]
+                status, limits = (EMPTY, self._limits(end)) if isinstance(end, Point) else (UNANSWERED, ())
+                return [*cells, *(MapCell(t, c, status, near.values, limits) for t in left for c in self._cycles)]
             near = lightest
             cells += self._faster(torque, lightest)
         return cells

@@ -26,7 +26,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 
 GROUP = "Cost"
 COSTS = ("cost", "material_cost")
-"""What a price goes into."""
+"""Outputs that prices go into."""
 costs = QuantityGroup(GROUP)
 JOINTS: dict[str, tuple[Feature, ...]] = {"link": (), "retainer": (), "adjuster": WITH_ADJUSTERS, "cover": WITH_COVER}
 _FITTINGS = (
@@ -44,7 +44,7 @@ _FITTINGS = (
 _MATERIALS = (
     ("structure", "structure_material", ()), ("liner", "liner_material", WITH_LINER), ("pcl", "pcl_grade", ()),
 )  # fmt: skip
-"""The same of what is paid by its mass."""
+"""Kinds paid by their mass, likewise."""
 for _kinds, _unit in ((_FITTINGS, "USD"), (_MATERIALS, "USD/kg")):
     for _kind, _choice, _needs in _kinds:
         _about = f"Price of the {_kind.replace('_', ' ')}{' a piece' if _unit == 'USD' else ''}; 0 where none is known"

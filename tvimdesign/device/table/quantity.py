@@ -179,7 +179,7 @@ class Output:
     requires: tuple[Feature, ...] = ()
     """Features that a module needs to have the quantity; in one that lacks them it is `default`."""
     sprung: bool = False
-    """Whether only modules with torsion springs have it; in a mode without, it is `default` where others read it."""
+    """True if only modules with torsion springs have it; in a mode without, it is `default` where others read it."""
     default: Any = 0.0
 
     @cached_property
