@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tvimdesign.engine import lane_events, lane_steps, lanes, vectors
+from tvimdesign.engine import lane_events, lanes, vectors
 from tvimdesign.engine.integrator import Motion
 from tvimdesign.engine.sparse_lu import pattern_of
 from tvimdesign.engine.tape import Tape
@@ -78,13 +78,13 @@ def cooling() -> tuple[Motion, Tape]:
     return Motion(y, u, k, rates, ca.jacobian(rates, y), np.array([1.0, 0.0, 1.0])), Tape.of([y, u, k], [0.5 - y[0]])
 
 
-def _marched(motion: Motion, rates: Array, steps: int, scales: Array) -> tuple[Array, lane_steps.Room, Array]:
-    room, states = lane_steps.Room(motion), np.zeros((steps + 1, 3, len(rates)))
+def _marched(motion: Motion, rates: Array, steps: int, scales: Array) -> tuple[Array, lanes.Room, Array]:
+    room, states = lanes.Room(motion), np.zeros((steps + 1, 3, len(rates)))
     states[0, 0] = 1.0
     given = np.array([np.zeros(len(rates)), rates])
     lengths = np.full(steps, 1.0 / steps)
     busy = np.ones(len(rates), dtype=bool)
-    lane_steps.march(motion.system, room.slopes, np.array([3, 4]), given, states, lengths, scales, 0, steps, busy)
+    lanes.march(motion.system, room.slopes, np.array([3, 4]), given, states, lengths, scales, 0, steps, busy)
     return states, room, given
 
 
@@ -128,7 +128,7 @@ def test_what_stays_is_found_with_its_current(cooling: tuple[Motion, Tape]) -> N
     motion, gap = cooling
     rates = np.linspace(0.5, 3.0, COUNT)
     room, w, where = (
-        lane_steps.Room(motion),
+        lanes.Room(motion),
         lanes.lanes_of(gap),
         (np.array([3, 4]), np.array([np.zeros(COUNT), rates])),
     )

@@ -20,12 +20,11 @@ from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.report.run.run_study import run_study
 from tvimdesign.report.run.uncertainty_data import below_yield
-from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import ALTERNATIVES, BELOW_YIELD, MARGINS, OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.solve.search import optimize
+from tvimdesign.solve.search import SearchInterrupted, optimize
 from tvimdesign.study import Study, StudyError, drawn, given, read_study, read_study_text
 from tvimdesign.study.written_studies import study_text
 

@@ -18,8 +18,8 @@ import tvimdesign as tvim
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.study import StudyError
 from tvimdesign.sweep.answers import CellAnswers
-from tvimdesign.sweep.chunks import CellQueue
 from tvimdesign.sweep.plan import Cell, CellAnswer, SweepPlan, SweptStudy
+from tvimdesign.sweep.pool import CellQueue
 from tvimdesign.sweep.run_sweep import CellKeys
 from tvimdesign.sweep.shards import Shards, ShardWriter
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from pint import Quantity
 
-    from tvimdesign.report.fit import Measured
+    from tvimdesign.simulation.measurement.measure_files import Measured
 
 File = str | os.PathLike[str]
 
@@ -29,7 +29,8 @@ def fit(
     `kind` is found by the columns unless given; `columns` is a column map or its file; settings are text with a unit,
     such as `arm="100 mm"`. Raises InputError for what cannot be read or lacks.
     """
-    from tvimdesign.report.fit import column_map, measure_files, read_column_map
+    from tvimdesign.simulation.measurement.measure_files import measure_files
+    from tvimdesign.simulation.measurement.reading.headings import column_map, read_column_map
 
     paths = [Path(files)] if isinstance(files, str | os.PathLike) else [Path(file) for file in files]
     if columns is None:
@@ -67,7 +68,7 @@ class Fitted:
     @property
     def data(self) -> dict[str, Any]:
         """All of it as plain data, as in `fit.json`."""
-        from tvimdesign.report.fit.fit_files import fit_data
+        from tvimdesign.report.fit_files import fit_data
 
         return fit_data(self._measured)
 
@@ -91,7 +92,7 @@ class Fitted:
 
     def plot(self) -> Figure:
         """Plot values, fitted curves and residuals."""
-        from tvimdesign.report.fit.fit_files import figure_data
+        from tvimdesign.report.fit_files import figure_data
         from tvimdesign.report.output.plot_process import Drawing
 
         names = ", ".join(file.path.name for file in self._measured.files)
@@ -99,7 +100,7 @@ class Fitted:
 
     def record(self, name: str, *, based_on: str = "", catalog: File = "my_records", overwrite: bool = False) -> Path:
         """Write what was measured as a record of this name; returns its file. Raises InputError and CatalogError."""
-        from tvimdesign.report.fit import write_record
+        from tvimdesign.simulation.measurement.record_file import write_record
 
         return write_record(self._measured, Path(catalog), name, based_on, overwrite=overwrite)
 

@@ -14,8 +14,7 @@ from tvimdesign.base import user_cache
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.base.record import Record
 from tvimdesign.catalog.category import CATEGORIES, meaningless_laws
-from tvimdesign.catalog.validate import build_record
-from tvimdesign.catalog.yaml_file import Tree, read_tree
+from tvimdesign.catalog.validate import Tree, build_record, read_tree
 
 _SHIPPED = Path(__file__).with_name("data")
 _MOST_PROBLEMS = 50

@@ -242,7 +242,7 @@ def fit(
     json: options.AsJson = False,
 ) -> None:
     """Fit measured data. Writes parameters with intervals, and a record for studies."""
-    from tvimdesign.report.fit.fit_files import fit_files, list_kinds
+    from tvimdesign.report.fit_files import fit_files, list_kinds
 
     if kinds:
         list_kinds(json)

@@ -34,7 +34,7 @@ def _completing(place: str) -> Callable[[str], list[str]]:
 
 
 tests = _completing("tvimdesign.simulation.virtual_tests:TESTS")
-kinds = _completing("tvimdesign.report.fit:kind_sheets")
+kinds = _completing("tvimdesign.simulation.measurement.measure_files:kind_sheets")
 examples = _completing("tvimdesign.report.run.study_files:examples")
 modes = _completing("tvimdesign.report.rows:MODES")
 rows = _completing("tvimdesign.report.rows:row_names")

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from tvimdesign.engine import lanes
 from tvimdesign.engine.integrator import System
 from tvimdesign.engine.interpreter import Array, Code
-from tvimdesign.engine.lane_steps import GAMMA, newton, step
-from tvimdesign.engine.lanes import load, put, run
+from tvimdesign.engine.lanes import GAMMA, load, newton, put, run, step
 from tvimdesign.engine.sparse_lu import Integers
 from tvimdesign.engine.vectors import LANES
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -11,14 +12,104 @@ import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
+from tvimdesign.base.units import pretty
 from tvimdesign.cad.fe.model_comparison import SOLVERS, Compared, compared
 from tvimdesign.cad.fe.run_solvers import Solved, export_parts, require_fe, run_solvers
-from tvimdesign.page.blocks import Block, Page, Points
+from tvimdesign.page.blocks import Block, Grid, Page, Picture, Points, Section, Words
 from tvimdesign.report.output.command import Command, design_file
+from tvimdesign.report.output.numbers import csv_text, finite, head, number
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import Progress
-from tvimdesign.report.verification_tables import FILES, far, table_csv, verified, verify_sections
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design
+
+DATA = "verify.json"
+FAR = 0.10
+"""Share by which model and FE may differ before the row is marked."""
+SOLVED = (
+    "Solved with netgen and NGSolve from the exported parts. Stresses and stiffness: quadratic tetrahedra, tied where "
+    "parts are bonded; the core's top turns as one, the feet are held. Screws: link and core touch without friction."
+)
+FILES = {"verify.csv": "the rows", DATA: "rows and what each solver found"}
+_SHOWS = {
+    "joint": "Stress in the frozen joint, bent by the torque on its core",
+    "spring": "Stress in one spring under the pin's force on its leg",
+    "screws": "Stress in link and core under the tightened link screws",
+    "link": "Stress in the link under a force in its tool hole",
+}
+
+
+def verified(rows: Sequence[Compared], solved: Mapping[str, Solved]) -> dict[str, Any]:
+    """Return what `verify.json` has."""
+    return {
+        **head(),
+        "summary": summary(rows),
+        "rows": [
+            {"name": row.name, "unit": pretty(row.unit), "model": row.model, "fe": row.fe, "ratio": row.ratio,
+             "mesh_change": row.mesh_change, "meaning": row.meaning}
+            for row in rows
+        ],
+        "solved": {
+            name: {mesh: {key: finite(value) for key, value in values.items()}
+                   for mesh, values in (("fine", fe.found), ("coarse", fe.coarse))}
+            for name, fe in solved.items()
+        },
+    }  # fmt: skip
+
+
+def table_csv(rows: Sequence[Compared]) -> str:
+    """Return the rows, worst first."""
+    return csv_text(
+        {"name": row.name, "unit": row.unit, "model": f"{row.model:.5g}", "fe": f"{row.fe:.5g}",
+         "model over fe": f"{row.ratio:.3f}", "finer over coarser mesh": f"{1.0 + row.mesh_change:.3f}",
+         "meaning": row.meaning}
+        for row in rows
+    )  # fmt: skip
+
+
+def far(rows: Sequence[Compared]) -> list[str]:
+    """Return the names of the rows that differ by more than `FAR`."""
+    return [row.name for row in rows if not abs(row.ratio - 1.0) <= FAR]
+
+
+def summary(rows: Sequence[Compared]) -> str:
+    """Return how near the model is, in a sentence or two."""
+    beyond = far(rows)
+    near = f"{len(rows) - len(beyond)} of {len(rows)} within {100.0 * FAR:.0f} % of finite elements on the drawn parts"
+    worst = f"; beyond: {', '.join(beyond)}" if beyond else ""
+    return f"{near}{worst}. `mesh` is how far a value moved from elements 1.6 times as large."
+
+
+def rows_grid(verification: Mapping[str, Any]) -> Grid:
+    """Return the rows of `verify.json` as a table."""
+    heads = ("", "model", "FE", "unit", "model / FE", "mesh", "what")
+    cells = [
+        (row["name"], number(row["model"]), number(row["fe"]), row["unit"], f"{row['ratio']:.3f}",
+         f"{100.0 * row['mesh_change']:+.1f} %", row["meaning"])
+        for row in verification["rows"]
+    ]  # fmt: skip
+    return grid("The model against finite elements on the drawn parts", heads, cells, right=(1, 2, 4, 5))
+
+
+def fields(folder: Path) -> list[Block]:
+    """Return the pictures that a verification's folder has."""
+    pictures = ((folder / f"{name}.png", words) for name, words in _SHOWS.items())
+    return [Picture(picture.read_bytes(), words, words) for picture, words in pictures if picture.exists()]
+
+
+def verify_sections(folder: Path, verification: Mapping[str, Any]) -> list[Section]:
+    """Return the sections of the command's own page; pictures are those that the folder has."""
+    solvers = [
+        (name, f"{fine['unknowns']:.0f}", f"{fine['seconds']:.0f}", f"{fine['gigabytes']:.1f}")
+        for name, fine in ((name, meshes["fine"]) for name, meshes in verification["solved"].items())
+    ]  # fmt: skip
+    table = grid("Solvers", ("solver", "unknowns", "processor seconds", "GB"), solvers, right=(1, 2, 3))
+    return [
+        Section("rows", "Model and finite elements", [rows_grid(verification)]),
+        *([Section("fields", "Fields", pictures)] if (pictures := fields(folder)) else []),
+        Section("solved", "How it was solved", [Words([SOLVED]), table]),
+    ]
+
 
 _WORK = ".verify-"
 """What the name of the folder begins with in which the parts stand while they are solved."""

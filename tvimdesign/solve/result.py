@@ -18,7 +18,6 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import intervals
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, given_profiles
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
-from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.control import ControlResult, control_of
 from tvimdesign.solve.duty import DutyResult, duty_of
 from tvimdesign.solve.nlp.constraints import (
@@ -31,7 +30,7 @@ from tvimdesign.solve.nlp.constraints import (
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL, Progress
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, exceeded, happened, kept, sorted_by_acceptance
-from tvimdesign.solve.search import Keep, Search, optimize
+from tvimdesign.solve.search import Keep, Search, SearchInterrupted, optimize
 from tvimdesign.solve.variants import Cooling, Idealization, cooling, idealizations
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design

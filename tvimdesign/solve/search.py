@@ -11,7 +11,6 @@ from functools import partial
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
 from tvimdesign.base.interrupts import interrupt_came
-from tvimdesign.solve.best_so_far import SearchInterrupted, best_so_far
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
 from tvimdesign.solve.discrete.combinations import Begin, Block, ExactCombinations, SolvedBlock, enumerated_here
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
@@ -44,6 +43,28 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.refinements import ending_in_time, put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
+from tvimdesign.study.written_studies import started_at
+
+
+class SearchInterrupted(KeyboardInterrupt):
+    """A search that was interrupted."""
+
+    def __init__(self, best: Study | None = None) -> None:
+        """`best` is the study started at the best design so far; None if there is none yet."""
+        super().__init__()
+        self.best = best
+
+
+def best_so_far(study: Study, trees: Sequence[Relaxation]) -> Study | None:
+    """Return the study started at the best design its problems have reached; None if there is none yet."""
+    bests = [(order(tree.best), tree.place, tree) for tree in trees if tree.best is not None]
+    if not bests:
+        return None
+    tree = min(bests)[-1]
+    assert tree.best is not None
+    values = dict(zip(tree.optimizer.model.names, tree.best.inputs.tolist(), strict=True))
+    return started_at(study, values, tree.best.start.choices)
+
 
 Keep = Callable[[Optimizer, list[Run]], None]
 Search = Callable[[Study, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]

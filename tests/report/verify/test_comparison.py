@@ -16,11 +16,10 @@ from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.cli import commands
 from tvimdesign.page.page_file import page_html
-from tvimdesign.report import verification_tables as verify_report
 from tvimdesign.report import verify_design
+from tvimdesign.report import verify_design as verify_report
 from tvimdesign.report.output.command import Command as OutputCommand
-from tvimdesign.report.verification_tables import far, verified
-from tvimdesign.report.verify_design import verify_page
+from tvimdesign.report.verify_design import far, verified, verify_page
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 

@@ -18,7 +18,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.physics.motions.contacts import tightened_force
-from tvimdesign.physics.solids import fasteners, plate_beside_core, structure, wedge
+from tvimdesign.physics.solids import fasteners, plates, structure, wedge
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}
@@ -159,13 +159,13 @@ def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float
     names = ("core_screw_bores", "core_dowel_bores", "link_bottom_level", "rotor_top_level", "foot_fillet")
     screws, dowels, top, bottom, fillet = module.table.evaluate(_drawn(module), names).values()
     felt = structure.felt_at_foot(core, top - bottom, screws, dowels)
-    beside = plate_beside_core.thicker_by_fillet(thickness, fillet, structure.FOOT_MEAN)
-    return _mean_plate_stress(module, thickness, core) * beside * float(plate_beside_core.highest_around(felt))
+    beside = plates.thicker_by_fillet(thickness, fillet, structure.FOOT_MEAN)
+    return _mean_plate_stress(module, thickness, core) * beside * float(plates.highest_around(felt))
 
 
 def _mean_plate_stress(module: ResolvedModule, thickness: float, core: float) -> float:
     """Return the mean stress around a core with a sharp foot and no holes [Pa]."""
-    sheared = structure.mises(plate_beside_core.shear_beside_core(1.0, thickness, core, structure.FOOT_MEAN))
+    sheared = structure.mises(plates.shear_beside_core(1.0, thickness, core, structure.FOOT_MEAN))
     if module.study.mode != "compression":
         return float(sheared)
     names = ("block_lean_out", "block_between", "vanes_plate")
@@ -173,7 +173,7 @@ def _mean_plate_stress(module: ResolvedModule, thickness: float, core: float) ->
     of_core = structure.mises(1.0 / structure.shaft_torque(1.0, core))
     at = core / (core + 0.5 * structure.FOOT_MEAN)  # a moment on each length falls with the radius
     bent = wedge.foot_bending(lean, block.arm, core, plate) * of_core * at
-    return float(plate_beside_core.mean_with_bending(sheared, bent) if bent else sheared)
+    return float(plates.mean_with_bending(sheared, bent) if bent else sheared)
 
 
 def fe_values(module: ResolvedModule, fe_results: Mapping[str, Mapping[str, float]]) -> dict[str, float]:

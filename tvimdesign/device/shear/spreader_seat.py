@@ -17,7 +17,7 @@ from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow.shape_factors import constriction
 from tvimdesign.physics.layers import layer
-from tvimdesign.physics.solids import seated_plate, structure
+from tvimdesign.physics.solids import plates, structure
 
 kinds, places = QuantityGroup("Materials"), QuantityGroup("Layout")
 strengths, rules = QuantityGroup("Impedance"), QuantityGroup("Gaps", WITH_TILES)
@@ -55,14 +55,14 @@ def floor_between_seats(m: Module) -> Scalar:
 
 
 @strengths.helper(requires=WITH_TILES, default=None)
-def seat_path(m: Module) -> seated_plate.Path:
+def seat_path(m: Module) -> plates.Path:
     """Way of the torque from the spreaders through their seats into the floor."""
     spread = constriction(m.spreader_depth / m.floor_thickness)
-    seat = seated_plate.Seat(
+    seat = plates.Seat(
         m.spreader_gap, m.spreader_depth, spread, m.heater_adhesive_shear_modulus, m.structure_shear_modulus
     )  # fmt: skip
     radii = m.pcl_inner_radius, m.pcl_outer_radius
-    return seated_plate.path(seat, m.arc_count * m.arc_span, radii, m.floor_between_seats)
+    return plates.path(seat, m.arc_count * m.arc_span, radii, m.floor_between_seats)
 
 
 @strengths.output("N*m", requires=WITH_TILES)

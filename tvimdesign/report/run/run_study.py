@@ -30,8 +30,8 @@ from tvimdesign.report.output.command import Command, done_in_part, noting
 from tvimdesign.report.output.terminal import Progress, print_lines, print_section, progress_output, wide_console
 from tvimdesign.report.run.check_study import CHECKING
 from tvimdesign.report.run.parts_of_design import BackgroundPartsJob, in_short, plain_report, refuse_failed
-from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.result import StudyResult
+from tvimdesign.solve.search import SearchInterrupted
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import read_design, write_design
 from tvimdesign.study.tree import tree_of_file

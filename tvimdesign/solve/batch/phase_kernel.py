@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.engine import lane_events, lane_steps
+from tvimdesign.engine import lane_events, lanes
 from tvimdesign.engine.lane_events import NOWHERE
 from tvimdesign.engine.lanes import evaluate, lanes_of
 from tvimdesign.engine.tape import Tape
@@ -162,7 +162,7 @@ class _Run:
         self.phase, self.lengths, self.scales = phase, lengths, scales
         self.times = np.concatenate([[0.0], np.cumsum(lengths)])
         self.motion = phase.motion
-        self.room = lane_steps.Room(self.motion)
+        self.room = lanes.Room(self.motion)
         self.count = columns.shape[1]
         current, constants, first = phase.begin(columns, before)
         self.given = np.concatenate([current, constants])
@@ -202,7 +202,7 @@ class _Run:
             longer = np.empty((self.reached + steps + 1 + len(self.states) // 2, *self.states.shape[1:]))
             longer[: len(self.states)] = self.states
             self.states = longer
-        lane_steps.march(
+        lanes.march(
             self.motion.system, self.room.slopes, self.places, self.given, self.states, self.lengths, self.scales,
             self.reached, self.reached + steps, busy,
         )  # fmt: skip

@@ -19,8 +19,8 @@ from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import MARGINS, Ends, Run
 from tvimdesign.solve.nlp.spread import moments_at
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
+from tvimdesign.solve.uncertainty.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
 from tvimdesign.solve.uncertainty.yield_search import PRESSING, Robust, pressing, reach_yield, tightened
 from tvimdesign.study import ProfileOptions, Study

@@ -13,7 +13,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
-from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
+from tvimdesign.solve.uncertainty.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.uncertain_inputs import FREE_ANGLE, contributors_of, judges_modules
 
 Array = NDArray[np.float64]

@@ -24,7 +24,7 @@ from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, co
 from tvimdesign.solve.nlp.solution import LostTo, TightenedTolerance, YieldReached
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.sensitivity.output_sensitivity import OutputDerivatives
+from tvimdesign.solve.uncertainty.output_sensitivity import OutputDerivatives
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
 
 Array = NDArray[np.float64]

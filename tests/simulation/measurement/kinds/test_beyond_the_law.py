@@ -8,7 +8,7 @@ from made_measurements import MADE
 from made_measurements.faults import FAULTS, drift
 from measured_files import holds
 
-from tvimdesign.report.fit.fit_files import figure_data
+from tvimdesign.report.fit_files import figure_data
 from tvimdesign.simulation.measurement.measure_files import Measured, kind_sheet, measure_of
 from tvimdesign.simulation.measurement.record_file import NoRecordError, as_recorded, write_records
 

@@ -9,7 +9,7 @@ from support import fine, study_path
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
-from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities, output_sensitivities
+from tvimdesign.solve.uncertainty.output_sensitivity import OutputSensitivities, output_sensitivities
 from tvimdesign.study import read_study, read_study_text
 
 pytestmark = pytest.mark.slow
