@@ -3,8 +3,6 @@
 That folder is the run's own. What a user adds to it becomes a result, or goes with what a killed run has left.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import secrets

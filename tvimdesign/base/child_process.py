@@ -1,7 +1,5 @@
 """Child processes of our own: started alike, and gone when their parent is, however that ends."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import signal

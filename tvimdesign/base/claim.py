@@ -1,7 +1,5 @@
 """Claim on a results folder: one run writes it at a time, and the system releases the claim when its process ends."""
 
-from __future__ import annotations
-
 import json
 import os
 import platform

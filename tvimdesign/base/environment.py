@@ -1,7 +1,5 @@
 """The environment that the package runs in: threads of linear algebra, and extras that are installed."""
 
-from __future__ import annotations
-
 import os
 from importlib.util import find_spec
 

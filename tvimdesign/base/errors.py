@@ -1,7 +1,5 @@
 """The package's exceptions: one small tree, each with the exit code the command line answers with."""
 
-from __future__ import annotations
-
 import math
 
 

@@ -1,8 +1,6 @@
 """Interrupts: SIGINT, SIGTERM and SIGHUP raised as KeyboardInterrupt, again where a library swallows the first, and
 not before a module that is being imported is whole."""
 
-from __future__ import annotations
-
 import _thread
 import signal
 import sys

@@ -3,8 +3,6 @@
 Put the files of a finished run in the place of earlier results, and leave what the user added or changed.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

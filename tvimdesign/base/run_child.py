@@ -3,8 +3,6 @@
 The child asks to end with its parent before the module is imported, which takes seconds where it draws or solves.
 """
 
-from __future__ import annotations
-
 import runpy
 import sys
 import warnings

@@ -4,8 +4,6 @@ PIPE is the number of a pipe's end to read, whose other end the asking process a
 its own, which the kernel does not end with it. Run as a file, as it needs nothing of the package.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -10,8 +10,6 @@ A file is named by the hash of what was compiled and by whom. It begins with the
 follows, so that a file that is damaged or renamed is not used. Nor is a file that others could have written.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import os

@@ -1,7 +1,5 @@
 """Reads this package's own YAML, by the C library where there is one: a tenth of the time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import yaml

@@ -1,7 +1,5 @@
 """Records that making the parts returns, without the CAD kernel, and the names of all files."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Finds records by category and name, the user's folder before the shipped one, and reads them when asked."""
 
-from __future__ import annotations
-
 import stat
 import warnings
 from collections.abc import Sequence

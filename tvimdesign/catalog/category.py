@@ -3,8 +3,6 @@
 Laws that a record has from another material: it is based on a record of one, and its own values tell them apart.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import prod

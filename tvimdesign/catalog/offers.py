@@ -1,7 +1,5 @@
 """Offers for bought parts: number, pack and dated price, where a public list gives them; of others one asks a quote."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """The commands that test, analyse, compare and explore modules."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

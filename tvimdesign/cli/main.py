@@ -3,8 +3,6 @@
 Standard output and error of a command: letters that an encoding lacks, and a disk that is full.
 """
 
-from __future__ import annotations
-
 import atexit
 import codecs
 import gc

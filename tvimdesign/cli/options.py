@@ -1,7 +1,5 @@
 """Arguments and options that several commands have, their completions on Tab, and where results go by default."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path

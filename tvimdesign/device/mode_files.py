@@ -1,7 +1,5 @@
 """Files that define quantities: those that all modes share, and those of each mode."""
 
-from __future__ import annotations
-
 from types import ModuleType
 
 from tvimdesign.device.components import (

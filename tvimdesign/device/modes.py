@@ -1,7 +1,5 @@
 """Modes that a module can have, each with its table."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache

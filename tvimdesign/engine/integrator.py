@@ -6,8 +6,6 @@ along by the factors that each stage's Newton ended with, so they are those of t
 Source: Alexander, SIAM J. Numer. Anal. 14 (1977), 1006.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

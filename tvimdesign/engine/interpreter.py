@@ -5,8 +5,6 @@ its group. Registers `w` hold its arguments, then constants, then results. So th
 whatever the function is, and takes about two nanoseconds for an operation.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

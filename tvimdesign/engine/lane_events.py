@@ -4,8 +4,6 @@ A row of `given` is the current or a constant of the motion, one of `watched` an
 state; arrays of states are indexed by step, entry and design.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray

@@ -7,8 +7,6 @@ exact Newton step a stage. The lengths of steps are given, to be scaled for each
 or a constant of the motion; arrays of states are indexed by step, entry and design.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray

@@ -5,8 +5,6 @@ where. Matrices here are `mass - h J` of a heat network, which are diagonally do
 Source: Davis, Direct Methods for Sparse Linear Systems (2006), ch. 6 and 7.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

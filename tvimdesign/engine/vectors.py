@@ -4,8 +4,6 @@ Each is one instruction of LLVM on a vector, so that nothing is left to decide f
 logarithm are written out: range reduction and a polynomial, within two units of the last place.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from typing import Any

@@ -3,8 +3,6 @@
 Run as `python -m tvimdesign.explore.draft_worker`.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import os

@@ -1,7 +1,5 @@
 """The local server: a page, its files, and a socket; on the loopback address alone, to who has the token."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import hmac

@@ -1,7 +1,5 @@
 """A session between pages and the solver: messages become states, states become jobs, answers go to every page."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import os

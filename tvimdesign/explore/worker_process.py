@@ -1,7 +1,5 @@
 """A process that answers jobs as lines of JSON: the newest job wins, and interrupts a slow one."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import json

@@ -1,7 +1,5 @@
 """A page as one HTML file that opens offline: templates, styles, code, data; its blocks alone."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

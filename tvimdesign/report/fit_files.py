@@ -3,8 +3,6 @@
 A measurement as plain data: parameters with intervals, notes, residuals, and the figure's panels.
 """
 
-from __future__ import annotations
-
 import json
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence

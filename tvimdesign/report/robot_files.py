@@ -1,7 +1,5 @@
 """The command robot, from a design to a finished folder: models, tables, FMU, and what the terminal shows."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Lists the rows of a mode's table, groups first: what a study may set, vary, require and minimise."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Sequence

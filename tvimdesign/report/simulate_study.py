@@ -1,7 +1,5 @@
 """One virtual test, from a study file to a finished folder: sheets as CSV, the figure, and what was read off."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace

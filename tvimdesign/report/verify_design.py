@@ -1,7 +1,5 @@
 """The command `verify`: a design's parts by finite elements beside its model, from a result to a finished folder."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The FMU as a file: sources, description, and the binary where this machine has a C compiler."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import platform

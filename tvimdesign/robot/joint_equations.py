@@ -6,8 +6,6 @@ All other inputs are constants of the design.
 The description of an FMU, modelDescription.xml, and the variables that it lists.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

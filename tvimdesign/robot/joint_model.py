@@ -3,8 +3,6 @@
 The joint at each operating point as a simulator takes it: springs, Maxwell elements, friction, and a time step.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable, Sequence

@@ -4,8 +4,6 @@ Every test returns one `Trial`; the report writes a CSV for each sheet and a fig
 of what was tested.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ A study alone divides each output by its value at its own start. Of two studies 
 pay less for a second than the other, because it was drawn slower.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property

@@ -3,8 +3,6 @@
 The constants are those of the module as drawn; all else differs, thermistor and driver too.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ The joint is heated until soft, kept so by its hold current, cooled until stiff,
 next switch. The engine steps these phases as it does those of one cycle; only the first state is another.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 

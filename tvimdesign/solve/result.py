@@ -1,7 +1,5 @@
 """A study answered: evaluated or optimised, as a `Design` with what the report draws from."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any

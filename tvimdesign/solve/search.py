@@ -1,7 +1,5 @@
 """Searches a study's design space: every start, what is listed by branch and bound, the best accounted for."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence

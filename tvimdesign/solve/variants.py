@@ -1,7 +1,5 @@
 """Variants of a design evaluated beside it: without one of its idealizations, and without cooling by current."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ Compared are designs, not tasks: what the joint must do (stroke, load, requireme
 PCL) must be the same. Layout and springs are each study's own; so are limits on outputs that one mode alone has.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace

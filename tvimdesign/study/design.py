@@ -1,7 +1,5 @@
 """A design: the plain data that a solved study becomes, from which parts and reports are made, and its file."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -1,7 +1,5 @@
 """Source of each number of a design, and how well it is known: from the study, a record, a default or the model."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

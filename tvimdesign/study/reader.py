@@ -1,7 +1,5 @@
 """From a study file to a `Study`: reads every section, collects every problem, and raises them all at once."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from difflib import get_close_matches

@@ -3,8 +3,6 @@
 Warnings about the chosen records: contradictions, missing limits, and tasks they cannot do.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

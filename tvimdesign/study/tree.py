@@ -3,8 +3,6 @@
 From Python values to the nodes a study is read from, so that what a script gives meets the reader of study files.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping as Mapped
 from collections.abc import Sequence as Sequenced

@@ -1,7 +1,5 @@
 """Studies that the program writes: a template, shipped examples, a result as a study; and their JSON Schema."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Mapping

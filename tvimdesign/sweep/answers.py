@@ -1,7 +1,5 @@
 """Answers cells one after another in this process: a cell's answer depends on its study alone, not on the others."""
 
-from __future__ import annotations
-
 import math
 from collections import OrderedDict
 from typing import Any

@@ -1,7 +1,5 @@
 """The cells of a finished sweep gathered to tables: CSV and SQLite."""
 
-from __future__ import annotations
-
 import contextlib
 import csv
 import sqlite3

@@ -6,8 +6,6 @@ again and again, and answers each with one: how many cells are done and what the
 A chunk is some cells of a kind that go to a worker together, enough for half a second.
 """
 
-from __future__ import annotations
-
 import base64
 import contextlib
 import json

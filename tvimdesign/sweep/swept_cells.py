@@ -1,7 +1,5 @@
 """Cells of a sweep: their summary as they pass to the files, and those that a finished sweep's folder has."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import math

@@ -3,8 +3,6 @@
 Parts of the module of each mode: how each is drawn, where it stands, and how far it is lifted to be seen apart.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache, partial

@@ -1,7 +1,5 @@
 """The assembly for programs that show it: placed meshes, binary glTF, and of each part what it is and how it moves."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any

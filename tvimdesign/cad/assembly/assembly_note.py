@@ -3,8 +3,6 @@
 Figures in the steps of an assembly note: quantities of the table, and words that follow from some of them.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial

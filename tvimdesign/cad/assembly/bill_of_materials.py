@@ -1,7 +1,5 @@
 """The bill of materials: what a module is put together from, how often, of what, and how heavy."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

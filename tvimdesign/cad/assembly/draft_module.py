@@ -1,7 +1,5 @@
 """A module drafted: every part as triangles with normals and sharp edges, from the same drawing as the exact one."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, radians

@@ -1,7 +1,5 @@
 """The wiring diagram of a module: supply, driver, cut-out, heaters, the controller and the thermistors' dividers."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from html import escape
 

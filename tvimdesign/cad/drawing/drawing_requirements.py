@@ -1,7 +1,5 @@
 """Requirements of a drawing beyond shape: fits of the seats by ISO 286, surfaces, edges and threads."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache

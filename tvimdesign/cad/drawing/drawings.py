@@ -1,7 +1,5 @@
 """The drawing of a part for a workshop: sections and plan with what was read off the solid as dimensions."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import cos, radians, sin
 

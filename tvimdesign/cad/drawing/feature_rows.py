@@ -1,7 +1,5 @@
 """Rows of a drawing's table for upright faces of a part: one numbered row for all that are alike around the axis."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Tolerance frames by ISO 1101 and the marks of datums by ISO 5459, drawn as lines: no font has all their symbols."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

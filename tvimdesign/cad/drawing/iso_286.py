@@ -1,7 +1,5 @@
 """Limit deviations of a tolerance class by ISO 286-1, from its table in `iso_286.yaml`."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from functools import cache

@@ -1,7 +1,5 @@
 """Views of a solid as plane curves: from above, and from the front with the near half cut away."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache

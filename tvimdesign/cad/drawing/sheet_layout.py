@@ -3,8 +3,6 @@
 Numbers beside the plan, each with a leader to the feature of its row in the table; no leader crosses another.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise

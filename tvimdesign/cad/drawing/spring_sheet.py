@@ -1,7 +1,5 @@
 """Sheet and table for a spring maker: every number of the torsion springs with its tolerance."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Print files: the part lying as it is printed, its holes larger, as a mesh whose error was measured."""
 
-from __future__ import annotations
-
 import io
 import zipfile
 from collections.abc import Sequence

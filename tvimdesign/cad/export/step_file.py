@@ -1,7 +1,5 @@
 """Writes STEP AP242 in millimetres: named, coloured solids with material and density, the same bytes every time."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass

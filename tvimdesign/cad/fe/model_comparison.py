@@ -7,8 +7,6 @@ friction first, with the coefficient between link and core; what is left shears 
 where there are any and its screws where there are none. Equivalent stress by VDI 2230-1:2015 (`physics/solids`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

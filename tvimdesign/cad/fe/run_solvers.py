@@ -1,7 +1,5 @@
 """Exports the parts of a design for FE, and runs the solvers beside this process, two at once."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

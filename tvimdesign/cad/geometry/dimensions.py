@@ -1,7 +1,5 @@
 """From a design in SI to the dimensions the parts are drawn with: millimetres, radians and plain counts."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from typing import Any

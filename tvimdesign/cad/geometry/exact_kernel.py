@@ -1,7 +1,5 @@
 """Outlines of upright bodies, what a kernel makes of them, and the exact kernel, which is CadQuery. Lengths in mm."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import pi, sqrt
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """The kinds of part a module has: the colour of each, what it is made of, and the rows that describe it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

@@ -4,8 +4,6 @@ What draws them is a kernel: CadQuery's, unless another one is chosen for a whil
 once, for exact solids and for drafts.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar

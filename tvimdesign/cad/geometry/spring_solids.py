@@ -4,8 +4,6 @@ All is said of the right-hand spring in its own frame: its axis is z, the floor'
 away from the rotor's axis. The left-hand spring is its mirror image in the plane of both axes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan, cos, hypot, isfinite, pi, sin, sqrt
 

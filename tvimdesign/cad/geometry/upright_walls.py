@@ -3,8 +3,6 @@
 Finds pockets and vanes about the axis: arcs between two end walls whose planes hold the axis.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin

@@ -1,7 +1,5 @@
 """Checks of a part by the way it is made, of the springs, of the casting jig, and of the module as a whole."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from math import atan2, cos, hypot, pi, sin
 

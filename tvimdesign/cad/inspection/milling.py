@@ -1,7 +1,5 @@
 """Checks for a mill of three axes: sides it reaches a part from, hidden and narrow places, corners and holes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Checks of the assembly: parts go into their places in the order of the note, and a tool reaches each screw."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from math import cos, inf, pi, sin, sqrt
 

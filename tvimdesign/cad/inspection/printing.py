@@ -1,7 +1,5 @@
 """Checks of a part as it lies on the print bed: overhangs that need support, bridges, and room on the bed."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import degrees, pi, sin, sqrt
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Holds the built parts against the design: sound solids, the sizes the model used, and no part in another."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from math import nan, sqrt

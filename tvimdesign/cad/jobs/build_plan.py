@@ -1,7 +1,5 @@
 """Which pieces of work make a module's files: each kind of part, the checks, the assembly, the papers, the pictures."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache, partial

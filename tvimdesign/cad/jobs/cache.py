@@ -5,8 +5,6 @@ what was read, the checks, and the hash of each file. It is used again where the
 the results it was made from are the same. A file that has changed, or that others could have written, makes it void.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json

@@ -7,8 +7,6 @@ fork for each would copy what it touches of the kernel's memory anew. One that i
 ended and its work named; another takes its place, and what was made is kept.
 """
 
-from __future__ import annotations
-
 import contextlib
 import gc
 import multiprocessing as mp

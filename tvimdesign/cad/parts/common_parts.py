@@ -1,7 +1,5 @@
 """The drawn parts that all modes share: rotor axis z, the floor's upper face z = 0. A mode adds its own; no springs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from math import atan2, hypot, pi, sqrt
 

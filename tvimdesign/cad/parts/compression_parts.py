@@ -3,8 +3,6 @@
 Drawn in words in `device/compression/__init__.py`. Vanes, pads and blocks are drawn on the x axis and turned in place.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import pi
 

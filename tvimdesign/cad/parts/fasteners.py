@@ -3,8 +3,6 @@
 Each is drawn upright on the module's axis.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Bearings, the wave spring, the rotary adjusters of the springs and the cover: drawn and placed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from math import atan2, pi
 

@@ -3,8 +3,6 @@
 Parts of the shear module are centred on the x axis, as an arc is; those in vanes stand along it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from math import sin, sqrt, tan
 

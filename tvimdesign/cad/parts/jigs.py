@@ -5,8 +5,6 @@ it stands in the module, so that the jig is closed by construction: the dam's he
 of the lid are the part's keys. Surplus flows over the dam. Fixtures have no place in the module and its mass.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import cadquery as cq

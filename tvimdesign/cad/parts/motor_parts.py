@@ -1,7 +1,5 @@
 """The motor below the module: hub, housing and retainer, and what is bought, drawn where they stand."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from math import pi
 

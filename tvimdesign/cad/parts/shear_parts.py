@@ -1,7 +1,5 @@
 """The parts of the shear module: arcs of PCL on pads that lie in pockets of the floor, with windows below them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import pi
 

@@ -1,7 +1,5 @@
 """Pictures of the module: whole and opened, taken apart, and cut through."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import product
 from math import cos, pi, sin

@@ -3,8 +3,6 @@
 A picture of a field on a surface in colours, its shape bent as it is loaded, with a scale. Needs no display.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, lru_cache
 from importlib import import_module

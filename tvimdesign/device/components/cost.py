@@ -8,8 +8,6 @@ Not counted: supply, driver and controller, which the study's voltage and curren
 grease, bought by the pack; a motor's parts; and work. What has no price counts nothing, and `unpriced_count` counts it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.axial_preload import WITH_PRELOAD

@@ -6,8 +6,6 @@ sectors about the axis, so that their faces meet flat. They take the room there 
 when it softens. Two opposite posts share it, as the rotor moves aside in its hub until both bear.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.core.layout import evened_least

@@ -1,7 +1,5 @@
 """Adhesive that carries the joint's torque past the heaters, and the shear that heaters bear themselves."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

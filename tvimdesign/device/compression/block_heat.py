@@ -4,8 +4,6 @@ By symmetry no heat passes the middle of a rotor vane, which a block heats from 
 free sides of blocks, pads and vanes is in `ring_heat`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.compression.block_impedance import blocks_moment

@@ -5,8 +5,6 @@ is lost here; how a gap opens in large ones is a matter of time and history
 (`device/core/impedance/joint_impedance.py`).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.bearing import with_bearings

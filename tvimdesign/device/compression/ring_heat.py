@@ -6,8 +6,6 @@ three bodies from its upper face on, as is the rotor plate above them; the floor
 and plate at the housing's vanes are three in a row from the pads on, as these are.
 """
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

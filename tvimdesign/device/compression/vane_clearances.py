@@ -1,7 +1,5 @@
 """Rules for the vanes, blocks, pads and slots of the compression module."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH

@@ -4,8 +4,6 @@ Vanes give heat to floor and rotor plate through their roots, and through the cl
 meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`ledge_ways`).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.compression.ring_heat import (

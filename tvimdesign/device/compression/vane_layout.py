@@ -7,8 +7,6 @@ rotor's vane; what the springs press into the gap while it is soft is not taken 
 rotor need not come down with the blocks: a running clearance is below and above them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES

@@ -4,8 +4,6 @@ Liners in both faces of the rotor's vanes are sheets with the face of a block, w
 open at both ends and below, where the liner slides in; above it ends with the block. What a pressed liner squeezes to
 its sides is free, so the compliance is the highest."""
 
-from __future__ import annotations
-
 from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar

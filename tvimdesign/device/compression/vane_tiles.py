@@ -19,8 +19,6 @@ behind the face as it is thick by half, and touches the end of the pad, or of th
 hole of the floor, through which it is put in.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.heater_adhesive import WITH_PADS

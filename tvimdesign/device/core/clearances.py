@@ -1,7 +1,5 @@
 """Rules for the parts to go together, be made, and stay apart while they move."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

@@ -4,8 +4,6 @@ The rotor axis is z. The floor's upper face is z = 0; the rotor plate stands abo
 torsion springs around them with their axes parallel to z. Levels below the floor are negative.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

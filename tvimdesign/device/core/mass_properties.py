@@ -1,7 +1,5 @@
 """Volume, mass and inertia of the parts that all modes have, from the dimensions the solids are built from."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

@@ -1,7 +1,5 @@
 """Materials of the module: the chosen catalogue records and the numbers taken from them."""
 
-from __future__ import annotations
-
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.device.table.quantity_group import QuantityGroup
 

@@ -1,7 +1,5 @@
 """Frameless motor, bearings and encoder that drive the module, if any, and the sizes they are bought in."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from tvimdesign.device.table.module import Module

@@ -11,8 +11,6 @@ The melt goes with both of its faces, so that an arc leans after a turn. Frozen 
 over one another: the torque held is the least over the stroke.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.hard_stops import SLIVER, STOPS

@@ -1,7 +1,5 @@
 """Rules for the motor, its hub, housing, bearings and encoder; each quantity is zero without a motor."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.bearing import BEARINGS, load_per_torque

@@ -15,8 +15,6 @@ of the base. Rotor and stator are bonded, with the gap of parts that slip into a
     base, retainer with magnet, board
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.process import runout

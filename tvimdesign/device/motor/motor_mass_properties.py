@@ -4,8 +4,6 @@ All is zero without a motor. A motor below the feet turns the housing and what g
 springs' axes, the rounding of pockets and windows at their mean radius: right to a thousandth or two (the checks on the
 solids hold it to 0.5 %)."""
 
-from __future__ import annotations
-
 from tvimdesign.device.components.bearing import BEARINGS, density_as_a_ring, inner_ring
 from tvimdesign.device.components.fastening import screw_moments
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR

@@ -5,8 +5,6 @@ modules lies a spreader of metal, stiffer than a printed plate, which is the low
 over to the floor what it has taken (`spreader_seat`).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.liner import WITH_LINER

@@ -5,8 +5,6 @@ Volumes of what only the shear module has: arcs of PCL, a floor with pockets for
 Rules for the arcs of the shear module, the pads under them and the windows below those.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

@@ -13,8 +13,6 @@ k_y)^(1/2), its depth stretched by (k_x/k_y)^(1/2). The side itself is a sheet o
 slab's height (`constriction`). Air in the open windows takes too little heat to count.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -6,8 +6,6 @@ holds there. Keys turn with the plate. The heat model and the plate's stiffness 
 plate's area, filled with a plastic like the one around.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

@@ -10,8 +10,6 @@ one. The liner's cells give by their own excess over the plate's edge what such 
 fall. The plate is that wall's for a share of its depth (`shape_factors.constriction`).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -6,8 +6,6 @@ The plate beside it is a strip that this heats; the floor is in `floor_heat`.
 The layer of the shear module in columns from the middle of an arc to its edge, which is the last to soften.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -9,8 +9,6 @@ bound: what shrinks while it is warm and soft, and what relaxes, is not taken of
 layer's are left to help.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.bearing import with_bearings

@@ -5,8 +5,6 @@ again, and run on along the ground below the floor. A slot beside that end of ea
 The module's colder plate ends a porch before that end, on which the leads are soldered.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import WITH_TILES

@@ -18,8 +18,6 @@ lower face (`floor_heat.below_lips`), and it gives all of that to the plate's ed
 beside the arcs (`layer_heat.rotor_beside`).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.axial_preload import GRAVITY, HOUR

@@ -24,8 +24,6 @@ its top flush with the floor, below the end of the layer. Its wires go down thro
 own: the bead stands below the spreader of each arc, over the hole that is there for its wires.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.heater_adhesive import WITH_PADS

@@ -6,8 +6,6 @@ below it lie in thermal grease on their ledges, free to slide, and bear neither 
 the arc is sheared: it bears what its record allows, and nothing where that is silent. Adhesive holds it on its ledges.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.components.heater_adhesive import WITH_PADS

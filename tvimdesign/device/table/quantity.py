@@ -16,8 +16,6 @@ is found.
 `PHASES` is the device's working cycle: soft by heating, stiff again by cooling.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Collection of a file's quantities: a function's name is the quantity's name, its docstring the description."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from importlib import resources

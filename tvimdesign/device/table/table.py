@@ -1,7 +1,5 @@
 """The table of one kind of module: every quantity looked up by name, and evaluated from those it needs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property

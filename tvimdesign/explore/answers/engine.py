@@ -1,7 +1,5 @@
 """Answers for a page: quick ones while something is dragged, exact ones when it is let go."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass

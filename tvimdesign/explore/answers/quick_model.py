@@ -3,8 +3,6 @@
 What they step takes a second to record, in a thread beside; until then the simulator goes through the cycle, loosely.
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Mapping
 from dataclasses import dataclass

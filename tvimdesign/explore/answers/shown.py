@@ -1,7 +1,5 @@
 """Data of a module for a page: limits with their state, variables at their ends, and every value."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping
 from typing import Any

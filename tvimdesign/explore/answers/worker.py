@@ -4,8 +4,6 @@ Run as `python -m tvimdesign.explore.answers.worker SOURCE FOLDER [SETTING...]`.
 under way, as a newer one stands in its place; the process goes on.
 """
 
-from __future__ import annotations
-
 import hashlib
 import io
 import json

@@ -1,7 +1,5 @@
 """History of an explorer for undo and redo, in a file that is whole at any moment."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

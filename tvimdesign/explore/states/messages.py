@@ -1,7 +1,5 @@
 """Messages from a page to the server, each checked before it is used."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError

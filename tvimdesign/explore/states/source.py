@@ -1,7 +1,5 @@
 """Sources of an explorer: a study file, a result with its design and front, or a sweep with its cells."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -3,8 +3,6 @@
 The controls of a page: what a study varies, fixes, requires and weighs, with units, limits and what they mean.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from collections import Counter

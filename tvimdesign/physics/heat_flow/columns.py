@@ -8,8 +8,6 @@ A block's rows go from its lower face to its upper one. Both faces lose heat to 
 ends, at the pads and at the vane, are each of one temperature. By separation of variables (Carslaw and Jaeger,
 Conduction of Heat in Solids, ch. V)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 

@@ -8,8 +8,6 @@ conductivity of a half molten cell are of first order: a conductivity ratio of f
 cent at 28 cells.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

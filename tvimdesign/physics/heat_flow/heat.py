@@ -16,8 +16,6 @@ heat capacity, the liner if there is one, and with kinetics one extended fractio
 stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the order of one.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple

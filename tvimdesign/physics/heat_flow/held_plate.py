@@ -5,8 +5,6 @@ outer face to the air (Incropera, Fundamentals of Heat and Mass Transfer, ch. 3,
 polymer and plate is left out; a liner between the two stands in series.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

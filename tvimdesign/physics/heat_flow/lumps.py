@@ -7,8 +7,6 @@ and by radiation between parallel grey plates (ch. 13).
 A strip that is heated along its edge is three bodies in a row.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 

@@ -3,8 +3,6 @@
 Source: Rowe (ed.), CRC Handbook of Thermoelectrics, ch. 1; temperatures in kelvin.
 """
 
-from __future__ import annotations
-
 from math import log, pi
 from typing import Any, NamedTuple
 

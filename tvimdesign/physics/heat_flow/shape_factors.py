@@ -13,8 +13,6 @@ A slab may be one body: heat through one face, or a part of it, changes another'
 evenly heated slab, ch. III).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -22,8 +22,6 @@ volume, so a pad that cannot slip on its faces gives as its sides let it bulge. 
 [GL] Gent and Lindley, Proc. Inst. Mech. Eng. 173 (1959) 111 (bonded blocks by their shape factor); FE of single pads
 (validation/fe_structure/pads.csv) for how far the edges of a slot hold it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

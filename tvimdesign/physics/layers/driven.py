@@ -6,8 +6,6 @@ Sources: Den Hartog, Mechanical Vibrations, 4th ed., ch. 2 (support that moves);
 (1959) 67, with constant mean acceleration. Maxwell elements take the exact step of a constant rate, which is stable.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 

@@ -7,8 +7,6 @@ Source: Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 1 and 3; Christ
 ed., ch. 2 (the correspondence principle, by which the elastic answer holds for transforms).
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -3,8 +3,6 @@
 Textbook torsion of a flat ring: shear strain r theta/t, traction G r theta/t, torque the integral of r times traction.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -25,8 +25,6 @@ e^(+-p)/sqrt(q), q^2 = 4 + l^2 r^2, p' = q/r (NIST Digital Library of Mathematic
 for stiff sheets.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -3,8 +3,6 @@
 Play: rigid bodies and small angles (textbook kinematics); lengths in metres, angles in radians, to one side of the
 middle."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

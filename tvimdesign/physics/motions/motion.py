@@ -12,8 +12,6 @@ For what fades, or creeps, without ringing. Floats, arrays and symbols alike; no
 Source: Stehfest, Communications of the ACM 13 (1970) 47 and 624, algorithm 368.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import cache
 from math import factorial, log

@@ -8,8 +8,6 @@ recovers. Both are equal where the pull is zero, so nothing jumps when contact i
 Source: Signorini's conditions of one-sided contact (Kikuchi and Oden, Contact Problems in Elasticity, 1988, ch. 2).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 

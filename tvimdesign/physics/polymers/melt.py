@@ -15,8 +15,6 @@ Dynamics of Polymeric Liquids, vol. 1, sec. 1.3 (squeeze film); de Gennes, Broch
 Wetting Phenomena, ch. 1.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

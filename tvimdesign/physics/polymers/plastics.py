@@ -13,8 +13,6 @@ the glass transition); [Chr] Christensen, Theory of Viscoelasticity, 2nd ed. (qu
 Hall and Woods, Vibrations of Soils and Foundations (1970), ch. 10 (rigid discs on a half-space).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 

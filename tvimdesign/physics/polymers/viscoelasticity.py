@@ -11,8 +11,6 @@ Sources: Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 3; Findley, La
 Nonlinear Viscoelastic Materials, ch. 5.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 

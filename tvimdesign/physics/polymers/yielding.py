@@ -5,8 +5,6 @@ tau. Small stresses relax as in the linear spectrum. At a constant rate the stre
 Sources: [E] Eyring, J. Chem. Phys. 4 (1936) 283; [T] Tervoort, Klompen and Govaert, J. Rheol. 40 (1996) 779.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

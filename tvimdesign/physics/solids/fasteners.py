@@ -3,8 +3,6 @@
 A screw is loaded along and across (VDI 2230-1:2015), by its stress section. A screw's pitch follows from its tapping
 drill, P = d - d_t (ISO 2306)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -9,8 +9,6 @@ Sources: equilibrium; [T] Timoshenko and Goodier, Theory of Elasticity, 3rd ed. 
 drawn parts (validation/fe_structure).
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

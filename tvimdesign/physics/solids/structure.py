@@ -5,8 +5,6 @@ in their plane; [B] Timoshenko, Strength of Materials, part I, 3rd ed., ch. 5 (b
 are calibrated stand for ways of the torque that these leave out; FE of the drawn parts gave them.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -4,8 +4,6 @@ Sources: [T] Timoshenko, Strength of Materials, part I, 3rd ed., ch. 5 (cantilev
 bending and by shear, beams); [M] Mises' criterion of yield.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -8,8 +8,6 @@ ed., ch. 8 (torsion of rectangular bars); [R] Roark's Formulas for Stress and St
 [TG] Timoshenko and Goodier, Theory of Elasticity, 3rd ed., art. 33 (a sheet turned at a hole).
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -7,8 +7,6 @@ Source: [T] Timoshenko, Strength of Materials, part II, 3rd ed., ch. 1 (curved b
 twisted); G I_p = E I/(1 + nu) for round wire. Compared with FE of the drawn springs in validation/fe_spring.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -13,8 +13,6 @@ leg passes C at the distance e (its offset) and runs through P. The winding angl
 coil up. Derivation: with s = |CP|, the leg's direction is atan2(P - C) + c asin(e/s), c = +-1 the hand.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Literal
 

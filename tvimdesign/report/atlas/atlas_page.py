@@ -1,7 +1,5 @@
 """The page of an atlas: what was asked, the map to brush, and every cell with its study or the limits that end it."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """The command atlas, from a plan to a finished folder."""
 
-from __future__ import annotations
-
 import csv
 import io
 import time

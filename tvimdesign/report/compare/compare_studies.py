@@ -3,8 +3,6 @@
 Child processes that answer the studies of a comparison, two at once; if one crashes, the others continue.
 """
 
-from __future__ import annotations
-
 import json
 import queue
 import subprocess

@@ -1,7 +1,5 @@
 """Result of a comparison: the child processes' answers as designs, rows, fronts and the winner of each pair."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property

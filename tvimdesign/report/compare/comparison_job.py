@@ -5,8 +5,6 @@
 object, and prints a line of JSON. A step that fails is listed under `troubles`, and the other steps are done.
 """
 
-from __future__ import annotations
-
 import json
 import signal
 import sys

@@ -1,7 +1,5 @@
 """A comparison as sections of text, tables and figures, and what its pictures are drawn from."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any

@@ -3,8 +3,6 @@
 Conclusions of a comparison, in sentences with their conditions; every number in them is computed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

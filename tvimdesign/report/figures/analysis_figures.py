@@ -1,7 +1,5 @@
 """Figures of a tolerance analysis, a fit and a sweep."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The figures over a working cycle: temperatures and profiles, stiffness and damping, power and energy."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import matplotlib as mpl

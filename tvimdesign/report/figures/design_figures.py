@@ -1,7 +1,5 @@
 """Figures of a design: fronts, stiffness and damping over temperature, torque over angle."""
 
-from __future__ import annotations
-
 import itertools
 from typing import Any
 

@@ -1,7 +1,5 @@
 """One page for a mail or a lab book: verdict, requirements, facts, warnings and the module, on A4."""
 
-from __future__ import annotations
-
 import textwrap
 from itertools import zip_longest
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The look of all figures: colours and sizes, axes, and the canvas in inches."""
 
-from __future__ import annotations
-
 import io
 import math
 import textwrap

@@ -1,7 +1,5 @@
 """The figure of a virtual test: curves with bands, and oscillations whose later swings are drawn as a band."""
 
-from __future__ import annotations
-
 import textwrap
 from typing import Any, NamedTuple
 

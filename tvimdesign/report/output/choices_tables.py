@@ -1,7 +1,5 @@
 """Tables of choices from lists: the best combinations, the cost of standard sizes, and the proof of the choice."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from tvimdesign.base.units import format_quantity, from_si

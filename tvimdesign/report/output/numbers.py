@@ -4,8 +4,6 @@ One unit system in files: every bare number is in SI. A number that people read 
 `low` and `high` with its `unit`, and under `si` once more in SI. What never happens is null.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 import math

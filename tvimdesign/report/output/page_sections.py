@@ -1,7 +1,5 @@
 """Shared parts of all commands' pages: grids from rows of text, the study's file, versions, and writing a page."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Collection, Mapping, Sequence

@@ -5,8 +5,6 @@ Run as `python -m tvimdesign.report.output.plot_process`: reads JSON objects on 
 writes a file of each ending for each drawing. `PlotProcess` is the other end.
 """
 
-from __future__ import annotations
-
 import gc
 import json
 import os

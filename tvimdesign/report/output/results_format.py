@@ -4,8 +4,6 @@ One unit system: every bare number is in SI. A number that people read in anothe
 `high` with its `unit`, and under `si` once more in SI. What never happens is null.
 """
 
-from __future__ import annotations
-
 from typing import Any, Literal, NotRequired
 
 from pydantic import TypeAdapter

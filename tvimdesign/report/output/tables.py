@@ -3,8 +3,6 @@
 Meaning of "soft" and "stiff" in a module, in words: an impedance at a frequency, and what it is a multiple of.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict

@@ -3,8 +3,6 @@
 Terminal output while a run works: results on standard output, progress on standard error.
 """
 
-from __future__ import annotations
-
 import io
 import os
 import re

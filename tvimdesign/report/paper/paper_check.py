@@ -6,8 +6,6 @@ Polycaprolactone". What it states stands in `paper_claims.yaml`; every other num
 The paper check's rows on the module: the layer's area, response time, release, springs beside the PCL, housing.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable

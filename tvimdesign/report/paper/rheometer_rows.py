@@ -4,8 +4,6 @@ The specimen is the paper's, between plates of 25 mm diameter 1 mm apart; what a
 assumed with a range in `paper_claims.yaml`, as no sheet of its maker was read.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The paper check's rows on springs: rate, output stiffness, pretension, wire, sizes and angles."""
 
-from __future__ import annotations
-
 import math
 
 from tvimdesign.base.units import from_si, to_si

@@ -1,7 +1,5 @@
 """A study answered: every way to show, write or print an answer starts from it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial

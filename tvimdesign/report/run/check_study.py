@@ -1,7 +1,5 @@
 """Checks a study without answering it: its text, limits that cannot hold together, records with doubtful values."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

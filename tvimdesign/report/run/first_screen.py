@@ -1,7 +1,5 @@
 """The first screen of a run: verdict, requirements, facts and warnings in 16 lines; and summary.txt with all tables."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from rich.console import Console

@@ -3,8 +3,6 @@
 Keeps the points of a front in the results folder while it is sought, so that a run that was killed goes on there.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """The sections on the parts, read off the files that CAD has written: solids, checks, materials, steps, springs."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Mapping, Sequence

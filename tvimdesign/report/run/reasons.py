@@ -1,7 +1,5 @@
 """Reasons for a design, or for none: active limits and their costs, what conflicts, and how each start ended."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence

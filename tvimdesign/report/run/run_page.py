@@ -3,8 +3,6 @@
 Writes a study into its folder: answered, with tables, curves and the design, or refused, with the reason.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager

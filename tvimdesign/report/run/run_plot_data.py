@@ -1,7 +1,5 @@
 """Data of a run's figures: an answer's numbers in the units of the axes."""
 
-from __future__ import annotations
-
 from bisect import bisect_left
 from collections.abc import Callable
 from typing import Any

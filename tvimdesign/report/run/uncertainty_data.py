@@ -3,8 +3,6 @@
 A yield that was asked for, in words: what is reached, what the margins cost, and what stands in its way.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """The figures of a sweep: lines over an axis, points over two, and cells to brush on the page."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from typing import Any

@@ -3,8 +3,6 @@
 The folder of a sweep that the jobs of an array share: the job after which every cell is there gathers them.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import time

@@ -1,7 +1,5 @@
 """The spread of a module as plain data and CSV, apart from what is not known of it, and the data of the figure."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any

@@ -3,8 +3,6 @@
 The spread of a module in sentences: how many modules are good, what to tighten first, what the free angle does.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any

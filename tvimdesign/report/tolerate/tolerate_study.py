@@ -1,7 +1,5 @@
 """One tolerance analysis, from a study or a design to a finished folder and what the terminal says."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path

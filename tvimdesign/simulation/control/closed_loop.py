@@ -1,7 +1,5 @@
 """A module under its controller: heat equation by the engine, driver and thermistor with their lags."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import exp
 from typing import NamedTuple

@@ -7,8 +7,6 @@ J. Process Control 13 (2003) 291; [Z] Ziegler and Nichols, Trans. ASME 64 (1942)
 Hagglund, Advanced PID Control (2006), sec. 3.5 (conditional integration) and 4.5 (disturbance as a state).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot, log

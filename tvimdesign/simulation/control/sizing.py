@@ -1,7 +1,5 @@
 """The constants of a module's controller, from its working cycle and its heat equation."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

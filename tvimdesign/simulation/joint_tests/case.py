@@ -1,7 +1,5 @@
 """Shared parts of the motion tests: the joint at each temperature and history, and numbers with their interval."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeVar

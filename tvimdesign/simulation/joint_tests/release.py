@@ -1,7 +1,5 @@
 """The perturbation test: the link held off its rest and let go, at each temperature."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """The link turned to and fro as a sine: the module's torque, its loop, and stiffness and damping read off in time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

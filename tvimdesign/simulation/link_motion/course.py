@@ -9,8 +9,6 @@ it would slip and stick at every period of the joint is followed without its ine
 Source: J. P. Den Hartog, Mechanical Vibrations, 4th ed.: free vibration with Coulomb damping.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property

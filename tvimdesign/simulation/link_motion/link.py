@@ -1,7 +1,5 @@
 """The link's motion in time: held, released, swung or turned; exact in every mode of its polymer."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 

@@ -12,8 +12,6 @@ structure behind a PCL of Maxwell elements is once more a body of Maxwell elemen
 rigid structure.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 

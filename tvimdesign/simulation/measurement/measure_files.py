@@ -3,8 +3,6 @@
 Needs and settings of each kind of measurement, as `kinds.yaml` lists them; nothing heavy is loaded.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches

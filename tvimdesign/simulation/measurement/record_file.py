@@ -1,7 +1,5 @@
 """A record of the catalogue from a measurement: `measured` values with low, high and the files' hashes."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The virtual rheometer oscillating: sweeps of frequency, of amplitude and of temperature."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

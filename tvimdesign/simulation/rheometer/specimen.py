@@ -6,8 +6,6 @@ allows; they are the columns `..._low` and `..._high` of a sheet, and `low` and 
 Kelvin-Voigt, Maxwell and standard linear solid fitted to the full spectrum in one test, and how far off they are.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import astuple, dataclass, fields

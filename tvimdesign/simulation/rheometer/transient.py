@@ -1,7 +1,5 @@
 """The virtual rheometer holding still: creep with recovery, and stress relaxation."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 

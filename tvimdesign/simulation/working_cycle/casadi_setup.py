@@ -1,7 +1,5 @@
 """CasADi, loaded once and set up the way every solver here wants it; its threads are set where the room begins."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Curves to draw: the layer's temperatures over each phase, and stiffness and damping against temperature."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

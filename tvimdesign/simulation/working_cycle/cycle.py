@@ -1,7 +1,5 @@
 """The working cycle simulated, phase after phase, each starting where the one before has ended."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 
 import numpy as np

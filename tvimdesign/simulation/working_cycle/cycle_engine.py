@@ -1,7 +1,5 @@
 """The working cycle by the engine, with derivatives of all it supplies along directions of the inputs."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ still liquid; heated it follows the equilibrium curve, which the record knows to
 glass follows that curve both ways.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 

@@ -4,8 +4,6 @@ A direction says how the inputs move: a column of `along`, a row an input. The p
 `phase_run` steps it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from functools import cached_property
 from typing import Any, NamedTuple

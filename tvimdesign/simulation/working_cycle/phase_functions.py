@@ -1,7 +1,5 @@
 """One phase of the working cycle, compiled: heat equation and instants as functions of (state, current, inputs)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from typing import Any

@@ -1,7 +1,5 @@
 """Results of a run of a phase: its integrals, extremes and end, and what it takes to stay there."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from itertools import pairwise
 

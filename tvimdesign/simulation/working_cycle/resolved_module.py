@@ -1,7 +1,5 @@
 """Input of a virtual test: a study, resolved, and the table its quantities are evaluated with."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property

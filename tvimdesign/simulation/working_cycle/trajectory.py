@@ -1,7 +1,5 @@
 """Result of a simulation: the trajectory of a phase, and all phases of a cycle with the values they supply."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ Every design is computed by the same operations in the same order wherever it st
 work: results are the same bit for bit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace

@@ -3,8 +3,6 @@
 Every design is on its own: its bits do not hang on its neighbours.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor

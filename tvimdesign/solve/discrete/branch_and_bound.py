@@ -12,8 +12,6 @@ Operations Research Letters 33 (2005) 42-54. A list whose division raises the bo
 one whose entries are as good as one another, whose halves would all be divided alike, is divided last.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field

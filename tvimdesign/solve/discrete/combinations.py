@@ -9,8 +9,6 @@ all sizes free begins a chain of its own, so that a worse optimum of one chain d
 No block depends on another, nor on who solves it.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace

@@ -3,8 +3,6 @@
 Records that violate a limit whatever else is chosen, left out before anything is solved: arithmetic alone says so.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence

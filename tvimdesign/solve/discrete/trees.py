@@ -3,8 +3,6 @@
 The problems of a search as plain data, from which another process builds the same ones and goes on with them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

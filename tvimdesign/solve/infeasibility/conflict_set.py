@@ -13,8 +13,6 @@ Sources: Chinneck, Feasibility and Infeasibility in Optimization (2008), ch. 6 a
 Optimization, 2nd ed. (2006), section 18.5 (the elastic mode).
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace

@@ -9,8 +9,6 @@ them satisfies the limits, no start of the whole problem does, and the elastic p
 Then records of the catalogue are tried, as far as arithmetic can, with which conflicting limits hold.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace

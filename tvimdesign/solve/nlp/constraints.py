@@ -1,7 +1,5 @@
 """The limits a design must keep: the study's requirements and the machine's own rules, in one list."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The unknowns of a problem as one vector: put together at a design, and read again as inputs, times and currents."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 import numpy as np

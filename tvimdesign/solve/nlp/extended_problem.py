@@ -3,8 +3,6 @@
 Slacks that let limits give and the share of tolerance margins that a design bears are such unknowns.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -6,8 +6,6 @@ study's start. Where a current follows a profile, the time that its pieces take 
 end an equation.
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from collections.abc import Iterator, Sequence

@@ -3,8 +3,6 @@
 Objective and reserves of one run of a built problem: the parameters of a trade-off.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple

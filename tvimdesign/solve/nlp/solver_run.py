@@ -3,8 +3,6 @@
 IPOPT's ways to end, in plain words, each with what to do next: data, read wherever a person sees how a run ended.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple

@@ -10,8 +10,6 @@ mean = f + 1/2 sum f_jj s_j^2, variance = sum (f_j s_j)^2; all derivatives are e
 Source: Taylor series of moments, e.g. JCGM 100:2008 (GUM), 5.1.2 with its note.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

@@ -7,8 +7,6 @@ optimum is the cycle's, the multipliers are, too.
 [Conn, Gould, Toint, Trust-region methods, 2000; Nocedal, Wright, Numerical optimization, 2006, eq. 6.24]
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any

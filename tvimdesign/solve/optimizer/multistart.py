@@ -3,8 +3,6 @@
 Points spread over the unit cube, seeded: where a search begins besides the study's own start.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import islice

@@ -5,8 +5,6 @@ layer share few limits, so one start may have found the best springs and another
 its least after the supply's ramp and rise with its first piece, or rise as fast as the supply can: both are optima.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace

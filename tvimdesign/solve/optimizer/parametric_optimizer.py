@@ -1,7 +1,5 @@
 """One problem, built once and solved again, warm, as its limits, ranges, weights and fixed numbers move."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, replace

@@ -4,8 +4,6 @@ Where the active limits stay the same, the optimum is an implicit function of wh
 Source: Fiacco, Introduction to Sensitivity and Stability Analysis in Nonlinear Programming (1983), ch. 3.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Literal, TypeAlias

@@ -1,7 +1,5 @@
 """Searches around a run of the optimizer: from constant currents, within a longer horizon; ends of ranges."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from tvimdesign.solve.nlp.problem import LATEST

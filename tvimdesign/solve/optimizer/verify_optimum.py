@@ -3,8 +3,6 @@
 Ratings of materials and bought parts that a design exceeds, and the consequence for an optimum.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from copy import copy
 from dataclasses import replace

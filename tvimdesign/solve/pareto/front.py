@@ -5,8 +5,6 @@ alike, spread evenly over the chord or the plane of the ends (`front_shape`); ea
 built problem (`tradeoff`), and each point begins from what its neighbours left behind.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """One study's problem, built once, asked again and again: the design that is best in one thing within some bounds."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace

@@ -1,7 +1,5 @@
 """Uncertainty of one design by many modules: part-to-part variation and, separately, unmeasured inputs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from functools import partial

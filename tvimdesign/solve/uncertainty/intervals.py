@@ -5,8 +5,6 @@ what a module is. All together, inputs are drawn evenly from their ranges, each 
 distributions, and nothing of how they hang together.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

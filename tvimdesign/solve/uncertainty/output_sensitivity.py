@@ -3,8 +3,6 @@
 The engine steps the working cycle with its sensitivities, and the table's arithmetic carries them on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 

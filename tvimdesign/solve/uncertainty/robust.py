@@ -4,8 +4,6 @@ By deviations: the spread of what the limits are on comes from exact derivatives
 for what needs no working cycle; the optimum is then sought again. By a yield: see `yield_search`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple

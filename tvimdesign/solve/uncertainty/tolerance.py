@@ -1,7 +1,5 @@
 """A module whose parts and materials spread: the effect on its outputs, and the yield."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

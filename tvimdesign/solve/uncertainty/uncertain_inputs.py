@@ -5,8 +5,6 @@ Unmeasured inputs, known only within a range: of records, or the table's default
 A study's tolerances at one design: which inputs spread, and how far [SI].
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace

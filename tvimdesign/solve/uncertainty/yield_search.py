@@ -6,8 +6,6 @@ is tightened by one and the same quantile of its own residual, the least with wh
 limits together if residuals moved as a whole. The optimum is then sought again, warm, and modules are drawn anew.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """All sections of a study, in the order in which they are usually written."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tvimdesign.device import MODES

@@ -1,7 +1,5 @@
 """The sections `require`, `accept`, `minimize` and `front`: limits, objective, and outputs that are traded."""
 
-from __future__ import annotations
-
 import math
 import re
 

@@ -3,8 +3,6 @@
 Sections whose keys are the fields of a model: units, defaults and descriptions give reader, schema and writer.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeAlias, TypeVar

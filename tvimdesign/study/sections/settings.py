@@ -1,7 +1,5 @@
 """The sections `module`, `operating_points`, `profile`, `currents`, `solver` and `write`: what the study fixes."""
 
-from __future__ import annotations
-
 import re
 from itertools import pairwise
 

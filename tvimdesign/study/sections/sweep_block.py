@@ -1,7 +1,5 @@
 """A sweep as plain data: axes with their values or ranges, and the arrangement of cells."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

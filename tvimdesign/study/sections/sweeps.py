@@ -1,7 +1,5 @@
 """The section `sweep`: which cells are laid over which axes, and what is done in each."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from tvimdesign.device import Choice, Input, Table

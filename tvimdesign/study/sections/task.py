@@ -1,7 +1,5 @@
 """The section `task`: an arm with its payload and its motions; inputs of the group "Task", limits, a trajectory."""
 
-from __future__ import annotations
-
 import csv
 import io
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """The sections `tolerances` and `robust`: how far inputs lie from what is drawn, and what must hold anyway."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from functools import cache

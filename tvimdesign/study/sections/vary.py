@@ -1,7 +1,5 @@
 """The section `vary`: which inputs may change, and between what or among which values."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from typing import Any

@@ -1,7 +1,5 @@
 """Mistakes in a study: each with its place in the file, and all of them as one error."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """From a path to text that is safe to read: an ordinary file of a study's size, UTF-8, without control characters."""
 
-from __future__ import annotations
-
 import re
 import stat
 from collections.abc import Callable

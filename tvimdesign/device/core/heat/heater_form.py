@@ -16,8 +16,6 @@ the window below a heater has room for it, it lies in there on the heater's oute
 ask for the room below in any case.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Mapping
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Heating until the joint is soft: response times, energy, power, peaks of temperature, and what it takes to stay."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

@@ -1,7 +1,5 @@
 """Cooling until the joint is stiff again, with the current reversed; and the two phases together as a cycle."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

@@ -14,8 +14,6 @@ The joint's own motion makes heat in the PCL. It is a sine at the frequency of a
 turns the hot joint by its stroke: a joint that is still stiff turns less, and heats next to nothing. The damping is
 that of small strain, which is the most the melt does (`hot_damping_at_stroke` is less)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.core.impedance.joint_impedance import impedance_beside

@@ -12,8 +12,6 @@ layer bonded to both faces cannot part and acts in both senses from where it is,
 impedance, however much of its stress has relaxed. The springs turn such a joint back all the same, more slowly.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.base.record import Record

@@ -7,8 +7,6 @@ nodes, and `largest_melt_strain`.
 The springs count as at rest; their change over the stroke is `stiffness_over_stroke`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -7,8 +7,6 @@ depends on the hold before, its load and its temperature (`backlash`). Keys lie 
 bond is gone (`key_play`).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

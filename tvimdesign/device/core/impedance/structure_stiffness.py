@@ -4,8 +4,6 @@ Holes of screws and dowel pins count as empty. The link stands in series beyond 
 that at the hub, and `joint_stiffness_at_link` that at the link's tool hole.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.core.mass_properties import LINK_SCREWS

@@ -9,8 +9,6 @@ The plate beside the PCL gives next to the core: its compliance goes as 1/r^3 an
 and PCL, so that their mean is 0.31 to 0.36 of the way out where the PCL begins at 2.5 to 4 radii of the core.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

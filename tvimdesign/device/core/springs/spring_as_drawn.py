@@ -18,8 +18,6 @@ The preload falls as the plastic that holds it creeps, over months and hot hours
 the PCL, the floor as the air.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

@@ -3,8 +3,6 @@
 Kinematics are those of a right-hand spring, which winds up when the rotor turns in its negative sense; the other hand
 is its mirror image."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tvimdesign.device.table.module import Module

@@ -1,7 +1,5 @@
 """The facts of a result, each a label with its parts: size, times and energy first, then what a reader may ask next."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple

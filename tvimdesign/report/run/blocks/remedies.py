@@ -5,8 +5,6 @@ parts are then tried together with the remedies of graver warnings: the limits t
 allow all of them, with the margins that the study asks for. What depends on a switch is not tried.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Every requirement, asked against got: its range, its margin, and the assumed input it depends on most."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any

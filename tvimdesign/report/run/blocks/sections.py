@@ -1,7 +1,5 @@
 """The sections of text and tables that the page, `--full` and summary.txt have alike."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The tables of a result, one function each; a renderer prints or shows them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any

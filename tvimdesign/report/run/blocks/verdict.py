@@ -15,8 +15,6 @@
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

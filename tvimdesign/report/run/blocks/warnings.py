@@ -1,7 +1,5 @@
 """Warnings of a run, the gravest first, each with a line of the study that may cure it."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence

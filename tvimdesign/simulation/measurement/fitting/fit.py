@@ -1,7 +1,5 @@
 """A problem fitted: every parameter with its interval, what follows from them, residuals, and what has to be said."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple

@@ -21,8 +21,6 @@ Berger and Yang, Econometric Theory 10 (1994) 461 (reference prior of rho); [F] 
 Bayley and Hammersley, J. R. Statist. Soc. Suppl. 8 (1946) 184.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt

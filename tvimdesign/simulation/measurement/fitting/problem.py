@@ -1,7 +1,5 @@
 """A problem: parameters, channels of data with the equations that predict them, quantities that follow; compiled."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache

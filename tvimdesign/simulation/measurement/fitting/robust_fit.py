@@ -5,8 +5,6 @@ loss and solver as in scipy.optimize.least_squares (soft_l1, trust-region reflec
 (1978) 461 (criterion of how many parameters the data bear).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ fifth of G' is gone are left out, for the tail has another law. G'' has a law of
 its plateau, and a change by a power of its own.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 

@@ -6,8 +6,6 @@ temperature but the reference has a shift a_T, by Arrhenius' law where there are
 and Hassager, Dynamics of Polymeric Liquids 1, 2nd ed., eq. 4.1-9 and table 4.5-1.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

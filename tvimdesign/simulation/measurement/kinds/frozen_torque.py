@@ -7,8 +7,6 @@ have one each, and the interval is that of the next such joint. The bond's stren
 rim, as the product has it (physics/layers/layer.py, `traction`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple

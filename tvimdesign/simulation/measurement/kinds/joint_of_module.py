@@ -7,8 +7,6 @@ fastened are those for which `joint_stiffness@cold` and `joint_damping@cold` hol
 that of the springs' pins. What sizes and other materials are off by counts as these.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path

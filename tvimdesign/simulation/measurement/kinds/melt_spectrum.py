@@ -6,8 +6,6 @@ from the start. How many modes: as long as one more betters Schwarz's criterion.
 Rheol. Acta 28 (1989) 511 (free times and moduli, as few modes as the data bear).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple

@@ -10,8 +10,6 @@ tau/(1 + s tau), and is inverted by Stehfest's weights (physics/motions/motion.p
 Relaxation: G(t) by `viscoelasticity.relaxation_modulus`, or as `ramped_stress` where the strain took a time to rise.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, cast
 

@@ -4,8 +4,6 @@ V = S (T_h - T_c) + I R, and at the cold face S I T_c - I^2 R/2 - K (T_h - T_c) 
 from it is what is put in, q, and what leaks in through the insulation, g (physics/heat_flow/peltier.py).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 

@@ -5,8 +5,6 @@ I theta'' + b theta' + T_f sgn(theta') + K (theta - theta_0) = 0: a spring, a da
 Integrated by Runge and Kutta's method of fourth order, so that every sample's derivatives are those of the integration.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple

@@ -5,8 +5,6 @@ friction's corner rounded as in `release`. The true angle of each record is a su
 as the encoder errs as well as the torque's cell; so its derivatives are exact.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """The fit of a melt's spectrum and its shift, and the record that follows: modes, its viscosity alone, or none."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

@@ -5,8 +5,6 @@ the motion (s = +1 while the torque rises, -1 while it falls), with a play b tha
 sign. The modulus of the wire follows from the rate of a spring, k = E d^4/(64 D n) (physics/springs/spring.py).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Clock times of loggers and spreadsheets as seconds from the first row."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Sequence
 from datetime import datetime, timedelta

@@ -1,7 +1,5 @@
 """A file of measured data: blocks of named columns in SI, with the place of everything in the file."""
 
-from __future__ import annotations
-
 import hashlib
 import re
 from collections import Counter

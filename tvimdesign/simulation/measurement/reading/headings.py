@@ -3,8 +3,6 @@
 User's additions to a file's own information: which column is what, units, separator, decimal sign.
 """
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Mapping

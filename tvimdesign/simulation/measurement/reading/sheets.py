@@ -4,8 +4,6 @@ Encodings are recognised by marks and by zeros in every second byte, not by stat
 degree sign of a short file in Windows' Latin as Chinese, and takes 60 times as long.
 """
 
-from __future__ import annotations
-
 import codecs
 import csv
 import json

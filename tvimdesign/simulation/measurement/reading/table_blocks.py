@@ -1,7 +1,5 @@
 """Rows of cells as blocks: headings, units, numbers, and what the lines before them say."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
