@@ -19,7 +19,7 @@ from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
 from tvimdesign.sweep.answers import CellAnswers
-from tvimdesign.sweep.gather import Value, columns, status_values
+from tvimdesign.sweep.gather import columns, status_values
 from tvimdesign.sweep.plan import Cell as AskedCell
 from tvimdesign.sweep.plan import CellAnswer, SweepPlan, SweptStudy, plan_of
 from tvimdesign.sweep.run_sweep import CellKeys, Executor
@@ -102,8 +102,8 @@ class Sweep(Generic[StudyT]):
         values_shown = status_values(
             StoredCell(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted]
         )
-        axes = self.plan.axis_values(number)
-        return dict(zip([*heads, *wanted], map(_or_nan, [*axes, *values_shown]), strict=True))
+        numbers = (math.nan if one is None else one for one in (*self.plan.axis_values(number), *values_shown))
+        return dict(zip([*heads, *wanted], numbers, strict=True))
 
     def plot(self, name: str) -> Figure:
         """Draw an output over the first axis, a line for each value of the others; in a notebook it shows."""
@@ -156,10 +156,6 @@ class Sweep(Generic[StudyT]):
         rows = [[f"{value:.4g}" if isinstance(value, float) else str(value) for value in row]
                 for row in table.itertuples(index=False)]  # fmt: skip
         return notebook.heading("Sweep", f"{len(self)} cells") + notebook.grid(heads, rows)
-
-
-def _or_nan(value: Value) -> Value:
-    return math.nan if value is None else value
 
 
 def _label(name: str, unit: str) -> str:

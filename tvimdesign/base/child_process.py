@@ -27,7 +27,7 @@ def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> s
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
     own = {"PYTHONPATH": os.pathsep.join(paths), "PYTHONIOENCODING": "utf-8", PARENT: str(os.getpid())}
     environment = {**os.environ, **own}
-    if _needs_pipe():
+    if sys.platform != "linux" and os.name == "posix":
         pipe = _pipe_of_this_process()
         environment[_ALIVE] = str(pipe)
         options["pass_fds"] = (pipe,)
@@ -57,10 +57,6 @@ def follow_parent(parent: int | None = None) -> None:
         threading.Thread(target=_wait_for_end, args=(int(os.environ[_ALIVE]),), daemon=True).start()
     if expected and hasattr(os, "getppid") and os.getppid() != expected:
         os._exit(1)  # it ended before this process could ask to be told
-
-
-def _needs_pipe() -> bool:
-    return sys.platform != "linux" and os.name == "posix"
 
 
 _pipe: list[int] = []

@@ -18,13 +18,9 @@ CLOCK = "TVIMDESIGN_CLOCK"
 """The environment's word for what time limits count: `processor`, or the time of day by default."""
 
 
-def counts_processor_time() -> bool:
-    """Tell whether the environment asks for that: such a limit means the same on a machine with other work."""
-    return os.environ.get(CLOCK) == "processor"
-
-
 def _now() -> float:
-    return time.process_time() if counts_processor_time() else time.monotonic()
+    # A limit of processor time means the same on a machine with other work.
+    return time.process_time() if os.environ.get(CLOCK) == "processor" else time.monotonic()
 
 
 _Result = TypeVar("_Result")

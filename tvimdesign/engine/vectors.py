@@ -134,10 +134,6 @@ def _log1p(b: Any, x: Any) -> Any:
     return _where(b, "==", d, _all(0.0), x, found)
 
 
-def _if_else_zero(b: Any, x: Any, y: Any) -> Any:
-    return b.select(b.fcmp_unordered("!=", x, _all(0.0)), y, _all(0.0))
-
-
 add = _lanewise(2, lambda b, x, y: b.fadd(x, y))
 sub = _lanewise(2, lambda b, x, y: b.fsub(x, y))
 mul = _lanewise(2, lambda b, x, y: b.fmul(x, y))
@@ -161,7 +157,7 @@ less = _lanewise(2, lambda b, x, y: _where(b, "<", x, y, _all(1.0), _all(0.0)))
 at_most = _lanewise(2, lambda b, x, y: _where(b, "<=", x, y, _all(1.0), _all(0.0)))
 lesser = _lanewise(2, lambda b, x, y: _known(b, "minnum", x, y))
 larger = _lanewise(2, lambda b, x, y: _known(b, "maxnum", x, y))
-if_else_zero = _lanewise(2, _if_else_zero)
+if_else_zero = _lanewise(2, lambda b, x, y: b.select(b.fcmp_unordered("!=", x, _all(0.0)), y, _all(0.0)))
 copy = _lanewise(1, lambda _, x: x)
 add_product = _lanewise(3, lambda b, x, y, z: b.fadd(x, b.fmul(y, z)))
 """x + y z, each rounded, as in a register that holds x."""

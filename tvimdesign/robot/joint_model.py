@@ -62,12 +62,6 @@ class JointState:
         return self.springs + float(sum(stiffness for _, stiffness in self.modes))
 
 
-def joint_states(resolved: ResolvedModule) -> list[JointState]:
-    """Return the joint at every operating point, its PCL come there on heating where history matters."""
-    shown_cases = [case for case in cases(resolved) if case.history.name in ("", "nominal") and case.history.shown]
-    return [_state(resolved, case) for case in shown_cases]
-
-
 def _state(resolved: ResolvedModule, case: Case) -> JointState:
     rows = case.rows(resolved, ("joint_stiffness", "joint_damping"))
     modes: Modes = case.modes
@@ -183,7 +177,9 @@ def joint_model(
     resolved: ResolvedModule, base: RigidBody, moving: RigidBody, step: float | None = None
 ) -> JointModel:  # fmt: skip
     """Put the model of a module together; a time step [s] that suits the bench's load unless given."""
-    states = tuple(joint_states(resolved))
+    # Where history matters, the PCL has come to each operating point on heating.
+    shown = [case for case in cases(resolved) if case.history.name in ("", "nominal") and case.history.shown]
+    states = tuple(_state(resolved, case) for case in shown)
     return JointModel(
         name=resolved.study.name,
         base=base,

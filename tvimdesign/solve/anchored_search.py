@@ -94,7 +94,8 @@ class AnchoredSearch:
         """Return the optimum sought from the anchor's; None if that is impossible or no optimum results."""
         if not _alike(study, self._anchor_study, table):
             return None
-        if _has_lists(study, table) or study.robust or study.profile.pieces():
+        has_lists = discrete_sizes(study, table).names or len(discrete_records(study, table)) > 1
+        if has_lists or study.robust or study.profile.pieces():
             return None
         anchor = self._anchor
         optimizer = anchor.optimizer.with_records(study) if anchor else None
@@ -116,11 +117,6 @@ def _with_fixed(study: Study, followed: Collection[str]) -> Study:
     starts = given(study)
     vary = {name: allowed for name, allowed in study.vary.items() if name not in free}
     return study.model_copy(update={"vary": vary, "module": {**study.module, **{name: starts[name] for name in free}}})
-
-
-def _has_lists(study: Study, table: Table) -> bool:
-    """Return whether anything is chosen from a list."""
-    return bool(discrete_sizes(study, table).names) or len(discrete_records(study, table)) > 1
 
 
 def _alike(study: Study, other: Study, table: Table) -> bool:

@@ -310,11 +310,6 @@ def _bonding_heat(design: Design, _: Dimensions) -> str:
     return f"heat with {by} for {time:.3g} s, then hold {hold:.3g} A for two minutes"
 
 
-def _rest_mark(_: Design, dims: Dimensions) -> str:
-    """Return where the link's long end points at rest."""
-    return "the first spring" if dims.spring_count else "a notch of the skirt"
-
-
 def _cutout_place(_: Design, dims: Dimensions) -> str:
     """Return where the cut-out is drawn."""
     return "in the window, to the outer side of the heater" if fits_in_window(dims) else "below the floor"
@@ -334,26 +329,16 @@ def _greased(place: str, design: Design, _: Dimensions) -> str:
     return place if place in greased(design) else ""
 
 
-def _heated_parts(_: Design, dims: Dimensions) -> str:
-    """Return what the PCL lies on."""
-    return "spreaders" if dims.spreader_depth else "heaters"
-
-
-def _hot_side(design: Design, _: Dimensions) -> str:
-    """Return which side of a heater faces the PCL; nothing where both are alike."""
-    return ", hot side to the PCL" if design.values.get("peltier_seebeck") else ""
-
-
 _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "preload_force": _preload_force,
-    "rest_mark": _rest_mark,
+    "rest_mark": lambda _, dims: "the first spring" if dims.spring_count else "a notch of the skirt",
     "sorting": _sorting,
     "bonding_heat": _bonding_heat,
     "most_current": _most_current,
     "set_points": lambda design, _: set_points_in_words(design),
     "cutout_place": _cutout_place,
-    "heated_parts": _heated_parts,
-    "hot_side": _hot_side,
+    "heated_parts": lambda _, dims: "spreaders" if dims.spreader_depth else "heaters",
+    "hot_side": lambda design, _: ", hot side to the PCL" if design.values.get("peltier_seebeck") else "",
     "ledge_pull": _ledge_pull,
     "greased_bore": partial(_greased, "bore"),
     "greased_pins": partial(_greased, "pins"),

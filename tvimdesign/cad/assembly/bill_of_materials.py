@@ -390,10 +390,6 @@ def _come_by(one: Item) -> str:
     return "made" if one.made else "bought"
 
 
-def _noted(offer: Offer) -> str:
-    return f"{offer.number}, {offer.note}" if offer.note else offer.number
-
-
 def cost(items: Sequence[Item]) -> Total:
     """Return what the bought lines cost that have a price, in whole packs."""
     return total((item.offer, item.quantity) for item in as_ordered(items) if item.is_ordered)
@@ -409,7 +405,8 @@ def bill_csv(items: Sequence[Item]) -> bytes:
     for number, item in enumerate(as_ordered(items), start=1):
         offer = item.offer
         chosen = "to be chosen" if item.kind in _BY_RATING or not item.fits else ""
-        ordered = (offer.supplier, _noted(offer), offer.pack) if offer else ("", chosen, "")
+        noted = ", ".join(filter(None, (offer.number, offer.note))) if offer else chosen
+        ordered = (offer.supplier, noted, offer.pack) if offer else ("", noted, "")
         writer.writerow([
             number, item.kind, item.quantity, _come_by(item), item.material, item.title,
             item.fit, f"{item.mass:.3f}", f"{item.mass * item.quantity:.3f}", *ordered, item.price,

@@ -17,7 +17,7 @@ import cadquery as cq
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.geometry import exact_kernel
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.exact_kernel import ExactKernel, Kernel
+from tvimdesign.cad.geometry.exact_kernel import ExactKernel
 from tvimdesign.cad.geometry.solids import drawn_by
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
@@ -238,8 +238,8 @@ def module_script(design: Design, dims: Dimensions) -> bytes:
     named, parts = _NamedDimensions(dims), MODULES[dims.mode]
     functions, drawn = [], {}
     for kind, draw in parts.drawn(dims).items():
-        recorder = _Recorder()
-        with drawn_by(recorder_as_kernel(recorder)):
+        recorder: Any = _Recorder()  # it answers for the kernel
+        with drawn_by(recorder):
             solid: Any = draw(named)
         functions.append(_function(kind, recorder.lines, solid.text))
         drawn[kind] = _Recorded(recorder, kind)
@@ -254,12 +254,6 @@ def module_script(design: Design, dims: Dimensions) -> bytes:
         _kernel_source(), *functions, "", "PARTS = {", *listed, "}", '"""Functions that draw a part, by kind."""', "",
         "PLACES = {", *places, "}", '"""Kind and place of each part of the module, but of springs."""',
     ]).encode() + _TAIL.encode()  # fmt: skip
-
-
-def recorder_as_kernel(recorder: Any) -> Kernel:
-    """Return the recorder as the kernel for which it answers."""
-    kernel: Kernel = recorder
-    return kernel
 
 
 def _numbers(mode: str, read: Mapping[str, float]) -> list[str]:

@@ -48,7 +48,7 @@ def compare_studies(
     began = time.perf_counter()
     if len(paths) < 2:
         raise InputError("compare takes two studies or more, or two results; `tvimdesign run` answers one study")
-    finished = [is_result(path) for path in paths]
+    finished = [path.suffix == ".json" or path.is_dir() for path in paths]
     if any(finished) and (points or settings or not all(finished)):
         raise InputError("compare takes results of finished runs alone, without studies, --points and --set")
     cases = labelled(_results(paths) if all(finished) else _studies(paths, settings), paths)
@@ -90,11 +90,6 @@ def compare_studies(
     codes = {trouble["exit_code"] for _, trouble in outcome.troubles}
     infeasible = codes == {InfeasibleError.exit_code} and len(command.failures) == len(outcome.troubles)
     command.report(outcome.plain(), "Results are", error=_no_design if infeasible else done_in_part)
-
-
-def is_result(path: Path) -> bool:
-    """Return whether a path is the folder or the design of a finished run, not a study."""
-    return path.suffix == ".json" or path.is_dir()
 
 
 def labelled(cases: Sequence[Case], paths: Sequence[Path]) -> dict[str, Case]:

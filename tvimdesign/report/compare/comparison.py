@@ -182,11 +182,8 @@ class Outcome:
     def _against(self, which: str) -> list[str]:
         labels = list(self.designs[which])
         rows = self.rows.get(which, [])
-        return [against(label, labels[0], rows, self._names_reported()) for label in labels[1:]]
-
-    def _names_reported(self) -> list[str]:
-        minimized = next(iter(self.entrants.values())).study.minimize
-        return list(minimized) or list(_DEFAULT_OUTPUTS)
+        reported = list(next(iter(self.entrants.values())).study.minimize) or list(_DEFAULT_OUTPUTS)
+        return [against(label, labels[0], rows, reported) for label in labels[1:]]
 
     def plain(self) -> dict[str, Any]:
         """Return everything a script wants to know."""

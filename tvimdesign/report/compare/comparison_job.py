@@ -120,7 +120,8 @@ class ComparisonJob:
         with self._step("verdict"):
             if answered:
                 self.say("verdict")
-                self.found[which]["verdict"] = self._verdict(answered)
+                warnings = warnings_of(answered, record_checks(self.study))
+                self.found[which]["verdict"] = verdict(answered, uncertainty_of(answered, self.study), warnings).text
         if answered and self._built and self.points:
             with self._step("fronts"):
                 self._trade(answered)
@@ -159,11 +160,6 @@ class ComparisonJob:
     def _compared(self, answered: StudyResult) -> dict[str, Any]:
         reported = results(answered, self.table) | {"starts": starts_reported(answered)}
         return compared_design(answered.design, reported, self.table)
-
-    def _verdict(self, answered: StudyResult) -> str:
-        """Return the verdict as `run` gives it."""
-        warnings = warnings_of(answered, record_checks(self.study))
-        return verdict(answered, uncertainty_of(answered, self.study), warnings).text
 
     def _trade(self, best: StudyResult) -> None:
         assert best.solution is not None

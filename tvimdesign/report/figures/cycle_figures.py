@@ -137,4 +137,4 @@ def _through(axes: Any, history: dict[str, Any], data: dict[str, Any], title: st
     axes.axhspan(*data["melting"], **theme.BAND)
     axes.set(xlabel="Depth from the heaters (mm)", ylabel="Temperature (°C)")
     theme.heading(axes, title)
-    theme.legend_beside(axes, "after")
+    axes.legend(title="after", loc="upper left", bbox_to_anchor=(1.0, 1.0), title_fontsize=theme.SMALL)

@@ -113,11 +113,6 @@ def legend_above(axes: Any, columns: int) -> None:
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns)
 
 
-def legend_beside(axes: Any, title: str) -> None:
-    """Draw the legend right of the axes."""
-    axes.legend(title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0), title_fontsize=SMALL)
-
-
 def row_texts(axes: Any, left: Sequence[str], right: Sequence[str]) -> None:
     """Draw texts to both sides of rows, from the lowest up: as ticks they would be five things to draw each."""
     axes.set_yticks([])

@@ -83,7 +83,8 @@ def answer_study(
     """
     progress("preparing the equations")
     study = read_tree(tree)
-    study = proving(study) if prove else study
+    if prove:  # every combination of listed choices is solved
+        study = study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
     table = study.table
     study = drawn(study) if drawn_only else study
     deadline = deadline or Deadline(study.solver.time_limit)
@@ -96,11 +97,6 @@ def answer_study(
     note_left_out(answered)
     progress("")
     return answered
-
-
-def proving(study: Study) -> Study:
-    """Return the study with every combination of listed choices solved."""
-    return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
 
 
 def _reported(result: StudyResult, table: Table) -> RunResults:

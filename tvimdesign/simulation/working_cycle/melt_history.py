@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.device import Table
 from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -98,10 +97,11 @@ def intervals(
         if low == high:
             continue
         runs, here = [], np.array([name.endswith(f"@{point}") for name in model.output_names])
+        sets_a_target = any(f"joint_impedance@{point}" in row.needs for row in model.table.outputs)
         for share in (nominal, *np.linspace(low, high, HISTORIES)):
             seen = (
                 _as_left(resolved, model, left_at(resolved.values, point, float(share), nominal), current_profiles)
-                if _sets_a_target(model.table, point)
+                if sets_a_target
                 else cycle
             )
             outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
@@ -128,11 +128,6 @@ def left_at(values: Mapping[str, Any], point: str, share: Any, nominal: Any) -> 
     """
     left = {**values, f"solid_fraction@{point}": share}
     return left | ({MEMORY: np.where(share < nominal, 1.0, values[MEMORY])} if MEMORY in values else {})
-
-
-def _sets_a_target(table: Table, point: str) -> bool:
-    """Return whether the definition of soft or stiff is read off at a point."""
-    return any(f"joint_impedance@{point}" in row.needs for row in table.outputs)
 
 
 def _as_left(

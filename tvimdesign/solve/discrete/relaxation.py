@@ -108,15 +108,12 @@ class Relaxation:
             run = self._solved({}, begin=begin)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
-            if self._late(run):  # the whole search begins again, with a limit
+            if ending_in_time(self.optimizer.study, self.optimizer, run) is not None:
+                # the switch ends beyond the horizon: the whole search begins again, with a limit
                 break
         if any(run.start.converged for run in runs):
             self._take(runs)
         return runs
-
-    def _late(self, run: Run) -> bool:
-        """Return whether a design's switch ends beyond the horizon."""
-        return ending_in_time(self.optimizer.study, self.optimizer, run) is not None
 
     def from_other_records(self, others: Iterable[Relaxation]) -> list[Run]:
         """Return a run from the best optimum with other records, if no start reached an optimum with these.

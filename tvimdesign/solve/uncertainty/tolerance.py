@@ -109,7 +109,8 @@ class Tolerancing:
         self.resolved, self.progress, self.workers = resolved, progress, workers
         self.contributors = contributors_of(resolved)
         # A free angle that is adjusted out altogether still has a column: it is compared with one that is not.
-        names = [name for name in resolved.study.tolerances if self._ever(name)]
+        ever = {contributor.name for contributor in contributors_of(resolved, adjusted=False)}
+        names = [name for name in resolved.study.tolerances if name in ever]
         if not names:
             raise InputError(
                 f"{resolved.study.name}: nothing spreads; give `tolerances: standard`, or tolerances of your own"
@@ -151,17 +152,10 @@ class Tolerancing:
             if self._moves(name, list(study.tolerances)) and not later & {name, *table.ancestors(name)}
         ]  # fmt: skip
 
-    def _ever(self, name: str) -> bool:
-        return any(contributor.name == name for contributor in contributors_of(self.resolved, adjusted=False))
-
     def _moves(self, output: str, names: Sequence[str]) -> bool:
         """Return whether an output depends on anything that spreads."""
         above = {output.partition("@")[0], *self.resolved.table.ancestors(output)}
         return any(name.partition("@")[0] in above for name in names)
-
-    def _on_preload(self, limit: Constraint) -> bool:
-        """Return whether a limit is on an output that changes with the free angle."""
-        return bool(self.exact[self.outputs.index(limit.output), self.names.index(FREE_ANGLE)] != 0.0)
 
     @property
     def whole(self) -> Draw:
@@ -182,7 +176,9 @@ class Tolerancing:
 
     @property
     def _limits_on_preload(self) -> list[Constraint]:
-        return [limit for limit in self.limits if self._on_preload(limit)]
+        """Return the limits on outputs that change with the free angle."""
+        changes = self.exact[:, self.names.index(FREE_ANGLE)]
+        return [limit for limit in self.limits if changes[self.outputs.index(limit.output)] != 0.0]
 
     def _draws(self, samples: int, seed: int) -> Drawn:
         """Return what draws modules."""

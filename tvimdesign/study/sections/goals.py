@@ -219,10 +219,6 @@ def _require_schema(table: Table) -> Schema:
     return mapping({}, by_output(table, {"anyOf": limits}))
 
 
-def _minimize_schema(table: Table) -> Schema:
-    return {"anyOf": [mapping({}, by_output(table, NUMBER_VALUE)), output_name(table)]}
-
-
 def _front_schema(table: Table) -> Schema:
     fields = field_schemas(FrontOptions)
     fields["of"] |= {"uniqueItems": True, "items": output_name(table)}
@@ -270,7 +266,7 @@ MINIMIZE = Section(
     "minimize",
     "objective: outputs to minimise, with weights",
     _read_minimize,
-    _minimize_schema,
+    lambda table: {"anyOf": [mapping({}, by_output(table, NUMBER_VALUE)), output_name(table)]},
     lambda study: study.minimize,
 )
 FRONT = Section(

@@ -80,7 +80,8 @@ def _read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, flo
             own = _point(reading, value, path, rows)
             all_points[name] = _standard(name, rows) | own
             given = list(value.entries) if isinstance(value, Mapping) else []
-            missing = [row.name for row in rows.values() if _unset(row, all_points[name]) and row.name not in given]
+            unset = [row.name for row in rows.values() if row.name not in all_points[name] and row.record is None]
+            missing = [row for row in unset if row not in given]
             if missing:
                 reading.problems.add(key, path, f"has no {' and no '.join(missing)}", _examples(missing, rows))
     return all_points
@@ -104,10 +105,6 @@ def _standard(point: str, rows: dict[str, Input]) -> dict[str, float]:
     own = STANDARD_POINTS.get(point, {})
     values = {row.name: own.get(row.name, row.default) for row in rows.values()}
     return {name: value for name, value in values.items() if value is not None}
-
-
-def _unset(row: Input, values: dict[str, float]) -> bool:
-    return row.name not in values and row.record is None
 
 
 def _examples(names: list[str], rows: dict[str, Input]) -> str:
