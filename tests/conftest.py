@@ -26,8 +26,6 @@ settings.register_profile("any machine", deadline=None)
 settings.load_profile("any machine")
 
 LONGEST = (
-    "tests/cad/test_random_designs.py",
-    "tests/test_studies_as_parts.py",
     "tests/device/",
     "tests/test_studies.py",
     "tests/cad/test_cad_make.py",

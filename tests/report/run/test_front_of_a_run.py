@@ -1,22 +1,35 @@
-"""A front in a run's folder: tables, designs, figure and words; killed and resumed it is the same, byte for byte."""
+"""A front in a run's folder: tables, designs, figure and words; killed and resumed it is the same, byte for byte.
+
+A run ends before its search with what `check` refuses; parts and figures give way to the search.
+"""
 
 import csv
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 from contextlib import suppress
 from pathlib import Path
 
+import jsonschema
+import psutil
 import pytest
 from comparable import SHEAR, written
 from support import ROOT, Command, wait_until
 
+from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import table_for
+from tvimdesign.report.output.plot_process import PlotProcess
+from tvimdesign.report.output.results_format import results_schema
+from tvimdesign.report.run import answered_study
+from tvimdesign.report.run import run_study as module
 from tvimdesign.report.run.blocks.sections import front_section
+from tvimdesign.report.run.check_study import check_study
 from tvimdesign.report.run.front_report import figure_data, front_csv, in_words, plain
+from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
 from tvimdesign.solve.pareto.front import Front
 from tvimdesign.solve.pareto.tradeoff import Failure, Point
 from tvimdesign.study.design import read_design
@@ -138,3 +151,94 @@ def test_a_front_that_is_no_trade_has_no_knee() -> None:
     assert front_csv(reported).splitlines() == ["point,status,response_time [s],module_mass [g]"]
     (block,) = front_section(reported, list(front.outputs)).blocks
     assert words in str(block)
+
+
+STUDY = """mode: shear
+vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm]}
+require: {envelope_diameter: "<= 120 mm"}
+minimize: module_mass
+solver: {starts: 30}
+"""
+
+
+def _run(path: Path, out: Path, *, as_json: bool = False) -> None:
+    module.run_study(path, out, overwrite=False, cad=False, plots=False, as_json=as_json)
+
+
+def test_what_check_refuses_ends_a_run_before_its_folder_is_touched(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(answered_study, "answer", lambda *_, **__: pytest.fail("it searched"))
+    path, out = tmp_path / "impossible.yaml", tmp_path / "out"
+    path.write_text(STUDY)
+    with pytest.raises(InfeasibleError, match="envelope_diameter <= 120 mm cannot hold") as checked:
+        check_study(path, as_json=False)
+    with pytest.raises(InfeasibleError) as refused:
+        _run(path, out, as_json=True)
+    assert (str(refused.value), refused.value.exit_code) == (str(checked.value), 3)
+    assert not out.exists()
+    said = json.loads(capsys.readouterr().out)
+    jsonschema.validate(said, results_schema())
+    assert (said["status"], said["reason"]) == ("infeasible", str(checked.value))
+
+
+def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = tmp_path / "study.yaml", tmp_path / "out"
+    path.write_text(STUDY.replace("<= 120 mm", "<= 300 mm"))
+
+    def refuse(*_: object, **__: object) -> None:
+        raise InfeasibleError("no start keeps it")
+
+    monkeypatch.setattr(answered_study, "answer", refuse)
+    with pytest.raises(InfeasibleError):
+        _run(path, out, as_json=True)
+    reported = json.loads((out / "results.json").read_text())
+    jsonschema.validate(reported, results_schema())
+    assert (reported["status"], reported["reason"]) == ("infeasible", "no start keeps it")
+    assert reported["reason"] in (out / "summary.txt").read_text()
+    assert reported["reason"] in (out / "report.html").read_text()
+    assert json.loads((out / "study.resolved.json").read_text())["require"][0]["output"] == "envelope_diameter"
+    manifest = json.loads((out / "manifest.json").read_text())
+    assert manifest["status"] == "infeasible"
+    assert {"results.json", "summary.txt", "study.yaml", "study.resolved.json"} <= manifest["files"].keys()
+    assert json.loads(capsys.readouterr().out)["reason"] == "no start keeps it"
+
+
+def test_a_swallowed_interrupt_is_no_conflict(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path, out = tmp_path / "study.yaml", tmp_path / "out"
+    path.write_text(STUDY.replace("<= 120 mm", "<= 300 mm"))
+
+    def swallow(*_: object, **__: object) -> None:
+        with suppress(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGINT)
+        raise InfeasibleError("the solver stopped, which looks like a conflict")
+
+    monkeypatch.setattr(answered_study, "answer", swallow)
+    with pytest.raises(KeyboardInterrupt):
+        _run(path, out)
+    assert json.loads((out / "manifest.json").read_text())["status"] == "interrupted"
+    assert not (out / "results.json").exists()
+
+
+def test_parts_and_figures_give_way_only_where_others_wait() -> None:
+    with BackgroundPartsJob(), PlotProcess(gives_way=True):
+        assert wait_until(lambda: len(_priorities()) == 2)
+        behind = _priorities()
+    assert psutil.Process().nice() < behind["cad.jobs.main"] < behind["plot_process"]
+    with PlotProcess():
+        assert wait_until(lambda: bool(_priorities()))
+        behind = _priorities()
+    assert behind == {"plot_process": psutil.Process().nice()}
+    with BackgroundPartsJob(gives_way=False):
+        assert wait_until(lambda: bool(_priorities()))
+        behind = _priorities()
+    assert behind == {"cad.jobs.main": psutil.Process().nice()}
+
+
+def _priorities() -> dict[str, int]:
+    """Return the niceness by name; Linux gives a process its command line once the program is loaded."""
+    others = {" ".join(one.cmdline()): one.nice() for one in psutil.Process().children()}
+    asked = ("cad.jobs.main", "plot_process")
+    return {name: nice for name in asked for command, nice in others.items() if name in command}
