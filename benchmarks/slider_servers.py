@@ -12,9 +12,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tvimdesign.base.units import from_si
-from tvimdesign.explore.answers.engine import Engine
-from tvimdesign.explore.states.source import open_source
-from tvimdesign.explore.states.state import State
+from tvimdesign.explore.engine import Engine
+from tvimdesign.explore.source import open_source
+from tvimdesign.explore.state import State
 from tvimdesign.study import Range
 
 VARIABLE = "pcl_thickness"

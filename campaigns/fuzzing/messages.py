@@ -17,10 +17,10 @@ from unittest.mock import patch
 from fuzzing.kind import ROOT, Drawn, Kind
 from fuzzing.mutations import ODD, mutated_text
 from tvimdesign.explore import session as explored
-from tvimdesign.explore.answers.engine import Engine
+from tvimdesign.explore.engine import Engine
+from tvimdesign.explore.history import History
 from tvimdesign.explore.session import Session
-from tvimdesign.explore.states.history import History
-from tvimdesign.explore.states.source import Source, open_source
+from tvimdesign.explore.source import Source, open_source
 from tvimdesign.explore.worker_process import Job
 
 STUDY = ROOT / "campaigns/small.yaml"

@@ -14,10 +14,10 @@ from answers import shipped_answer
 from explored import TOKEN, Talk, awaited, served, small_study, talking
 
 from tvimdesign.base.units import from_si
-from tvimdesign.explore.answers.engine import Answer, Engine, Progress, Stage
-from tvimdesign.explore.answers.worker import _done
-from tvimdesign.explore.states.source import open_source
-from tvimdesign.explore.states.state import State
+from tvimdesign.explore.answer_worker import _done
+from tvimdesign.explore.engine import Answer, Engine, Progress, Stage
+from tvimdesign.explore.source import open_source
+from tvimdesign.explore.state import State
 from tvimdesign.explore.worker_process import Job, WorkerProcess
 from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.study.design import write_design

@@ -13,8 +13,8 @@ from support import sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si
-from tvimdesign.explore.states.source import open_source
-from tvimdesign.explore.states.state import State, controls_shown, sized_state, tree_of
+from tvimdesign.explore.source import open_source
+from tvimdesign.explore.state import State, controls_shown, sized_state, tree_of
 from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study import read_study_text, read_tree
 from tvimdesign.study.sizing import JointTask, study_text

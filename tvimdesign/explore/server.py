@@ -20,10 +20,10 @@ from aiohttp.http_exceptions import HttpProcessingError
 
 import tvimdesign.page
 from tvimdesign.base.errors import InputError
+from tvimdesign.explore.history import PARTS, open_history
+from tvimdesign.explore.messages import MOST_BYTES
 from tvimdesign.explore.session import Session
-from tvimdesign.explore.states.history import PARTS, open_history
-from tvimdesign.explore.states.messages import MOST_BYTES
-from tvimdesign.explore.states.source import open_source
+from tvimdesign.explore.source import open_source
 from tvimdesign.report.output.terminal import wide_console
 
 STATIC = {

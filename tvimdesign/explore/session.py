@@ -13,13 +13,13 @@ from tvimdesign.base.atomic_files import atomic_write, digest_of, is_as_written,
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import pretty
-from tvimdesign.explore.answers.engine import Stage
-from tvimdesign.explore.answers.shown import value_names
-from tvimdesign.explore.states import messages
-from tvimdesign.explore.states.history import PARTS, History, open_history, write_history, written_digest
-from tvimdesign.explore.states.messages import Change, Message
-from tvimdesign.explore.states.source import Source, open_source
-from tvimdesign.explore.states.state import Pinned, State, changed, controls_shown, saved_text, sized_state, tree_of
+from tvimdesign.explore import messages
+from tvimdesign.explore.engine import Stage
+from tvimdesign.explore.history import PARTS, History, open_history, write_history, written_digest
+from tvimdesign.explore.messages import Change, Message
+from tvimdesign.explore.shown import value_names
+from tvimdesign.explore.source import Source, open_source
+from tvimdesign.explore.state import Pinned, State, changed, controls_shown, saved_text, sized_state, tree_of
 from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run.parts_of_design import in_short, make_parts_of
@@ -113,7 +113,7 @@ class Session:
         """The last draft in 3-D, or why there is none, for pages that come later."""
         self.drafter = WorkerProcess("tvimdesign.explore.draft_worker", [], self._drafted, low_priority=True)
         self.solver = WorkerProcess(
-            "tvimdesign.explore.answers.worker", [str(source), str(folder), *settings], self._answered
+            "tvimdesign.explore.answer_worker", [str(source), str(folder), *settings], self._answered
         )
         self._ask("quick")
 

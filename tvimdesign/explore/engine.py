@@ -9,9 +9,9 @@ import numpy as np
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si
-from tvimdesign.explore.answers.quick_model import Evaluated, QuickModel
-from tvimdesign.explore.answers.shown import Shown, finite_data, shown_design
-from tvimdesign.explore.states.state import State, set_values, text_of, tree_of
+from tvimdesign.explore.quick_model import Evaluated, QuickModel
+from tvimdesign.explore.shown import Shown, finite_data, shown_design
+from tvimdesign.explore.state import State, set_values, text_of, tree_of
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study, note_uncertainty
 from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.reasons import complaint

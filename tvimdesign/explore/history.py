@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from tvimdesign.base.atomic_files import atomic_write, digest_of, free_name, is_as_written
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.states.state import Pinned, State
+from tvimdesign.explore.state import Pinned, State
 
 FILE = "explore.json"
 PARTS = "parts"

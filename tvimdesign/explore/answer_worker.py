@@ -1,6 +1,6 @@
 """The process that solves for a page: one job at a time, read as a line of JSON, answered as lines of JSON.
 
-Run as `python -m tvimdesign.explore.answers.worker SOURCE FOLDER [SETTING...]`. An interrupt ends the job that is
+Run as `python -m tvimdesign.explore.answer_worker SOURCE FOLDER [SETTING...]`. An interrupt ends the job that is
 under way, as a newer one stands in its place; the process goes on.
 """
 
@@ -18,11 +18,11 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.interrupts import interrupt_came, interrupt_handler, raise_pending
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import table_for
-from tvimdesign.explore.answers.engine import Answer, Engine, refused
-from tvimdesign.explore.answers.shown import finite_data
-from tvimdesign.explore.states.history import PARTS
-from tvimdesign.explore.states.source import open_source
-from tvimdesign.explore.states.state import State
+from tvimdesign.explore.engine import Answer, Engine, refused
+from tvimdesign.explore.history import PARTS
+from tvimdesign.explore.shown import finite_data
+from tvimdesign.explore.source import open_source
+from tvimdesign.explore.state import State
 from tvimdesign.page.page_file import page_fragment
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.run_page import run_page

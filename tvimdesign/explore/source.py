@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.states.messages import Way
-from tvimdesign.explore.states.state import State, beginning, refuse_other_folders
+from tvimdesign.explore.messages import Way
+from tvimdesign.explore.state import State, beginning, refuse_other_folders
 from tvimdesign.report.output.numbers import axis_label
 from tvimdesign.report.sweep.sweep_figures import shown_cells
 from tvimdesign.study import Study, read_tree

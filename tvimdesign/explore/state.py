@@ -17,7 +17,7 @@ from tvimdesign.base.errors import InputError, UnitError
 from tvimdesign.base.units import from_si, parse_quantity, pretty
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Input
-from tvimdesign.explore.states.messages import Change, SetLimits, SetRange, SetValue, Way
+from tvimdesign.explore.messages import Change, SetLimits, SetRange, SetValue, Way
 from tvimdesign.report.output.numbers import label
 from tvimdesign.study import Options, Range, Study, given, read_tree
 from tvimdesign.study.resolve import words_of

@@ -1,1 +1,0 @@
-"""Answers to states: quick and exact ones, in a process of their own."""
