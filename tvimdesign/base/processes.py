@@ -1,7 +1,5 @@
 """Processes watched: their priority, limits of processor time, their end with all descendants, and groups of them."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import queue
@@ -216,7 +214,7 @@ class CommandGroup:
         self._over = False
         self._reads, self._holds = os.pipe() if _GROUPS else (-1, -1)  # neither is inherited unless it is handed on
 
-    def __enter__(self) -> CommandGroup:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:

@@ -1,7 +1,5 @@
 """Records: values and tables in SI, each with source and status."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -53,7 +51,7 @@ class Record:
     tables: Mapping[str, RecordTable] = field(default_factory=dict)
     words: Mapping[str, str] = field(default_factory=dict)
     file: str = ""
-    based_on: Record | None = None
+    based_on: "Record | None" = None
     """The record that has what this one leaves out."""
 
     def value(self, name: str) -> float:

@@ -1,7 +1,5 @@
 """The results folder: one run writes it, every file appears whole, and nobody else's files are touched."""
 
-from __future__ import annotations
-
 import json
 import platform
 import shutil
@@ -13,7 +11,7 @@ from functools import cached_property
 from importlib import metadata
 from pathlib import Path, PurePosixPath
 from types import TracebackType
-from typing import Any
+from typing import Any, Self
 
 from tvimdesign import __version__
 from tvimdesign.base.atomic_files import (
@@ -107,7 +105,7 @@ class ResultsFolder:
         """Return whether a run that is resumed continues from a file."""
         return PurePosixPath(name).parent == self._progress
 
-    def __enter__(self) -> ResultsFolder:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:

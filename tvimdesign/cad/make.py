@@ -1,7 +1,5 @@
 """Makes the parts of a design in a child process, which is ended if it exceeds its limit of processor time."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import queue
@@ -12,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any
+from typing import IO, Any, Self
 
 from tvimdesign.base.atomic_files import make_folder
 from tvimdesign.base.child_process import read_lines, start_child
@@ -78,7 +76,7 @@ class PartsProcess:
         """Its number."""
         return int(self._process.pid)
 
-    def __enter__(self) -> PartsProcess:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:

@@ -1,7 +1,5 @@
 """What a page is put together from: plain records. Numbers in them are text already, as the terminal prints them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
@@ -133,7 +131,7 @@ class Folded:
 
     macro: ClassVar[str] = "folded"
     title: str
-    blocks: Sequence[Block]
+    blocks: "Sequence[Block]"
     file: str = ""
     """Where in the folder of results it is: text names that in place of the blocks."""
 

@@ -1,13 +1,11 @@
 """A study from a few numbers of a joint: its ranges follow the diameter, its hardware and heater are chosen."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import Any, Self
 
 from tvimdesign.base.errors import InputError, UnitError
 from tvimdesign.base.units import format_quantity, from_si, parse_quantity
@@ -70,7 +68,7 @@ class JointTask:
     @classmethod
     def read(
         cls, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "", stiff_time: str = ""
-    ) -> JointTask:  # fmt: skip
+    ) -> Self:  # fmt: skip
         """Read quantities with their units, as `tvim.size` takes them; an empty stroke is `STROKE`.
 
         Raises InputError with every one of them that is missing, no such quantity, or out of range.
@@ -118,7 +116,7 @@ class JointTask:
             "stroke": f"{self.stroke:.4g} rad",
         }  # fmt: skip
 
-    def with_stiffness(self, stiffness: float) -> JointTask:
+    def with_stiffness(self, stiffness: float) -> Self:
         """Return the task with another stiffness, 20 % to either side."""
         return replace(self, stiffness=((1.0 - _BAND) * stiffness, (1.0 + _BAND) * stiffness))
 

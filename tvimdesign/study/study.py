@@ -1,11 +1,9 @@
 """A study as plain data in SI units, which survives a trip through JSON."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
@@ -223,13 +221,13 @@ class Study(_Part):
         """The quantities of the study's mode; raises InputError for a mode that does not exist."""
         return table_for(self.mode)
 
-    def based_on(self, catalog: Catalog, table: Table) -> Study:
+    def based_on(self, catalog: Catalog, table: Table) -> Self:
         """Return the study with a catalogue that is open already, and a table."""
         copied = self.model_copy()
         copied.__dict__.update(catalog=catalog, table=table)
         return copied
 
-    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Study:
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy with some fields changed; it keeps the open catalogue and the table unless these change."""
         copied = super().model_copy(update=update, deep=deep)
         for cached, field in _CACHED.items():

@@ -1,12 +1,10 @@
 """A sweep as planned: the study without its sweep, positions of the cells, what each stores; the work as plain data."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -300,7 +298,7 @@ class SweptStudy:
     evaluate: bool
 
     @classmethod
-    def of(cls, plan: SweepPlan) -> SweptStudy:
+    def of(cls, plan: SweepPlan) -> Self:
         """Return the work of a plan; its folder is a whole path, since a worker may start in another one."""
         axes = plan.axes
         return cls(

@@ -3,15 +3,13 @@
 The key of a cell: a hash of the study, of what the cell sets, of the records it stands on, and of the version.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os
 from collections.abc import Callable, Iterator
 from dataclasses import astuple, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from tvimdesign import __version__
 from tvimdesign.base.errors import InputError
@@ -39,7 +37,7 @@ class Executor:
         return self.part == (1, 1)
 
     @classmethod
-    def of(cls, workers: int, shard: str) -> Executor:
+    def of(cls, workers: int, shard: str) -> Self:
         """Read the words of the command line; raises InputError for a shard that is none."""
         first, slash, last = shard.partition("/")
         if not shard:

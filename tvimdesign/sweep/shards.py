@@ -4,14 +4,12 @@ A shard begins with a line that names its columns. A line that has no end was be
 it is no cell. Whoever goes on writes a shard of its own.
 """
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from tvimdesign import __version__
 from tvimdesign.base.atomic_files import make_folder
@@ -33,7 +31,7 @@ class ShardWriter:
         self._path: Path | None = None
         self._file = -1
 
-    def __enter__(self) -> ShardWriter:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:

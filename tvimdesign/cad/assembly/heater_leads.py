@@ -1,7 +1,5 @@
 """Orders for what a heater takes beside its pads: thermal cut-out, thermistor, wires."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from contextlib import suppress
@@ -147,7 +145,7 @@ def _heating_peaks(design: Design) -> tuple[str, ...]:
     return _HOTTEST[:1] if design.values.get("peltier_seebeck") else _HOTTEST
 
 
-def _reads(sensor: Thermistor | None, kelvin: float) -> str:
+def _reads(sensor: "Thermistor | None", kelvin: float) -> str:
     """Return a temperature, and a thermistor's resistance and voltage there."""
     text = f"{kelvin - ZERO_CELSIUS:.3g} °C"
     if sensor is None:
@@ -166,14 +164,14 @@ def _opening(design: Design) -> dict[str, float]:
     return {}
 
 
-def _bead(design: Design) -> Bead | None:
+def _bead(design: Design) -> "Bead | None":
     """Return the bead that is drawn; None where none is."""
     if design.values.get("thermistor_diameter", 0.0) <= 0.0:
         return None
     return Bead(design.value("thermistor_diameter"), design.value("thermistor_length"))
 
 
-def _thermistor(design: Design) -> Thermistor | None:
+def _thermistor(design: Design) -> "Thermistor | None":
     """Return the first thermistor that fits; None where none does."""
     bead, rated = _bead(design), design.value("peltier_max_temperature")
     return next((thermistor for thermistor in thermistors() if thermistor.fits(bead, rated)), None)
@@ -257,7 +255,7 @@ def wire_in_words(design: Design, pads: int) -> str:
     return f"{said}, spliced to the heaters' own leads{_own_leads(design)}"
 
 
-def _wire(current: float) -> Wire | None:
+def _wire(current: float) -> "Wire | None":
     """Return the thinnest wire that bears a current [A]."""
     return next((wire for wire in wires() if wire.current >= current), None)
 

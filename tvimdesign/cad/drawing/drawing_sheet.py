@@ -1,7 +1,5 @@
 """A drawing sheet: A3 or A2 with frame, title block and dimension style, geometry at its true size, as DXF and PDF."""
 
-from __future__ import annotations
-
 import io
 import random
 from collections import defaultdict
@@ -86,7 +84,7 @@ def sheet_number(kind: str, told: Iterable[str]) -> str:
     return f"{kind.replace('_', '-')}-{mark}"
 
 
-def issue_fields(signed: str, number: str) -> list[Field]:
+def issue_fields(signed: str, number: str) -> "list[Field]":
     """Return the row of the title block that tells which sheet this is.
 
     `signed` is the label of the field left for a name.

@@ -1,7 +1,5 @@
 """A view on a drawing's sheet: its outlines, axes and the line of its section."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -26,7 +24,7 @@ class CuttingMark:
     barbs: tuple[tuple[float, float], ...]
     """Both ends of the arrow's back."""
 
-    def lies_on(self, other: CuttingMark) -> bool:
+    def lies_on(self, other: "CuttingMark") -> bool:
         """Return whether it is so near to another that letters or strokes touch."""
         return any(dist(one, far) < _CLEAR for one in self._points for far in other._points)
 

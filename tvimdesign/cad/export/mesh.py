@@ -1,7 +1,5 @@
 """Triangle meshes of the parts: OCC's for the drawn parts, a tube along the wire's centre for the springs."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil, pi, sqrt
@@ -41,7 +39,7 @@ class Mesh:
     faces: NDArray[np.int64]
     """Three vertices a triangle, counter-clockwise seen from outside."""
 
-    def mirrored(self) -> Mesh:
+    def mirrored(self) -> "Mesh":
         """Return the mirror image in the plane y = 0."""
         return Mesh(self.vertices * [1.0, -1.0, 1.0], self.faces[:, ::-1])
 

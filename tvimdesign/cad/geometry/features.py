@@ -1,10 +1,9 @@
 """Reads off a solid what a drawing dimensions and a print compensates: upright cylinders, and levels."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import atan2, hypot, pi
+from typing import Self
 
 import cadquery as cq
 from OCP.Bnd import Bnd_Box
@@ -158,7 +157,7 @@ class _Face:
     """Of an upright plane: its normal, and how far it is from the origin along that."""
 
     @classmethod
-    def of(cls, face: cq.Face) -> _Face:
+    def of(cls, face: cq.Face) -> Self:
         """Read it off a face."""
         box = Bnd_Box()
         BRepBndLib.Add_s(face.wrapped, box, False)

@@ -1,7 +1,5 @@
 """Rays against a triangle mesh: gaps between walls, points on a surface, and the thickness of a part's walls."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -209,7 +207,7 @@ class Samples:
     area: Array
     """Area of the surface that each stands for [mm^2]."""
 
-    def of(self, wanted: NDArray[np.bool_] | Index) -> Samples:
+    def of(self, wanted: NDArray[np.bool_] | Index) -> "Samples":
         """Return some of them."""
         return Samples(self.point[wanted], self.normal[wanted], self.triangle[wanted], self.area[wanted])
 

@@ -25,8 +25,6 @@ that much of its temperature. Each end gives or takes its weight of the arm's he
 - s T)^2/2: what heats one place from another heats back as well.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -210,7 +208,7 @@ class Lip(NamedTuple):
     """From the layer's slices, by their mean excess over the lip."""
     pads: Any
     """From the pads' hot side through the layer, by its excess."""
-    arms: tuple[Arm, ...]
+    arms: "tuple[Arm, ...]"
     """Other bodies that heat and cool it."""
 
 
@@ -250,7 +248,7 @@ def warm_lip(
     return WarmLip(warm, lip.slices / len(cells) * of_cells * (cells - warm), from_places, residuals)
 
 
-def _pads(lip: Lip, of_pads: Any) -> Arm:
+def _pads(lip: Lip, of_pads: Any) -> "Arm":
     return Arm(of_pads * lip.pads, ((HOT, 1.0),))
 
 

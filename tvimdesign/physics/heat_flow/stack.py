@@ -3,8 +3,6 @@
 A liner is a sheet between polymer and plate, bonded to the plate: finite volumes, two halves of a cell in series
 (Patankar, Numerical Heat Transfer and Fluid Flow, 1980, sec. 4.2)."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -64,7 +62,7 @@ class Stack(NamedTuple):
     """Of the polymer, where the heater's current passes it [ohm]; its heat is the same in each cell."""
     freezing: transitions.Kinetics | None = None
     """Kinetics of freezing; without them the equilibrium melting curve holds."""
-    liner: Liner | None = None
+    liner: "Liner | None" = None
     """A sheet between polymer and plate; `plate_contact` is then that of polymer and sheet."""
     lip: Lip | None = None
     """A lip of the plate at the layer's edge."""

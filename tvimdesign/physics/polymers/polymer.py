@@ -9,10 +9,8 @@ Sources: [F] Ferry, Viscoelastic Properties of Polymers, 3rd ed. (generalised Ma
 [M] Sangroniz et al., Eur. Polym. J. (2018) 495 (melts that were heated from the solid are more viscous).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -215,7 +213,7 @@ class Rheology(NamedTuple):
     memory: MeltMemory | None = None
 
     @property
-    def equilibrated(self) -> Rheology:
+    def equilibrated(self) -> Self:
         """Return the same without memory: of a melt that cools, or was hot for long."""
         return self._replace(memory=None)
 
@@ -227,7 +225,7 @@ class OneSpectrum(Protocol):
         """Return the relaxation spectrum (time [s], modulus [Pa]) at a temperature."""
 
     @property
-    def equilibrated(self) -> OneSpectrum:
+    def equilibrated(self) -> Self:
         """Return the spectrum itself: it has no memory."""
 
 

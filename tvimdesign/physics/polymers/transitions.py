@@ -21,9 +21,7 @@ Materials, part II, ch. 1 (beam on an elastic foundation, semi-infinite); Timosh
 sec. 6 (strain in one direction alone).
 """
 
-from __future__ import annotations
-
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -186,7 +184,7 @@ class Glass(NamedTuple):
     """Relaxation spectrum at T_g: (time [s], modulus relative to the others [1]); the longest time is the rubber's."""
 
     @property
-    def equilibrated(self) -> Glass:
+    def equilibrated(self) -> Self:
         """Return the glass itself: it has no memory."""
         return self
 

@@ -1,13 +1,11 @@
 """The shell of all commands that write a folder: its claim, progress, plots, failures and last words."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, Self
 
 from rich.console import Console
 from rich.markup import escape
@@ -50,7 +48,7 @@ class Command:
         """Lines printed at the end; `page` sets both."""
         self._stack = ExitStack()
 
-    def __enter__(self) -> Command:
+    def __enter__(self) -> Self:
         """Claim the folder and start what draws. Raises InputError."""
         with ExitStack() as stack:
             self.folder = stack.enter_context(ResultsFolder(self.out, *self._claim))

@@ -1,11 +1,10 @@
 """Makes the parts of a design into a folder, with their checks, and says which of those fail."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Self
 
 from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.errors import GeometryError
@@ -42,7 +41,7 @@ class BackgroundPartsJob:
             set_low_priority(self._process.process, Niceness.LOW)
         self._out = Path()
 
-    def __enter__(self) -> BackgroundPartsJob:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *raised: object) -> None:

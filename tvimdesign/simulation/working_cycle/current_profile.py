@@ -1,10 +1,8 @@
 """The current through the pads over one phase: constant, or straight between given moments."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,12 +19,12 @@ class CurrentProfile:
     currents: tuple[float, ...]
 
     @classmethod
-    def constant(cls, current: float) -> CurrentProfile:
+    def constant(cls, current: float) -> Self:
         """Return a profile of one constant current."""
         return cls((0.0,), (current,))
 
     @classmethod
-    def in_pieces(cls, ramp: float, duration: float, currents: Sequence[float]) -> CurrentProfile:
+    def in_pieces(cls, ramp: float, duration: float, currents: Sequence[float]) -> Self:
         """Ramp from zero in some seconds to the first of `currents`, which follow evenly spaced over `duration`
         seconds; without a ramp the first is there from the start."""
         evenly = ramp + np.linspace(0.0, duration, len(currents))
@@ -35,7 +33,7 @@ class CurrentProfile:
         return cls((0.0, *evenly.tolist()), (0.0, *currents))
 
     @classmethod
-    def from_plain(cls, data: Mapping[str, Any]) -> CurrentProfile:
+    def from_plain(cls, data: Mapping[str, Any]) -> Self:
         """Return the drive that `plain` describes."""
         return cls(*(tuple(float(number) for number in data[name]) for name in ("moments", "currents")))
 

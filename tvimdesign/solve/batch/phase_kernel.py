@@ -3,8 +3,6 @@
 Division of the time of a phase into steps, and its dependence on the design.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -43,7 +41,7 @@ class PhaseKernel:
 
     def __init__(
         self, model: DeviceFunctions, phase: PhaseFunctions, moving: Sequence[str], events: Sequence[str],
-        paths: Sequence[str], steadies: Sequence[str], steps: Steps,
+        paths: Sequence[str], steadies: Sequence[str], steps: "Steps",
     ) -> None:  # fmt: skip
         """Record the motion, and what is looked at: all of it, as threads share it later."""
         self.engine, self.steps, self.after = model.engines[phase.phase.name], steps, phase.phase.after
@@ -101,7 +99,7 @@ class PhaseKernel:
         return self._evaluated(watch.given, columns, self._moving, 0)
 
     def run(
-        self, columns: Array, before: Array | None, pace: float, balance: Array | None, fit: Fit | None = None,
+        self, columns: Array, before: Array | None, pace: float, balance: Array | None, fit: "Fit | None" = None,
         keep: Course | None = None, until: float = np.inf,
     ) -> Passage:  # fmt: skip
         """Go through the phase; `before` are the states it starts from, where that is not everything at ambient.
@@ -122,7 +120,7 @@ class PhaseKernel:
             values |= self._at_rest(run, balance)
         return Passage(values, run.end[: self.size])
 
-    def _at_rest(self, run: _Run, balance: Array | None) -> dict[str, Array]:
+    def _at_rest(self, run: "_Run", balance: Array | None) -> dict[str, Array]:
         """Steady rows, from the balance of the study's own design; infinite where Newton finds none."""
         count = run.count
         if balance is None or self.ends is None:

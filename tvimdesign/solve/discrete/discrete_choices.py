@@ -1,7 +1,5 @@
 """Choices that a study lists: records, sizes of numbers, and boxes of sizes that a search divides."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -52,7 +50,7 @@ class Sizes:
         """The box of all sizes."""
         return tuple((0, count - 1) for count in self.shape)
 
-    def mixed(self, mixtures: Sequence[Mixture]) -> Sizes:
+    def mixed(self, mixtures: Sequence[Mixture]) -> "Sizes":
         """Return the listed numbers and the records of mixtures."""
         numbers = len(self.names) - len(self.mixtures)
         places = tuple(tuple(float(i + 1) for i in range(len(mixture.records))) for mixture in mixtures)

@@ -1,7 +1,5 @@
 """One study with its records chosen, searched over its listed sizes: its free optima, and the runs within a box."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -115,7 +113,7 @@ class Relaxation:
             self._take(runs)
         return runs
 
-    def from_other_records(self, others: Iterable[Relaxation]) -> list[Run]:
+    def from_other_records(self, others: "Iterable[Relaxation]") -> list[Run]:
         """Return a run from the best optimum with other records, if no start reached an optimum with these.
 
         Without an optimum every box of sizes is searched, from where the starts broke their limits least.

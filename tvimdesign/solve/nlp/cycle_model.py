@@ -1,8 +1,7 @@
 """Second-order model of what a working cycle supplies, around one cycle."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +22,7 @@ class CycleModel:
     positive: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, x: Array, values: Array, slopes: Array, curvatures: Array) -> CycleModel:
+    def of(cls, x: Array, values: Array, slopes: Array, curvatures: Array) -> Self:
         """Take values and slopes of the cycle at the unknowns x."""
         positive = np.isfinite(values) & (values > 0.0)
         return cls(x, values, slopes / np.where(positive, values, 1.0)[:, None], curvatures, positive)

@@ -1,7 +1,5 @@
 """IPOPT as every problem here wants it: its settings, and what warm starts take other ones."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Protocol, TypeAlias
@@ -92,7 +90,7 @@ class Programme(Protocol):
     def row_count(self) -> int:
         """Count of constraints."""
 
-    def at(self, x: Array) -> Evaluated:
+    def at(self, x: Array) -> "Evaluated":
         """Evaluate the programme at a point."""
 
 

@@ -7,8 +7,6 @@ of the record; no combination of records lies outside the hull, so what is best 
 The records and options a study lists to choose from, and the study with some of them chosen.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -48,7 +46,7 @@ class Mixture:
         """The names of the shares among the device's inputs."""
         return tuple(f"share of {', '.join(record.values())}" for record in self.records)
 
-    def in_order(self, order: Sequence[int]) -> Mixture:
+    def in_order(self, order: Sequence[int]) -> "Mixture":
         """Return the records in another order."""
         return Mixture(
             tuple(self.records[i] for i in order),

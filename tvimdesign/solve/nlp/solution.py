@@ -1,9 +1,8 @@
 """Records of a solution: starts, active limits, the solution."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass, field
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,7 +84,7 @@ class SolverEffort:
     """Boxes of sizes in which the limits that depend on no switch cannot be kept."""
 
     @classmethod
-    def total(cls, build_plan: Iterable[SolverEffort]) -> SolverEffort:
+    def total(cls, build_plan: "Iterable[SolverEffort]") -> Self:
         """Return the work of several searches together."""
         together = [astuple(work) for work in build_plan]
         return cls(*(sum(column) for column in zip(*together, strict=True)))

@@ -7,12 +7,11 @@ direction in which every output falls alike, as by normal-boundary intersection 
 Lead of one front over others: the study that does best in one output for each limit on the other.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +40,7 @@ class Frame:
     ranges: Array
 
     @classmethod
-    def of(cls, names: Sequence[str], ends: Sequence[Values]) -> Frame:
+    def of(cls, names: Sequence[str], ends: Sequence[Values]) -> Self:
         """Return the frame of the ends of a front."""
         numbers = np.array([[end[name] for name in names] for end in ends])
         return cls(tuple(names), numbers.min(axis=0), np.ptp(numbers, axis=0))

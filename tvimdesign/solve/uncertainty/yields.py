@@ -3,12 +3,10 @@
 Account of a requested yield: modules that satisfy the limits, limits that lose the others, and the cost.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -58,7 +56,7 @@ class Drawn:
         """Yield of all limits together."""
         return self.within(np.zeros(len(self.limits)))
 
-    def with_more(self, more: Drawn) -> Drawn:
+    def with_more(self, more: "Drawn") -> Self:
         """Add further modules of the same design."""
         residuals = np.hstack([self.residuals, more.residuals])
         return replace(self, residuals=residuals, columns=np.hstack([self.columns, more.columns]))

@@ -1,7 +1,5 @@
 """Reads single values: a quantity, a whole number, true or false, the name of a record."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Collection, Iterable
@@ -38,7 +36,7 @@ class Reading:
     catalog: Catalog
     nodes: Mapped[str, Node]
     """The sections as they are written."""
-    readers: Mapped[str, Callable[[Reading, Node | None], Any]]
+    readers: "Mapped[str, Callable[[Reading, Node | None], Any]]"
     folder: Path = Path()
     """The study's, from which the files that it names are sought."""
     values: dict[str, Any] = field(default_factory=dict)

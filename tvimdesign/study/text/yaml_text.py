@@ -4,8 +4,6 @@ Nothing is constructed and nothing is recursive: the parser's events are stacked
 stays the text it was written as, so `on`, `010`, `1:30` and `1e400` have no second meaning here.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -52,7 +50,7 @@ class Sequence:
 
     line: int
     column: int
-    items: list[Node] = field(default_factory=list)
+    items: "list[Node]" = field(default_factory=list)
     file: str = ""
 
 
@@ -62,7 +60,7 @@ class Mapping:
 
     line: int
     column: int
-    entries: dict[str, tuple[Text, Node]] = field(default_factory=dict)
+    entries: "dict[str, tuple[Text, Node]]" = field(default_factory=dict)
     file: str = ""
 
 

@@ -7,8 +7,6 @@ Alexander's method of second order, stiffly stable in two implicit stages; Newto
 derivatives are those of the implicit function. Source: Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -100,7 +98,7 @@ def _log(block: Block) -> tuple[Array, Array, dict[str, Array]]:
     return time - time[0], current, dict(zip(places, seen, strict=True))
 
 
-def _course(time: Array, current: Array, file: str) -> tuple[Course, Array]:
+def _course(time: Array, current: Array, file: str) -> "tuple[Course, Array]":
     """Return what is gone through, and the rows of the log at its moments. Raises InputError for a second heating."""
     on = current > _ON * np.max(current)
     last = int(np.flatnonzero(on)[-1]) + 1 if np.any(on) else 0
@@ -120,7 +118,7 @@ def _crowded(first: int, last: int) -> Any:
 
 
 def _channels(
-    block: Block, module: LoggedModule, course: tuple[Course, Array], seen: Mapping[str, Array], ambient: str
+    block: Block, module: "LoggedModule", course: "tuple[Course, Array]", seen: Mapping[str, Array], ambient: str
 ) -> list[Channel]:
     moments, rows = course
     inputs_kept: list[tuple[Values, dict[str, Any]]] = []
