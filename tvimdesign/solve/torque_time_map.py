@@ -1,12 +1,13 @@
 """The lightest designs of one study over the torque that is held and the time of a full cycle, cell by cell.
 
 Every cell is a pair of bounds on one problem that is built once. The walk begins at the study's own optimum, goes up
-and down the torques, and from the lightest design of each torque to the fastest. A cell is empty where the search from
-its neighbour has no design of the torque, or where the fastest design takes longer.
+and down the torques, and from the lightest design of each torque to shorter cycles. Where a search has no design, steps
+are halved. A cell is empty where the search next to it, from a design that is next to it, ends at limits.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -14,15 +15,17 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.nlp.problem_parts import Bound, Objective
 from tvimdesign.solve.nlp.solver_run import OPTIMAL, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.pareto.tradeoff import ONE_POINT, Failure, Point, Tradeoff
+from tvimdesign.solve.pareto.tradeoff import Failure, Point, Tradeoff
 from tvimdesign.solve.search import optimize
-from tvimdesign.study import Study
+from tvimdesign.study import Study, given
 
 TORQUE, CYCLE, MASS, ENERGY, HOT = "holding_torque", "cycle_time", "module_mass", "cycle_energy", "joint_stiffness@hot"
 TRADED = (TORQUE, CYCLE, MASS, ENERGY, HOT)
 EMPTY, UNANSWERED = "empty", "unanswered"
 _SIDE = 1e-3
 """Weight of what is not asked for: of two designs alike in mass the faster, and the one of less energy."""
+_STEP = 0.03
+"""Least step, a logarithm of torque or time."""
 _NAMED = 3
 """Limits that are named where a cell is empty."""
 
@@ -52,7 +55,7 @@ def map_of(
     progress("the lightest design")
     try:
         solution = optimize(
-            study, keep=lambda optimizer, runs: built.append((optimizer, runs)), objectives=TRADED, checked=True
+            study, keep=lambda optimizer, runs: built.append((optimizer, runs)), objectives=_traded(study), checked=True
         )
     except InfeasibleError as error:
         return [MapCell(torque, cycle, EMPTY, limits=(str(error),)) for torque in torques for cycle in cycles]
@@ -64,43 +67,54 @@ def map_of(
     return _Walk(Tradeoff(study, solution, *built[0], progress), softness, sorted(cycles, reverse=True)).over(torques)
 
 
+def _traded(study: Study) -> tuple[str, ...]:
+    """Return what is traded, and the parts whose least is the torque: each is bounded, as their least has kinks."""
+    table, given_options = study.table, given(study)
+    parts = [name for name in table.output(TORQUE).least_of if table.output(name).exists(given_options)]
+    return (*TRADED, *parts)
+
+
+@dataclass(frozen=True)
+class _Ask:
+    """Torque [N*m] and longest cycle [s] of a cell."""
+
+    torque: float
+    cycle: float = math.inf
+
+    def halfway(self, other: _Ask) -> _Ask:
+        """Return the geometric mean of two of the same cycle or torque."""
+        return _Ask(math.sqrt(self.torque * other.torque), math.sqrt(self.cycle * other.cycle))
+
+    def apart(self, other: _Ask) -> float:
+        """Return the logarithm of the ratio in which two differ."""
+        cycles = math.log(self.cycle / other.cycle) if math.isfinite(self.cycle) else 0.0
+        return max(abs(math.log(self.torque / other.torque)), abs(cycles))
+
+
 class _Walk:
     """The walk over one problem."""
 
     def __init__(self, trade: Tradeoff, softness: float, cycles: Sequence[float]) -> None:
         self._trade, self._softness, self._cycles = trade, softness, cycles
-        self._fastest: Point | None = None
+        self._parts = [name for name in trade.reference if name not in TRADED]
 
     def over(self, torques: Sequence[float]) -> list[MapCell]:
         """Walk down from the torque that the lightest design holds, then up."""
-        first = self._trade.optimum
-        held = first.values[TORQUE]
+        held = self._trade.optimum.values[TORQUE]
         down = sorted((torque for torque in torques if torque <= held), reverse=True)
-        up = sorted(torque for torque in torques if torque > held)
-        return [*self._along(down, first, {HOT: 1.0}), *self._along(up, first, {TORQUE: -1.0})]
+        return [*self._along(down), *self._along(sorted(torque for torque in torques if torque > held))]
 
-    def _along(self, torques: Sequence[float], near: Point, furthest: dict[str, float]) -> list[MapCell]:
-        """Return the cells of torques, each sought from the one before; beyond a torque without a design is none.
-
-        Without a last design that limits end, what is left stays unanswered: a failed search proves nothing.
-
-        `furthest` is the objective of the last design on the way, softest or strongest, which its limits end.
-        """
+    def _along(self, torques: Sequence[float]) -> list[MapCell]:
+        """Return the cells of torques; those beyond a torque without a design are as that one is."""
         cells: list[MapCell] = []
+        near = self._trade.optimum
+        here = _Ask(near.values[TORQUE])
         for place, torque in enumerate(torques):
-            lightest = self._sought({MASS: 1.0}, near, f"{torque:g} N*m", *self._bounds(torque))
-            if isinstance(lightest, Failure):
-                end = self._sought(
-                    furthest, near, f"the last before {torque:g} N*m", *self._end_bounds(torque, furthest)
-                )
-                if isinstance(end, Point):
-                    lightest = self._sought({MASS: 1.0}, end, f"{torque:g} N*m", *self._bounds(torque))
-            if isinstance(lightest, Failure):
-                left = torques[place:]
-                status, limits = (EMPTY, self._limits(end)) if isinstance(end, Point) else (UNANSWERED, ())
-                return [*cells, *(MapCell(t, c, status, near.values, limits) for t in left for c in self._cycles)]
-            near = lightest
-            cells += self._faster(torque, lightest)
+            near, status = self._walked(near, here, _Ask(torque))
+            if status != OPTIMAL:
+                return [*cells, *(self._cell(t, c, status, near) for t in torques[place:] for c in self._cycles)]
+            here = _Ask(torque)
+            cells += self._faster(torque, near)
         return cells
 
     def _faster(self, torque: float, near: Point) -> list[MapCell]:
@@ -108,51 +122,58 @@ class _Walk:
         cells: list[MapCell] = []
         for place, cycle in enumerate(self._cycles):
             if near.values[CYCLE] > cycle:
-                answer, left = self._within(torque, cycle, near), self._cycles[place:]
-                if isinstance(answer, Failure):
-                    return [*cells, *(MapCell(torque, c, UNANSWERED, near.values) for c in left)]
-                if answer.values[CYCLE] > cycle * (1.0 + ONE_POINT):
-                    limits = self._limits(answer)
-                    return [*cells, *(MapCell(torque, c, EMPTY, answer.values, limits) for c in left)]
-                near = answer
-            cells.append(MapCell(torque, cycle, OPTIMAL, near.values, self._limits(near)))
+                near, status = self._walked(near, _Ask(torque, near.values[CYCLE]), _Ask(torque, cycle))
+                if status != OPTIMAL:
+                    return [*cells, *(self._cell(torque, c, status, near) for c in self._cycles[place:])]
+            cells.append(self._cell(torque, cycle, OPTIMAL, near))
         return cells
 
-    def _within(self, torque: float, cycle: float, near: Point) -> Point | Failure:
-        """Return the lightest design of a longest cycle; the fastest design where none ends in time."""
-        within = (*self._bounds(torque), self._bound(CYCLE, 1.0, cycle))
-        where = f"{torque:g} N*m in {cycle:g} s"
-        answer = self._sought({MASS: 1.0}, near, where, *within)
-        if isinstance(answer, Point):
-            return answer
-        for begin in filter(None, (near, self._fastest)):
-            answer = self._sought({CYCLE: 1.0}, begin, f"fastest for {torque:g} N*m", *self._bounds(torque))
+    def _walked(self, near: Point, here: _Ask, there: _Ask) -> tuple[Point, str]:
+        """Walk from the design of one cell to another's; return the last design on the way, and the cell's status."""
+        step, ended = there, False
+        limit = there
+        while True:
+            answer = self._lightest(near, step)
             if isinstance(answer, Point):
-                break
-        if isinstance(answer, Failure):
-            return answer
-        self._fastest = answer
-        if answer.values[CYCLE] <= cycle:
-            again = self._sought({MASS: 1.0}, answer, where, *within)
-            return again if isinstance(again, Point) else answer
+                near, here = answer, step
+                if step == there:
+                    return near, OPTIMAL
+                step = here.halfway(limit) if ended else there
+            else:
+                if answer.infeasible:
+                    limit, ended = step, True
+                step = here.halfway(step)
+            if here.apart(step) < _STEP:
+                return near, EMPTY if ended else UNANSWERED
+
+    def _lightest(self, near: Point, ask: _Ask) -> Point | Failure:
+        """Seek the lightest design from one nearby, then from the design of any cell that comes nearest."""
+        answer = self._sought(near, ask)
+        nearest = min(self._trade.found, key=lambda point: self._miss(point, ask))
+        if isinstance(answer, Failure) and self._miss(nearest, ask) < self._miss(near, ask):
+            return self._sought(nearest, ask)
         return answer
 
-    def _sought(self, least: dict[str, float], near: Point, where: str, *bounds: Bound) -> Point | Failure:
-        side = {name: _SIDE for name in (MASS, CYCLE, ENERGY) if name not in least}
+    def _sought(self, near: Point, ask: _Ask) -> Point | Failure:
+        where = f"{ask.torque:.3g} N*m in {ask.cycle:.3g} s"
         self._trade.progress(where)
-        return self._trade.beside(near, Objective(self._trade.weights({**least, **side}), bounds), where)
+        weights = {MASS: 1.0, CYCLE: _SIDE, ENERGY: _SIDE}
+        return self._trade.beside(near, Objective(self._trade.weights(weights), self._bounds(ask)), where)
 
-    def _end_bounds(self, torque: float, furthest: dict[str, float]) -> tuple[Bound, ...]:
-        """Return the bounds of a torque without the one on what is sought."""
-        holds, soft = self._bounds(torque)
-        return (soft,) if TORQUE in furthest else (holds,)
+    def _miss(self, point: Point, ask: _Ask) -> float:
+        """Return the logarithm by which a design misses what is asked, at most zero where it meets that."""
+        torque, hot, cycle = (point.values[name] for name in (TORQUE, HOT, CYCLE))
+        return math.log(max(ask.torque / torque, hot / (self._softness * ask.torque), cycle / ask.cycle))
 
-    def _bounds(self, torque: float) -> tuple[Bound, Bound]:
-        return self._bound(TORQUE, -1.0, -torque), self._bound(HOT, 1.0, self._softness * torque)
+    def _bounds(self, ask: _Ask) -> tuple[Bound, ...]:
+        held = [self._bound(part, -1.0, -ask.torque) for part in self._parts]
+        within = [self._bound(CYCLE, 1.0, ask.cycle)] if math.isfinite(ask.cycle) else []
+        return *held, self._bound(HOT, 1.0, self._softness * ask.torque), *within
 
     def _bound(self, name: str, factor: float, limit: float) -> Bound:
         size = self._trade.reference[name]
         return Bound({name: factor / size}, limit / size)
 
-    def _limits(self, point: Point) -> tuple[str, ...]:
-        return tuple(text for text, price in self._trade.prices(point).items() if price > 0.0)[:_NAMED]
+    def _cell(self, torque: float, cycle: float, status: str, point: Point) -> MapCell:
+        limits = tuple(text for text, price in self._trade.prices(point).items() if price > 0.0)[:_NAMED]
+        return MapCell(torque, cycle, status, point.values, limits)

@@ -194,7 +194,7 @@ def _spring(design: Design, kind: str, title: str) -> str:
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return what is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the
     pads."""
-    items = [_polymer(design, titles), *_under_pads(design, titles), *_with_spreaders(design)]
+    items = [_polymer(design, titles), *_under_pads(design, titles), *_heat_conducting_adhesive(design)]
     items += [*_of_the_heater(design), *_supply(design), *_glues(design), *_beside_the_module(design, titles)]
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
         record = str(design.choices["liner_adhesive"])
@@ -310,10 +310,13 @@ def _adhesive(design: Design, titles: Mapping[str, str], where: str) -> Item:
     return Item("heater_adhesive", 1, False, record, f"{titles.get('heater_adhesive', record)}, {where}", 0.0, ())
 
 
-def _with_spreaders(design: Design) -> list[Item]:
-    """Return what rigid heaters below spreaders take beside: the adhesive between them."""
+def _heat_conducting_adhesive(design: Design) -> list[Item]:
+    """Return what joins rigid heaters and their spreaders, or fills the holes of thermistors."""
     if design.choices.get("heater_form", "flexible") == "flexible":
-        return []
+        if design.values.get("thermistor_diameter", 0.0) <= 0.0:
+            return []
+        words = f"Heat-conducting adhesive for {rating(design)}, to fill the thermistors' holes"
+        return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
     area = 1e6 * design.value("peltier_area") * design.value("heater_count")
     words = f"Adhesive of modules and spreaders, for {rating(design)}, a thin film over {area:.4g} mm² in all"
     return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]

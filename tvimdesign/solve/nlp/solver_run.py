@@ -93,6 +93,10 @@ NO_MODULE = "Invalid_Number_Detected"
 """IPOPT's word for a point at which there is no module: an output is no number there."""
 
 
+INFEASIBLE = "Infeasible_Problem_Detected"
+"""IPOPT's word for a point from which no small change brings the violated limits closer to being met."""
+
+
 class Meaning(NamedTuple):
     """Meaning of a status and the next step, which is empty if there is nothing to do."""
 
@@ -111,7 +115,7 @@ MEANINGS = {
         "look at what the check outside the solver says, or ease `solver.tolerance`",
     ),
     FEASIBLE: Meaning("a feasible design was found, not the best one", _BETTER_START),
-    "Infeasible_Problem_Detected": Meaning(
+    INFEASIBLE: Meaning(
         "ended where no small change brings the violated limits closer to being met",
         "ease one of the limits it names, or widen a range that stands in the way",
     ),

@@ -14,7 +14,7 @@ from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, in_words, make_constraint, on_cycle
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.nlp.solver_run import Progress, Run, Trace, meaning
+from tvimdesign.solve.nlp.solver_run import INFEASIBLE, Progress, Run, Trace, meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import Options, Study
@@ -54,6 +54,8 @@ class Failure:
 
     where: str
     reason: str
+    infeasible: bool = False
+    """Whether the search ended at limits that cannot all be met nearby."""
 
 
 class Memory(Protocol):
@@ -232,7 +234,8 @@ class Tradeoff:
 
     def _checked(self, runs: Sequence[Run], objective: Objective, where: str) -> Point | Failure:
         """Return the best of some runs that satisfies every limit in simulation, or the reason why there is none."""
-        reason = f"not converged: {meaning(runs[-1].start.status).words}" if runs else "nothing to begin from"
+        last = runs[-1].start.status if runs else ""
+        reason = f"not converged: {meaning(last).words}" if runs else "nothing to begin from"
         for run in self._robust(
             sorted((run for run in runs if run.start.converged), key=lambda r: r.start.objective), objective
         ):
@@ -240,7 +243,7 @@ class Tradeoff:
             if isinstance(checked, Point):
                 return checked
             reason = checked
-        return Failure(where, reason)
+        return Failure(where, reason, last == INFEASIBLE)
 
     def _robust(self, runs: Sequence[Run], objective: Objective) -> Iterator[Run]:
         """Runs as they are; of a robust study sought again, from the optimum's margins to their own."""

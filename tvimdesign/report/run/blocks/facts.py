@@ -273,19 +273,15 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
     name, share = most_in_doubt(uncertainty)
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
-    needs = f"needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
     target = (study.get("robust") or {}).get("plausible")
-    if target is not None:
-        count = sum(met < target for met in uncertainty["held"].values())
-        fewer = (
-            f"{count} {'limit is' if count == 1 else 'limits are'} met in fewer cases than the {percent(target)} asked"
-        )
-        met = fewer if count else f"each limit is met in the {percent(target)} of cases asked"
-        return [Fact("Model", [f"{met}, {label(name)} in {percent(share, 2)}"], needs)]
-    count = sum(met < _SELDOM for met in uncertainty["held"].values())
-    limits = f"{count} limits may fail, most often {label(name)}" if count > 1 else f"{label(name)} may fail"
-    text = f"{limits}, in {100.0 * (1.0 - share):.0f} % of cases"
-    return [Fact("Model", [text], needs)]
+    count = sum(met < (_SELDOM if target is None else target) for met in uncertainty["held"].values())
+    if target is not None and not count:
+        least = f"{label(name)} in {percent(share, 2)}"
+        return [Fact("Model", [f"each limit is met in the {percent(target)} of cases asked, {least}"])]
+    needs = f" needs {uncertainty['needs']}," if uncertainty.get("needs") else " is"
+    text = f"{label(name)}{needs} met in {percent(share, 2)} of cases"
+    more = f"{count - 1} more in under {percent(target or _SELDOM)}" if count > 1 else ""
+    return [Fact("Model", [text], more)]
 
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:

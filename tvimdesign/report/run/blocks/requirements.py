@@ -7,8 +7,9 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Cell, Grid, Head, Tone
-from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, range_text
+from tvimdesign.report.output.numbers import in_unit, label, number, range_text
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, on_limit, value_text
+from tvimdesign.report.run.blocks.verdict import measure_first
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
@@ -55,11 +56,11 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
         checks = [
             check for check in answer.checks if check.origin == "require" and name in (check.output, check.part_of)
         ]
-        assumed = next(iter(uncertainty.get("assumptions", {}).get(name, ())), None)
+        first = measure_first(name, uncertainty)
         row = _requirement(answer, table, name, _limit_text(limits, table.unit(name)), checks)
         spread = range_text(_interval(_limited(checks, name, table), intervals))
         state = _hot_states(answer) if table.output(name).at_end in {check.output for check in checks} else ""
-        rows.append(replace(row, range=spread, depends_on=assumption(assumed) if assumed else "", state=state))
+        rows.append(replace(row, range=spread, depends_on=label(first) if first else "", state=state))
     violated = [check for check in answer.checks if check.origin != "require" and not check.kept]
     for check in sorted(violated, key=lambda check: check.worst):
         rows.append(_requirement(answer, table, check.output, check.text.removeprefix(check.output).strip(), [check]))
@@ -146,11 +147,3 @@ def _stands(answer: StudyResult, check: ConstraintCheck, table: Table) -> tuple[
         return "at the limit", "warn"
     margin = margin_text(replace(check, margin=check.worst), table)
     return (f"{margin}, active", "warn") if is_active(check, answer) else (margin, "")
-
-
-def assumption(row: Mapping[str, Any]) -> str:
-    """Return an assumed input with its value and its range."""
-    return (
-        f"{label(row['input'])} {number(row['value'])} {row['unit']}".rstrip()
-        + f" ({ends_text(row['low'], row['high'])})"
-    )

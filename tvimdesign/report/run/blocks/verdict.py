@@ -10,7 +10,8 @@
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
-9. Limits are met in less than `DOUBTFUL` of the cases: *Build it: one first, and measure X and Y*.
+9. Limits are met in less than `DOUBTFUL` of the cases, or the share that the study asks: *Build it: one first, and
+   measure X and Y before more*.
 10. *Build it*; here and in 9 with a bought part that is not to be had.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
@@ -209,21 +210,26 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     if not uncertainty:
         return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
     name, share = most_in_doubt(uncertainty)
-    if not name or share >= DOUBTFUL:
+    least = max(DOUBTFUL, (answer.design.study.get("robust") or {}).get("plausible") or 0.0)
+    if not name or share >= least:
         return Verdict("build", f"Build it{but}")
-    first = _to_measure(uncertainty)
-    what = f"measure {first}" if first else f"check the {label(name)}"
+    first = _to_measure(uncertainty, least)
+    what = f"measure {first}" if first else f"check the {label(name)} before more"
     return Verdict("build_one", f"Build it{but}: one first, and {what}")
 
 
-def _to_measure(uncertainty: Mapping[str, Any]) -> str:
+def _to_measure(uncertainty: Mapping[str, Any], least: float) -> str:
     """Return the unmeasured inputs that decide on the limits in doubt, the worst limit's first; or nothing."""
-    doubtful = [name.partition(" ")[0] for name, share in uncertainty["held"].items() if share < DOUBTFUL]
+    doubtful = [name.partition(" ")[0] for name, share in uncertainty["held"].items() if share < least]
     first = dict.fromkeys(measure_first(name, uncertainty) for name in doubtful)
     inputs = [f"the {label(name)}" for name in first if name]
+    if not inputs:
+        return ""
     named, more = inputs[:_MOST_NAMED], len(inputs) - _MOST_NAMED
     listed = f" (summary.txt: {TO_MEASURE})"
-    return f"{', '.join(named)} and {more} more{listed}" if more > 0 else " and ".join(named)
+    others = f"{more} other{'s' if more > 1 else ''}"
+    words = f"{', '.join(named)} and {others}" if more > 0 else " and ".join(named)
+    return f"{words} before more{listed if more > 0 else ''}"
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:
