@@ -20,8 +20,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
 from tvimdesign.simulation.working_cycle import device_functions, phase_functions
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 Array = NDArray[np.float64]

@@ -17,8 +17,8 @@ import yaml
 from numpy.typing import NDArray
 from quick import Quick
 
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import STRUCTURES, DeviceFunctions
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import impossible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study

@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.batch.batch_model import Kernel, of_columns
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.study import given, read_study

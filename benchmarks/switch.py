@@ -27,9 +27,9 @@ from tvimdesign.device.core.impedance import warm_structure
 from tvimdesign.device.shear import layer_heat
 from tvimdesign.device.table.module import Module
 from tvimdesign.physics.heat_flow import heat
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.study import given, read_study
 
 Array = NDArray[np.float64]

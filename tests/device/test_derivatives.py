@@ -8,9 +8,9 @@ from event_derivatives import differences, found_by_engine, shown_by_cvodes
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table, table_for
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle_engine import Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]

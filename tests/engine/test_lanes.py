@@ -18,7 +18,7 @@ from tvimdesign.engine import lane_events, lanes, vectors
 from tvimdesign.engine.integrator import Motion
 from tvimdesign.engine.sparse_lu import Pattern, factor, pattern_of, solve, solve_many
 from tvimdesign.engine.tape import Tape
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.batch.batch_model import Kernel
 
 Array = np.ndarray

@@ -13,8 +13,7 @@ from support import study_path
 from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.report.output.tables import duty_entry
 from tvimdesign.report.run.blocks.facts import main_facts, more_facts
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.symbols import symbols
+from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.solve.duty import HOUR, Duty, DutyCycle
 from tvimdesign.solve.result import answer
 from tvimdesign.study.reader import read_study_text

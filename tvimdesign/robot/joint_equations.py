@@ -20,10 +20,10 @@ from tvimdesign.physics.polymers import polymer
 from tvimdesign.robot.model_files import document, numbers
 from tvimdesign.simulation.joint_tests.case import one_sided
 from tvimdesign.simulation.link_motion.sampled_motion import PER_DECADE
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, temperature_names
 from tvimdesign.simulation.working_cycle.melt_history import MEMORY
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 MOVING = ("ambient_temperature", "frequency@hot")
 """Inputs of the table that may change in an FMU."""

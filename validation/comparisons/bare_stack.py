@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from comparisons.numbers import Array
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import polymer
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 NO_MELTING = polymer.Melting(1900.0, 1900.0, 1.0, 5000.0, 5001.0, 1e-3)
 COLD = 295.15

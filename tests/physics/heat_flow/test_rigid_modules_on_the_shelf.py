@@ -15,7 +15,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.polymers import polymer
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.study import read_study
 
 CATALOG = Catalog()

@@ -12,7 +12,7 @@ from scipy.integrate import quad, solve_ivp
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.polymers import melt, polymer, transitions
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 Array = NDArray[np.float64]
 CELSIUS = 273.15

@@ -9,8 +9,8 @@ import pytest
 from support import STUDIES, digits, fine, study_path
 
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.batch import cycle_kernel
 from tvimdesign.solve.batch.batch_model import Kernel, of_columns

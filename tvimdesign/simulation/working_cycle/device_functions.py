@@ -16,10 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table
-from tvimdesign.simulation.working_cycle.casadi_setup import ca, lean_function
 from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.simulation.working_cycle.symbols import symbols
+from tvimdesign.simulation.working_cycle.symbols import ca, lean_function, symbols
 
 MOST_STRUCTURES = 8
 """Structures whose functions a thread keeps."""

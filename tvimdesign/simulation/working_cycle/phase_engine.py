@@ -16,13 +16,12 @@ from tvimdesign.engine.interpreter import Array
 from tvimdesign.engine.tape import Tape
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid, Instant
 from tvimdesign.simulation.working_cycle.phase_results import PhaseResults
 from tvimdesign.simulation.working_cycle.phase_run import PhaseRun
-from tvimdesign.simulation.working_cycle.symbols import symbols
+from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 
 _NONE = np.zeros(0)
 MANY = 5000

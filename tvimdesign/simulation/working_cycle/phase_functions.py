@@ -8,8 +8,7 @@ from tvimdesign.device import Event, Path, Phase, Steady, Table
 from tvimdesign.device.table.quantity import DRIVE, PHASE, STATE
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.heat_flow.shape_factors import AMBIENT
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.symbols import symbols
+from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 
 SHOWN = {"joint_stiffness": "stiffness_now", "joint_damping": "damping_now", "electrical_power": "electrical_power"}
 """Quantities of an instant that a phase is drawn with, by the name of their column."""

@@ -1,16 +1,30 @@
-"""Symbols that numpy's functions act on: scalars and one-dimensional arrays of CasADi's SX, written down quickly.
+"""CasADi, set up the way every solver here wants it, and symbols that numpy's functions act on.
 
+They are scalars and one-dimensional arrays of CasADi's SX, written down quickly.
 CasADi's own array of symbols tries every kind of matrix for each operation: 30 microseconds, ten times the operation.
 Here what is elementwise goes straight to the function for SX; all else is left to CasADi's array. Without this file the
 first optimum of a study of 13 sizes takes 28 % longer, 0.51 s of the processor in place of 0.40.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+# Equations are written with numpy's functions; this makes CasADi answer to them.
+ca.GlobalOptions.setNumpyMode(1)
+__all__ = ["Symbols", "ca", "lean_function", "symbols"]
+
+
+def lean_function(name: str, arguments: Sequence[Any], value: Any, options: Mapping[str, Any] | None = None) -> Any:
+    """Return a function of SX in which repeated expressions are computed once.
+
+    Rows of the table write out what they need, so that a third to two thirds of the operations are repeats, and of the
+    second derivatives half. CasADi's option for it would go through every derivative again, which takes longer.
+    """
+    return ca.Function(name, arguments, [ca.cse(value)], dict(options or {}))
+
 
 _UNARY = {
     np.negative: ca.OP_NEG, np.sqrt: ca.OP_SQRT, np.exp: ca.OP_EXP, np.expm1: ca.OP_EXPM1, np.log: ca.OP_LOG,

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.engine.lanes import evaluate, lanes_of
 from tvimdesign.engine.tape import Tape
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 
 Array = NDArray[np.float64]

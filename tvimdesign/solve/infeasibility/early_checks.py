@@ -19,7 +19,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError, TvimError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Choice, Table
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
 from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.mixture import discrete_records, with_records

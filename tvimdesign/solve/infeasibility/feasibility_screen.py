@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.interrupts import raise_pending
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
 from tvimdesign.solve.nlp.ipopt import Solver
 from tvimdesign.solve.nlp.mixture import shared

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import NEVER, Deadline
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.study import SolverOptions
 
 Array = NDArray[np.float64]

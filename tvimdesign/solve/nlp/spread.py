@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.user_cache import find_code, keep_code
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.study import Tolerance
 
 Array = NDArray[np.float64]

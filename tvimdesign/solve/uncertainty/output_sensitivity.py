@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import FirstOscillation, Table
 from tvimdesign.engine.tape import Tape
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 Array = NDArray[np.float64]
 

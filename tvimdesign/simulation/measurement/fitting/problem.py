@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 Array = NDArray[np.float64]
 Values = Mapping[str, Any]

@@ -19,7 +19,7 @@ from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter
 from tvimdesign.simulation.measurement.kinds.melt_tests import temperature_of, title_of
 from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement, Settings, endings, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 _GONE = 0.2
 """Share of the storage modulus that is gone at the last row used."""

@@ -23,7 +23,7 @@ from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 _RECORD = ("latent_heat", "melting_start", "melting_end", "crystallization_half_time", "nucleation_constant",
            "avrami_exponent")  # fmt: skip

@@ -20,7 +20,7 @@ from tvimdesign.simulation.measurement.kinds.melt_spectrum import USUAL_ENERGY, 
 from tvimdesign.simulation.measurement.kinds.melt_tests import temperature_of, title_of
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 _CARREAU = 2.0
 _TOGETHER = 1.0

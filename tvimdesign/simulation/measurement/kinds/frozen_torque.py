@@ -21,7 +21,7 @@ from tvimdesign.simulation.measurement.fitting.fit import Fit, simplest_fit, wit
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, endings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 _SIZES = ("layer_inner_radius", "layer_outer_radius", "layer_span")
 _TORQUE = "holding_torque"

@@ -21,9 +21,9 @@ from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, resolve_measured, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 PLACES = (
     "cold_temperature", "hot_temperature", "near_face_temperature", "far_face_temperature", "rotor_temperature",

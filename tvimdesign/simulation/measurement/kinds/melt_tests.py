@@ -26,7 +26,7 @@ from tvimdesign.simulation.measurement.kinds.spectrum_fit import fit_spectrum
 from tvimdesign.simulation.measurement.measure_files import kind_sheets
 from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 MOST_ROWS = 150
 """Rows of a test in time that are used: an instrument writes thousands, which say no more."""

@@ -14,7 +14,7 @@ from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 _COLUMNS = ("current", "voltage", "hot_temperature", "cold_temperature")
 _LEAST_DIFFERENCE = 5.0  # K

@@ -17,7 +17,7 @@ from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, 
 from tvimdesign.simulation.measurement.kinds.joint_of_module import joint_of_module, with_records
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, endings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 _MOST_SAMPLES = 300
 _STEPS_A_PERIOD = 60

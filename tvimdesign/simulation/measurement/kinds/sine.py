@@ -18,7 +18,7 @@ from tvimdesign.simulation.measurement.kinds.joint_of_module import joint_of_mod
 from tvimdesign.simulation.measurement.kinds.release import CORNER
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 HARMONICS = 3
 _MOST_SAMPLES = 400

@@ -15,7 +15,7 @@ from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values, from_zero
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import ca
 
 GRAVITY = 9.80665  # m/s^2, standard
 _SIZES = ("wire_diameter", "coil_diameter", "coil_count")
