@@ -137,6 +137,11 @@ def drawing_dxf(kind: str) -> str:
     return f"drawings/{kind}.dxf"
 
 
+def cut_dxf(kind: str) -> str:
+    """Return the outline of a part that is a plate, for a laser or a water jet."""
+    return f"drawings/{kind}_cut.dxf"
+
+
 def drawing_pdf(kind: str) -> str:
     """Return the same drawing, to print."""
     return f"drawings/{kind}.pdf"

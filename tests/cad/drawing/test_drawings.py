@@ -23,7 +23,7 @@ from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawing_sheet import TITLE_WIDTH, DrawingSheet, Field, around
-from tvimdesign.cad.drawing.drawings import part_sheet
+from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.placed_view import apart
 from tvimdesign.cad.drawing.projection import from_above, section
 from tvimdesign.cad.drawing.spring_sheet import SpringLine, spring_csv, spring_lines, spring_sheet
@@ -298,3 +298,15 @@ print(hashlib.sha256(sheet.dxf()).hexdigest())
 )  # fmt: skip
 def test_azimuths_are_written_as_short_as_their_pattern(azimuths: list[float], words: str) -> None:
     assert around(azimuths) == words
+
+
+def test_a_plate_has_an_outline_to_cut_and_other_parts_have_none(module, tmp_path):
+    _, solids = module
+    link = solids["link"]
+    path = tmp_path / "link.dxf"
+    outline = plate_outline(link.rotate(cq.Vector(), cq.Vector(1, 2, 3), 40))
+    assert outline
+    path.write_bytes(outline)
+    area = sum(face.Area() for face in cq.importers.importDXF(str(path)).vals())
+    assert area * link.BoundingBox().zlen == pytest.approx(link.Volume(), rel=1e-6)
+    assert plate_outline(solids["housing"]) is None

@@ -21,6 +21,7 @@ from ezdxf.addons.drawing.config import BackgroundPolicy, ColorPolicy, Configura
 from ezdxf.addons.drawing.frontend import Frontend
 from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
 from ezdxf.addons.drawing.properties import BackendProperties, RenderContext
+from ezdxf.document import Drawing
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.fonts import fonts
 from ezdxf.math import Vec2
@@ -132,7 +133,7 @@ class DrawingSheet:
         self.scale = scale
         self.form, self.size = form, SIZES[form]
         _use_own_font()
-        with _no_time():
+        with undated():
             self.document = ezdxf.new("R2010")
         self.document.header["$INSUNITS"] = 4
         self.document.header["$MEASUREMENT"] = 1
@@ -208,14 +209,8 @@ class DrawingSheet:
         self.lines([(x + 18, y - 5.5), (x + 18, y + 5.5)], "CENTRE")
 
     def dxf(self) -> bytes:
-        """Return the drawing as DXF, the same bytes for the same drawing."""
-        stream = io.StringIO()
-        # ezdxf writes the classes of a drawing in the order of a set; those that are there already keep their places.
-        for name in sorted(self.document.entitydb.dxf_types_in_use()):
-            self.document.classes.add_class(name)
-        with _no_time():
-            self.document.write(stream)
-        return stream.getvalue().encode(self.document.output_encoding)
+        """Return the sheet as DXF."""
+        return dxf_bytes(self.document)
 
     def pdf(self) -> bytes:
         """Return the sheet as PDF in its true size."""
@@ -232,6 +227,17 @@ class DrawingSheet:
         stream = io.BytesIO()
         paper.savefig(stream, format="pdf", metadata={"Creator": "tvimdesign", "CreationDate": None})
         return stream.getvalue()
+
+
+def dxf_bytes(document: Drawing) -> bytes:
+    """Return a drawing as DXF, the same bytes for the same drawing."""
+    stream = io.StringIO()
+    # ezdxf writes the classes of a drawing in the order of a set; those that are there already keep their places.
+    for name in sorted(document.entitydb.dxf_types_in_use()):
+        document.classes.add_class(name)
+    with undated():
+        document.write(stream)
+    return stream.getvalue().encode(document.output_encoding)
 
 
 class _Strokes(MatplotlibBackend):
@@ -283,7 +289,7 @@ def ratio(scale: float) -> str:
 
 
 @contextmanager
-def _no_time() -> Iterator[None]:
+def undated() -> Iterator[None]:
     """Leave the time of writing and random numbers out of a DXF file."""
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from math import cos, radians, sin
 
 import cadquery as cq
+from cadquery.occ_impl.exporters.dxf import DxfDocument
 
 from tvimdesign import __version__
 from tvimdesign.cad import cad_report
@@ -14,10 +15,12 @@ from tvimdesign.cad.drawing.drawing_sheet import (
     TITLE_WIDTH,
     DrawingSheet,
     Field,
+    dxf_bytes,
     figure,
     issue_fields,
     ratio,
     sheet_number,
+    undated,
 )
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
@@ -36,6 +39,8 @@ from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.kinds import PRODUCTION
 
+_PLATE = 1e-6
+"""Largest deviation of a plate's volume from area times thickness, relative."""
 _BESIDE = ("pocket", "vane", "thread", "hole", "slot")
 """Features that are looked for beside the section's plane, the first before the others.
 
@@ -215,3 +220,21 @@ def _words(
         ],
     )  # fmt: skip
     draw_frames(sheet, asked.general, (left + 66.0, MARGIN + 2.0 * TITLE_ROW + 1.0))
+
+
+def plate_outline(solid: cq.Solid) -> bytes | None:
+    """Return what a laser or a water jet cuts of a plate, as DXF without a word; None where a part is no plate.
+
+    A plate has two flat faces of one area, their distance apart, which enclose all of its volume.
+    """
+    faces = sorted((face for face in solid.Faces() if face.geomType() == "PLANE"), key=cq.Face.Area)[-2:]
+    if len(faces) < 2:
+        return None
+    below, above = faces
+    apart = abs((above.Center() - below.Center()).dot(above.normalAt()))
+    if abs(below.Area() * apart / solid.Volume() - 1.0) > _PLATE or abs(below.Area() / above.Area() - 1.0) > _PLATE:
+        return None
+    with undated():
+        drawn = DxfDocument("R2010", doc_units=4)
+        drawn.add_shape(cq.Workplane(cq.Plane(above.Center(), normal=above.normalAt())).newObject([above]))
+    return dxf_bytes(drawn.document)

@@ -22,7 +22,7 @@ from tvimdesign.cad.assembly.module_script import module_script
 from tvimdesign.cad.assembly.wiring import wiring_svg
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
-from tvimdesign.cad.drawing.drawings import part_sheet
+from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
@@ -131,6 +131,8 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
         sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(KINDS[kind].material, ""))
         _write(job.folder, cad_report.drawing_dxf(kind), sheet.dxf())
         _write(job.folder, cad_report.drawing_pdf(kind), sheet.pdf())
+        if outline := plate_outline(solid):
+            _write(job.folder, cad_report.cut_dxf(kind), outline)
     if PRODUCTION[kind].down == "bought":
         return [_stl(job.folder, cad_report.mesh_stl(kind), kind, *printed_mesh(kind, solid))]
     return [_print(job, kind, solid, what, PRODUCTION[kind])]
