@@ -130,21 +130,22 @@ class _Walk:
 
     def _walked(self, near: Point, here: _Ask, there: _Ask) -> tuple[Point, str]:
         """Walk from the design of one cell to another's; return the last design on the way, and the cell's status."""
-        step, ended = there, False
-        limit = there
+        step, end = there, None
         while True:
             answer = self._lightest(near, step)
             if isinstance(answer, Point):
                 near, here = answer, step
                 if step == there:
                     return near, OPTIMAL
-                step = here.halfway(limit) if ended else there
+                if end is None:
+                    step = there
+                    continue
+                step = here.halfway(end)
             else:
-                if answer.infeasible:
-                    limit, ended = step, True
+                end = step if answer.infeasible else end
                 step = here.halfway(step)
             if here.apart(step) < _STEP:
-                return near, EMPTY if ended else UNANSWERED
+                return near, EMPTY if end else UNANSWERED
 
     def _lightest(self, near: Point, ask: _Ask) -> Point | Failure:
         """Seek the lightest design from one nearby, then from the design of any cell that comes nearest."""
