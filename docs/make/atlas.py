@@ -6,7 +6,6 @@ python docs/make/atlas.py results/atlas [KIND ...]
 from __future__ import annotations
 
 import csv
-import math
 import sys
 from collections import Counter, defaultdict
 from collections.abc import Sequence
@@ -92,19 +91,21 @@ def kinds_table(plan: Atlas, cells: Sequence[AtlasCell]) -> str:
         "energy there",
         "ended by",
         "in doubt: torque; cycle",
+        "mass ~ torque^n; cycle ~ thickness^n",
     )
     lines = [f"|{'|'.join(heads)}|", "|---" * len(heads) + "|"]
     for kind, entry in plan.kinds.items():
         own = [cell for cell in cells if cell.kind == kind]
         modules = [cell for cell in own if cell.status == OPTIMAL]
         if not modules:
-            lines.append(f"|{entry['title']}|0|||||{ending_limits(own, EMPTY, 1)}|")
+            lines.append(f"|{entry['title']}|0||||{ending_limits(own, EMPTY, 1)}|||")
             continue
         fastest, densest = min(modules, key=lambda c: c.values[CYCLE]), max(modules, key=lambda c: c.density)
         columns = (
             entry["title"], f"{len(modules)}", f"{fastest.values[CYCLE]:.3g} s at {fastest.torque:g} N·m",
             f"{densest.density:.3g} N·m/kg at {densest.torque:g} N·m", f"{densest.values['cycle_energy']:.0f} J",
             ending_limits(own, EMPTY, 1), "; ".join(doubts(plan, front_of(modules))),
+            scaling(modules),
         )  # fmt: skip
         lines.append(f"|{'|'.join(columns)}|")
     return "\n".join(lines)
@@ -135,17 +136,17 @@ def torque_table(plan: Atlas, cells: Sequence[AtlasCell], cycles: Sequence[float
     return "\n".join(lines)
 
 
-def scaling(cells: Sequence[AtlasCell]) -> dict[str, float]:
-    """Return by kind the exponent of mass over torque of the lightest modules, cycle free; 1 by similarity."""
-    exponents = {}
-    for kind in dict.fromkeys(cell.kind for cell in cells):
-        least: dict[float, float] = {}
-        for cell in cells:
-            if cell.kind == kind and cell.status == OPTIMAL:
-                least[cell.torque] = min(cell.values[MASS], least.get(cell.torque, math.inf))
-        if len(least) > 2:
-            exponents[kind] = float(np.polyfit(np.log(list(least)), np.log(list(least.values())), 1)[0])
-    return exponents
+def scaling(modules: Sequence[AtlasCell]) -> str:
+    """Return exponents: of mass over torque, of the lightest modules, and of cycle time over the layer's thickness."""
+    lightest: dict[float, AtlasCell] = {}
+    for cell in sorted(modules, key=lambda cell: -cell.values[MASS]):
+        lightest[cell.torque] = cell
+    layers = [cell for cell in modules if "pcl_thickness" in cell.values]
+    pairs = (
+        ([cell.torque for cell in lightest.values()], [cell.values[MASS] for cell in lightest.values()]),
+        ([cell.values["pcl_thickness"] for cell in layers], [cell.values[CYCLE] for cell in layers]),
+    )
+    return "; ".join(f"{np.polyfit(np.log(x), np.log(y), 1)[0]:.1f}" if len(set(x)) > 2 else "–" for x, y in pairs)
 
 
 def write(folder: Path, kinds: tuple[str, ...]) -> None:
@@ -169,7 +170,6 @@ def write(folder: Path, kinds: tuple[str, ...]) -> None:
         head, begin, after = page.partition(f"<!-- {name} -->\n")
         page = f"{head}{begin}{text}\n<!-- end -->{after.partition('<!-- end -->')[2]}"
     PAGE.write_text(page, encoding="utf-8")
-    print({kind: round(value, 2) for kind, value in scaling(cells).items()})
 
 
 if __name__ == "__main__":
