@@ -15,7 +15,6 @@ from support import ROOT, STUDIES, Command, study_path
 
 from tvimdesign.catalog import Catalog, check_records
 from tvimdesign.device import MODES, Output, table_for
-from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study, read_study_text
@@ -154,34 +153,10 @@ def test_the_record_in_the_docs_can_be_used(tmp_path: Path) -> None:
     assert answer(study).design.choices["peltier_module"] == "my_pad"
 
 
-def test_the_glossary_is_in_order_and_has_the_words_of_the_screen() -> None:
+def test_the_glossary_is_in_order() -> None:
     rows = re.findall(r"^\| ([^|]+) \|", (ROOT / "docs/glossary.md").read_text(), re.M)[1:]
+    assert len(rows) > 20
     assert rows == sorted(rows, key=lambda row: row.lower().replace(",", ""))
-    known, screen = {word for row in rows for word in row.split(", ")}, _blocks("text")[0].lower()
-    words = (
-        "active constraint",
-        "frozen",
-        "lost motion",
-        "margin",
-        "module",
-        "range",
-        "spreader",
-    )
-    assert [word for word in words if word not in screen or word not in known] == []
-    assert {"verdict", "yield", "nominal optimum", "assumed value", "impedance"} <= known
-    quantities = " ".join(f"{label(row.name)} {row.description}" for row in table_for("shear").quantities)
-    of_parts = (
-        "adjuster",
-        "post",
-        "backlash",
-        "cut-out",
-        "liner",
-        "melt lip",
-        "memory temperature",
-        "spreader",
-        "tang",
-    )
-    assert [word for word in of_parts if word not in quantities or word not in known] == []
 
 
 def test_the_prints_that_measure_a_printer_are_described() -> None:
@@ -196,12 +171,6 @@ def test_links_lead_somewhere() -> None:
     for page in (ROOT / "README.md", ROOT / "cad/README.md", *sorted((ROOT / "docs").rglob("*.md"))):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
-
-
-@pytest.mark.parametrize("floor", ["catalog", "physics", "device", "study", "solve", "cad", "report"])
-def test_the_architecture_names_every_floor(floor: str) -> None:
-    assert f"`{floor}/`" in (ROOT / "docs/architecture.md").read_text()
-    assert (ROOT / "tvimdesign" / floor).is_dir()
 
 
 THEORY = "\n".join(path.read_text() for path in sorted((ROOT / "docs/theory").glob("*.md")))

@@ -8,16 +8,9 @@ import pytest
 from cad_designs import TILES, design_of
 
 from tvimdesign.base.units import ZERO_CELSIUS
+from tvimdesign.cad.assembly import heater_leads
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, fixtures
-from tvimdesign.cad.assembly.heater_leads import (
-    fuse_in_words,
-    heater_order,
-    set_points_in_words,
-    thermistor_in_words,
-    thermistors,
-    wires,
-)
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.catalog import Catalog
@@ -78,7 +71,7 @@ def test_cut_outs_and_beads_say_only_what_they_can() -> None:
     assert "ask the maker" not in cutout
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
     assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
-    assert fuse_in_words(FUSE, switched({}, 226.0)).startswith("None fits: ")
+    assert heater_leads.fuse_in_words(FUSE, switched({}, 226.0)).startswith("None fits: ")
     (item,) = (item for item in lines(switched({}, 226.0)) if item.kind == "thermal_cutout")
     assert not item.is_ordered
     # 91.5 °C of 105: 99 °C less 10 and 5 is what the best type that opens in time lets a heater reach.
@@ -125,16 +118,16 @@ def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin() -> None:
         study = read_study_text("mode: shear\nmodule: {peltier_module: silicone_9ar_08_24v}\n")
         margins = table_for("shear").evaluate(given(study) | peaks, ["cutout_current_margin"])
         assert margins["cutout_current_margin"] == pytest.approx(16.0 - current)
-        assert ("None fits" in fuse_in_words(FUSE, design)) != rated
+        assert ("None fits" in heater_leads.fuse_in_words(FUSE, design)) != rated
 
 
 def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out() -> None:
     # By hand: 10 kohm exp(3988 K (1/373.15 K - 1/298.15 K)) is 680 ohm, and 3.3 V x 680 / 10680 is 0.21 V.
     foil = {"peltier_module": "polyimide_foil_24v", "process": "print_pc_bambu", "heater_fuse": "microtemp_g4a"}
     design = switched({"process": "print_pei_1010"}, hottest=101.0)
-    assert "was not switched" in set_points_in_words(design)
+    assert "was not switched" in heater_leads.set_points_in_words(design)
     design.values["sensed_temperature"] = 100.0 + ZERO_CELSIUS
-    said = set_points_in_words(design)
+    said = heater_leads.set_points_in_words(design)
     assert "B57862S0103F040" in said
     assert "heating ends at 100 °C (0.68 kohm, 0.21 V at the divider), as in the simulation, and" in said
     # What stays closed at 101 °C opens from 112 °C: half the 11 K that the heater has, above the bead.
@@ -142,15 +135,17 @@ def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out() -> None:
     assert said.endswith("below the 112 °C where the cut-out may open")
     design = switched(foil, hottest=85.6)  # opens from 94 °C
     design.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
-    assert "emergency stop at 88.4 °C (" in set_points_in_words(design)
+    assert "emergency stop at 88.4 °C (" in heater_leads.set_points_in_words(design)
     bare = switched(foil | {"heater_fuse": "none"}, hottest=85.6)
     bare.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
-    assert set_points_in_words(bare).endswith("below the 105 °C that the structure bears")
+    assert heater_leads.set_points_in_words(bare).endswith("below the 105 °C that the structure bears")
     bare.values["peak_peltier_temperature"] = 103.4 + ZERO_CELSIUS
-    assert "no emergency stop fits between that and the 105 °C that the structure" in set_points_in_words(bare)
+    assert "no emergency stop fits between that and the 105 °C that the structure" in heater_leads.set_points_in_words(
+        bare
+    )
     none = switched({"thermistor_diameter": 0.7e-3, "thermistor_length": 4e-3})
     none.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
-    assert "thermistor's own table: heating ends at 84.2 °C, as" in set_points_in_words(none)
+    assert "thermistor's own table: heating ends at 84.2 °C, as" in heater_leads.set_points_in_words(none)
 
 
 @pytest.mark.parametrize(
@@ -170,8 +165,8 @@ def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(
     bead: tuple[float, float], heater: str, number: str | None
 ) -> None:
     sizes = {"thermistor_diameter": 1e-3 * bead[0], "thermistor_length": 1e-3 * bead[1]}
-    said = thermistor_in_words(switched({"peltier_module": heater, **sizes}))
-    named = [one.number for one in thermistors() if one.number in said]
+    said = heater_leads.thermistor_in_words(switched({"peltier_module": heater, **sizes}))
+    named = [one.number for one in heater_leads.thermistors() if one.number in said]
     assert named == ([number] if number else [])
     assert "needs its own table in the controller" in said
 
@@ -190,8 +185,8 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
         "2 mm or more",
     ):
         assert words in item.title
-    assert heater_order(switched({})) == []  # a Peltier module is bought by its number
-    assert len(heater_order(design_of("never switched", {"peltier_module": "polyimide_foil_24v"}))) == 3
+    assert heater_leads.heater_order(switched({})) == []  # a Peltier module is bought by its number
+    assert len(heater_leads.heater_order(design_of("never switched", {"peltier_module": "polyimide_foil_24v"}))) == 3
     assert "polyimide_film" in listed(switched({}))
     assert "polyimide_film" not in listed(switched({"heater_fuse": "none"}))
     design = switched({})
@@ -213,13 +208,13 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
 
 def test_a_small_foil_on_a_strong_supply_is_ordered_by_its_working_voltage() -> None:
     design = switched({"peltier_module": "polyimide_foil_24v"})
-    large = "; ".join(heater_order(design))
+    large = "; ".join(heater_leads.heater_order(design))
     assert "which the driver" not in large
     assert "flat tail" not in large
     design.study["require"] = [{"output": "peak_voltage", "limit": 24.0}]
     for name in ("peltier_volume", "peltier_area"):
         design.values[name] *= 0.2
-    small = "; ".join(heater_order(design))
+    small = "; ".join(heater_leads.heater_order(design))
     assert " V and 2.1 A, which the driver makes from 24 V, " in small
     each = 1e4 * design.values["peltier_volume"] / design.values["peltier_thickness"] / 4.0  # cm2
     assert f"only {each:.2g} cm² each: ask whether such leads have room, or for a flat tail" in small
@@ -230,8 +225,8 @@ def test_a_wire_is_ordered_by_the_thinnest_section_that_bears_the_current() -> N
     strong = switched({})
     strong.values.update(peak_current=40.0)
     assert "copper" not in listed(strong)["heater_wire"]
-    sections = [wire.section for wire in wires()]
+    sections = [wire.section for wire in heater_leads.wires()]
     assert sections == sorted(sections)
-    for wire in wires():  # ASTM B258: 0.127 mm is gauge 36, and 39 gauges are a ratio of 92
+    for wire in heater_leads.wires():  # ASTM B258: 0.127 mm is gauge 36, and 39 gauges are a ratio of 92
         diameter = 0.127e-3 * 92 ** ((36 - int(wire.gauge.split()[1])) / 39)
         assert wire.section == pytest.approx(math.pi / 4 * diameter**2, rel=0.01)

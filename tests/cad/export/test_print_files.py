@@ -15,15 +15,8 @@ from cad_designs import BEARINGS, BLOCKS, DRIVEN, SPRUNG_BLOCKS, TILES, design_o
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.export import mesh as meshing
+from tvimdesign.cad.export import print_files
 from tvimdesign.cad.export.mesh import CHORD, Mesh, face_meshes, solid_mesh
-from tvimdesign.cad.export.print_files import (
-    _distance,
-    _from_surface,
-    as_printed,
-    printed_mesh,
-    stl_bytes,
-    threemf_bytes,
-)
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import holes, levels, upright_cylinders
@@ -104,13 +97,13 @@ def test_what_stands_in_a_hole_is_found_whatever_its_faces(name: str) -> None:
 
 def test_holes_are_wider_and_parts_lie_on_their_side_in_print() -> None:
     part = bracket()
-    printed = as_printed(part, UP, 0.3)
+    printed = print_files.as_printed(part, UP, 0.3)
     less = pi * ((3.15**2 - 3.0**2) * 10 + (2.15**2 - 2.0**2) * 4)
     # The hole across goes through the middle of no upright one.
     assert part.Volume() - printed.Volume() == pytest.approx(less, rel=1e-6)
     assert [one.radius for one in holes(printed)] == [2.15, 3.15]
-    assert as_printed(part, UP, 0.0).Volume() == pytest.approx(part.Volume(), rel=1e-12)
-    up, over = as_printed(bracket(), UP, 0.0), as_printed(bracket(), OVER, 0.0)
+    assert print_files.as_printed(part, UP, 0.0).Volume() == pytest.approx(part.Volume(), rel=1e-12)
+    up, over = print_files.as_printed(bracket(), UP, 0.0), print_files.as_printed(bracket(), OVER, 0.0)
     assert (up.BoundingBox().zmin, over.BoundingBox().zmin) == pytest.approx((0.0, 0.0), abs=1e-9)
     # Turned over, the boss is what stands on the bed, and the plate's lower face is up.
     assert levels(up) == [0, 6, 10, 16]
@@ -134,7 +127,7 @@ def test_every_kind_says_how_it_is_come_by() -> None:
 
 def test_the_mesh_error_is_known_on_any_surface() -> None:
     part = cq.Solid.makeCylinder(20, 5)
-    body, measured = printed_mesh("disc", part)
+    body, measured = print_files.printed_mesh("disc", part)
     rim = body.vertices[np.abs(np.hypot(*body.vertices[:, :2].T) - 20.0) < 1e-6]
     azimuths = np.unique(np.round(np.arctan2(rim[:, 1], rim[:, 0]), 9))
     widest = np.diff([*azimuths, azimuths[0] + tau]).max()
@@ -143,21 +136,21 @@ def test_the_mesh_error_is_known_on_any_surface() -> None:
     assert body.is_watertight
     ball = cq.Solid.makeSphere(10)
     face, mesh = next(pair for pair in face_meshes(ball) if pair[0].geomType() == "SPHERE")
-    finest = _distance(face, mesh)
+    finest = print_files._distance(face, mesh)
     coarse = Mesh(mesh.vertices * 0.99, mesh.faces)
     assert finest < 0.05
-    assert _distance(face, coarse) == pytest.approx(0.1 + 0.99 * finest, rel=1e-3)
+    assert print_files._distance(face, coarse) == pytest.approx(0.1 + 0.99 * finest, rel=1e-3)
     # A ring of 10 mm and 2 mm about an axis along y through (1, 2, 3).
     ring = cq.Solid.makeTorus(10.0, 2.0, cq.Vector(1, 2, 3), cq.Vector(0, 1, 0))
     (face,) = ring.Faces()
     points = np.array([(16.0, 2.0, 3.0), (1.0, 7.0, 13.0), (-8.0, 2.0, 3.0), (1.0, 2.0, 3.0), (7.0, 2.5, 11.0)])
     by_hand = [3.0, 3.0, 1.0, 8.0, 1.5]
-    assert _from_surface(face, points) == pytest.approx(by_hand)
+    assert print_files._from_surface(face, points) == pytest.approx(by_hand)
 
 
 def test_print_files_have_unit_name_material_and_the_part() -> None:
-    body, _ = printed_mesh("bracket", bracket())
-    data = threemf_bytes(body, PRODUCT)
+    body, _ = print_files.printed_mesh("bracket", bracket())
+    data = print_files.threemf_bytes(body, PRODUCT)
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         assert archive.testzip() is None
         assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
@@ -174,7 +167,7 @@ def test_print_files_have_unit_name_material_and_the_part() -> None:
     read = trimesh.Trimesh(points, corners)
     assert read.is_watertight
     assert read.volume == pytest.approx(body.volume, rel=1e-6)
-    read = trimesh.load_mesh(io.BytesIO(stl_bytes(body)), file_type="stl")
+    read = trimesh.load_mesh(io.BytesIO(print_files.stl_bytes(body)), file_type="stl")
     assert read.is_watertight
     assert read.volume == pytest.approx(bracket().Volume(), rel=2e-3)
 
@@ -209,7 +202,7 @@ def test_the_tip_of_a_drilled_hole_does_not_open_the_mesh() -> None:
     drilled = cq.Workplane().box(20.0, 20.0, 8.0).val().cut(
         cq.Solid.makeCylinder(1.25, 2.0, cq.Vector(4.907, -4.856, 2.0)), tip
     )  # fmt: skip
-    mesh, worst = printed_mesh("drilled", drilled.Solids()[0])
+    mesh, worst = print_files.printed_mesh("drilled", drilled.Solids()[0])
     assert mesh.is_watertight
     assert mesh.volume == pytest.approx(drilled.Volume(), rel=1e-3)
     assert worst < 0.05

@@ -18,15 +18,7 @@ from tvimdesign.cad.export.print_files import with_wider_holes
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.kinds import kind_of
-from tvimdesign.cad.inspection import order
-from tvimdesign.cad.inspection.inspect import (
-    coil_checks,
-    module_checks,
-    part_checks,
-    rule_checks,
-    solid_check,
-    thread_checks,
-)
+from tvimdesign.cad.inspection import inspect, order
 from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling_checks
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
@@ -240,7 +232,7 @@ def drawn(dims: Dimensions) -> dict[str, cq.Solid]:
 def test_the_printed_rotor_needs_support_under_its_plate(
     paper: Design, dims: Dimensions, drawn: dict[str, cq.Solid]
 ) -> None:
-    found = of(part_checks(paper, dims, "rotor", drawn["rotor"]))
+    found = of(inspect.part_checks(paper, dims, "rotor", drawn["rotor"]))
     assert {name for name, check in found.items() if check.level != "pass"} == set()  # it is planned, and said
     # It lies on the core's upper end: the plate's upper face hangs, but for the core and four pins.
     plate = pi * (dims.rotor_radius**2 - dims.core_radius**2 - 4 * (0.5 * dims.pin_diameter) ** 2)
@@ -254,7 +246,7 @@ def test_walls_below_milled_pads_are_thick_enough_by_the_rule() -> None:
         sizes = {"corner_radius": 0.8e-3, "running_clearance": 1e-3, "slot_corner_offset": offset * 1e-3}
         milled = design_of("deep slots", {**BEARING_BLOCKS, **sizes}, "compression")
         dims = dimensions(milled)
-        found = of(part_checks(milled, dims, "housing", drawn_parts(dims)["housing"]))
+        found = of(inspect.part_checks(milled, dims, "housing", drawn_parts(dims)["housing"]))
         assert (found["wall"].level == "pass") == (milled.values["pad_seat_margin"] >= 0.0) == kept
         # What the pads stand on is the thinnest there is: 1.5 mm less what a cutter of 1.6 mm goes below them.
         if not kept:
@@ -263,7 +255,7 @@ def test_walls_below_milled_pads_are_thick_enough_by_the_rule() -> None:
 
 def test_a_rule_that_is_broken_is_a_warning_with_its_reason() -> None:
     broken = design_of("thin wall", {"wall_thickness": 1.0e-3})
-    reported = [check for check in rule_checks(broken) if check.level != "pass"]
+    reported = [check for check in inspect.rule_checks(broken) if check.level != "pass"]
     assert [check.name for check in reported] == ["module: rule housing_wall_margin"]
     assert reported[0].value == pytest.approx(-0.2)
     assert "thinner than the process" in reported[0].text
@@ -272,12 +264,12 @@ def test_a_rule_that_is_broken_is_a_warning_with_its_reason() -> None:
 def test_threads_reach_into_the_core_and_coils_clear_their_posts(
     dims: Dimensions, drawn: dict[str, cq.Solid], paper: Design
 ) -> None:
-    found = {check.part: check for check in thread_checks(dims, drawn)}
+    found = {check.part: check for check in inspect.thread_checks(dims, drawn)}
     # M3 x 12 through 4 mm of link, M4 x 10 through 2.5 mm of retainer.
     assert found["link_screw"].value == pytest.approx(8.0 / 3.0)
     assert found["retainer_screw"].value == pytest.approx(7.5 / 4.0)
     assert {check.level for check in found.values()} == {"pass"}
-    checks = {check.name: check for check in coil_checks(dims)}
+    checks = {check.name: check for check in inspect.coil_checks(dims)}
     assert all(check.level == "pass" for check in checks.values())
     wound = checks[f"spring: post at {-dims.stop_angle:+.4f} rad"]
     # The post has 90 % of the inner diameter of the coil that stop angle and preload have wound up.
@@ -285,12 +277,12 @@ def test_threads_reach_into_the_core_and_coils_clear_their_posts(
     assert wound.value == pytest.approx(0.05 * inner, rel=0.01)
     assert wound.value < checks["spring: post as bought"].value
     thick = paper.model_copy(update={"values": paper.values | {"post_radius": 0.51e-3 * inner}})
-    assert "failure" in {check.level for check in coil_checks(dimensions(thick))}
+    assert "failure" in {check.level for check in inspect.coil_checks(dimensions(thick))}
 
 
 def test_small_parts_are_one_solid_and_fit_the_bed() -> None:
     two = cq.Compound.makeCompound([one_solid(box(1, 1, 1)), one_solid(box(1, 1, 1).translate((5, 0, 0)))])
-    assert solid_check("part", two).level == "failure"
+    assert inspect.solid_check("part", two).level == "failure"
     assert bed_check("part", np.array([180.0, 210.0, 20.0]), (220.0, 200.0, 250.0)).level == "pass"
     found = bed_check("part", np.array([230.0, 100.0, 20.0]), BED)
     assert (found.level, found.value) == ("failure", pytest.approx(-10.0))
@@ -349,8 +341,8 @@ def test_the_reference_modules_have_nothing_that_cannot_be_made(mode: str, proce
     dims = dimensions(design)
     drawn = drawn_parts(dims)
     kinds = ("housing", "rotor", "link", "retainer")
-    found = [check for kind in kinds for check in part_checks(design, dims, kind, drawn[kind])]
-    found += module_checks(design, dims, drawn)
+    found = [check for kind in kinds for check in inspect.part_checks(design, dims, kind, drawn[kind])]
+    found += inspect.module_checks(design, dims, drawn)
     assert [check.text for check in found if check.level == "failure"] == []
     warned = {check.name for check in found if check.level == "warning"}
     if process == "machine_6061":
@@ -364,6 +356,6 @@ def test_a_printed_housing_stands_on_support_where_its_note_says(bearing: str) -
     # A hub with seats from both ends has a lip between them, whose lower face hangs in the lower seat.
     design = design_of("reference", BLOCKS | {"bearing": bearing, "core_radius": 0.0085}, "compression")
     dims = dimensions(design)
-    found = {check.name: check for check in part_checks(design, dims, "housing", drawn_parts(dims)["housing"])}
+    found = {check.name: check for check in inspect.part_checks(design, dims, "housing", drawn_parts(dims)["housing"])}
     assert found["housing: overhang"].level == "pass"
     assert ("in 2 places" in found["housing: overhang"].text) == (bearing != "none")

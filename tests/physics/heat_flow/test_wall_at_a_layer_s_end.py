@@ -12,19 +12,8 @@ from scipy.integrate import quad
 from scipy.optimize import brentq, root
 
 from tvimdesign.device.shear.layer_end import AT_CORNER
+from tvimdesign.physics.heat_flow import layer_end
 from tvimdesign.physics.heat_flow.conduction import Conductivities, shared
-from tvimdesign.physics.heat_flow.layer_end import (
-    Arm,
-    Lip,
-    below_lip,
-    cooled_end,
-    fallen,
-    room,
-    sheet_end,
-    sheeted_end,
-    walled_end,
-    warm_lip,
-)
 from tvimdesign.physics.heat_flow.lumps import Place
 from tvimdesign.physics.heat_flow.shape_factors import beyond_constriction, ledge_across, ledge_ways
 from tvimdesign.physics.polymers.polymer import Melting
@@ -55,7 +44,7 @@ def heights() -> NDArray[np.float64]:
 
 @pytest.mark.parametrize("free", [0.1, 0.25, 0.5])
 def test_the_wall_takes_what_conduction_in_two_dimensions_says(free: float) -> None:
-    found, ours = walled_layer(free), walled_end(free)
+    found, ours = walled_layer(free), layer_end.walled_end(free)
     assert ours.near == pytest.approx(np.sum(2.0 * (1.0 - found[:, 0])) - LONG, rel=0.02)
     into = 2.0 * found[0, heights() > free]
     assert ours.wall == pytest.approx(np.sum(into), rel=0.02)
@@ -63,19 +52,19 @@ def test_the_wall_takes_what_conduction_in_two_dimensions_says(free: float) -> N
     assert ours.deep == pytest.approx(np.sum(even - found) / ACROSS**2, rel=0.015)
     for column in (3, 20, 60):
         lost = 1.0 - found[column] / even
-        assert fallen(free, (column + 0.5) / ACROSS, heights()) == pytest.approx(lost, abs=0.02)
+        assert layer_end.fallen(free, (column + 0.5) / ACROSS, heights()) == pytest.approx(lost, abs=0.02)
 
 
 @pytest.mark.parametrize(("free", "contact"), [(0.1, 0.02), (0.2, 0.02), (0.1, 0.04)])
 def test_contacts_are_more_free_height_as_in_two_dimensions(free: float, contact: float) -> None:
     into = walled_layer(free, contact)[0, heights() > free] / (0.5 + contact * ACROSS)
-    ours = walled_end((free + 2.0 * AT_CORNER * contact) / (1.0 + 2.0 * contact))
+    ours = layer_end.walled_end((free + 2.0 * AT_CORNER * contact) / (1.0 + 2.0 * contact))
     assert ours.wall == pytest.approx(np.sum(into), rel=0.025)
 
 
 @pytest.mark.parametrize(("free", "layer"), [(0.1, 0.4), (0.2, 0.5), (0.15, 0.25)])
 def test_layer_and_sheet_give_the_wall_as_in_two_dimensions(free: float, layer: float) -> None:
-    found, ours = walled_layer(free), sheeted_end(free, layer)
+    found, ours = walled_layer(free), layer_end.sheeted_end(free, layer)
     own, above = heights() < layer, heights() > layer
     assert ours.wall == pytest.approx(np.sum(2.0 * found[0, own & (heights() > free)]), rel=0.03)
     assert ours.rim == pytest.approx(np.sum(2.0 * found[0, above]), rel=0.01)
@@ -87,7 +76,7 @@ def test_layer_and_sheet_give_the_wall_as_in_two_dimensions(free: float, layer: 
 
 @pytest.mark.parametrize("layer", [0.25, 0.5])
 def test_a_sheet_alone_gives_the_wall_as_in_two_dimensions(layer: float) -> None:
-    found, ours = walled_layer(layer), sheet_end(layer)
+    found, ours = walled_layer(layer), layer_end.sheet_end(layer)
     assert ours.rim == pytest.approx(np.sum(2.0 * found[0, heights() > layer]), rel=0.015)
     missed = (1.0 - heights() - found)[:, heights() > layer] / ACROSS**2
     assert ours.sheet_colder == pytest.approx(np.sum(missed) / (1.0 - layer), rel=0.08)
@@ -95,7 +84,7 @@ def test_a_sheet_alone_gives_the_wall_as_in_two_dimensions(layer: float) -> None
 
 def test_a_layer_below_a_sheet_is_as_cold_in_the_mean() -> None:
     layer = 0.4
-    ours = sheeted_end(0.1, layer)
+    ours = layer_end.sheeted_end(0.1, layer)
     height = (np.arange(4000) + 0.5) / 4000
     # Green's function of a fall that is held at both faces; the layer's mean of it.
     mean = np.where(height < layer, height * (1.0 - 0.5 * layer) - 0.5 * height**2 / layer, 0.0)
@@ -109,7 +98,7 @@ def test_heat_from_the_free_end_cools_as_in_two_dimensions() -> None:
     found = -walled_layer(free, lost=1.0)
     # What leaves rises with the height, as in sin a near the corner; the near face gives half of it.
     for column in (3, 8, 16):
-        ours = 0.5 * cooled_end(free, (column + 0.5) / ACROSS, heights())
+        ours = 0.5 * layer_end.cooled_end(free, (column + 0.5) / ACROSS, heights())
         assert found[column] == pytest.approx(ours, abs=0.05 * np.max(found[0]))
 
 
@@ -120,12 +109,15 @@ temperatures = st.floats(280.0, 400.0)
 
 
 @st.composite
-def lips(draw: st.DrawFn) -> tuple[Lip, Array, dict[Place, float]]:
+def lips(draw: st.DrawFn) -> tuple[layer_end.Lip, Array, dict[Place, float]]:
     """A lip, cells beside it and temperatures of what else is there."""
-    arms = (Arm(draw(conductances), ((AIR, 1.0),)), Arm(draw(conductances), ((AIR, 0.3), (PLATE, 0.5)), 0.8))
+    arms = (
+        layer_end.Arm(draw(conductances), ((AIR, 1.0),)),
+        layer_end.Arm(draw(conductances), ((AIR, 0.3), (PLATE, 0.5)), 0.8),
+    )
     cells = np.array(draw(st.lists(temperatures, min_size=1, max_size=6)))
     places = {("hot", 0): draw(temperatures), AIR: draw(temperatures), PLATE: draw(temperatures)}
-    return Lip(draw(conductances), draw(conductances), arms), cells, places
+    return layer_end.Lip(draw(conductances), draw(conductances), arms), cells, places
 
 
 def melting(cells: Array, pads: float) -> Any:
@@ -143,20 +135,20 @@ def melting(cells: Array, pads: float) -> Any:
 
 @given(case=lips())
 def test_temperatures_that_leave_no_residual_are_those_of_the_closed_form(
-    case: tuple[Lip, Array, dict[Place, float]],
+    case: tuple[layer_end.Lip, Array, dict[Place, float]],
 ) -> None:
     lip, cells, places = case
     conducting = melting(cells, places["hot", 0])
-    closed = warm_lip(lip, cells, places.__getitem__, conducting)
+    closed = layer_end.warm_lip(lip, cells, places.__getitem__, conducting)
     assert closed.residuals == (0.0, 0.0)
 
     def residuals(given: Array) -> Array:
-        found = warm_lip(lip, cells, places.__getitem__, conducting, (given[0], given[1]))
+        found = layer_end.warm_lip(lip, cells, places.__getitem__, conducting, (given[0], given[1]))
         return np.array(found.residuals)
 
     solved = root(residuals, np.array([340.0, 300.0]), tol=1e-12)
     assert solved.success
-    joined = warm_lip(lip, cells, places.__getitem__, conducting, tuple(solved.x))
+    joined = layer_end.warm_lip(lip, cells, places.__getitem__, conducting, tuple(solved.x))
     assert joined.temperature == pytest.approx(closed.temperature, rel=1e-10)
     assert joined.from_layer == pytest.approx(closed.from_layer, rel=1e-7, abs=1e-9)
     assert joined.from_places == pytest.approx(closed.from_places, rel=1e-7, abs=1e-9)
@@ -165,7 +157,7 @@ def test_temperatures_that_leave_no_residual_are_those_of_the_closed_form(
     )
 
 
-def _through_arms(lip: Lip, warm: Any, places: dict[Place, float]) -> float:
+def _through_arms(lip: layer_end.Lip, warm: Any, places: dict[Place, float]) -> float:
     """Heat [W] that comes to the lip itself through its arms: each arm's, times its share of the lip."""
     return float(sum(
         arm.share * arm.conductance * (sum(w * places[end] for end, w in arm.ends) - arm.share * warm.temperature)
@@ -175,15 +167,15 @@ def _through_arms(lip: Lip, warm: Any, places: dict[Place, float]) -> float:
 
 @given(case=lips(), off=st.tuples(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0)))
 def test_residuals_say_how_far_given_temperatures_are_off(
-    case: tuple[Lip, Array, dict[Place, float]], off: tuple[float, float]
+    case: tuple[layer_end.Lip, Array, dict[Place, float]], off: tuple[float, float]
 ) -> None:
     lip, cells, places = case
-    alike = warm_lip(lip, cells, places.__getitem__, lambda _: (np.ones(len(cells)), 1.0)).temperature
-    closed = warm_lip(lip, cells, places.__getitem__, melting(cells, places["hot", 0])).temperature
-    first, _ = warm_lip(
+    alike = layer_end.warm_lip(lip, cells, places.__getitem__, lambda _: (np.ones(len(cells)), 1.0)).temperature
+    closed = layer_end.warm_lip(lip, cells, places.__getitem__, melting(cells, places["hot", 0])).temperature
+    first, _ = layer_end.warm_lip(
         lip, cells, places.__getitem__, melting(cells, places["hot", 0]), (alike + off[0], closed)
     ).residuals
-    _, second = warm_lip(
+    _, second = layer_end.warm_lip(
         lip, cells, places.__getitem__, melting(cells, places["hot", 0]), (alike, closed + off[1])
     ).residuals
     assert first == pytest.approx(-off[0], abs=1e-9)
@@ -238,7 +230,7 @@ def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width:
     edge = np.sum(2.0 * (1.0 - found[-gap - 1, N + 1 : -1])) - N / gap
     tile, floor, ceiling = (np.zeros(inside.shape, dtype=bool) for _ in range(3))
     tile[0] = floor[:, 0] = ceiling[1:-1, 1:-1] = True
-    ours = room(width + slot, slot)
+    ours = layer_end.room(width + slot, slot)
     # An even fall brings as much from ceiling to floor as the room is wide below that.
     assert ours.ceiling + width == pytest.approx(given_off(ceiling, found, kept) - N / gap, abs=0.06)
     assert width + slot - ours.floor == pytest.approx(-given_off(floor, found, kept), abs=0.02)
@@ -260,7 +252,7 @@ def test_a_clearance_gives_lip_and_floor_as_in_two_dimensions(slot: float) -> No
     pads[0] = lip[1:-1, -1] = True
     passed = deep / gap
     from_pads = np.sum(warm * 2.0 * (warm - found[1, 1:-1])) - passed
-    to_lip, to_floor = below_lip(slot)
+    to_lip, to_floor = layer_end.below_lip(slot)
     floor = given_off(pads, found, kept) - passed + given_off(lip, found, kept)
     assert to_floor == pytest.approx(floor, abs=0.06)
     assert to_lip == pytest.approx(from_pads - floor, abs=0.06)

@@ -10,22 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize
 
-from tvimdesign.physics.motions import motion, one_sided
-from tvimdesign.physics.motions.contacts import (
-    bolted_torque,
-    crossed_groove_depth,
-    disc_torque,
-    equivalent_damping,
-    joint_play,
-    journal_torque,
-    loaded_damping,
-    overhung_shift,
-    sliding_torque,
-    spring_play,
-    tightened_force,
-    tightening_torque,
-    worn_volume,
-)
+from tvimdesign.physics.motions import contacts, motion, one_sided
 from tvimdesign.physics.motions.one_sided import Blocks, Touching
 from tvimdesign.physics.solids import fasteners
 from tvimdesign.physics.springs.spring import leg_ratio, pin_slip
@@ -62,17 +47,17 @@ def largest_turn(arm: float, leaning: bool) -> float:
 
 
 def test_loose_springs_turn_as_far_as_rigid_ones_can() -> None:
-    bound = float(spring_play(TANG, LENGTH, LEVER, POST, LEVELS, ARM))
+    bound = float(contacts.spring_play(TANG, LENGTH, LEVER, POST, LEVELS, ARM))
     found = largest_turn(ARM, leaning=True)
     assert found <= bound * (1.0 + 1e-6)
     assert found == pytest.approx(bound, rel=0.02)  # the bound is nearly reached
     # The reading from outside had 13 degrees with the lean; this one is a bound of its own geometry.
     assert np.degrees(bound) == pytest.approx(13.0, rel=0.1)
-    upright = float(spring_play(TANG, 1e9, LEVER, POST, LEVELS, 1e9))
+    upright = float(contacts.spring_play(TANG, 1e9, LEVER, POST, LEVELS, 1e9))
     assert upright == pytest.approx(largest_turn(1e9, leaning=False), rel=1e-4)
     assert np.degrees(upright) == pytest.approx(7.9, rel=0.01)  # read from outside
     # The tang alone: 57 mrad of 0.25 mm at 4.4 mm.
-    assert float(spring_play(0.25e-3, 1e9, 4.4e-3, 0.0, LEVELS, 1e9)) == pytest.approx(57e-3, rel=5e-3)
+    assert float(contacts.spring_play(0.25e-3, 1e9, 4.4e-3, 0.0, LEVELS, 1e9)) == pytest.approx(57e-3, rel=5e-3)
 
 
 def slid(p: float, r: float, offset: float, diameter: float) -> float:
@@ -114,20 +99,24 @@ def test_a_leg_slides_on_its_pin_as_two_turning_bodies(ratio: float) -> None:
 def test_friction_of_screws_rings_and_pegs_and_a_loose_shaft() -> None:
     # Four M3 on 4.9 mm: 1.5 N.m in plastic, 4 in aluminium, by a reading from outside.
     for stress, torque in ((55e6, 1.5), (150e6, 4.0)):
-        assert bolted_torque(0.2, tightened_force(stress, 3e-3), 4, 4.9e-3) == pytest.approx(torque, rel=0.05)
-    assert float(joint_play(0.5 * (3.4e-3 - 3e-3), 4.9e-3)) == pytest.approx(41e-3, rel=0.01)
-    assert sliding_torque(0.25, 8.0, 4e-3) == pytest.approx(8e-3, rel=1e-12)
+        assert contacts.bolted_torque(0.2, contacts.tightened_force(stress, 3e-3), 4, 4.9e-3) == pytest.approx(
+            torque, rel=0.05
+        )
+    assert float(contacts.joint_play(0.5 * (3.4e-3 - 3e-3), 4.9e-3)) == pytest.approx(41e-3, rel=0.01)
+    assert contacts.sliding_torque(0.25, 8.0, 4e-3) == pytest.approx(8e-3, rel=1e-12)
     # SKF: M = 0.5 mu P d. 100 N on a bore of 15 mm with 0.0015: 1.125 N*mm.
-    assert journal_torque(0.0015, 100.0, 15e-3) == pytest.approx(1.125e-3, rel=1e-12)
+    assert contacts.journal_torque(0.0015, 100.0, 15e-3) == pytest.approx(1.125e-3, rel=1e-12)
     # A line through the opposite ends of two plays of 0.1 mm, 5 mm apart, continued by 10 mm.
     line = np.polyfit([0.0, -5.0], [0.1, -0.1], 1)
-    assert overhung_shift(0.1e-3, 5e-3, 10e-3, np.inf) == pytest.approx(1e-3 * np.polyval(line, 10.0), rel=1e-12)
-    assert overhung_shift(0.1e-3, 5e-3, 10e-3, 0.01) == pytest.approx(0.2e-3, rel=1e-12)
+    assert contacts.overhung_shift(0.1e-3, 5e-3, 10e-3, np.inf) == pytest.approx(
+        1e-3 * np.polyval(line, 10.0), rel=1e-12
+    )
+    assert contacts.overhung_shift(0.1e-3, 5e-3, 10e-3, 0.01) == pytest.approx(0.2e-3, rel=1e-12)
     friction, force, inner, outer = 0.3, 250.0, 2e-3, 9e-3
     pressure = force / (3.141592653589793 * (outer**2 - inner**2))
     thin = quad(lambda r: friction * pressure * 2.0 * 3.141592653589793 * r * r, inner, outer)[0]
-    assert disc_torque(friction, force, inner, outer) == pytest.approx(thin, rel=1e-9)
-    assert disc_torque(0.3, 250.0, 8.999e-3, 9.001e-3) == pytest.approx(0.3 * 250.0 * 9e-3, rel=1e-6)
+    assert contacts.disc_torque(friction, force, inner, outer) == pytest.approx(thin, rel=1e-9)
+    assert contacts.disc_torque(0.3, 250.0, 8.999e-3, 9.001e-3) == pytest.approx(0.3 * 250.0 * 9e-3, rel=1e-6)
     angles = np.linspace(0.0, 2.0 * np.pi, 1000, endpoint=False)
     pieces = 24e6 * (0.9e-3 * 3.5e-3 * 2.0 * np.pi / angles.size) * 0.9e-3 * np.ones_like(angles)
     assert fasteners.peg_twist_torque(24e6, 1.8e-3, 3.5e-3) == pytest.approx(np.sum(pieces), rel=1e-12)
@@ -135,12 +124,12 @@ def test_friction_of_screws_rings_and_pegs_and_a_loose_shaft() -> None:
 
 def test_damping_loses_in_a_cycle_what_constant_friction_does() -> None:
     omega, amplitude, torque = 2.0 * np.pi, 0.104, 0.05
-    damping = equivalent_damping(torque, omega, amplitude)
+    damping = contacts.equivalent_damping(torque, omega, amplitude)
     viscous, _ = quad(lambda t: damping * (omega * amplitude * np.cos(omega * t)) ** 2, 0.0, 1.0)
     assert viscous == pytest.approx(torque * 4.0 * amplitude, rel=1e-9)  # there, back, and both again
-    constant = equivalent_damping(0.2 * 7.0 * 0.1, 2.0, 0.1)
-    assert loaded_damping(0.2, 7.0, 0.0, 2.0) == pytest.approx(0.5 * constant, rel=1e-12)
-    assert loaded_damping(0.2, 0.0, 7.0, 2.0) == pytest.approx(0.25 * np.pi * constant, rel=1e-12)
+    constant = contacts.equivalent_damping(0.2 * 7.0 * 0.1, 2.0, 0.1)
+    assert contacts.loaded_damping(0.2, 7.0, 0.0, 2.0) == pytest.approx(0.5 * constant, rel=1e-12)
+    assert contacts.loaded_damping(0.2, 0.0, 7.0, 2.0) == pytest.approx(0.25 * np.pi * constant, rel=1e-12)
 
 
 @pytest.mark.parametrize("degrees", [0.0, 20.0, 60.0, 90.0])
@@ -150,7 +139,7 @@ def test_friction_that_grows_with_the_load_over_a_cycle(degrees: float) -> None:
     phase = np.linspace(0.0, 2.0 * np.pi, 200_001)
     torque = share * size * reach * np.abs(np.sin(phase + delta))
     energy = np.trapezoid(torque * np.abs(reach * np.cos(phase)), phase)
-    found = loaded_damping(share, size * np.cos(delta), size * np.sin(delta), omega)
+    found = contacts.loaded_damping(share, size * np.cos(delta), size * np.sin(delta), omega)
     assert found == pytest.approx(energy / (np.pi * omega * reach**2), rel=1e-8)
 
 
@@ -162,15 +151,15 @@ def test_a_nut_factor_of_a_fifth_is_a_friction_of_fifteen_hundredths(diameter: f
     slope = pitch / (np.pi * at)
     thread = 0.5 * at * (slope + friction * flank) / (1.0 - friction * slope * flank)
     by_parts = thread + 0.625 * friction * diameter  # mm, of one newton
-    assert tightening_torque(1.0, 1e-3 * diameter, 0.2) == pytest.approx(1e-3 * by_parts, rel=0.03)
+    assert contacts.tightening_torque(1.0, 1e-3 * diameter, 0.2) == pytest.approx(1e-3 * by_parts, rel=0.03)
 
 
 def test_a_wire_wears_a_groove_across_its_pin() -> None:
     # Archard: 1e-7 mm3/(N m), 20 N over 2 km wear off 0.004 mm3.
-    volume = worn_volume(1e-7 * 1e-9, 20.0, 2000.0)
+    volume = contacts.worn_volume(1e-7 * 1e-9, 20.0, 2000.0)
     assert volume == pytest.approx(0.004e-9)
     wire, pin = 0.5e-3, 1.5e-3
-    depth = crossed_groove_depth(volume, wire, pin)
+    depth = contacts.crossed_groove_depth(volume, wire, pin)
     # What a round wire and a round pin that it crosses so deep have in common, counted across both.
     x, y = (np.linspace(-reach, reach, 1001) for reach in (0.22e-3, 0.4e-3))
     sunk = [radius - np.sqrt(radius**2 - along**2) for radius, along in ((wire, x), (pin, y))]

@@ -31,20 +31,8 @@ import tvimdesign as tvim
 from tests.helpers.figures import faults, signed
 from tvimdesign.base.child_process import start_child
 from tvimdesign.device import table_for
-from tvimdesign.report.figures import analysis_figures, design_figures
+from tvimdesign.report.figures import analysis_figures, design_figures, theme
 from tvimdesign.report.figures.summary_sheet import summary
-from tvimdesign.report.figures.theme import (
-    BROKEN,
-    COLOURS,
-    LINE_STYLES,
-    as_file,
-    log_ticks,
-    new_figure,
-    place,
-    plain,
-    png,
-    style_of,
-)
 from tvimdesign.report.figures.virtual_test_figures import drawn
 from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
 from tvimdesign.report.output import plot_process
@@ -147,7 +135,7 @@ def test_a_long_label_of_a_fact_stays_in_its_column() -> None:
 def test_it_is_one_sheet_of_a4(tmp_path: Path, rows: int) -> None:
     Image.new("RGB", (1800, 800), "grey").save(tmp_path / "preview.png")
     figure = summary(sheet_of(str(tmp_path / "preview.png"), rows))
-    pdf = as_file(figure, "pdf")
+    pdf = theme.as_file(figure, "pdf")
     assert len(re.findall(rb"/Type /Page\b", pdf)) == 1
     (box,) = re.findall(rb"/MediaBox\s*\[([^\]]+)\]", pdf)
     assert tuple(map(float, box.split()[2:])) == pytest.approx((595.3, 841.9), abs=1.0)  # points, ISO 216
@@ -198,7 +186,7 @@ def test_an_editor_finds_no_fault(name: str, found: StudyResult) -> None:
 
 def test_files_have_their_pixels(data: dict[str, Any]) -> None:
     figure = figure_of("design_figures.torque", data["torque"])
-    picture = Image.open(io.BytesIO(png(figure)))
+    picture = Image.open(io.BytesIO(theme.png(figure)))
     assert picture.size == (2130, 780)  # 7.1 by 2.6 inches of 300 dots
     assert picture.mode == "RGB"
     assert picture.info["dpi"] == pytest.approx((300.0, 300.0), abs=0.01)
@@ -206,7 +194,7 @@ def test_files_have_their_pixels(data: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("found", ["optimised"], indirect=True)
 def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, Any]) -> None:
-    pdf, svg = ([as_file(signed(figure_of("design_figures.torque", data["torque"])), ending) for _ in range(2)]
+    pdf, svg = ([theme.as_file(signed(figure_of("design_figures.torque", data["torque"])), ending) for _ in range(2)]
                 for ending in ("pdf", "svg"))  # fmt: skip
     assert pdf[0] == pdf[1]
     assert svg[0] == svg[1]
@@ -262,30 +250,30 @@ def luminance(colour: str) -> float:
 
 
 def test_colours_are_okabe_and_ito_s_and_like_greys_have_other_lines() -> None:
-    assert {*COLOURS, BROKEN} <= OKABE_ITO
-    assert BROKEN not in COLOURS
-    for one, other in pairwise((*COLOURS, COLOURS[0])):
+    assert {*theme.COLOURS, theme.BROKEN} <= OKABE_ITO
+    assert theme.BROKEN not in theme.COLOURS
+    for one, other in pairwise((*theme.COLOURS, theme.COLOURS[0])):
         assert abs(luminance(one) - luminance(other)) > 0.15, (one, other)
     assert luminance("#ffffff") == pytest.approx(1.0)
-    for i in range(len(LINE_STYLES)):
+    for i in range(len(theme.LINE_STYLES)):
         for j in range(i):
-            assert style_of(i)["linestyle"] != style_of(j)["linestyle"]
+            assert theme.style_of(i)["linestyle"] != theme.style_of(j)["linestyle"]
 
 
 @given(low=st.floats(1e-12, 1e9), decades=st.floats(1e-3, 12.0))
 def test_logarithmic_axes_have_at_least_two_ticks(low: float, decades: float) -> None:
-    axes = place(new_figure(3.0), 1.0, 1.0, 2.0, 1.0)
+    axes = theme.place(theme.new_figure(3.0), 1.0, 1.0, 2.0, 1.0)
     axes.set_yscale("log")
     axes.set_ylim(low, low * 10.0**decades)
-    log_ticks(axes.yaxis)
+    theme.log_ticks(axes.yaxis)
     bottom, top = axes.get_ylim()
     inside = [tick for tick in axes.yaxis.get_majorticklocs() if bottom <= tick <= top]
     assert 2 <= len(inside) <= 12
-    assert len({plain(tick) for tick in inside}) >= 2
+    assert len({theme.plain(tick) for tick in inside}) >= 2
 
 
 def test_ticks_are_plain_and_names_are_words_with_units() -> None:
-    assert [plain(value) for value in (0.0, 0.5, 200.0, 1e6, 2e-7)] == ["0", "0.5", "200", "10⁶", "2·10⁻⁷"]
+    assert [theme.plain(value) for value in (0.0, 0.5, 200.0, 1e6, 2e-7)] == ["0", "0.5", "200", "10⁶", "2·10⁻⁷"]
     assert name_in_words("joint_damping@hot") == "joint damping, hot"
     assert axis_label("pcl_thickness", "mm") == "PCL thickness (mm)"
     assert axis_label("impedance_range", "1") == "Impedance range (–)"
@@ -316,11 +304,11 @@ def test_swings_are_lines_or_the_band_that_holds_them() -> None:
 
 def test_fonts_in_a_pdf_have_the_letters_and_nothing_that_lays_out_text() -> None:
     usual = subset.Options
-    axes = place(new_figure(3.0), 1.0, 1.0, 2.0, 1.0)
+    axes = theme.place(theme.new_figure(3.0), 1.0, 1.0, 2.0, 1.0)
     axes.set_xlabel("torque")
     figure = axes.figure
     assert figure is not None
-    made = as_file(figure, "pdf")
+    made = theme.as_file(figure, "pdf")
     assert subset.Options is usual
     streams = [zlib.decompress(one) for one in re.findall(rb"stream\n(.*?)\nendstream", made, re.DOTALL)]
     fonts = [TTFont(io.BytesIO(one)) for one in streams if one.startswith((b"\0\1\0\0", b"true"))]

@@ -20,17 +20,7 @@ from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh
 from tvimdesign.cad.export.print_files import body_of, mesh_of
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, kind_of
-from tvimdesign.cad.render.render import (
-    actors,
-    legend,
-    legend_height,
-    look,
-    poly_data,
-    renderer_on_white,
-    surface_actors,
-    write_png,
-    write_view,
-)
+from tvimdesign.cad.render import render
 
 
 class Cutter:
@@ -78,7 +68,7 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
         opened[name] = Instance(without(name, placed[name], quarter, drawn[name]), np.eye(4))
     kinds = MODULES[dims.mode].kinds(dims)
     views = []
-    below = legend_height(kinds, _PREVIEW_SIZE)
+    below = render.legend_height(kinds, _PREVIEW_SIZE)
     aspect = _PREVIEW_SIZE[1] * (1.0 - below) / (0.5 * _PREVIEW_SIZE[0])
     whole = {name: _actors(name, instance) for name, instance in placed.items()}
     cut = {name: _actors(name, opened[name]) if name in _CUT else whole[name] for name in opened}
@@ -86,22 +76,22 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
         renderer = _view(shown, drawings, aspect)
         renderer.SetViewport(left, below, right, 1.0)
         views.append(renderer)
-    write_png(path, _PREVIEW_SIZE, [*views, legend(kinds, _PREVIEW_SIZE)])
+    render.write_png(path, _PREVIEW_SIZE, [*views, render.legend(kinds, _PREVIEW_SIZE)])
 
 
 def _actors(name: str, instance: Instance) -> tuple[vtkActor, vtkActor]:
-    return actors(instance.mesh, instance.matrix, KINDS[kind_of(name)].colour)
+    return render.actors(instance.mesh, instance.matrix, KINDS[kind_of(name)].colour)
 
 
 def _view(
     placed: Mapping[str, Instance], drawings: Mapping[str, tuple[vtkActor, vtkActor]], aspect: float
 ) -> vtkRenderer:
     """Return everything that is placed, seen from the front, above and the right."""
-    renderer = renderer_on_white()
+    renderer = render.renderer_on_white()
     for name in placed:
         for actor in drawings[name]:
             renderer.AddActor(actor)
-    look(renderer, placed, _FROM, aspect)
+    render.look(renderer, placed, _FROM, aspect)
     return renderer
 
 
@@ -110,14 +100,14 @@ _EXPLODED_SIZE = (1000, 1300)
 
 def write_exploded(path: Path, placed: Mapping[str, Instance]) -> None:
     """Write the picture of the parts apart from each other."""
-    renderer, apart = renderer_on_white(), dict[str, Instance]()
+    renderer, apart = render.renderer_on_white(), dict[str, Instance]()
     for name, lift in lifts(placed).items():
         moved = placed[name].matrix.copy()
         moved[2, 3] += lift
         apart[name] = Instance(placed[name].mesh, moved)
-        for actor in actors(placed[name].mesh, moved, KINDS[kind_of(name)].colour):
+        for actor in render.actors(placed[name].mesh, moved, KINDS[kind_of(name)].colour):
             renderer.AddActor(actor)
-    write_view(path, renderer, apart, VIEWED_FROM, _EXPLODED_SIZE)
+    render.write_view(path, renderer, apart, VIEWED_FROM, _EXPLODED_SIZE)
 
 
 _STEP_SIZE = (900, 600)
@@ -131,7 +121,7 @@ def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str
     """Write a picture for each step, by its file: parts before they go in, in colour, over what is there, pale."""
     standing: dict[str, Instance] = {}
     for file, parts in steps.items():
-        renderer = renderer_on_white()
+        renderer = render.renderer_on_white()
         order = list(dict.fromkeys(_going_with(part.name) for part in parts))
         apart = _STEP_APART * max(float(np.ptp(instance.points()[:, 0])) for instance in placed.values())
         coming = {}
@@ -142,10 +132,12 @@ def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str
             coming[part.name] = Instance(placed[part.name].mesh, moved)
         for group, pale in ((standing, True), (coming, False)):
             for name, instance in group.items():
-                for actor in actors(instance.mesh, instance.matrix, _PALE if pale else KINDS[kind_of(name)].colour):
+                for actor in render.actors(
+                    instance.mesh, instance.matrix, _PALE if pale else KINDS[kind_of(name)].colour
+                ):
                     renderer.AddActor(actor)
         seen = _FROM_BELOW if all(part.side == "below" for part in parts) else VIEWED_FROM
-        write_view(folder / file, renderer, standing | coming, seen, _STEP_SIZE, coming)
+        render.write_view(folder / file, renderer, standing | coming, seen, _STEP_SIZE, coming)
         standing |= {part.name: placed[part.name] for part in parts}
 
 
@@ -166,22 +158,22 @@ POLYMER = ("pcl_arc", "pcl_block")
 def write_section(path: Path, solids: Mapping[str, cq.Solid], placed: Mapping[str, Instance]) -> None:
     """Write the picture, whole or not at all; `solids` and `placed` are the parts in their places, by name."""
     first, last = wedge_of(placed)
-    renderer = renderer_on_white()
+    renderer = render.renderer_on_white()
     cutter = _wedge(first, last, placed)
     for name, instance in placed.items():
         colour = KINDS[kind_of(name)].colour
         if kind_of(name) in SPRINGS:
             surface = _spring_outside(instance, first, last)
-            shown = surface_actors(surface, colour) if surface.GetNumberOfPolys() else ()
+            shown = render.surface_actors(surface, colour) if surface.GetNumberOfPolys() else ()
         elif _is_uncut(instance, first, last):
-            shown = actors(instance.mesh, instance.matrix, colour)
+            shown = render.actors(instance.mesh, instance.matrix, colour)
         else:
             left = without(name, instance, cutter, solids[name])
-            shown = actors(left, np.eye(4), colour) if len(left.faces) else ()
+            shown = render.actors(left, np.eye(4), colour) if len(left.faces) else ()
         for actor in shown:
             renderer.AddActor(actor)
     towards = 0.5 * (first + last)
-    write_view(path, renderer, placed, (cos(towards), sin(towards), _RISE), _SECTION_SIZE)
+    render.write_view(path, renderer, placed, (cos(towards), sin(towards), _RISE), _SECTION_SIZE)
 
 
 def wedge_of(placed: Mapping[str, Instance]) -> tuple[float, float]:
@@ -226,7 +218,7 @@ def _is_uncut(instance: Instance, first: float, last: float) -> bool:
 def _spring_outside(instance: Instance, first: float, last: float) -> vtkPolyData:
     """Return part of a spring outside the wedge. A plane that cuts it clips its closed mesh; no spring meets both."""
     clean = vtkCleanPolyData()
-    clean.SetInputData(poly_data(instance.mesh, instance.matrix))
+    clean.SetInputData(render.poly_data(instance.mesh, instance.matrix))
     clean.Update()
     whole: vtkPolyData = clean.GetOutput()
     points = instance.points()

@@ -13,18 +13,10 @@ from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import format_quantity, pretty
 from tvimdesign.report.output.numbers import ends_text
-from tvimdesign.study import read_study_text
+from tvimdesign.study import read_study_text, written_studies
 from tvimdesign.study.design import read_design
 from tvimdesign.study.sizing import LARGEST, STROKE, JointTask, diameters, hardware_by_fit, records_of, study_text
 from tvimdesign.study.text.source import printable
-from tvimdesign.study.written_studies import (
-    SCHEMA_FILE,
-    example_text,
-    examples,
-    result_text,
-    schema_text,
-    template_text,
-)
 
 if TYPE_CHECKING:
     from tvimdesign.solve.uncertainty.robust import Extreme
@@ -32,7 +24,7 @@ if TYPE_CHECKING:
 
 def list_examples() -> None:
     """Print the shipped studies, each with what it is about."""
-    for name, about in examples().items():
+    for name, about in written_studies.examples().items():
         print(f"{name}\n    {about}")
 
 
@@ -44,10 +36,10 @@ def write_new_study(file: Path | None, example: str = "", result: Path | None = 
     if example and result:
         raise InputError("--example and --from: choose one")
     file = file or Path(f"{example or 'study'}.yaml")
-    text = example_text(example) if example else template_text()
+    text = written_studies.example_text(example) if example else written_studies.template_text()
     if result:
         source = result / "design.json" if result.is_dir() else result
-        text = result_text(read_design(source), printable(source), file.resolve().parent)
+        text = written_studies.result_text(read_design(source), printable(source), file.resolve().parent)
     try:
         with file.open("x", encoding="utf-8") as stream:
             stream.write(text)
@@ -56,12 +48,12 @@ def write_new_study(file: Path | None, example: str = "", result: Path | None = 
     except OSError as error:
         raise InputError(f"{file}: cannot be written: {error.strerror}") from error
     print(f"{file} written; next: tvimdesign run {file}")
-    print(f"names and units while you type: tvimdesign schema > {file.with_name(SCHEMA_FILE)}")
+    print(f"names and units while you type: tvimdesign schema > {file.with_name(written_studies.SCHEMA_FILE)}")
 
 
 def print_schema() -> None:
     """Print the JSON Schema of studies."""
-    print(schema_text(), end="")
+    print(written_studies.schema_text(), end="")
 
 
 _CANDIDATES = 3
