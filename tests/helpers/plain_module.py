@@ -232,6 +232,7 @@ def statics(module: Numbers) -> dict[str, float]:
         "spring_torque_full_stroke": torque(module, stroke),
         "preload_margin": float(stopped.min()),
         "spring_winding": float(stopped.max()),
+        "spring_unwinding": float(module["preload_angle"] - stopped.min()),
         "spring_stress": per_angle * stopped.max(),
         "spring_static_safety": module["yield_strength"] / (per_angle * stopped.max()),
         "spring_fatigue_safety": float((-b + np.sqrt(b**2 + 4.0 * a)) / (2.0 * a)),
@@ -266,8 +267,8 @@ def block_strain(module: Numbers) -> float:
 
 COMPARED = (
     "spring_rate", "held_spring_rate", "spring_stiffness", "spring_stiffness_full_stroke", "spring_torque_full_stroke",
-    "preload_margin", "spring_winding", "spring_stress", "spring_static_safety", "spring_fatigue_safety",
-    "envelope_diameter",
+    "preload_margin", "spring_winding", "spring_unwinding", "spring_stress", "spring_static_safety",
+    "spring_fatigue_safety", "envelope_diameter",
 )  # fmt: skip
 """The product's outputs that stand in `statics`, but those that follow from two others."""
 
