@@ -113,7 +113,7 @@ def test_paper_wire_is_music_wire_of_a_gauge_size() -> None:
     assert any(size == pytest.approx(2.413e-3) for size in sizes)
 
 
-SIZES = {"metric": 44, "music_wire_gauge": 50, "gb_1358": 16}
+SIZES = {"metric": 44, "metric_fine": 17, "music_wire_gauge": 50, "gb_1358": 16}
 """How many sizes each list has."""
 
 
@@ -256,8 +256,11 @@ def test_each_assumed_value_names_its_least_test(category: str, name: str) -> No
 
 
 @pytest.mark.parametrize("warmer", [5.0, 20.0, 50.0])
-@pytest.mark.parametrize("diameter", [0.05, 0.09, 0.17])
-def test_convection_is_that_of_free_air_in_every_orientation(diameter: float, warmer: float) -> None:
+@pytest.mark.parametrize(
+    ("record", "diameter"),
+    [("handbook", 0.05), ("handbook", 0.09), ("handbook", 0.17), ("handbook_small", 0.02), ("handbook_small", 0.04)],
+)
+def test_convection_is_that_of_free_air_in_every_orientation(record: str, diameter: float, warmer: float) -> None:
     # Incropera, 7th ed.: air by Sutherland's law; eqs. 9.30 and 9.32 with L = A/P = D/4, eq. 9.27 with L = D.
     kelvin = 295.0 + 0.5 * warmer
     viscosity = 1.716e-5 * (kelvin / 273.15) ** 1.5 * 383.55 / (kelvin + 110.4)
@@ -272,7 +275,7 @@ def test_convection_is_that_of_free_air_in_every_orientation(diameter: float, wa
     upright = 0.68 + slope * rayleigh(diameter) ** 0.25
     faces = [0.54 * flat**0.25 / (0.25 * diameter), 0.52 * flat**0.2 / (0.25 * diameter), upright / diameter]
     for name in ("rotor_coefficient", "housing_coefficient"):
-        entry = CATALOG.record("heat_paths", "handbook").entry(name)
+        entry = CATALOG.record("heat_paths", record).entry(name)
         assert entry.low <= min(faces) * conductivity
         assert max(faces) * conductivity <= entry.high
 

@@ -14,7 +14,7 @@ from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.report.run.study_files import sized_text
 from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 from tvimdesign.study import Range, Study, read_study_text
-from tvimdesign.study.sizing import JointTask, study_text
+from tvimdesign.study.sizing import JointTask, diameters, study_text
 
 WRIST = {"torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A"}
 
@@ -29,8 +29,8 @@ def sized(**numbers: str) -> Study:
     [
         (70, 8, 1.5),
         *(pytest.param(*row, marks=pytest.mark.gate)
-          for row in ((58, 1.2, 0.5), (66, 3, 1), (80, 10, 2), (90, 15, 2.5), (110, 35, 5), (140, 60, 12),
-                      (170, 90, 20), (200, 150, 40))),
+          for row in ((20, 0.05, 0.012), (30, 0.2, 0.08), (40, 0.5, 0.2), (58, 1.2, 0.5), (66, 3, 1), (80, 10, 2),
+                      (90, 15, 2.5), (110, 35, 5), (140, 60, 12), (170, 90, 20), (200, 150, 40))),
     ],
 )  # fmt: skip
 def test_a_joint_of_each_size_has_hardware_that_fits(diameter: float, torque: float, stiffness: float) -> None:
@@ -102,6 +102,27 @@ def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers: dict[st
     assert enough
     assert int(enough[1]) <= 74
     refuse_what_cannot_be(sized(**numbers | {"diameter": f"{enough[1]} mm"}))
+
+
+@pytest.mark.gate
+def test_a_small_joint_that_is_too_small_names_the_least_diameter() -> None:
+    small = {"diameter": "20 mm", "torque": "0.2 N.m", "stiffness": "0.08 N.m/rad"}
+    with pytest.raises(InfeasibleError, match=r"2\d(\.\d)? mm is the least that .* allow") as refusal:
+        sized(**small)
+    enough = re.search(r"--diameter '(\d+) mm'", str(refusal.value))
+    assert enough
+    assert 25 <= int(enough[1]) <= 30
+    refuse_what_cannot_be(sized(**small | {"diameter": f"{enough[1]} mm"}))
+
+
+@pytest.mark.parametrize("hardware", diameters())
+def test_a_set_s_own_values_replace_shared_ones(hardware: str) -> None:
+    text = study_text(replace(JointTask.read(**WRIST), diameter=diameters()[hardware]), hardware)
+    module = re.findall(r"(?m)^  (\w+):", text.partition("\nvary:")[0])
+    assert len(module) == len(set(module))
+    assert read_study_text(text, "joint.yaml").module["process"] == (
+        "sla_fine" if hardware in ("micro", "tiny", "mini") else "print_pc_bambu"
+    )
 
 
 @pytest.mark.parametrize(

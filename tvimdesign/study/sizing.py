@@ -186,7 +186,7 @@ def study_text(
     cut_out = _CUT_OUT if task.diameter > _ROOMY * diameters()[hardware] else ""
     stiff = "" if math.isinf(task.stiff_time) else f'  stiffening_time: "<= {task.stiff_time:.4g} s"\n'
     supplied = "" if math.isinf(task.current) else f'  peak_current: "<= {task.current:.4g} A"\n'
-    module = _indented(
+    module = _last_of_each(
         f"{stroke}{shared['common']}{caution}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}"
     )
     if record:
@@ -207,7 +207,7 @@ mode: {SIZED_MODE}
 module:
 {module}
 vary:                                  # ranges that follow the diameter
-{_vary(task, widen)}
+{_vary(task, widen, entry)}
 require:
   joint_stiffness@hot: [">= {low:.4g} N.m/rad", "<= {high:.4g} N.m/rad"]   # as heating stops, too
   holding_torque: ">= {task.torque:.4g} N.m"
@@ -230,8 +230,7 @@ operating_points:
 
 tolerances:
   standard: true
-  preload_angle: {_sizes()["preload"][entry["springs"]]}
-
+{_indented(_sizes()["tolerances"][entry["springs"]])}
 robust: {{yield: 95 %{", plausible: 79 %" if task.cautious else ""}}}
 
 solver: {{starts: 1, seed: 1}}
@@ -259,8 +258,14 @@ def _indented(lines: str) -> str:
     return "".join(f"  {line}\n" for line in lines.splitlines())
 
 
-def _vary(task: JointTask, widen: float) -> str:
-    """Return the variables with ranges for a diameter and a stiffness."""
+def _last_of_each(lines: str) -> str:
+    """Return indented lines without those that a later one of the same name replaces: a set's own go before shared."""
+    named = {line.partition(":")[0]: line for line in lines.splitlines()}
+    return _indented("\n".join(named.values()))
+
+
+def _vary(task: JointTask, widen: float, entry: dict[str, str]) -> str:
+    """Return the variables with ranges for a diameter and a stiffness, wire and preload as a set of hardware asks."""
     wire = _WIRE * (math.sqrt(task.stiffness[0] * task.stiffness[1]) * task.diameter) ** 0.25
     rows = _inputs()
     thinnest = rows["wire_diameter"].lower
@@ -268,7 +273,7 @@ def _vary(task: JointTask, widen: float) -> str:
     thin, thick = (
         _mm(max(beyond * factor * wire, thinnest)) for factor, beyond in zip(_WIRE_RANGE, reach[::2], strict=True)
     )
-    bought = "catalog: metric, " if widen == 1.0 else ""
+    bought = f"catalog: {entry.get('wires', 'metric')}, " if widen == 1.0 else ""
     lines = [f"wire_diameter: {{{bought}from: {thin}, to: {thick}}}"]
     for name, factors in _SCALED.items():
         least, start, most = (
@@ -277,10 +282,12 @@ def _vary(task: JointTask, widen: float) -> str:
         )
         lines.append(f"{name}: {{from: {least}, to: {most}, start: {start}}}")
     share, start_beyond, most_beyond = _PRELOAD
+    most_beyond = parse_quantity(entry["preload"], "rad") if "preload" in entry else most_beyond
     strongest = min(task.current, _rated(task))
     weakest = max(0.02 * strongest, rows["current"].lower)
     lines += [
-        "coil_count: [3, 10]", "arc_span: {from: 20 deg, to: 75 deg, start: 65 deg}", "pcl_thickness: [0.5 mm, 2 mm]",
+        "coil_count: [3, 10]", "arc_span: {from: 20 deg, to: 75 deg, start: 65 deg}",
+        f"pcl_thickness: [{entry.get('layer', '0.5 mm')}, 2 mm]",
         f"current: {{from: {weakest:.3g} A, to: {strongest:.4g} A, start: {0.75 * strongest:.3g} A}}",
         f"preload_angle: {{from: {share * task.stroke:.3g} rad, to: {task.stroke + most_beyond:.3g} rad, "
         f"start: {task.stroke + start_beyond:.3g} rad}}",

@@ -142,7 +142,7 @@ def arc_gap(m: Module) -> Scalar:
     return (2.0 * np.pi / m.arc_count - m.arc_span) * m.pcl_inner_radius
 
 
-@rules.output("mm", at_least(5.0 * MM, "the heater needs its ledges and a window for its cold side", 0.0))
+@rules.output("mm", at_least(2.0 * MM, "the heater needs its ledges and a window for its cold side", 0.0))
 def arc_width(m: Module) -> Scalar:
     """Radial width of the PCL arcs."""
     return m.pcl_outer_radius - m.pcl_inner_radius

@@ -60,8 +60,6 @@ _CANDIDATES = 3
 """Sets of hardware that are tried, the best fit first."""
 _BESIDE = 2
 """Sets of hardware that are tried with other numbers."""
-_SMALLER = 0.9
-"""Diameter over that of the smallest hardware below which no number but the diameter is changed."""
 _WIDER, _ROOM = (1.1, 1.25), 1.03
 """Factors on a diameter that are tried, and room over the least: ranges follow the diameter, and must allow it."""
 _STIFFER = (2.0, 4.0, 8.0, 16.0)
@@ -123,8 +121,7 @@ def _with_another_record(task: JointTask, name: str, progress: Callable[[str], N
     from tvimdesign.solve.uncertainty.robust import least_with_margins
 
     fitting: list[tuple[float, str]] = []
-    sets = hardware_by_fit(task)[:_BESIDE] if task.diameter >= _SMALLER * min(diameters().values()) else []
-    for hardware in sets:
+    for hardware in hardware_by_fit(task)[:_BESIDE]:
         progress(f"trying other screws, pins and springs in the hardware for {1e3 * diameters()[hardware]:.0f} mm")
         try:
             cures = cures_of(read_study_text(study_text(task, hardware)))
@@ -148,9 +145,6 @@ def _refusal(task: JointTask, name: str, least_changed: float, progress: Callabl
     size, hold = format_quantity(task.diameter, "mm", 3), format_quantity(task.torque, "N*m", 3)
     soft = f"{ends_text(*task.stiffness)} {pretty('N*m/rad')}"
     lines = [f"{name}: no joint of {size} holds {hold} frozen and has {soft} soft, with margins for its tolerances."]
-    least = min(diameters().values())
-    if task.diameter < _SMALLER * least:
-        lines.append(f"The smallest set of screws, springs and bearing suits joints of about {1e3 * least:.0f} mm.")
     progress("looking for the nearest diameter that fits")
     wider, held_there = _wider(task)
     nearer = replace(task, diameter=1e-3 * math.ceil(_ROOM * min(least_changed, LARGEST) / 1e-3))
@@ -167,8 +161,6 @@ def _refusal(task: JointTask, name: str, least_changed: float, progress: Callabl
 
 def _hardware(task: JointTask) -> str:
     """Return the best set of hardware with which the limits can hold with margins; empty if none does."""
-    if task.diameter < _SMALLER * min(diameters().values()):
-        return ""
     return next((hardware for hardware in hardware_by_fit(task)[:_CANDIDATES] if _least_diameter(task, hardware)), "")
 
 
@@ -192,10 +184,8 @@ def _extreme(
 
 def _nearest(task: JointTask, wider: JointTask | None) -> list[dict[str, str]]:
     """Return options of `size` with which hardware fits: changed alone, else a diameter with a stiffness."""
-    changed = [wider]
-    if task.diameter >= _SMALLER * min(diameters().values()):
-        changed.append(_weaker(task) if task.assumes_stroke else _shorter(task))
-        changed += [] if any(changed) else [_other_stiffness(task)]
+    changed = [wider, _weaker(task) if task.assumes_stroke else _shorter(task)]
+    changed += [] if any(changed) else [_other_stiffness(task)]
     changed = [way for way in changed if way] or [_wider_and_stiffer(task)]
     own = task.options()
     return [{name: text for name, text in way.options().items() if text != own[name]} for way in changed if way]
