@@ -5,14 +5,12 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from tvimdesign.base.record import Entry
 from tvimdesign.base.units import parse_quantity
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 
-_OFFERS = Path(__file__).with_name("offers.yaml")
 QUOTE = "quote"
 """Price of what no dated list was read for."""
 
@@ -59,7 +57,7 @@ def between(low: float, high: float) -> str:
 @cache
 def offers() -> tuple[Offer, ...]:
     """Return the offers of the data file, the first choice first, each with its own or its neighbour's price."""
-    data = plain_data(_OFFERS.read_text("utf-8"))
+    data = own_data(__file__, "offers.yaml")
     references, own = (_offers(data[key]) for key in ("references", "offers"))
     priced = {offer.number: offer for offer in (*references, *own) if offer.price is not None}
     spread = float(data["spread"]["value"])

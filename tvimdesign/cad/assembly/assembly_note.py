@@ -5,12 +5,11 @@ Figures in the steps of an assembly note: quantities of the table, and words tha
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache, partial
+from functools import partial
 from math import degrees
-from pathlib import Path
 from typing import Any, NamedTuple
 
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.bill_of_materials import MADE_TO_ORDER, Item, cost, greased
 from tvimdesign.cad.assembly.heater_leads import set_points_in_words
@@ -24,7 +23,6 @@ from tvimdesign.study.design import Design
 _LINE = 0.4
 """Width of a printed line [mm] of the commonest nozzle."""
 _ROUNDING = 1e-6
-_STEPS = Path(__file__).with_name("assembly_steps.yaml")
 
 
 def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra: Sequence[Item] = ()) -> bytes:
@@ -203,11 +201,7 @@ def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
     ]
 
 
-@cache
-def all_steps() -> list[dict[str, Any]]:
-    """Return all steps of the data file."""
-    written: list[dict[str, Any]] = plain_data(_STEPS.read_text("utf-8"))
-    return written
+all_steps = partial(own_data, __file__, "assembly_steps.yaml")
 
 
 def _words(kind: str) -> str:

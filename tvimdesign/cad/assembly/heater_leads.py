@@ -4,13 +4,12 @@ import math
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
-from pathlib import Path
 from typing import NamedTuple
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 from tvimdesign.device.core.heat.heater_form import HeaterFuse, heater_fuse
 from tvimdesign.study.design import Design, catalog_of
 
@@ -39,8 +38,6 @@ _DIVIDED = 3.3
 _ACCURACY = 1.0
 """Error [K] of a thermistor read by its B value, assumed."""
 _ROUNDING = 1e-6
-_WIRES = Path(__file__).with_name("wire_ratings.yaml")
-_THERMISTORS = Path(__file__).with_name("thermistors.yaml")
 
 
 def up(value: float) -> str:
@@ -229,7 +226,7 @@ class Thermistor(NamedTuple):
 def thermistors() -> tuple[Thermistor, ...]:
     """Return the thermistors of the data file, the first choice first."""
     found = []
-    for one in plain_data(_THERMISTORS.read_text("utf-8"))["thermistors"]:
+    for one in own_data(__file__, "thermistors.yaml")["thermistors"]:
         sizes = [parse_quantity(one[name], "m") for name in ("diameter", "length") if name in one]
         most, beta = parse_quantity(one["temperature"], "degC"), parse_quantity(one["beta"], "K")
         bead = Bead(*sizes) if sizes else None
@@ -251,7 +248,8 @@ def wire_in_words(design: Design, pads: int) -> str:
         return ""
     said = f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rating(design)}"
     wire = _wire(current)
-    said = f"{said}: copper of {1e6 * wire.section:.3g} mm² ({wire.gauge}; {_source()}) or thicker" if wire else said
+    source = own_data(__file__, "wire_ratings.yaml")["source"]
+    said = f"{said}: copper of {1e6 * wire.section:.3g} mm² ({wire.gauge}; {source}) or thicker" if wire else said
     return f"{said}, spliced to the heaters' own leads{_own_leads(design)}"
 
 
@@ -312,13 +310,7 @@ class Wire(NamedTuple):
 @cache
 def wires() -> tuple[Wire, ...]:
     """Return the sizes of the data file, the thinnest first."""
-    listed = plain_data(_WIRES.read_text("utf-8"))["wires"]
+    listed = own_data(__file__, "wire_ratings.yaml")["wires"]
     return tuple(
         Wire(one["gauge"], parse_quantity(one["section"], "m^2"), parse_quantity(one["current"], "A")) for one in listed
     )
-
-
-@cache
-def _source() -> str:
-    """Return where the ratings are from, in words."""
-    return str(plain_data(_WIRES.read_text("utf-8"))["source"])

@@ -2,19 +2,18 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import partial
 from math import degrees, floor, hypot
-from pathlib import Path
 from typing import Any
 
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 from tvimdesign.cad.drawing.drawing_sheet import figure
 from tvimdesign.cad.drawing.iso_286 import Limits, limit_deviations, standard_tolerance
 from tvimdesign.cad.drawing.iso_1101 import Frame
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import Cylinder
 
-_DATA = Path(__file__).with_name("drawing_requirements.yaml")
+requirements_data = partial(own_data, __file__, "drawing_requirements.yaml")
 TAPPED = "tapped"
 _EASED = 3.2
 """Roughness Ra [µm] of a printed seat that is reamed, or rubbed down with fine paper."""
@@ -269,10 +268,3 @@ def _thread(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> T
     frames = _place(reported, dims, is_milled)
     hole = getattr(dims, reported["hole"])
     return ThreadCallout(reported["about"], screw, made, hole, depth, insert or length, frames)
-
-
-@cache
-def requirements_data() -> dict[str, Any]:
-    """Read the data file on the parts' drawings."""
-    reported: dict[str, Any] = plain_data(_DATA.read_text(encoding="utf-8"))
-    return reported

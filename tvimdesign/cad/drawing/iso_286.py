@@ -2,15 +2,15 @@
 
 import re
 from collections.abc import Sequence
-from functools import cache
+from functools import partial
 from itertools import pairwise
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 
-_DATA = Path(__file__).with_name("iso_286.yaml")
+_DATA = "iso_286.yaml"
+standard_data = partial(own_data, __file__, _DATA)
 _MICRON = 1e-3
 _HAIR = 1e-5
 """What [mm] a size may be off the end of a range for rounding."""
@@ -30,7 +30,7 @@ def limit_deviations(fit: str, size: float) -> Limits:
     """
     known = re.fullmatch(r"(H|JS|G|h|js|g|k)(\d)", fit)
     if not known or (known[1] == "k" and known[2] not in "567"):
-        raise GeometryError(f"tolerance class {fit!r} is not in {_DATA.name}: H, JS, G, h, js, g, or k in 5 to 7")
+        raise GeometryError(f"tolerance class {fit!r} is not in {_DATA}: H, JS, G, h, js, g, or k in 5 to 7")
     letter, width = known[1], standard_tolerance(int(known[2]), size)
     if letter in ("JS", "js"):
         return Limits(-0.5 * width, 0.5 * width)
@@ -46,7 +46,7 @@ def standard_tolerance(grade: int, size: float) -> float:
     """Return standard tolerance [mm] of a grade at a size [mm]."""
     grades = standard_data()["grades"]
     if grade not in grades:
-        raise GeometryError(f"tolerance grade IT{grade} is not in {_DATA.name}: it has {', '.join(map(str, grades))}")
+        raise GeometryError(f"tolerance grade IT{grade} is not in {_DATA}: it has {', '.join(map(str, grades))}")
     return _MICRON * _at(grades[grade], size)
 
 
@@ -57,11 +57,4 @@ def _at(row: Sequence[int], size: float) -> int:
     for value, (over, up_to) in zip(row, pairwise(ends), strict=True):
         if over < size <= up_to + _HAIR:
             return value
-    raise GeometryError(f"{size:g} mm is outside the sizes of {_DATA.name}: above 0 up to {ends[-1]:g} mm")
-
-
-@cache
-def standard_data() -> dict[str, Any]:
-    """Read the data file on ISO 286."""
-    reported: dict[str, Any] = plain_data(_DATA.read_text(encoding="utf-8"))
-    return reported
+    raise GeometryError(f"{size:g} mm is outside the sizes of {_DATA}: above 0 up to {ends[-1]:g} mm")

@@ -1,14 +1,12 @@
 """Collection of a file's quantities: a function's name is the quantity's name, its docstring the description."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cache
-from importlib import resources
+from functools import cache, partial
 from types import ModuleType
 from typing import Any, Literal, TypeVar
 
-import yaml
-
 from tvimdesign.base.units import to_si
+from tvimdesign.base.yaml_data import own_data
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import (
     Choice,
@@ -293,18 +291,9 @@ def _summary(function: Callable[..., Any]) -> str:
 @cache
 def directions() -> dict[str, Literal["less", "more"]]:
     """Return which way an output is better, by name, of those for which that can be said of any module."""
-    listed: dict[Literal["less", "more"], list[str]] = _data("better.yaml")
+    listed: dict[Literal["less", "more"], list[str]] = own_data(__file__, "better.yaml")
     return {name: way for way, names in listed.items() for name in names}
 
 
-@cache
-def _all_inputs() -> dict[str, dict[str, dict[str, Any]]]:
-    """Return the inputs by group and name, as the data file has them."""
-    loaded: dict[str, dict[str, dict[str, Any]]] = _data("inputs.yaml")
-    return loaded
-
-
-def _data(file: str) -> Any:
-    """Return what a data file of this floor holds."""
-    text = resources.files("tvimdesign.device.table").joinpath(file).read_text(encoding="utf-8")
-    return yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+_all_inputs = partial(own_data, __file__, "inputs.yaml")
+"""The inputs by group and name."""

@@ -9,24 +9,21 @@ import io
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
-from importlib import resources
+from functools import partial
 from typing import Any, Literal
 
 from pydantic import ConfigDict, with_config
 from typing_extensions import TypedDict
 
 from tvimdesign.base.units import from_si, pretty, si_unit
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 
 _CAPITALS = {"pcl": "PCL", "peltier": "heater", "peltiers": "heaters"}
 _NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^[a-z]+(?= [<>]=)")
 
 
-@cache
-def _labels() -> dict[str, str]:
-    """Return labels of quantities whose names do not read as words."""
-    return dict(plain_data(resources.files(__package__).joinpath("labels.yaml").read_text(encoding="utf-8")))
+_labels = partial(own_data, __file__, "labels.yaml")
+"""Labels of quantities whose names do not read as words."""
 
 
 def name_in_words(name: str) -> str:

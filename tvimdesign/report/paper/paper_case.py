@@ -7,12 +7,11 @@ times are simulated when they are asked for.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
-from importlib import resources
-from typing import TYPE_CHECKING, Any
+from functools import cache, partial
+from typing import TYPE_CHECKING
 
 from tvimdesign.base.units import to_si
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import read_study_text
 
@@ -23,12 +22,9 @@ PLACES = {"mean_time": "mean", "near_face_time": "near face", "far_face_time": "
 """Places of a thermometer in the PCL, by the time that it tells."""
 
 
-@cache
-def case() -> dict[str, Any]:
-    """Return the content of `paper_case.yaml`."""
-    text = resources.files("tvimdesign.report.paper").joinpath("paper_case.yaml").read_text(encoding="utf-8")
-    loaded: dict[str, Any] = plain_data(text)
-    return loaded
+case = partial(own_data, __file__, "paper_case.yaml")
+claims = partial(own_data, __file__, "paper_claims.yaml")
+"""What the paper states: values with units, and the places."""
 
 
 @cache
@@ -61,14 +57,6 @@ def _case() -> str:
 def _both(name: str, times: tuple[dict[str, float], dict[str, float]]) -> str:
     shear, compression = (each[name] for each in times)
     return f"{shear:.0f} and {compression:.0f} s ({compression / shear:.2f})"
-
-
-@cache
-def claims() -> dict[str, Any]:
-    """Return what the paper states: values with units, and the places."""
-    text = resources.files("tvimdesign.report.paper").joinpath("paper_claims.yaml").read_text(encoding="utf-8")
-    loaded: dict[str, Any] = plain_data(text)
-    return loaded
 
 
 def from_paper(name: str) -> float:

@@ -13,12 +13,11 @@ from typing import Any
 
 from tvimdesign.base.errors import InputError, UnitError
 from tvimdesign.base.units import parse_quantity, to_si
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement
 from tvimdesign.simulation.measurement.reading.data_file import Block, DataFile, read_data_file
 from tvimdesign.simulation.measurement.reading.headings import ColumnMap
 
-_FILE = Path(__file__).with_name("kinds.yaml")
 _KELVIN = 6.0
 _THIRD, _STRAY, _TAKEN_OFF, _ON = 0.33, 0.1, 0.1, 3
 
@@ -146,7 +145,7 @@ def _changes(block: Block, name: str, *, settled: bool = False) -> bool:
 def kind_sheets() -> dict[str, KindSheet]:
     """Return every kind by its name."""
     sheets = {}
-    for name, entry in plain_data(_FILE.read_text(encoding="utf-8")).items():
+    for name, entry in own_data(__file__, "kinds.yaml").items():
         columns = {key: _words(entry.get(key, "")) for key in ("varies", "constant", "decided_by", "excluded_by")}
         needs, takes = tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ()))
         sheets[name] = KindSheet(name=name, **{**entry, **columns, "needs": needs, "takes": takes})

@@ -2,13 +2,12 @@
 
 import re
 from collections.abc import Iterable
-from functools import cache
-from importlib import resources
+from functools import partial
 from typing import Any
 
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 from tvimdesign.device import Input, Output, Table
 from tvimdesign.study.sections.section import (
     NUMBER,
@@ -51,12 +50,8 @@ _ROBUST_KEYS: Schema = {
 _MOST_SIGMAS = 6.0
 
 
-@cache
-def standard_entries() -> dict[str, dict[str, Any]]:
-    """Return the usual tolerances by input, as they stand in the file."""
-    file = resources.files("tvimdesign.study.sections").joinpath("tolerances.yaml")
-    entries_by_name: dict[str, dict[str, Any]] = plain_data(file.read_text(encoding="utf-8"))
-    return entries_by_name
+standard_entries = partial(own_data, __file__, "tolerances.yaml")
+"""The usual tolerances by input."""
 
 
 def standard_tolerances(table: Table) -> dict[str, Tolerance]:

@@ -5,11 +5,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cache
-from importlib.resources import files
 from typing import Protocol
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 
 MOST_SHOWN = 50
 """How many problems an error prints; the rest is counted."""
@@ -139,8 +138,7 @@ def often_first(names: Iterable[str]) -> list[str]:
 @cache
 def synonyms() -> dict[str, tuple[str, ...]]:
     """Return words that people write, each with the quantities and terms that it means."""
-    text = files("tvimdesign.study.text").joinpath("synonyms.yaml").read_text(encoding="utf-8")
-    return {word: tuple(terms) for word, terms in plain_data(text).items()}
+    return {word: tuple(terms) for word, terms in own_data(__file__, "synonyms.yaml").items()}
 
 
 def one_of(names: list[str]) -> str:

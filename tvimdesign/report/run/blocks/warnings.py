@@ -3,13 +3,12 @@
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
-from importlib import resources
+from functools import partial
 from typing import Any, NamedTuple
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.units import format_quantity, from_si
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data, plain_data
 from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.output.terminal import duration
@@ -60,11 +59,8 @@ def warnings_of(answer: StudyResult, doubts: Sequence[str], deadline: Deadline =
     return sorted([*warnings, *from_records], key=lambda warning: _LEVELS.index(warning.level))
 
 
-@cache
-def hints() -> dict[str, dict[str, Any]]:
-    """Return what `warnings.yaml` has on each advice and rating, and on what else is warned of."""
-    file = resources.files("tvimdesign.report.run.blocks").joinpath("warnings.yaml")
-    return dict(plain_data(file.read_text(encoding="utf-8")))
+hints = partial(own_data, __file__, "warnings.yaml")
+"""Texts on each advice and rating, and on what else is warned of."""
 
 
 def _hint(name: str, value: float = -math.inf) -> dict[str, Any]:

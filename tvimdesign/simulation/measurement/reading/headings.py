@@ -7,7 +7,7 @@ import re
 import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,10 +15,10 @@ import yaml
 
 from tvimdesign.base.errors import InputError, UnitError
 from tvimdesign.base.units import parse_quantity, pretty, si_unit
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.yaml_data import own_data
 from tvimdesign.simulation.measurement.reading.sheets import DECIMALS, SEPARATORS
 
-_FILE = Path(__file__).with_name("headings.yaml")
+known = partial(own_data, __file__, "headings.yaml")
 _IN_BRACKETS = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])]")
 _AFTER_SLASH = re.compile(r"([^/]*[^/\s.])\.?\s*/\s*(\S.*)")
 _IN_WORDS = re.compile(r"(.*\S)(?:\s+in|\s*,)\s+(\S+)")
@@ -41,13 +41,6 @@ class Heading(NamedTuple):
     text: str
     quantity: str
     unit: str
-
-
-@cache
-def known() -> dict[str, Any]:
-    """Return the content of `headings.yaml`."""
-    content: dict[str, Any] = plain_data(_FILE.read_text(encoding="utf-8"))
-    return content
 
 
 @cache
