@@ -18,10 +18,14 @@ def module_of(mode: str) -> ResolvedModule:
 
 @cache
 def model_of(mode: str, step: float | None = None) -> JointModel:
-    resolved = module_of(mode)
+    return joint_of(module_of(mode), step)
+
+
+def joint_of(resolved: ResolvedModule, step: float | None = None) -> JointModel:
     inertia = float(resolved.quantity("parts_inertia"))
     base = RigidBody("base", 0.1, (0.0, 0.0, 0.0), ((1e-4, 0.0, 0.0), (0.0, 1e-4, 0.0), (0.0, 0.0, 1e-4)), "base.stl")
-    off = 0.004
+    off = min(0.004, (0.2 * inertia / 0.05) ** 0.5)
     about = inertia - 0.05 * off**2
-    tensor = ((0.6 * about, 1e-7, 2e-7), (1e-7, 0.7 * about, 3e-7), (2e-7, 3e-7, about))
+    small = min(1e-7, 0.02 * about)
+    tensor = ((0.6 * about, small, 2 * small), (small, 0.7 * about, 3 * small), (2 * small, 3 * small, about))
     return joint_model(resolved, base, RigidBody("moving", 0.05, (off, 0.0, 0.006), tensor, "moving.stl"), step)

@@ -26,6 +26,8 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 ROOT = Path(__file__).resolve().parents[2]
 STUDIES = sorted((ROOT / "studies").glob("*.yaml"))
 """The studies that ship."""
+TASKS = sorted((ROOT / "studies/tasks").glob("*.yaml"))
+"""Studies of a task, which ship beside them."""
 Command = Callable[..., CompletedProcess[str]]
 TRANSFORMED = {"hold_angle", "set_angle", "backlash", "relaxation_loss"}
 """Rows read off a Laplace transform, whose weights cancel: other rounding shows in the tenth digit."""
@@ -33,8 +35,8 @@ TRANSFORMED = {"hold_angle", "set_angle", "backlash", "relaxation_loss"}
 
 def study_path(name: str) -> Path:
     """Return the path of a study by name: shipped, or kept for tests."""
-    shipped = ROOT / f"studies/{name}.yaml"
-    return shipped if shipped.exists() else ROOT / f"tests/studies/{name}.yaml"
+    places = (ROOT / folder / f"{name}.yaml" for folder in ("studies", "studies/tasks", "tests/studies"))
+    return next((path for path in places if path.exists()), ROOT / f"tests/studies/{name}.yaml")
 
 
 def sample_text(name: str) -> str:

@@ -7,7 +7,7 @@ from functools import cache
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import PHASES, Output, Quantity, Scalar
-from tvimdesign.device.table.quantity_group import gather
+from tvimdesign.device.table.quantity_group import gather, with_parts
 from tvimdesign.device.table.table import Table
 
 LOCK = "lock"
@@ -23,9 +23,9 @@ def table_for(mode: str) -> Table:
     from tvimdesign.device.mode_files import FILES_OF_MODE, SHARED_FILES
 
     if mode != LOCK:
-        return Table(gather((*SHARED_FILES, *FILES_OF_MODE[mode]), (mode,)), PHASES)
+        return Table(with_parts(gather((*SHARED_FILES, *FILES_OF_MODE[mode]), (mode,))), PHASES)
     sprung = gather((*SHARED_FILES, *FILES_OF_MODE["shear"]), ("shear", LOCK))
-    return Table(without_springs(sprung, gather(FILES_OF_MODE[LOCK], ())), PHASES)
+    return Table(with_parts(without_springs(sprung, gather(FILES_OF_MODE[LOCK], ()))), PHASES)
 
 
 def without_springs(quantities: Iterable[Quantity], own: Iterable[Quantity]) -> tuple[Quantity, ...]:

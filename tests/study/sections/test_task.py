@@ -8,6 +8,7 @@ import yaml
 from support import study_path
 
 from tvimdesign.device import table_for
+from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import given
 from tvimdesign.study.reader import read_study_text
 from tvimdesign.study.sections.all_sections import written
@@ -55,3 +56,15 @@ def test_a_csv_is_a_trajectory_and_what_is_none_is_refused(tmp_path: Path) -> No
     ):  # fmt: skip
         with pytest.raises(StudyError, match=words):
             read_study_text(_text({**TASK, "trajectory": trajectory}), folder=tmp_path)
+
+
+def test_a_margin_is_limited_by_each_part_that_holds() -> None:
+    study = read_study_text(_text({**TASK, "payload": "1 kg"}))
+    table, chosen = study.table, given(study)
+    whole = table.output("task_torque_margin")
+    parts = [name for name in whole.least_of if table.output(name).exists(chosen)]
+    values = table.evaluate(chosen, [whole.name, *parts])
+    assert values[whole.name] == min(values[name] for name in parts)
+    limited = {limit.output for limit in constraints_of(study, table, chosen)}
+    assert limited.issuperset(parts)
+    assert whole.name not in limited

@@ -234,6 +234,15 @@ def impact_stop_margin(m: Module) -> Scalar:
     return m.stop_angle - m.impact_deflection_at_hot
 
 
+_BREAKS = "the frozen joint holds less than the impact's largest torque"
+
+
+@quantities.output("N*m", advice=(Rule(sense=">=", value=0.0, reason=_BREAKS),), rises_with="holding_torque")
+def impact_torque_margin(m: Module) -> Scalar:
+    """Torque that the frozen joint holds beyond that of the impact."""
+    return m.holding_torque - m.impact_torque_at_cold
+
+
 # --- all of it -------------------------------------------------------------------------------------------------------
 
 
@@ -246,7 +255,9 @@ def task_torque(m: Module) -> Scalar:
 _WEAK = "the frozen joint holds less than `load_safety` times the torque of its task"
 
 
-@quantities.output("N*m", at_least(0.0, f"{_WEAK}: less payload, or a module that holds more"))
+@quantities.output(
+    "N*m", at_least(0.0, f"{_WEAK}: less payload, or a module that holds more"), rises_with="holding_torque"
+)
 def task_torque_margin(m: Module) -> Scalar:
     """Torque that the frozen joint holds beyond `load_safety` times that of its task."""
     return m.holding_torque - m.load_safety * m.task_torque_at_cold

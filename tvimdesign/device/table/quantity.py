@@ -155,6 +155,10 @@ class Output:
     """True for a quantity that the summary shows."""
     least_of: tuple[str, ...] = ()
     """The quantities this one is the least of; a lower limit on it is put on each of them, which have no kinks."""
+    rises_with: str = ""
+    """The quantity it rises with, where that is the least of others: it is the least of what it would be with each."""
+    instead: str = ""
+    """The one of those that it has in place of that."""
     also_limited: tuple[str, ...] = ()
     """The quantities on which each limit on this one is put as well, from whichever side."""
     at_end: str = ""
@@ -195,7 +199,8 @@ class Output:
         First those that say whether the module has the quantity's features.
         """
         named = (template_name(name, self.of).replace("_at_", "@") for name in self.reads)
-        return (*(feature.choice for feature in self.requires), *named)
+        read = (self.instead if self.instead and name == self.rises_with else name for name in named)
+        return (*(feature.choice for feature in self.requires), *read)
 
     def call(self, arguments: Sequence[Any]) -> Scalar:
         """Apply the function to the values of `needs`, in order; `default` where the module lacks a feature."""

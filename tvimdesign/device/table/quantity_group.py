@@ -1,6 +1,7 @@
 """Collection of a file's quantities: a function's name is the quantity's name, its docstring the description."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import cache, partial
 from types import ModuleType
 from typing import Any, Literal, TypeVar
@@ -153,6 +154,7 @@ class QuantityGroup:
         hidden: bool = False,
         headline: bool = False,
         least_of: tuple[str, ...] = (),
+        rises_with: str = "",
         also_limited: tuple[str, ...] = (),
         at_end: str = "",
         parts_differ_with: Feature | None = None,
@@ -164,9 +166,9 @@ class QuantityGroup:
 
         return self._add(
             Output, unit, rules=rules, advice=advice, ratings=ratings, per_point=per_point, instant=instant,
-            hidden=hidden, headline=headline, least_of=least_of, also_limited=also_limited, at_end=at_end,
-            parts_differ_with=parts_differ_with, requires=self.requires if requires is None else requires,
-            sprung=sprung or self.sprung, default=default,
+            hidden=hidden, headline=headline, least_of=least_of, rises_with=rises_with, also_limited=also_limited,
+            at_end=at_end, parts_differ_with=parts_differ_with,
+            requires=self.requires if requires is None else requires, sprung=sprung or self.sprung, default=default,
         )  # fmt: skip
 
     def from_template(
@@ -242,6 +244,27 @@ class QuantityGroup:
             return function
 
         return add
+
+
+def with_parts(quantities: Iterable[Quantity]) -> tuple[Quantity, ...]:
+    """Return quantities, and what rises with the least of others once more for each of these, with its rules."""
+    listed = tuple(quantities)
+    outputs = {quantity.name: quantity for quantity in listed if isinstance(quantity, Output)}
+    every: list[Quantity] = []
+    for quantity in listed:
+        if not isinstance(quantity, Output) or not quantity.rises_with:
+            every.append(quantity)
+            continue
+        whole = quantity.rises_with
+        parts = [
+            replace(
+                quantity, name=name.replace(whole, quantity.name), description=f"{quantity.description}, by `{name}`",
+                instead=name, requires=(*quantity.requires, *outputs[name].requires), headline=False, advice=(),
+            )
+            for name in outputs[whole].least_of
+        ]  # fmt: skip
+        every += [replace(quantity, least_of=tuple(part.name for part in parts), rules=()), *parts]
+    return tuple(every)
 
 
 def gather(files: Iterable[ModuleType], modes: tuple[str, ...]) -> tuple[Quantity, ...]:
