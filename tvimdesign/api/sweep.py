@@ -102,7 +102,7 @@ class Sweep(Generic[StudyT]):
         values_shown = status_values(
             StoredCell(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted]
         )
-        numbers = (math.nan if one is None else one for one in (*self.plan.axis_values(number), *values_shown))
+        numbers = (math.nan if value is None else value for value in (*self.plan.axis_values(number), *values_shown))
         return dict(zip([*heads, *wanted], numbers, strict=True))
 
     def plot(self, name: str) -> Figure:
