@@ -1,6 +1,7 @@
 """Repeated switching: its periodic state against many cycles, its limit, and what a study reports."""
 
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,14 +11,20 @@ from robot_models import module_of
 from scipy.integrate import solve_ivp
 from support import study_path
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.report.output.tables import duty_entry
 from tvimdesign.report.run.blocks.facts import main_facts, more_facts
+from tvimdesign.report.run.reasons import complaint
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.solve.duty import HOUR, Duty, DutyCycle
 from tvimdesign.solve.result import answer
 from tvimdesign.study.reader import read_study_text
 from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.study import Requirement
+from tvimdesign.study.text.mistakes import StudyError
+from tvimdesign.study.tree import tree_of_text
+from tvimdesign.sweep.plan import plan_of
 
 SOFT = 60.0
 
@@ -145,3 +152,51 @@ def test_a_study_reports_its_duty() -> None:
     without = answer(read_study_text(text))
     assert without.duty is None
     assert without.design.values == asked.design.values
+
+
+@pytest.mark.parametrize(
+    ("sections", "words"),
+    [
+        ("require: {response_time@duty: '<= 60 s'}", "the study has no duty"),
+        ("duty: {switches_per_hour: 2}\nrequire: {module_mass@duty: '<= 60 g'}", "is not simulated in a duty"),
+        ("control: {draws: 2}\nrequire: {return_time@control: '<= 60 s'}", "is not simulated in a control"),
+    ],
+)
+def test_a_limit_on_what_is_not_simulated_is_refused(sections: str, words: str) -> None:
+    with pytest.raises(StudyError, match=words):
+        read_study_text(f"mode: shear\n{sections}")
+
+
+def test_limits_of_both_are_read_written_and_checked() -> None:
+    text = study_path("paper_reconstructed").read_text()
+    limits = "{return_time@duty: '<= 3000 s', response_time@control: '<= 1 s'}"
+    study = read_study_text(f"{text}\nduty: {{switches_per_hour: 2}}\ncontrol: {{draws: 2}}\nrequire: {limits}\n")
+    assert (len(study.require), len(study.simulated)) == (0, 2)
+    assert written(study)["require"].keys() == {"return_time@duty", "response_time@control"}
+    result = answer(study)
+    satisfied = {check.output: check.kept for check in result.checks if check.origin == "require"}
+    assert satisfied == {"return_time@duty": True, "response_time@control": False}
+    assert not result.feasible
+
+
+@pytest.mark.gate
+def test_a_limit_in_the_duty_is_kept_by_another_search() -> None:
+    text = study_path("paper_shear").read_text()
+    asked = read_study_text(f"{text}\nduty: {{switches_per_hour: 4}}\n")
+    rows = (Requirement(output="return_time@duty", sense="<=", limit=292.0, text="<= 292 s"),)
+    progress: list[str] = []
+    result = answer(asked.model_copy(update={"simulated": rows}), progress.append)
+    assert result.design.status == "optimal"
+    assert result.feasible
+    assert 285.0 < result.design.values["return_time@duty"] <= 292.0
+    assert any("searching again" in line for line in progress)
+    missed = answer(asked.model_copy(update={"simulated": (rows[0].model_copy(update={"limit": 20.0}),)}))
+    assert not missed.found
+    assert [check.output for check in missed.checks if not check.kept] == ["return_time@duty"]
+    assert "switches_per_hour" in complaint(missed, asked.table)
+
+
+def test_a_sweep_refuses_limits_on_a_duty() -> None:
+    text = "mode: shear\nduty: {switches_per_hour: 2}\nrequire: {return_time@duty: '<= 60 s'}"
+    with pytest.raises(InputError, match="return_time@duty: a sweep simulates no duty"):
+        plan_of(tree_of_text(f"{text}\nsweep: {{over: {{pcl_thickness: [1 mm]}}}}", "study", "study", Path()))

@@ -5,7 +5,7 @@ next switch. The engine steps these phases as it does those of one cycle; only t
 """
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +64,8 @@ class DutyResult:
     """Most switches an hour that keep every rating and leave time for both ways."""
     limited_by: str
     """What more of them would exceed: a rating, or `time`."""
+    quantities: dict[str, float] = field(default_factory=dict)
+    """Every quantity, with what the periodic cycle supplies."""
 
 
 class Duty:
@@ -219,4 +221,5 @@ def duty_of(
     state, cycle = returning
     shown = {name: cycle.values[name] for name in SHOWN if name in cycle.values}
     above = tuple(duty.above(cycle.values, study.accept))
-    return DutyResult(shown, above, duty.settling(state, period), 24.0 * requested * cycle.energy, most, by)
+    energy, quantities = 24.0 * requested * cycle.energy, duty.values_of(cycle.values)
+    return DutyResult(shown, above, duty.settling(state, period), energy, most, by, quantities)

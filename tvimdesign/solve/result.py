@@ -23,17 +23,21 @@ from tvimdesign.solve.nlp.constraints import (
     advice_of,
     constraints_of,
     in_words,
+    make_constraint,
     refuse_impossible,
 )
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL, Progress
+from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL, SIMULATED_MISSED, Progress
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, exceeded, happened, kept, sorted_by_acceptance
 from tvimdesign.solve.search import Keep, Search, SearchInterrupted, optimize
 from tvimdesign.solve.variants import Cooling, Idealization, cooling, idealizations
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
+from tvimdesign.study.study import CONTROL, CONTROLLED, DUTY, Requirement
 from tvimdesign.study.written_studies import started_at
 
+ROUNDS = 2
+"""Searches with tighter limits, at most, where a limit on what is simulated of the design is violated."""
 Designed = Callable[[Design, Solution | None], None]
 """Receiver of a design as soon as it exists."""
 
@@ -139,12 +143,53 @@ def answer(
         return _result(study, None, designed)
     solution = search(study, progress, reference, keep, objectives)
     try:
-        return _result(study, solution, designed)
+        result = _result(study, solution, designed)
+        for _ in range(ROUNDS):
+            closer = _tightened(study, result)
+            if closer is None:
+                break
+            progress("searching again: a limit on what is simulated of the design is violated")
+            solution = search(closer, progress, reference, keep, objectives)
+            again = _result(study, solution, designed)
+            if again.design.status != SIMULATED_MISSED and not again.found:
+                break
+            result = again
+        return result
     except KeyboardInterrupt as interrupt:
         if solution.status not in {OPTIMAL, BELOW_YIELD}:
             raise
         inputs = dict(zip(solution.model.names, solution.inputs.tolist(), strict=True))
         raise SearchInterrupted(started_at(study, inputs, _choices(solution.model, study.table))) from interrupt
+
+
+def _tightened(study: Study, result: StudyResult) -> Study | None:
+    """Return the study with limits that what is simulated would keep, if both differ as they do now; None if it does.
+
+    An output is limited in the switch from ambient by as much more as it is beyond that in a duty, or under control.
+    """
+    if result.design.status != SIMULATED_MISSED:
+        return None
+    values, limits = result.design.values, []
+    for limit in study.simulated:
+        base = limit.output.partition("@")[0]
+        least = limit.limit - (values[limit.output] - values[base])
+        if not np.isfinite(least) or limit.limit > 0.0 >= least:
+            return None
+        limits.append(Requirement(output=base, sense=limit.sense, limit=least, text=limit.text))
+    return study.model_copy(update={"require": (*study.require, *limits)})
+
+
+def _simulated(
+    study: Study, duty: DutyResult | None, control: ControlResult | None, values: Mapping[str, float]
+) -> dict[str, float]:  # fmt: skip
+    """Return the limited outputs in a duty and under the controller; NaN where there is no such cycle."""
+    seen = dict(duty.quantities) if duty else {}
+    of_state = {DUTY: seen, CONTROL: {}}
+    if control:
+        slower = control.settling_of_nominal * values["response_time"]
+        of_state[CONTROL] = dict(zip(CONTROLLED, (slower, control.hottest_pads), strict=True))
+    parted = ((limit.output, *limit.output.split("@")) for limit in study.simulated)
+    return {name: of_state[state].get(base, np.nan) for name, base, state in parted}
 
 
 def _result(study: Study, solution: Solution | None, designed: Designed) -> StudyResult:
@@ -165,6 +210,16 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
     seen = _seen(resolved, exists=solution is None or status in {OPTIMAL, BELOW_YIELD})
     open_values |= {name: (low, high) for name, (_, low, high) in seen.items() if low < high}
     values = values | {name: nominal for name, (nominal, _, _) in seen.items()}
+    exists = solution is None or status in {OPTIMAL, BELOW_YIELD}
+    duty = duty_of(study, model, inputs, current_profiles) if exists else None
+    control = control_of(resolved) if exists else None
+    values |= _simulated(study, duty, control, values) if exists else {}
+    simulated = tuple(
+        _check(make_constraint(table, limit.output, limit.sense, limit.limit, "require"), values, table, {})
+        for limit in (study.simulated if exists else ())
+    )
+    if solution is not None and not all(check.kept for check in simulated):
+        status = SIMULATED_MISSED
     ratings = {limit.output: _check(limit, values, table, open_values) for limit in exceeded(values, table)}
     above, accepting = sorted_by_acceptance(ratings, study.accept)
     design = Design(
@@ -183,7 +238,8 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
     )
     if _is_found(design, solution):
         designed(design, solution)
-    checks = tuple(_check(limit, values, table, open_values) for limit in constraints_of(study, table, resolved.values))
+    required = constraints_of(study, table, resolved.values)
+    checks = (*(_check(limit, values, table, open_values) for limit in required), *simulated)
     advice = [
         limit
         for limit in advice_of(table)
@@ -199,8 +255,8 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         intervals=open_values,
         constant_current=_at_constant_current(model, inputs, set(current_profiles)),
         cooling=cooling(model, inputs, values, current_profiles),
-        duty=duty_of(study, model, inputs, current_profiles) if _is_found(design, solution) else None,
-        control=control_of(resolved) if _is_found(design, solution) else None,
+        duty=duty,
+        control=control,
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.study.resolve import with_fitting_defaults
 from tvimdesign.study.sections.all_sections import NAMES, SECTIONS
+from tvimdesign.study.sections.goals import is_simulated
 from tvimdesign.study.sections.sweep_block import SweepBlock
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted
@@ -61,6 +62,9 @@ def _read(tree: StudyTree, table: TableOf, catalog: CatalogOf) -> tuple[Study, S
     problems.stop()
     fields = {name: read[name] for name in Study.model_fields if name in read}
     fields["trajectory"] = read["task"]["trajectory"] if mode else None
+    limits = fields.get("require", ())
+    fields["simulated"] = tuple(limit for limit in limits if is_simulated(limit.output, reading.points))
+    fields["require"] = tuple(limit for limit in limits if limit not in fields["simulated"])
     named = {"name": read["name"] or tree.name, "mode": mode, "catalog_folder": folder.as_posix() if folder else None}
     study = Study(**{**fields, **named}).based_on(reading.catalog, reading.table)
     return with_fitting_defaults(study), read["sweep"]

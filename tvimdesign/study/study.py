@@ -193,6 +193,8 @@ class Study(_Part):
     module: dict[str, float | str] = {}
     vary: dict[str, Vary] = {}
     require: tuple[Requirement, ...] = ()
+    simulated: tuple[Requirement, ...] = ()
+    """Limits on `output@duty` and `output@control`, which are simulated once a design is found."""
     accept: tuple[str, ...] = ()
     """Ratings beyond which the design may be, by the quantity's name."""
     minimize: dict[str, float] = {}
@@ -269,6 +271,10 @@ class Study(_Part):
         return "optimize" if self.vary else "evaluate"
 
 
+DUTY, CONTROL = "duty", "control"
+"""What is simulated of a design once it is found; it follows `@` in the name of an output there."""
+CONTROLLED = ("response_time", "peak_peltier_temperature")
+"""Outputs that are simulated under the controller."""
 _SAME_TEMPERATURE = 1e-6
 """Kelvin by which two temperatures may differ by rounding."""
 _CACHED = {"catalog": "catalog_folder", "table": "mode"}

@@ -221,6 +221,11 @@ def plan_of(tree: StudyTree) -> SweepPlan:
             f"{tree.file}: there is no `sweep:`; add, for one, "
             "sweep: {over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 20}}}"
         )
+    if study.simulated:
+        listed = ", ".join(limit.output for limit in study.simulated)
+        raise InputError(
+            f"require: {listed}: a sweep simulates no duty and no controller; leave it out, or `run` a cell"
+        )
     plan = SweepPlan(without_section(without_section(tree, "sweep"), "front"), study, block, tree)
     if plan.count > block.most:
         raise InputError(

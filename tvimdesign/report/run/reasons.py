@@ -132,6 +132,8 @@ def complaint(answer: StudyResult, table: Table) -> str:
     if not conflict_set:
         held = [h.text for h in solution.held if abs(h.residual) <= NOTHING] if solution else []
         lines += ["These stand in the way there, at their limits:", *(f"  {text}" for text in held)] if held else []
+    if any(check.output.endswith("@duty") for check in broken):
+        lines.append("Fewer `duty.switches_per_hour`, or a shorter `duty.soft`, may do.")
     if math.isinf(answer.design.value("response_time")):
         lines.append("The switch does not end there within `horizon`.")
     if (answer.design.study.get("robust") or {}).get("sigma") is not None:

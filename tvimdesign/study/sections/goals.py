@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Collection
 
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
@@ -16,7 +17,16 @@ from tvimdesign.study.sections.section import (
     mapping,
     output_name,
 )
-from tvimdesign.study.study import FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement, Study
+from tvimdesign.study.study import (
+    CONTROL,
+    CONTROLLED,
+    DUTY,
+    FEWEST_POINTS,
+    MOST_POINTS,
+    FrontOptions,
+    Requirement,
+    Study,
+)
 from tvimdesign.study.text.mistakes import one_of, quoted, step
 from tvimdesign.study.text.values import (
     Reading,
@@ -43,7 +53,7 @@ def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...
     requirements: list[Requirement] = []
     for name, (key, value) in entries(reading.problems, node, "require", "outputs, each with its limits").items():
         path = step("require", name)
-        row = named_output(reading, key, path, name)
+        row = (_simulated if is_simulated(name, reading.points) else named_output)(reading, key, path, name)
         if row is None:
             continue
         read = _limits(reading, value, path, name, row)
@@ -146,6 +156,31 @@ def named_output(reading: Reading, key: Text, path: str, name: str) -> Output | 
     return None
 
 
+def is_simulated(name: str, points: Collection[str]) -> bool:
+    """Return whether the full name of an output means its value in a duty or under the controller."""
+    return name.partition("@")[2] in {DUTY, CONTROL} - set(points)
+
+
+def _simulated(reading: Reading, key: Text, path: str, name: str) -> Output | None:
+    """Return the output that is limited in a duty or under the controller, None (and a problem) where there is none."""
+    base, _, state = name.partition("@")
+    row = named_output(reading, key, path, base)
+    if row is None:
+        return None
+    duty, control = reading.section("duty"), reading.section("control")
+    if not (duty.switches_per_hour if state == DUTY else control.draws):
+        wanted = f"`{DUTY}: {{switches_per_hour: 6}}`" if state == DUTY else f"`{CONTROL}: {{draws: 64}}`"
+        reading.problems.add(key, path, f"the study has no {state}", wanted)
+    elif base not in (reading.table.behind_supplied if state == DUTY else CONTROLLED):
+        expected = (
+            "an output of the switch, such as peak_peltier_temperature" if state == DUTY else one_of(list(CONTROLLED))
+        )
+        reading.problems.add(key, path, f"is not simulated in a {state}", expected)
+    else:
+        return row
+    return None
+
+
 def _limits(reading: Reading, node: Node, path: str, name: str, row: Output) -> list[Requirement]:
     if isinstance(node, Sequence):
         if not 1 <= len(node.items) <= MOST_LIMITS:
@@ -199,7 +234,7 @@ def _contradictions(reading: Reading, node: Node, path: str, row: Output, read: 
 
 def _write_require(study: Study) -> dict[str, list[str]]:
     limits: dict[str, list[str]] = {}
-    for limit in study.require:
+    for limit in (*study.require, *study.simulated):
         unit = study.table.unit(limit.output)
         same = limit.text.startswith(limit.sense) and _reads_as(limit.text.removeprefix(limit.sense), unit, limit.limit)
         text = limit.text if same else f"{limit.sense} {exactly(limit.limit, unit)}"
@@ -216,7 +251,10 @@ def _reads_as(text: str, unit: str, value: float) -> bool:
 
 def _require_schema(table: Table) -> Schema:
     limits = [LIMIT, {"type": "array", "minItems": 1, "items": LIMIT}]
-    return mapping({}, by_output(table, {"anyOf": limits}))
+    either: Schema = {"anyOf": limits}
+    simulated = {f"^({'|'.join(names)})@{state}$": either for state, names in
+                 ((DUTY, sorted(table.behind_supplied)), (CONTROL, CONTROLLED))}  # fmt: skip
+    return mapping({}, by_output(table, either) | simulated)
 
 
 def _front_schema(table: Table) -> Schema:

@@ -49,13 +49,15 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
     """Return an entry for each output the study requires something of, then the machine's violated rules."""
     table, intervals = table_for(answer.design.mode), uncertainty.get("intervals", {})
     limits_by_output: dict[str, list[Mapping[str, Any]]] = {}
-    for limit in answer.design.study["require"]:
+    for limit in (*answer.design.study["require"], *answer.design.study.get("simulated", ())):
         limits_by_output.setdefault(limit["output"], []).append(limit)
     rows = []
     for name, limits in limits_by_output.items():
         checks = [
             check for check in answer.checks if check.origin == "require" and name in (check.output, check.part_of)
         ]
+        if not checks:  # of a search without a design nothing was simulated
+            continue
         first = measure_first(name, uncertainty)
         row = _requirement(answer, table, name, _limit_text(limits, table.unit(name)), checks)
         spread = range_text(_interval(_limited(checks, name, table), intervals))
