@@ -33,7 +33,7 @@ def _completing(place: str) -> Callable[[str], list[str]]:
 
 tests = _completing("tvimdesign.simulation.virtual_tests:TESTS")
 kinds = _completing("tvimdesign.simulation.measurement.measure_files:kind_sheets")
-examples = _completing("tvimdesign.report.run.study_files:examples")
+examples = _completing("tvimdesign.study.written_studies:examples")
 modes = _completing("tvimdesign.report.rows:MODES")
 rows = _completing("tvimdesign.report.rows:row_names")
 settings = _completing("tvimdesign.report.rows:setting_names")

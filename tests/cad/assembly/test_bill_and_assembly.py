@@ -6,6 +6,7 @@ Notes on putting modules together, as in notes/ (UPDATE_NOTES=1 rewrites them), 
 import csv
 import io
 import os
+import re
 from collections import Counter
 from collections.abc import Mapping
 from math import pi, radians
@@ -107,7 +108,7 @@ def test_springs_seats_and_screws_are_ordered_by_number_and_fit() -> None:
     for category in ("screws", "dowel_pins"):
         for record in (Catalog().record(category, name) for name in Catalog().names(category)):
             assert record.words["designation"].count("{length}") == 1, record.name
-            assert record.words["designation"].startswith(record.title.split(" ISO ")[0]), record.name
+            assert record.words["designation"].startswith(re.split(" ISO | DIN ", record.title)[0]), record.name
 
 
 @pytest.mark.parametrize(
