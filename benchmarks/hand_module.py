@@ -370,7 +370,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[28] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
     g[29] = 1.0 - (r - pin_at - offset) / 1e-3
     g[30] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
-    g[31] = 1.0 - (outer - INNER) / 5e-3
+    g[31] = 1.0 - (outer - INNER) / 2e-3
     g[32] = -(outer - INNER - 2.0 * LEDGE) / 0.01
     g[33] = -post / 0.01
     g[34] = -(2.0 * r * math.sin(PI / SPRINGS) - 2.0 * reach - RADIAL) / 0.01

@@ -64,6 +64,9 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     cast = "pcl_arc" if design.mode == "shear" else "pcl_block"
     for kind in ("housing", "rotor", "link", "retainer", "heater", cast):
         expected |= {f"drawings/{kind}.dxf", f"drawings/{kind}.pdf"}
+    cut = {file for file in report.files if file.endswith("_cut.dxf")}
+    assert {"drawings/link_cut.dxf", "drawings/retainer_cut.dxf"} <= cut
+    expected |= cut
     assert set(report.files) == expected
     found = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}
     assert found == set(report.files)
