@@ -4,6 +4,7 @@ import csv
 import itertools
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import attack
@@ -64,6 +65,14 @@ def test_an_empty_cell_names_what_ends_it_and_withstands_an_attack(plan, cells, 
     assert cell.limits
     assert cell.values["cycle_time"] > 20.0
     assert not attack.Attack(study_of(plan, cell)).finds_a_design(seed=1)
+
+
+@pytest.mark.gate
+def test_a_cell_is_open_while_a_family_is_missing(plan, folder):
+    larger = replace(plan, hardware=(*plan.hardware, "heavy"))
+    statuses = {cell.status for cell in cells_of(larger, folder)}
+    assert "empty" in {cell.status for cell in cells_of(plan, folder)}
+    assert statuses == {"optimal", "unanswered"}
 
 
 @pytest.mark.gate

@@ -162,11 +162,15 @@ def cells_of(plan: Atlas, folder: Path) -> list[AtlasCell]:
             if family
             for place, row in enumerate(family["cells"])
         ]
-        cells += [_cell(plan, kind, torque, cycle, rows) for torque in plan.torques for cycle in plan.cycles]
+        whole = all(families.values())
+        cells += [
+            _cell(plan, kind, torque, cycle, rows, whole=whole) for torque in plan.torques for cycle in plan.cycles
+        ]
     return cells
 
 
-def _cell(plan: Atlas, kind: str, torque: float, cycle: float, rows: list[Any]) -> AtlasCell:
+def _cell(plan: Atlas, kind: str, torque: float, cycle: float, rows: list[Any], *, whole: bool) -> AtlasCell:
+    """Return the answer of a cell, which is empty only if the kind's families are there as a `whole`."""
     meeting = [
         (row["values"][MASS], hardware, row, intervals)
         for hardware, row, intervals in rows
@@ -178,7 +182,7 @@ def _cell(plan: Atlas, kind: str, torque: float, cycle: float, rows: list[Any]) 
     here = [(hardware, row) for hardware, row, _ in rows if row["torque"] == torque and row["cycle"] == cycle]
     if not here:
         return AtlasCell(kind, torque, cycle, UNANSWERED, "", {}, (), {})
-    status = EMPTY if all(row["status"] == EMPTY for _, row in here) else UNANSWERED
+    status = EMPTY if whole and all(row["status"] == EMPTY for _, row in here) else UNANSWERED
     hardware, nearest = min(here, key=lambda entry: _distance(entry[1]["values"], torque, cycle))
     return AtlasCell(kind, torque, cycle, status, hardware, nearest["values"], tuple(nearest["limits"]), {})
 
