@@ -59,7 +59,9 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
         expected |= {f"mesh/{kind}.stl"} if bought else {f"print/{kind}.stl", f"print/{kind}.3mf"}
     expected |= {f"step/{piece}.step" for piece in ("casting_mould", "casting_lid", "setting_fork")}
     expected |= {
-        f"print/{piece}.{form}" for piece in ("casting_mould", "casting_lid", "setting_fork") for form in ("stl", "3mf")
+        f"{folder}/{piece}.{form}"
+        for piece in ("casting_mould", "casting_lid", "setting_fork")
+        for folder, form in (("print", "stl"), ("print", "3mf"), ("drawings", "dxf"), ("drawings", "pdf"))
     }
     cast = "pcl_arc" if design.mode == "shear" else "pcl_block"
     for kind in ("housing", "rotor", "link", "retainer", "heater", cast):

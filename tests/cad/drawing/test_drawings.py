@@ -30,6 +30,7 @@ from tvimdesign.cad.drawing.spring_sheet import SpringLine, spring_csv, spring_l
 from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import KINDS
+from tvimdesign.cad.parts import jigs
 from tvimdesign.study.design import Design
 
 DRAWN = ("housing", "rotor", "link", "retainer")
@@ -39,7 +40,8 @@ Solids = dict[str, cq.Solid]
 
 def sheet_of(design: Design, kind: str, solid: cq.Solid) -> DrawingSheet:
     asked = drawing_requirements(kind, dimensions(design), design.choices)
-    return part_sheet(kind, solid, product(design, kind), design.name, asked)
+    what = product(design, kind if kind in KINDS else "housing")  # a fixture is of what the housing is of
+    return part_sheet(kind, solid, what, design.name, asked)
 
 
 @pytest.fixture(scope="module", params=["paper", "blocks"])
@@ -129,6 +131,25 @@ def test_a_sheet_has_number_revision_true_size_and_no_date(module: tuple[Design,
     again = sheet_of(design, "retainer", solids["retainer"])
     assert again.pdf() == data
     assert again.dxf() == sheet.dxf()
+
+
+def test_the_fork_s_sheet_has_its_legs_as_drawn_with_their_tolerance() -> None:
+    design = design_of("fork", {})
+    dims = dimensions(design)
+    solid = jigs.fork(dims).Solids()[0]
+    sheet_texts = texts(ezdxf.read(io.StringIO(sheet_of(design, jigs.FORK, solid).dxf().decode())))
+    # Chord of the section of a leg along the middle of its contact with the stops, measured on the solid.
+    radius, level = dims.stop_contact_radius, 0.5 * dims.rotor_top_level
+    ring = cq.Solid.makeTorus(radius, 0.01, cq.Vector(0, 0, level))
+    leg = max(solid.intersect(ring).Solids(), key=lambda one: one.Center().y)
+    width = leg.Volume() / (math.pi * 0.01**2)
+    note = next(text for text in sheet_texts if text.startswith("Legs "))
+    drawn, along, under = map(float, re.findall(r"(?:Legs |R|−)([\d.]+)", note))
+    assert drawn == pytest.approx(width, abs=6e-3)
+    assert along == pytest.approx(radius, abs=6e-3)
+    way = radius * dims.stop_angle
+    assert way > drawn > drawn - under == pytest.approx(way - 2.0 * dims.slip_clearance, abs=6e-3)
+    assert "Printing: turned over; print/ has it so, with wider holes." in sheet_texts
 
 
 def no_text_lies_on_another(kind: str, document: Drawing) -> None:

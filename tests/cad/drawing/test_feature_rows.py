@@ -24,6 +24,7 @@ from tvimdesign.cad.drawing.projection import half_section, section
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION
 from tvimdesign.cad.geometry.solids import block, cylinder, sector, turned
+from tvimdesign.cad.parts import jigs
 
 BARE = DrawingRequirements("", "", printed=True)
 LONG = pytest.mark.slow
@@ -104,9 +105,12 @@ def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
 def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Mapping[str, float | str]) -> None:
     design = design_of("dimensioned", changes, mode)
     dims = dimensions(design)
-    for kind in MODULES[mode].drawn(dims):
-        if PRODUCTION[kind].drawn:
-            solid = drawn_part(dims, kind)
+    parts = {kind: drawn_part(dims, kind) for kind in MODULES[mode].drawn(dims)}
+    cast = parts[jigs.part_of(tuple(parts))]
+    fixtures = {kind: draw(dims, cast).Solids()[0] for kind, draw in jigs.DRAWN.items()}
+    fixtures |= {jigs.FORK: jigs.fork(dims).Solids()[0]} if dims.spring_count else {}
+    for kind, solid in (parts | fixtures).items():
+        if kind in fixtures or PRODUCTION[kind].drawn:
             rows = feature_rows(solid, drawing_requirements(kind, dims, design.choices))
             document = ezdxf.read(io.StringIO(sheet_of(design, kind, solid).dxf().decode()))
             said = texts(document)

@@ -225,15 +225,11 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """
     record = str(design.choices["structure_material"])
     bears = f"of {titles.get('structure_material', record)} where that bears 80 °C, else of aluminium, PC or ABS"
-    jig = [
-        Item(kind, 1, True, record, f"Fixture, {bears}", 0.0, (cad_report.step(kind), cad_report.print_3mf(kind)),
-             fixture=True)
-        for kind in jigs.MAKING
-    ]  # fmt: skip
+    jig = [Item(kind, 1, True, record, f"Fixture, {bears}", 0.0, _papers(kind), fixture=True) for kind in jigs.DRAWN]
     if design.value("spring_count"):
         holds = "Fixture: holds the rotor at rest while its springs are set"
-        fork = (cad_report.step(jigs.FORK), cad_report.print_3mf(jigs.FORK))
-        jig.append(Item(jigs.FORK, jigs.FORK_COUNT, True, record, holds, 0.0, fork, fixture=True))
+        files = _papers(jigs.FORK)
+        jig.append(Item(jigs.FORK, jigs.FORK_COUNT, True, record, holds, 0.0, files, fixture=True))
     release = "Mould release for thermoplastics at 80 °C, wiped thinly on mould and lid"
     return [*jig, Item("mould_release", 1, False, "", release, 0.0, ())]
 
@@ -381,8 +377,9 @@ def _papers(kind: str) -> tuple[str, ...]:
     """Return files a part is made from, or ordered by."""
     if kind in SPRINGS:
         return (cad_report.SPRING_SHEET, cad_report.SPRING_TABLE)
-    drawing = (cad_report.drawing_pdf(kind),) if PRODUCTION[kind].drawn else ()
-    if PRODUCTION[kind].down == "bought":
+    making = jigs.MAKING.get(kind) or PRODUCTION[kind]
+    drawing = (cad_report.drawing_pdf(kind),) if making.drawn else ()
+    if making.down == "bought":
         return (cad_report.step(kind), *drawing)
     return (cad_report.step(kind), *drawing, cad_report.print_3mf(kind))
 

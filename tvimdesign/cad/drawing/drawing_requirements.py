@@ -199,12 +199,22 @@ def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tu
 
 def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[str]:
     """Return further remarks on a kind of part, for the choices of its design."""
-    tang_hole = figure(dims.wire_diameter + 2.0 * dims.tang_clearance) if dims.spring_count else ""
     written = requirements_data()["remarks"].get(kind, ())
+    sizes = _remarked_sizes(dims) if written else {}
     return [
-        one["text"].format(tang_hole=tang_hole) for one in written
-        if all(choices.get(name) == word for name, word in one["choices"].items())
+        one["text"].format_map(sizes) for one in written
+        if all(choices.get(name) == word for name, word in one.get("choices", {}).items())
     ]  # fmt: skip
+
+
+def _remarked_sizes(dims: Dimensions) -> dict[str, str]:
+    """Return the sizes that remarks name, as figures [mm]."""
+    sizes = {"slip": dims.slip_clearance}
+    if dims.spring_count:
+        sizes["tang_hole"] = dims.wire_diameter + 2.0 * dims.tang_clearance
+        sizes["leg_radius"] = dims.stop_contact_radius
+        sizes["leg_width"] = dims.stop_contact_radius * dims.stop_angle - dims.slip_clearance
+    return {name: figure(size) for name, size in sizes.items()}
 
 
 def _is_there(reported: Mapping[str, Any], dims: Dimensions) -> bool:

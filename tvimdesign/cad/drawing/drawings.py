@@ -38,6 +38,7 @@ from tvimdesign.cad.drawing.sheet_layout import (
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.kinds import PRODUCTION
+from tvimdesign.cad.parts import jigs
 
 _PLATE = 1e-6
 """Largest deviation of a plate's volume from area times thickness, relative."""
@@ -190,7 +191,8 @@ def _words(
 ) -> None:  # fmt: skip
     """Write notes and title block."""
     volume = solid.Volume()
-    lying = "standing as in the section" if PRODUCTION[kind].down == "bottom" else "turned over"
+    making = jigs.MAKING.get(kind) or PRODUCTION[kind]
+    lying = "standing as in the section" if making.down == "bottom" else "turned over"
     notes = [
         "Millimetres. Heights h are over the lowest face; in brackets what lies between.",
         *([_AZIMUTHS] if any("°" in row.place for row in rows) else []),

@@ -22,7 +22,9 @@ class Kind:
     """The row of the volume of all of its kind, or of one spring."""
 
 
-_STRUCTURE = ("structure_material", "structure_density")
+STRUCTURE = "structure_material"
+"""The row of the material that the module's process makes parts of."""
+_STRUCTURE = (STRUCTURE, "structure_density")
 
 
 def _kind(colour: Rgb, material: str, density: str, volume: str) -> Kind:
@@ -82,7 +84,7 @@ CHANGING = (*SPRINGS, "pcl_block")
 
 def is_of_structure(kind: str) -> bool:
     """Return whether a kind of part is made by the module's process, and is compared with what that can make."""
-    return KINDS[kind].material == _STRUCTURE[0]
+    return KINDS[kind].material == STRUCTURE
 
 
 def kind_of(name: str) -> str:

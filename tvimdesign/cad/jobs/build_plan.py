@@ -21,7 +21,7 @@ from tvimdesign.cad.assembly.heater_leads import heater_order
 from tvimdesign.cad.assembly.module_script import module_script
 from tvimdesign.cad.assembly.wiring import wiring_svg
 from tvimdesign.cad.cad_report import SolidCheck
-from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
+from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
@@ -29,7 +29,7 @@ from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, 
 from tvimdesign.cad.export.step_file import Product, product, read_part, validation, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
-from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, Production, is_of_structure, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, STRUCTURE, Production, is_of_structure, kind_of
 from tvimdesign.cad.geometry.spring_solids import free_coil
 from tvimdesign.cad.inspection.inspect import casting_checks, module_checks, part_checks, setting_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
@@ -66,7 +66,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
     ]
     springs = [Work(name=kind, do=partial(_spring, kind), words=f"drawing: {_words(kind)}") for kind in coils]
     setting = [
-        Work(name=jigs.FORK, do=_setting_fork),
+        Work(name=jigs.FORK, do=_setting_fork, named=True),
         Work(name="inspect_setting", do=_inspect_setting, needs=("housing", "rotor", jigs.FORK)),
         Work(name="spring_sheet", do=_spring_sheet, named=True),
     ]  # fmt: skip
@@ -91,7 +91,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name="sizes", do=_sizes, needs=kinds, words="volumes and inertias"),
         *clearances,
         *inspections,
-        *(Work(name=kind, do=partial(_casting_jig, kind)) for kind in jigs.DRAWN),
+        *(Work(name=kind, do=partial(_casting_jig, kind), named=True) for kind in jigs.DRAWN),
         *(setting if coils else ()),
         Work(name="inspect_casting", do=_inspect_casting, needs=(jigs.part_of(kinds), *jigs.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
@@ -128,9 +128,7 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
             asked = replace(asked, notes=[f"{words[0].upper()}{words[1:]}." for words in order])
         if is_of_structure(kind) and (treatment := job.titles.get(cad_report.TREATMENT)):
             asked = replace(asked, notes=[*asked.notes, f"Before reaming: {treatment}, as its strength is counted."])
-        sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(KINDS[kind].material, ""))
-        _write(job.folder, cad_report.drawing_dxf(kind), sheet.dxf())
-        _write(job.folder, cad_report.drawing_pdf(kind), sheet.pdf())
+        _sheet(job, kind, solid, what, asked)
         if outline := plate_outline(solid):
             _write(job.folder, cad_report.cut_dxf(kind), outline)
     if PRODUCTION[kind].down == "bought":
@@ -138,26 +136,35 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
     return [_print(job, kind, solid, what, PRODUCTION[kind])]
 
 
+def _sheet(job: Job, kind: str, solid: cq.Solid, what: Product, asked: DrawingRequirements) -> None:
+    """Write the drawing of a part or a fixture."""
+    material = KINDS[kind].material if kind in KINDS else STRUCTURE
+    sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(material, ""))
+    _write(job.folder, cad_report.drawing_dxf(kind), sheet.dxf())
+    _write(job.folder, cad_report.drawing_pdf(kind), sheet.pdf())
+
+
 def _casting_jig(kind: str, job: Job) -> list[SolidCheck]:
     """Make one piece of the jig that the PCL is cast in."""
     cast = jigs.part_of(tuple(MODULES[job.dims.mode].drawn(job.dims)))
     solid = one_solid(kind, lambda: jigs.DRAWN[kind](job.dims, drawn_part(job.dims, cast)))
-    return _fixture(job, kind, solid, jigs.MAKING[kind])
+    return _fixture(job, kind, solid)
 
 
 def _setting_fork(job: Job) -> list[SolidCheck]:
     """Make the fork that holds the rotor while its springs are set."""
     solid = one_solid(jigs.FORK, lambda: jigs.fork(job.dims))
-    return _fixture(job, jigs.FORK, solid, jigs.FORK_MAKING)
+    return _fixture(job, jigs.FORK, solid)
 
 
-def _fixture(job: Job, kind: str, solid: cq.Solid, making: Production) -> list[SolidCheck]:
+def _fixture(job: Job, kind: str, solid: cq.Solid) -> list[SolidCheck]:
     """Write a fixture, which is made of what the structure is made of."""
     _keep(job.folder / "kept" / _SOLID, solid)
-    of = str(job.design.choices["structure_material"])
+    of = str(job.design.choices[STRUCTURE])
     density = job.design.value("structure_density")
     what = Product(name=kind, colour=jigs.COLOUR, material=of, density=density)
-    return [*_step(job.folder, solid, what), _print(job, kind, solid, what, making)]
+    _sheet(job, kind, solid, what, drawing_requirements(kind, job.dims, job.design.choices))
+    return [*_step(job.folder, solid, what), _print(job, kind, solid, what, jigs.MAKING[kind])]
 
 
 def _spring(kind: str, job: Job) -> list[SolidCheck]:

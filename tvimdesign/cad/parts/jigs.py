@@ -25,11 +25,14 @@ PINS = (1.5, 2.5)
 WALL = 2.0
 """Least way from dam to pin, and from pin to edge [mm]; assumed, 1 to 4."""
 COLOUR = (0.55, 0.62, 0.50)
+FORK = "setting_fork"
+FORK_COUNT = STOPS
 MAKING: Mapping[str, Production] = {
-    "casting_mould": Production(down="bottom", why="flat: dam and pins grow upwards, no support"),
-    "casting_lid": Production(down="top", why="the outer face on the bed: pockets open upwards, no support"),
+    "casting_mould": Production(drawn=True, down="bottom", why="flat: dam and pins grow upwards, no support"),
+    "casting_lid": Production(drawn=True, down="top", why="outer face on the bed: pockets open upwards, no support"),
+    FORK: Production(drawn=True, down="top", why="the bridge on the bed: legs grow upwards, no support"),
 }
-"""How its two pieces are printed, by name."""
+"""How fixtures are printed, by name."""
 
 
 def part_of(kinds: tuple[str, ...]) -> str:
@@ -88,11 +91,8 @@ def _plate(dims: Dimensions, part: cq.Solid, bottom: float, top: float) -> cq.So
     return cq.Solid.makeBox(high - low, 2.0 * half, top - bottom, cq.Vector(low, -half, bottom))
 
 
-FORK = "setting_fork"
-FORK_COUNT = STOPS
 BRIDGE = 3.0
 """Thickness of the bridge [mm], by which fingers lift it; assumed, 2 to 6."""
-FORK_MAKING = Production(down="top", why="the bridge on the bed: legs grow upwards, no support")
 
 
 def fork(dims: Dimensions) -> cq.Shape:
