@@ -37,7 +37,7 @@ FIRST = {
         name: ("answered", ["run", _STUDY, "--no-cad", "--no-plots"])
         for name, words in COMMANDS.items()
         if any(word.startswith(_RUN) for word in words)
-    },
+    }
 }
 """What is done once before a command: the folder beside those of the tries, and a command whose results go there."""
 GOES_ON = {"front": "front/progress", "sweep": "shards"}

@@ -20,10 +20,9 @@ WRONG = ("--set", "pcl_thickness=1,2 mm", "--set", "require.holding_torque=15 N.
 
 @pytest.mark.parametrize(
     "command",
-    [["run"], ["check"], ["simulate", "--test", "creep"],
-     ["compare", "studies/wrist_compression.yaml"]],
+    [["run"], ["check"], ["simulate", "--test", "creep"], ["compare", "studies/wrist_compression.yaml"]],
     ids=lambda words: " ".join(words[:2]),
-)  # fmt: skip
+)
 def test_commands_that_read_a_study_take_settings_and_name_their_place(
     tvimdesign: Command, command: list[str], tmp_path: Path
 ) -> None:

@@ -48,8 +48,7 @@ RUN = [*STUDIES, study_path("paper_shear"), study_path("paper_compression")]
 """The shipped studies, and two that take less to run."""
 every = pytest.mark.parametrize("study", [pytest.param(path, id=path.stem) for path in RUN])
 names = pytest.mark.parametrize(
-    "study",
-    [pytest.param(path, id=path.stem, marks=MARKS.get(path.stem, (pytest.mark.slow,))) for path in RUN],
+    "study", [pytest.param(path, id=path.stem, marks=MARKS.get(path.stem, (pytest.mark.slow,))) for path in RUN]
 )
 
 

@@ -35,9 +35,7 @@ def linear() -> Motion:
 @pytest.fixture(scope="module")
 def algebraic() -> Motion:
     """`2 da/dt = -2 b`, `0 = b - k a^2`: so a is 1/(1/a0 + k t)."""
-    return motion_of(
-        lambda y, _, k: ca.vertcat(-2.0 * y[1], y[1] - k[0] * y[0] ** 2), 2, 1, np.array([2.0, 0.0])
-    )  # fmt: skip
+    return motion_of(lambda y, _, k: ca.vertcat(-2.0 * y[1], y[1] - k[0] * y[0] ** 2), 2, 1, np.array([2.0, 0.0]))
 
 
 @pytest.fixture(scope="module")

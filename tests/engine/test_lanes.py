@@ -135,11 +135,7 @@ def test_what_is_passed_is_found_where_it_is(cooling: tuple[Motion, Tape]) -> No
 def test_what_stays_is_found_with_its_current(cooling: tuple[Motion, Tape]) -> None:
     motion, gap = cooling
     rates = np.linspace(0.5, 3.0, COUNT)
-    room, w, where = (
-        lanes.Room(motion),
-        lanes.lanes_of(gap),
-        (np.array([3, 4]), np.array([np.zeros(COUNT), rates])),
-    )
+    room, w, where = (lanes.Room(motion), lanes.lanes_of(gap), (np.array([3, 4]), np.array([np.zeros(COUNT), rates])))
     rest, currents, exists = np.zeros((2, COUNT)), np.ones(COUNT), np.zeros(COUNT, dtype=bool)
     lane_events.settle(
         motion.system, room.slopes, room.rates, *where, gap.code, w, int(gap.results[0][0]), *where, 3, rest, currents,

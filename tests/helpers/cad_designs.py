@@ -117,9 +117,7 @@ def _of_the_geometry(name: str, known: dict[str, Any], mode: str) -> Design:
     values = {key: float(value) for key, value in known.items() if isinstance(value, int | float)}
     values |= {key: float(value) for key, value in table.evaluate(known, wanted).items()}
     choices = {row.name: getattr(known[row.name], "name", known[row.name]) for row in table.choices}
-    return Design(
-        tvimdesign="0", name=name, mode=mode, status="evaluated", choices=choices, values=values, study={}
-    )  # fmt: skip
+    return Design(tvimdesign="0", name=name, mode=mode, status="evaluated", choices=choices, values=values, study={})
 
 
 def shipped_design(name: str) -> Design:

@@ -25,10 +25,7 @@ class CvodesSimulator:
         self._phases: dict[str, _Phase] = {}
 
     def run(
-        self,
-        inputs: Array,
-        profiles: Mapping[str, CurrentProfile] | None = None,
-        phases: Collection[str] | None = None,
+        self, inputs: Array, profiles: Mapping[str, CurrentProfile] | None = None, phases: Collection[str] | None = None
     ) -> Cycle:
         """Simulate the named phases, or all."""
         values, trajectories = dict.fromkeys(self.model.switch_names, np.inf), dict[str, Trajectory]()

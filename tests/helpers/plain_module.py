@@ -238,7 +238,7 @@ def statics(module: Numbers) -> dict[str, float]:
         "spring_fatigue_safety": float((-b + np.sqrt(b**2 + 4.0 * a)) / (2.0 * a)),
         "envelope_diameter": 2.0
         * (module["placement_radius"] + reach + module["radial_clearance"] + module["wall_thickness"]),
-    }  # fmt: skip
+    }
 
 
 def broken(module: Numbers, limits: Mapping[tuple[str, str], float]) -> list[str]:

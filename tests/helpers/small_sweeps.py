@@ -26,9 +26,7 @@ def plan(path: Path, *settings: str) -> SweepPlan:
 
 def swept(path: Path, out: Path, *, resume: bool = False, **where: Any) -> dict[str, Any]:
     """Sweep a study into a folder, as the command does; returns what it tells of the work."""
-    told = sweep_folder(
-        plan(path), out, Executor(**where), lambda _: None, overwrite=False, resume=resume, plots=False
-    )  # fmt: skip
+    told = sweep_folder(plan(path), out, Executor(**where), lambda _: None, overwrite=False, resume=resume, plots=False)
     found: dict[str, Any] = told["run"]
     return found
 

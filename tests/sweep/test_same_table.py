@@ -118,7 +118,7 @@ def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file: Path, one_p
 )
 def test_what_cannot_be_done_is_said_in_a_line(
     tvimdesign: Command, study_file: Path, tmp_path: Path, words: list[str], said: str
-) -> None:  # fmt: skip
+) -> None:
     done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", *words)
     assert done.returncode == 2, done.stderr
     assert said in done.stderr

@@ -260,9 +260,7 @@ class Result(Generic[StudyT]):
             warnings.warn(str(failure), stacklevel=2)
         return Path(folder)
 
-    def parts(
-        self, folder: str | os.PathLike[str], *, overwrite: bool = False, progress: bool = True
-    ) -> Parts:  # fmt: skip
+    def parts(self, folder: str | os.PathLike[str], *, overwrite: bool = False, progress: bool = True) -> Parts:
         """Make the parts into a folder: STEP, print files, drawings, checks. Raises GeometryError where a check fails.
 
         This takes a minute or so, in processes of its own.

@@ -19,9 +19,7 @@ def ask_for_one_thread() -> None:
         os.environ.setdefault(name, "1")
 
 
-MODULES = {
-    "cad": ("cadquery", "ezdxf", "trimesh", "vtkmodules"),
-}
+MODULES = {"cad": ("cadquery", "ezdxf", "trimesh", "vtkmodules")}
 """What each extra brings, by the modules that are imported."""
 
 

@@ -51,9 +51,7 @@ class ResultsFolder:
     a manifest that says how it ended. Use it as a context manager.
     """
 
-    def __init__(
-        self, out: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS
-    ) -> None:  # fmt: skip
+    def __init__(self, out: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS) -> None:
         """Claim the folder `out`, made where there is none. Raises InputError where it is in use, or not ours.
 
         With `resume` the run continues from the files in the folder `progress` of an unfinished or earlier one.

@@ -48,8 +48,7 @@ def run(
     cad: options.Cad = True,
     plots: options.Plots = True,
     resume: Annotated[
-        bool,
-        typer.Option("--resume", help="Continue the front of an earlier run in that folder that was stopped."),
+        bool, typer.Option("--resume", help="Continue the front of an earlier run in that folder that was stopped.")
     ] = False,
     prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Print the tables, too, as summary.txt has them.")] = False,
@@ -88,11 +87,7 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
 
 
 @app.command()
-def check(
-    study: options.StudyFile,
-    settings: options.Settings = None,
-    json: options.AsJson = False,
-) -> None:
+def check(study: options.StudyFile, settings: options.Settings = None, json: options.AsJson = False) -> None:
     """Check a study: every mistake, and limits that conflict."""
     from tvimdesign.report.run.check_study import check_study
 
@@ -165,13 +160,7 @@ def size(
         "stroke": stroke, "stiff_time": stiff_time,
     }  # fmt: skip
     size_study(
-        file,
-        numbers,
-        out or options.default_folder(file),
-        overwrite=overwrite,
-        cad=cad,
-        plots=plots,
-        as_json=json,
+        file, numbers, out or options.default_folder(file), overwrite=overwrite, cad=cad, plots=plots, as_json=json
     )
 
 

@@ -85,8 +85,7 @@ def compare(
         ),
     ],
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
+        Path | None, typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given.")
     ] = None,
     points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; no fronts unless given.")] = 0,
     overwrite: options.Overwrite = False,

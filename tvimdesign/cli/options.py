@@ -62,8 +62,7 @@ StudyOrDesign = Annotated[
     ),
 ]
 ResultOfRun = Annotated[
-    Path,
-    typer.Argument(metavar="RESULT", help="Folder or design.json of a run.", autocompletion=designs_and_studies),
+    Path, typer.Argument(metavar="RESULT", help="Folder or design.json of a run.", autocompletion=designs_and_studies)
 ]
 Settings = Annotated[
     list[str] | None,
@@ -82,8 +81,7 @@ Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the result
 Cad = Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, 3MF, drawings, assembly.")]
 Plots = Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")]
 TimeLimit = Annotated[
-    str,
-    typer.Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min."),
+    str, typer.Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min.")
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print results as JSON.")]
 FePython = Annotated[

@@ -31,4 +31,4 @@ __all__ = [
     "Supplied",
     "Table",
     "table_for",
-]  # fmt: skip
+]

@@ -144,8 +144,8 @@ def stage_tangents(
 
 @njit(cache=True, error_model="numpy")
 def step(
-    m: System, w: Array, d: Array, v: Array, y: Array, s: Array, u: Array, du: Array, h: float, dh: Array, ahead: Array,
-) -> bool:  # fmt: skip
+    m: System, w: Array, d: Array, v: Array, y: Array, s: Array, u: Array, du: Array, h: float, dh: Array, ahead: Array
+) -> bool:
     """Take one step in place. `u` has a number for each stage, `du` its tangents; `dh` are those of the length.
 
     `ahead` is what the state is expected to move by in the first stage, on return what it moved by in the last.

@@ -110,9 +110,8 @@ def _slopes(m: System, v: Array, state: Array, h: Array, slopes: Array) -> None:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _seek(
-    code: Code, g: Array, result: int, size: int, sought: NDArray[np.bool_], curve: Array, shares: Array,
-    bracket: Array,
-) -> None:  # fmt: skip
+    code: Code, g: Array, result: int, size: int, sought: NDArray[np.bool_], curve: Array, shares: Array, bracket: Array
+) -> None:
     """Find the shares of a step at which a quantity passes zero along a cubic, about: by regula falsi (Illinois).
 
     `curve` has states and slopes at both ends, `bracket` shares below and above the zero and the values there.

@@ -161,7 +161,4 @@ def _line(course: list[tuple[float, Array]]) -> tuple[Array, Array]:
 
 def words_of(known: Mapping[str, Any]) -> dict[str, Any]:
     """Return the records and options of a module, and its number of cells, which is a shape."""
-    return {
-        name: value for name, value in known.items()
-        if not isinstance(value, int | float) or name == "rotor_cells"
-    }  # fmt: skip
+    return {name: value for name, value in known.items() if not isinstance(value, int | float) or name == "rotor_cells"}

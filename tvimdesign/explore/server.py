@@ -26,10 +26,7 @@ from tvimdesign.explore.session import Session
 from tvimdesign.explore.source import open_source
 from tvimdesign.report.output.terminal import wide_console
 
-STATIC = {
-    "page": Path(str(resources.files(tvimdesign.page))) / "static",
-    "explore": Path(__file__).parent / "static",
-}
+STATIC = {"page": Path(str(resources.files(tvimdesign.page))) / "static", "explore": Path(__file__).parent / "static"}
 """Folders of code and styles by the names they are imported by."""
 _STYLES = ("page/theme.css", "page/page.css", "page/figures.css", "explore/explore.css")
 HOST = "127.0.0.1"
@@ -50,7 +47,7 @@ class Server:
 
     def __init__(
         self, source: Path, folder: Path, settings: Sequence[str] = (), token: str = "", *, overwrite: bool = False
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Prepare a server; `token` is drawn unless given. With `overwrite` a history begins again."""
         self.token = token or secrets.token_urlsafe(24)
         self._source, self._folder, self._settings = source, folder, settings

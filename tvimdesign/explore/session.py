@@ -90,7 +90,7 @@ class Session:
 
     def __init__(
         self, source: Path, folder: Path, send: Send, settings: Sequence[str] = (), *, overwrite: bool = False
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Open the study, go on from what was kept in the folder, and start the solver. Raises InputError.
 
         `send` sends a message to all pages. Needs an event loop.

@@ -40,12 +40,7 @@ class WorkerProcess:
     """A worker process, and the one job that waits for it. To be used in an event loop."""
 
     def __init__(
-        self,
-        module: str,
-        arguments: Sequence[str],
-        report: Callable[[Job, Reply], None],
-        *,
-        low_priority: bool = False,
+        self, module: str, arguments: Sequence[str], report: Callable[[Job, Reply], None], *, low_priority: bool = False
     ) -> None:
         """Start the worker, a module with arguments; `report` is called with every reply to a job."""
         self._low_priority = low_priority

@@ -79,7 +79,7 @@ def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, a
 
 def write_models(
     design: Design, folder: ResultsFolder, step: float | None, progress: Progress
-) -> tuple[JointModel, WrittenFmu]:  # fmt: skip
+) -> tuple[JointModel, WrittenFmu]:
     """Write bodies, models, tables and FMU into a folder. Raises InputError, GeometryError."""
     refuse_step(step)
     resolved = resolve_design(design)

@@ -100,7 +100,7 @@ def verify_sections(folder: Path, verification: Mapping[str, Any]) -> list[Secti
     solvers = [
         (name, f"{fine['unknowns']:.0f}", f"{fine['seconds']:.0f}", f"{fine['gigabytes']:.1f}")
         for name, fine in ((name, meshes["fine"]) for name, meshes in verification["solved"].items())
-    ]  # fmt: skip
+    ]
     table = grid("Solvers", ("solver", "unknowns", "processor seconds", "GB"), solvers, right=(1, 2, 3))
     return [
         Section("rows", "Model and finite elements", [rows_grid(verification)]),
@@ -179,9 +179,7 @@ def _export(design: Design, folder: Path) -> None:
     export_parts(design, folder)
 
 
-def _write(
-    command: Command, data: dict[str, Any], rows: list[Compared], solved: dict[str, Solved], work: Path
-) -> None:  # fmt: skip
+def _write(command: Command, data: dict[str, Any], rows: list[Compared], solved: dict[str, Solved], work: Path) -> None:
     from tvimdesign.cad.render.render import write_field_picture
 
     command.folder.write_json("verify.json", data)

@@ -230,11 +230,7 @@ def fmu_variables(equations: JointEquations, resolved: ResolvedModule) -> tuple[
 _OF_CONTROL = (
     ("heater_current", "A", "Current through the pads."),
     ("thermistor_temperature", "K", "Reading of a thermistor at the layer's hot face."),
-    (
-        "impedance_estimate",
-        "N*m/rad",
-        "Impedance of the joint by the controller; 0 while it does not run.",
-    ),
+    ("impedance_estimate", "N*m/rad", "Impedance of the joint by the controller; 0 while it does not run."),
 )
 
 

@@ -173,9 +173,7 @@ class JointModel:
         return self.stroke * max(sqrt(state.stiffest / state.inertia) for state in self.states)
 
 
-def joint_model(
-    resolved: ResolvedModule, base: RigidBody, moving: RigidBody, step: float | None = None
-) -> JointModel:  # fmt: skip
+def joint_model(resolved: ResolvedModule, base: RigidBody, moving: RigidBody, step: float | None = None) -> JointModel:
     """Put the model of a module together; a time step [s] that suits the bench's load unless given."""
     # Where history matters, the PCL has come to each operating point on heating.
     shown = [case for case in cases(resolved) if case.history.name in ("", "nominal") and case.history.shown]

@@ -119,9 +119,7 @@ def _hinge(parent: Xml.Element, hinge: Hinge) -> None:
 
 def _spring(parent: Xml.Element, spring: Spring) -> None:
     slack = numbers(-_FAR, 0.0) if spring.pushes else "0"
-    tendon = Xml.SubElement(
-        parent, "fixed", name=spring.name, stiffness=numbers(spring.stiffness), springlength=slack
-    )  # fmt: skip
+    tendon = Xml.SubElement(parent, "fixed", name=spring.name, stiffness=numbers(spring.stiffness), springlength=slack)
     for name, coefficient in spring.coefficients.items():
         Xml.SubElement(tendon, "joint", joint=name, coef=numbers(coefficient))
 

@@ -73,7 +73,7 @@ class Duty:
 
     def __init__(
         self, model: DeviceFunctions, inputs: Array, current_profiles: dict[str, CurrentProfile], soft: float
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Simulate one cycle from ambient, for its hold current and its values."""
         self.model, self.inputs, self.soft = model, inputs, soft
         simulator = Simulator(model)
@@ -123,7 +123,7 @@ class Duty:
 
     def _run(
         self, runs: list[Found], name: str, state: Array, profile: CurrentProfile, length: float | None
-    ) -> Instant | None:  # fmt: skip
+    ) -> Instant | None:
         """Step a phase until it ends or, with a length, for so long, and add what it supplies."""
         engine: PhaseEngine = self.heating if name == "softening" else self.cooling
         ends = engine.phase.phase.ends
@@ -207,7 +207,7 @@ class Duty:
 
 def duty_of(
     study: Study, model: DeviceFunctions, inputs: Array, current_profiles: dict[str, CurrentProfile]
-) -> DutyResult | None:  # fmt: skip
+) -> DutyResult | None:
     """Return the result of a study's duty; None if it has none."""
     requested = study.duty.switches_per_hour
     if not requested:

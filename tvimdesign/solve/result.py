@@ -181,7 +181,7 @@ def _tightened(study: Study, result: StudyResult) -> Study | None:
 
 def _simulated(
     study: Study, duty: DutyResult | None, control: ControlResult | None, values: Mapping[str, float]
-) -> dict[str, float]:  # fmt: skip
+) -> dict[str, float]:
     """Return the limited outputs in a duty and under the controller; NaN where there is no such cycle."""
     seen = dict(duty.quantities) if duty else {}
     of_state = {DUTY: seen, CONTROL: {}}

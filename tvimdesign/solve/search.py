@@ -18,15 +18,7 @@ from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible, refuse_unreachable
 from tvimdesign.solve.nlp.constraints import on_cycle
-from tvimdesign.solve.nlp.solution import (
-    Choosing,
-    ConflictSet,
-    Solution,
-    SolverEffort,
-    Standard,
-    Start,
-    YieldReached,
-)
+from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, SolverEffort, Standard, Start, YieldReached
 from tvimdesign.solve.nlp.solver_run import (
     ALTERNATIVES,
     BELOW_YIELD,
@@ -187,11 +179,7 @@ def _leave_time(deadline: Deadline, set_up: float) -> None:
 
 
 def _account(
-    trees: Sequence[Relaxation],
-    relaxation: Relaxation,
-    run: Run,
-    nominal: Run,
-    starts: tuple[Start, ...],
+    trees: Sequence[Relaxation], relaxation: Relaxation, run: Run, nominal: Run, starts: tuple[Start, ...]
 ) -> Solution:
     """Return the best design verified, with the rest of its account as far as time allows."""
     seconds = {
@@ -385,10 +373,7 @@ def _closest(relaxation: Relaxation, exact: ExactCombinations) -> tuple[Relaxati
 
 
 def _with_alternatives(
-    choosing: Choosing,
-    trees: Sequence[Relaxation],
-    exact: ExactCombinations,
-    best: Sequence[tuple[Relaxation, Run]],
+    choosing: Choosing, trees: Sequence[Relaxation], exact: ExactCombinations, best: Sequence[tuple[Relaxation, Run]]
 ) -> Choosing:
     """Return the account with the best combination simulated, and its alternatives as far as time allows."""
     standards = [_standard(*pair) for pair in best[:1]]

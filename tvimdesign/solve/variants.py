@@ -60,10 +60,7 @@ def idealizations(
 
 
 def _without(
-    row: Choice,
-    resolved: ResolvedModule,
-    inputs: NDArray[np.float64],
-    current_profiles: Mapping[str, CurrentProfile],
+    row: Choice, resolved: ResolvedModule, inputs: NDArray[np.float64], current_profiles: Mapping[str, CurrentProfile]
 ) -> dict[str, float]:
     """Return every output of the module without an idealization; empty if there is no such module."""
     study = resolved.study

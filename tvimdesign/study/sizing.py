@@ -68,7 +68,7 @@ class JointTask:
     @classmethod
     def read(
         cls, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "", stiff_time: str = ""
-    ) -> Self:  # fmt: skip
+    ) -> Self:
         """Read quantities with their units, as `tvim.size` takes them; an empty stroke is `STROKE`.
 
         Raises InputError with every one of them that is missing, no such quantity, or out of range.

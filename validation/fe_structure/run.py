@@ -63,17 +63,7 @@ def solved(study: str, work: Path, fe_python: Path) -> tuple[dict[str, float], d
     """Run a study, export its parts and return what FE finds, by name, and its case of shipped.yaml."""
     folder, parts = work / study / "run", work / study / "parts"
     folder.parent.mkdir(parents=True, exist_ok=True)
-    run = [
-        sys.executable,
-        "-m",
-        "tvimdesign",
-        "run",
-        study_file(study),
-        "--no-cad",
-        "--no-plots",
-        "--out",
-        folder,
-    ]
+    run = [sys.executable, "-m", "tvimdesign", "run", study_file(study), "--no-cad", "--no-plots", "--out", folder]
     done(run, work / study / "run.txt")  # it ends with 1 where nothing meets the study: then there is no design
     if not (parts / "inputs.json").exists():
         export_parts(read_design(folder / "design.json"), parts)

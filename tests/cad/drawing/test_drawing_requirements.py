@@ -68,7 +68,7 @@ def milled(case: Mapping[str, float | str], mode: str) -> Design:
 @pytest.mark.parametrize(
     ("case", "mode", "kinds"),
     [(BEARING_BLOCKS, "compression", ("housing", "rotor")), (DRIVEN, "shear", ("motor_hub", "motor_housing"))],
-)  # fmt: skip
+)
 def test_what_is_milled_to_the_file_is_within_every_fit(
     case: Mapping[str, float | str], mode: str, kinds: tuple[str, ...]
 ) -> None:

@@ -72,7 +72,7 @@ def _upright(azimuth: float, radius: float = 30.0) -> Instance:
         ((90.0,), (330.0,), (-30.0, 90.0)),  # the other way round it would be 240 degrees
         ((0.0, 60.0), (30.0, 200.0), (60.0, 200.0)),
     ],
-)  # fmt: skip
+)
 def test_the_wedge_shows_a_cut_spring_and_cut_polymer(
     springs: tuple[float, ...], polymer: tuple[float, ...], wedge: tuple[float, float]
 ) -> None:

@@ -147,9 +147,7 @@ def test_result_follows_its_input(
 ) -> None:
     random = np.random.default_rng(seed)
     # Not the geometry's own module but one near it; what does not depend on the source stays out of the way.
-    module = {
-        row.name: inputs[row.name] * random.uniform(0.92, 1.08) for row in TABLE.inputs if row.variable
-    }  # fmt: skip
+    module = {row.name: inputs[row.name] * random.uniform(0.92, 1.08) for row in TABLE.inputs if row.variable}
     before = {**inputs, **module}
     after = {**before, source: _changed(source, before[source], factor)}
     low, high = (TABLE.evaluate(given, [result])[result] for given in (before, after))

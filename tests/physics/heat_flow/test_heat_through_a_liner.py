@@ -136,8 +136,7 @@ def balanced(stack: BehindPolymer) -> Any:
         top = fsolve(lambda t: 2.0 * through * (plate[-1] - t[0]) - lost(stack.plate_surface, t[0]), plate[-1])[0]
         before = 0.0 if stack.liner is None else stack.liner.resistance + stack.liner.bond
         into = (PLATE_POLYMER - plate[0]) / (before + 0.5 / through)
-        flows = np.concatenate([[into], -through * np.diff(plate),
-                                [2.0 * through * (plate[-1] - top)]])  # fmt: skip
+        flows = np.concatenate([[into], -through * np.diff(plate), [2.0 * through * (plate[-1] - top)]])
         mean = np.mean(plate)
         uneven = first.conductance if stack.uneven_conductance is None else stack.uneven_conductance
         sideways = (first.conductance * (mean - rim) + uneven * (plate - mean)) / CELLS

@@ -54,7 +54,7 @@ MOMENT = 4 * math.radians(48.962) / 4 * (40e-3**4 - 26e-3**4)
         ("frequency", [f"{628 / 2 / math.pi:.2f} Hz"]),
         ("case", ["70.0 s in shear", "140.0 s in compression"]),
     ],
-)  # fmt: skip
+)
 def test_a_row_gives_the_numbers_of_the_paper_s_own_formulas(row: str, numbers: list[str]) -> None:
     said = computed(row)
     for number in numbers:

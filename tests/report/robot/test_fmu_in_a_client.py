@@ -142,9 +142,7 @@ def _stiffened(mode: str) -> tuple[float, float]:
 
 def test_it_softens_and_stiffens_when_the_run_does(mode: str, fmus: Mapping[str, Path]) -> None:
     found, turned = _cycle(mode, fmus[mode])
-    for (time, level), start, sense in (
-        (_softened_evenly(_run(mode)[0]), 0.0, -1.0), (_stiffened(mode), turned, 1.0),
-    ):  # fmt: skip
+    for (time, level), start, sense in ((_softened_evenly(_run(mode)[0]), 0.0, -1.0), (_stiffened(mode), turned, 1.0)):
         during = (found["time"] > start + STEP) & (found["time"] <= start + 1.05 * time)
         beyond = sense * (found["joint_impedance"][during] - level)
         last = int(np.flatnonzero(beyond < 0.0)[-1])  # the last time that it passes the level

@@ -10,12 +10,7 @@ import pytest
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import margin_text
-from tvimdesign.report.run.blocks.facts import (
-    chosen_fact,
-    heater_voltage,
-    stalling_in_words,
-    time_over_rise,
-)
+from tvimdesign.report.run.blocks.facts import chosen_fact, heater_voltage, stalling_in_words, time_over_rise
 from tvimdesign.report.run.blocks.verdict import TARGET, starts_in_words, verdict
 from tvimdesign.report.run.blocks.warnings import RunWarning, advice_text
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Side, SolverEffort, Standard

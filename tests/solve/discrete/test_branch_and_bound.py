@@ -239,11 +239,10 @@ def tree() -> tuple[Relaxation, Run]:
 @pytest.mark.parametrize(
     ("cold", "box", "certain", "searches"),
     [(NO_DESIGN, ((1, 1),), True, 2), (OVER, ((1, 1),), False, 2), (NO_DESIGN, ((0, 1),), False, 1)],
-)  # fmt: skip
+)
 def test_a_warm_run_cut_short_leaves_several_combinations_open(
-    tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch,
-    cold: str, box: Box, certain: bool, searches: int,
-) -> None:  # fmt: skip
+    tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch, cold: str, box: Box, certain: bool, searches: int
+) -> None:
     """Several are searched from one place alone: their halves are asked the same."""
     relaxation, near = tree
     asked: list[str] = []

@@ -267,9 +267,9 @@ def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
     broken = [_broken(optimizer, inputs) for inputs in designs]
     assert broken == sorted(broken)  # as simulated
     assert np.isfinite(broken[:2]).all()  # the switch of the last may never end
-    unknowns = np.array([
-        [free.to_unknown(inputs[optimizer.model.index[free.name]]) for inputs in designs] for free in optimizer.free
-    ])  # fmt: skip
+    unknowns = np.array(
+        [[free.to_unknown(inputs[optimizer.model.index[free.name]]) for inputs in designs] for free in optimizer.free]
+    )
     together = screen.worst(unknowns)
     assert np.allclose(together, [screen.broken(inputs) for inputs in designs])
 

@@ -31,9 +31,8 @@ class Solved:
         self.study = read_study_text(text, "test")
         self.built: list[tuple[Optimizer, list[Run]]] = []
         self.solution: Solution = optimize(
-            self.study, keep=lambda *kept: self.built.append(kept),
-            objectives=objectives,
-        )  # fmt: skip
+            self.study, keep=lambda *kept: self.built.append(kept), objectives=objectives
+        )
         assert self.solution.status == "optimal"
 
     def trade(self, memory: Any = None) -> Tradeoff:

@@ -155,9 +155,7 @@ def test_every_point_of_a_front_has_the_optimum_s_margin_on_times() -> None:
     # Its optimum is far from the limit on the time, where the time spreads less: that margin is too small for others.
     study = study.model_copy(update={"minimize": {"peak_power": 1.0, "response_time": 10.0}})
     built: list[tuple[Optimizer, list[Run]]] = []
-    solution = optimize(
-        study, keep=lambda *kept: built.append(kept), objectives=objectives
-    )  # fmt: skip
+    solution = optimize(study, keep=lambda *kept: built.append(kept), objectives=objectives)
     front = trace_front(Tradeoff(study, solution, *built[0]), objectives, 3)
     assert len(front.points) == 3
     optimizer, asked = built[0][0], NormalDist().cdf(1.5)

@@ -73,12 +73,11 @@ def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], place
         "mode": design.mode,
         "stroke": dims.stroke,
         "parts": [
-            {"name": name, **_part(by_kind[kind_of(name)]), "lift": round(apart[name], _DIGITS)}
-            for name in placed
+            {"name": name, **_part(by_kind[kind_of(name)]), "lift": round(apart[name], _DIGITS)} for name in placed
         ],
         "steps": [brought(step, placed) for step in written_steps(design, dims, items)],
         "wires": {"ring": RING, "shares": SHARES, "moved": {kind: _moved(dims, kind) for kind in coils}},
-    }  # fmt: skip
+    }
     return (json.dumps(data, separators=(",", ":")) + "\n").encode()
 
 

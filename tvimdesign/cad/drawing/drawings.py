@@ -200,7 +200,7 @@ def _words(
         f"Exact shape: {cad_report.step(kind)}.",
         *asked.notes,
         *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),
-    ]  # fmt: skip
+    ]
     # What decides whether a part is another one, to the figures that are printed.
     told = [
         material, asked.tolerances, asked.surface, f"{volume:.1f}", *notes, *(row.text + row.asks for row in rows),

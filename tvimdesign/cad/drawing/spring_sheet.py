@@ -152,7 +152,7 @@ def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) 
             [Field("Made by", f"tvimdesign {__version__}"), Field("Size, projection", "A3, first angle")],
             [Field("Module", design.name, 0.6), Field("Scale", ratio(scale), 0.4)],
         ],
-    )  # fmt: skip
+    )
     return sheet
 
 

@@ -161,9 +161,7 @@ def coil_points(coil: Coil) -> int:
     return ceil(2.0 * pi * coil.turns / step) + 1
 
 
-def part_meshes(
-    drawn: Mapping[str, cq.Solid], coils: Mapping[str, Coil], known: Mapping[str, Mesh]
-) -> dict[str, Mesh]:  # fmt: skip
+def part_meshes(drawn: Mapping[str, cq.Solid], coils: Mapping[str, Coil], known: Mapping[str, Mesh]) -> dict[str, Mesh]:
     """Return mesh of each kind of part in its own coordinates; `coils` says which shape the springs have.
 
     `known` are those that are made already.

@@ -132,9 +132,8 @@ class _Document:
         colour = Quantity_Color(*product.colour, Quantity_TOC_sRGB)
         self.colours.SetColor(label, colour, XCAFDoc_ColorType.XCAFDoc_ColorGen)
         self.materials.SetMaterial(
-            label, _text(product.material), _text(""),
-            product.density * 1e-3, _text("mass density"), _text("g/cm^3"),
-        )  # fmt: skip
+            label, _text(product.material), _text(""), product.density * 1e-3, _text("mass density"), _text("g/cm^3")
+        )
         return label
 
     def write(self, path: Path, name: str) -> None:

@@ -198,9 +198,7 @@ def _is_empty(solid: cq.Solid, faces: Sequence[_Face], one: Cylinder) -> bool:
     axis = cq.Edge.makeLine(cq.Vector(one.x, one.y, one.bottom), cq.Vector(one.x, one.y, one.top)).wrapped
     if all(BRepExtrema_DistShapeShape(axis, face.shape).Value() >= radius for face in near):
         return not solid.isInside(cq.Vector(one.x, one.y, 0.5 * (one.bottom + one.top)))
-    plug = cq.Solid.makeCylinder(
-        radius, one.top - one.bottom, cq.Vector(one.x, one.y, one.bottom), cq.Vector(0, 0, 1)
-    )  # fmt: skip
+    plug = cq.Solid.makeCylinder(radius, one.top - one.bottom, cq.Vector(one.x, one.y, one.bottom), cq.Vector(0, 0, 1))
     return bool(plug.intersect(solid).Volume() < 1e-6 * plug.Volume())
 
 

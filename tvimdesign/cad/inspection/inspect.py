@@ -183,7 +183,7 @@ def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:
 
 def part_checks(
     design: Design, dims: Dimensions, kind: str, solid: cq.Solid, mesh: Mesh | None = None
-) -> list[SolidCheck]:  # fmt: skip
+) -> list[SolidCheck]:
     """Compare one made part with its process: all it needs is its own solid, and its mesh if that is there."""
     mesh = mesh or solid_mesh(solid)
     triangles, bed = Triangles(mesh), (dims.bed_length, dims.bed_width, dims.bed_height)

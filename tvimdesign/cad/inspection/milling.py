@@ -202,9 +202,8 @@ def _pocket_check(
     text = f"a place {worst.width:.3g} mm wide is {worst.depth:.3g} mm deep, {worst.ratio:.3g} times; "
     text += f"the process cuts {limit:.3g} times"
     return finding(
-        part, "pocket", worst.ratio, limit, "", at_most(worst.ratio, limit), text,
-        place=worst.place, resolution=SPACING,
-    )  # fmt: skip
+        part, "pocket", worst.ratio, limit, "", at_most(worst.ratio, limit), text, place=worst.place, resolution=SPACING
+    )
 
 
 def _inside(drilled: Sequence[Cylinder], points: Array) -> NDArray[np.bool_]:

@@ -175,9 +175,7 @@ _OPPOSED = -0.1
 """Two walls are on both sides where they look at each other, however askew; those of a square corner do not."""
 
 
-def across(
-    triangles: Triangles, points: Array, up: Array, along: Sequence[float] = ()
-) -> tuple[Array, Array]:  # fmt: skip
+def across(triangles: Triangles, points: Array, up: Array, along: Sequence[float] = ()) -> tuple[Array, Array]:
     """Return the shortest level way through each point from wall to wall, and the walls' height above it along `up`.
 
     Both in mm; the way is infinite where there is none. Of the two walls the lower counts, and of a wall the triangle

@@ -76,9 +76,7 @@ class PlacedBodies:
 MODEL_TOLERANCE = 1e-5
 """How far volumes, masses and inertias of the solids may be from the quantities of the table, relative: they are the
 same to rounding (1e-14), masses to the 3e-7 that springs leave."""
-ROUGHER = {
-    "spring_right_volume": 1e-4, "spring_left_volume": 1e-4, "motor_hub_inertia": 5e-4, "housing_inertia": 5e-3,
-}  # fmt: skip
+ROUGHER = {"spring_right_volume": 1e-4, "spring_left_volume": 1e-4, "motor_hub_inertia": 5e-4, "housing_inertia": 5e-3}
 """Of what is less exact. The kernel sweeps the wire of a spring to 3e-6 of its volume, to 3e-5 where it has 0.8 mm and
 is wound to four times that. The inertias of a motor's hub and of the housing that it turns have the rounded corners,
 the housing also its holes, at one radius in the model: up to 6e-5 and 2e-3 over random designs."""
@@ -219,9 +217,7 @@ def _shared(
     found: dict[tuple[str, str], tuple[float, Place | None]] = {}
     for (first, _), others in copies.items():
         none = len(others) > 1 and _common(placed[first], *(placed[other] for other in others))[0] == 0.0
-        found |= {
-            (first, other): (0.0, None) if none else _common(placed[first], placed[other]) for other in others
-        }  # fmt: skip
+        found |= {(first, other): (0.0, None) if none else _common(placed[first], placed[other]) for other in others}
     return found
 
 

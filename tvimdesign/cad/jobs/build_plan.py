@@ -69,7 +69,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name=jigs.FORK, do=_setting_fork, named=True),
         Work(name="inspect_setting", do=_inspect_setting, needs=("housing", "rotor", jigs.FORK)),
         Work(name="spring_sheet", do=_spring_sheet, named=True),
-    ]  # fmt: skip
+    ]
     clearances = [
         Work(
             name=f"interference_{index + 1}",

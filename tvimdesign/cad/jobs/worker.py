@@ -275,7 +275,7 @@ def _end_with(parent: BaseProcess) -> None:
 
 def _done(
     work: Work, subject: TrackedDesign, needs: Mapping[str, Path], folder: Path, progress: Progress
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """Do one piece of work; returns what came of it."""
     try:
         design, dims, titles, reads = subject.watched(work.named)

@@ -83,14 +83,7 @@ def heater(dims: Dimensions) -> cq.Shape:
     return heater_parts.arc_tile(dims) if dims.spreader_depth else _pad(dims)
 
 
-DRAWN = {
-    "housing": housing,
-    "rotor": rotor,
-    "link": link,
-    "retainer": retainer,
-    "pcl_arc": pcl_arc,
-    "heater": heater,
-}
+DRAWN = {"housing": housing, "rotor": rotor, "link": link, "retainer": retainer, "pcl_arc": pcl_arc, "heater": heater}
 
 
 def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:

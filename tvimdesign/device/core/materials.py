@@ -53,10 +53,7 @@ quantities.option(
     record=("pcl_grade", "softening"),
 )
 quantities.record(
-    "peltier_module",
-    "peltiers",
-    "flexible_1600",
-    "Heater under the layer: Peltier module, foil or silicone",
+    "peltier_module", "peltiers", "flexible_1600", "Heater under the layer: Peltier module, foil or silicone"
 )
 
 quantities.record(
@@ -102,12 +99,7 @@ for name, unit, field, description in (
     ("structure_softening_width", "K", "softening_width", "Width of that softening"),
     ("structure_softened_share", "1", "softened_share", "Modulus of the softened structure over that at 23 degC"),
     ("structure_softening_loss_factor", "1", "softening_loss_factor", "Loss factor in the middle of the softening"),
-    (
-        "structure_creep_share",
-        "1",
-        "creep_share",
-        "Creep of the structure in an hour at 23 degC, of its elastic give",
-    ),
+    ("structure_creep_share", "1", "creep_share", "Creep of the structure in an hour at 23 degC, of its elastic give"),
     ("structure_creep_exponent", "1", "creep_exponent", "Power of time with which the structure creeps"),
     ("structure_creep_energy", "kJ/mol", "creep_energy", "Activation energy by which warmth hastens that creep"),
     ("structure_service_temperature", "degC", "service_temperature", "Highest continuous temperature of the structure"),

@@ -172,10 +172,7 @@ def edge_drops(m: Module) -> tuple[Scalar, Scalar]:
     given = m.pad_wall * (side - corner)
     if m.cold_end is not None and now.lip is not None:
         given = given + m.edge_length * m.cold_end.near * (now.hot - now.lip.temperature)
-    return (
-        given / m.heater_along,
-        (even + m.uneven_sideways * (now.plate[0] - mean)) / m.plate_to_edge,
-    )
+    return (given / m.heater_along, (even + m.uneven_sideways * (now.plate[0] - mean)) / m.plate_to_edge)
 
 
 class LayerSurroundings(NamedTuple):

@@ -58,7 +58,7 @@ def seat_path(m: Module) -> plates.Path:
     spread = constriction(m.spreader_depth / m.floor_thickness)
     seat = plates.Seat(
         m.spreader_gap, m.spreader_depth, spread, m.heater_adhesive_shear_modulus, m.structure_shear_modulus
-    )  # fmt: skip
+    )
     radii = m.pcl_inner_radius, m.pcl_outer_radius
     return plates.path(seat, m.arc_count * m.arc_span, radii, m.floor_between_seats)
 
@@ -95,9 +95,7 @@ def ledge_holding_torque(m: Module) -> Scalar:
     return layer.torque_at_traction(m.seat_strength, glued, m.pcl_outer_radius)
 
 
-TILE_PARTS = (
-    "inner_seat_holding_torque", "outer_seat_holding_torque", "spreader_holding_torque",
-)  # fmt: skip
+TILE_PARTS = ("inner_seat_holding_torque", "outer_seat_holding_torque", "spreader_holding_torque")
 PAD_PARTS = ("heater_holding_torque", "ledge_holding_torque")
 
 

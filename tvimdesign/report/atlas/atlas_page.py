@@ -70,7 +70,7 @@ def figure_data(plan: Atlas, cells: Sequence[AtlasCell]) -> dict[str, Any]:
         "series": series,
         "map": map_data,
         "caption": "Larger marks: more energy a cycle. Thin lines: intervals of assumed values. Grey: empty; ?: open.",
-    }  # fmt: skip
+    }
 
 
 def front_of(cells: Sequence[AtlasCell]) -> list[AtlasCell]:

@@ -197,7 +197,7 @@ class Outcome:
             "leads": [contest.plain() for contest in self.contests],
             "fronts": self.fronts_plain() if self.fronts else {},
             "seconds": self.seconds,
-        }  # fmt: skip
+        }
 
     def _study(self, label: str) -> dict[str, Any]:
         entrant, answer = self.entrants[label], self.found[label]

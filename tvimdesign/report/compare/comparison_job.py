@@ -54,7 +54,7 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
         "starts": search["count"],
         "converged": search["converged"],
         "optima": [{"objective": entry["objective"], "variables": entry["at"]} for entry in search["optima"]],
-    }  # fmt: skip
+    }
 
 
 def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:

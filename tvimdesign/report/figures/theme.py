@@ -147,7 +147,7 @@ def place(figure: Figure, left: float, bottom: float, width: float, height: floa
 
 def in_rows(
     panels: Sequence[Any], across: int, left: float, gap: float, row: float = 0.0
-) -> Iterator[tuple[Any, float, float, float]]:  # fmt: skip
+) -> Iterator[tuple[Any, float, float, float]]:
     """Yield panels side by side in rows, the first above: left end, height above the lowest row, width [inches]."""
     wide, down = (WIDTH - left - 0.15 - gap * (across - 1)) / across, -(-len(panels) // across)
     for i, panel in enumerate(panels):

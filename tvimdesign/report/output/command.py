@@ -65,9 +65,7 @@ class Command:
         """Start the process that draws, so that it is ready when there is something to draw."""
         self._plotter = self._plotter or self._stack.enter_context(PlotProcess(gives_way=gives_way))
 
-    def begin_plots(
-        self, drawings: Sequence[Drawing], study: str, *, vector: bool = True, folder: str = ""
-    ) -> None:  # fmt: skip
+    def begin_plots(self, drawings: Sequence[Drawing], study: str, *, vector: bool = True, folder: str = "") -> None:
         """Start to draw plots, signed with the study's name, if a plotter was started."""
         self._drawn = bool(drawings)
         if self._plotter and drawings:

@@ -95,9 +95,8 @@ def _pretension() -> str:
     place, offset, preload = values["placement_radius"], values["leg_offset"], values["preload_angle"]
     pin = 0.5 * place
     drawn = spring.output_stiffness(
-        count, rate, preload,
-        spring.leg_ratio(pin, place, 0.0, offset), spring.leg_curvature(pin, place, 0.0, offset),
-    )  # fmt: skip
+        count, rate, preload, spring.leg_ratio(pin, place, 0.0, offset), spring.leg_curvature(pin, place, 0.0, offset)
+    )
     return (
         f"no pretension is given, and a torsion spring bears load in its winding direction only: with less than "
         f"{stroke:g} rad half of the springs lift off and K_s = {0.5 * count * rate:.2f} N·m/rad, not "

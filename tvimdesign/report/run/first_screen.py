@@ -18,13 +18,7 @@ from tvimdesign.report.output.terminal import (
     wrapped,
 )
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.blocks.facts import (
-    Fact,
-    chosen_fact,
-    front_fact,
-    main_facts,
-    more_facts,
-)
+from tvimdesign.report.run.blocks.facts import Fact, chosen_fact, front_fact, main_facts, more_facts
 from tvimdesign.report.run.blocks.requirements import HEADS, Requirement, requirements
 from tvimdesign.report.run.blocks.sections import text_sections
 from tvimdesign.report.run.blocks.verdict import Verdict, starts_in_words, verdict
@@ -158,9 +152,7 @@ def _warning(warning: RunWarning, width: int) -> list[str]:
     ]
 
 
-def print_first_screen(
-    answered: AnsweredStudy, console: Console, seconds: float | None = None, after: int = 1
-) -> None:  # fmt: skip
+def print_first_screen(answered: AnsweredStudy, console: Console, seconds: float | None = None, after: int = 1) -> None:
     """Print the first screen."""
     lines = first_screen(answered, console.width, seconds, after)
     first = {_OF_TONE[verdict_of(answered).tone]: r"^.*?(?= · |$)"}

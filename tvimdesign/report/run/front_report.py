@@ -202,7 +202,7 @@ def plain(
         "dominated": front.dominated,
         "failures": [{"where": failure.where, "reason": failure.reason} for failure in front.failures],
         "notes": list(front.notes),
-    }  # fmt: skip
+    }
 
 
 def in_words(front: Front, table: Table) -> list[str]:

@@ -88,9 +88,8 @@ def refuse_failed(report: CadReport) -> None:
         return
     worst = sorted(report.failed, key=lambda check: -abs(check.value))[:3]
     lines = [
-        f"  {check.text}: {check.value:.4g}{check.unit and ' '}{check.unit}, limit {check.limit:.4g}"
-        for check in worst
-    ]  # fmt: skip
+        f"  {check.text}: {check.value:.4g}{check.unit and ' '}{check.unit}, limit {check.limit:.4g}" for check in worst
+    ]
     raise GeometryError(
         f"the parts are written, but {len(report.failed)} of {len(report.checks)} checks fail, the worst:\n"
         + "\n".join(lines)

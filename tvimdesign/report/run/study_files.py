@@ -172,7 +172,7 @@ def _least_diameter(task: JointTask, hardware: str) -> float | None:
 
 def _extreme(
     task: JointTask, hardware: str, output: str, weight: float = 1.0, *, margins: bool = True
-) -> Extreme | None:  # fmt: skip
+) -> Extreme | None:
     """Return the least value of an output that the other limits allow; with a negative weight the largest."""
     from tvimdesign.solve.uncertainty.robust import least_with_margins  # it loads the compiler
 

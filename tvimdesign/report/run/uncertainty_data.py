@@ -76,7 +76,7 @@ class Uncertainty:
 
     def of(
         self, design: Design, modules: int = MODULES, draws: int = DRAWS, deadline: Deadline = NEVER
-    ) -> DesignUncertainty:  # fmt: skip
+    ) -> DesignUncertainty:
         """Return the uncertainty of one design; `modules` and `draws` are powers of two, without `modules` no yield.
 
         Raises TimeOverError at the deadline.
@@ -88,7 +88,7 @@ class Uncertainty:
 
     def data(
         self, design: Design, modules: int = MODULES, draws: int = DRAWS, deadline: Deadline = NEVER
-    ) -> dict[str, Any]:  # fmt: skip
+    ) -> dict[str, Any]:
         """Return the entry for results.json, with the assumptions for the screen. Raises TimeOverError."""
         uncertainty = self.of(design, modules, draws, deadline)
         rows = {
@@ -148,9 +148,7 @@ def uncertainty_of(answer: StudyResult, study: Study, deadline: Deadline = NEVER
     reached = yield_of(answer)
     data = Uncertainty(study).data(answer.design, 0 if reached else MODULES, deadline=deadline)
     if reached:
-        data |= {
-            "parts_yield": asdict(spread.yield_of(reached.together, reached.modules)), "modules": reached.modules,
-        }  # fmt: skip
+        data |= {"parts_yield": asdict(spread.yield_of(reached.together, reached.modules)), "modules": reached.modules}
     return data
 
 

@@ -192,10 +192,7 @@ def free_angle(preload: Preload) -> str:
 def _caveats(result: Spread) -> Iterator[str]:
     rss, drawn = result.deviation, result.drawn.deviation
     spread = rss > 1e-9 * np.abs(result.nominal)
-    bent = [
-        name for i, name in enumerate(result.outputs)
-        if spread[i] and abs(drawn[i] - rss[i]) > _BENT * rss[i]
-    ]  # fmt: skip
+    bent = [name for i, name in enumerate(result.outputs) if spread[i] and abs(drawn[i] - rss[i]) > _BENT * rss[i]]
     if bent:
         yield f"Not linear within the tolerances, so trust Monte Carlo rather than root-sum-square: {', '.join(bent)}."
     turned = [name for i, name in enumerate(result.outputs) if spread[i] and not result.worst.by_sign[i]]

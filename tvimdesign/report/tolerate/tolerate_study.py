@@ -15,13 +15,7 @@ from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.tables import soft_of_module
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.tolerate.tolerance_data import (
-    contributor_rows,
-    figure_data,
-    limit_rows,
-    output_rows,
-    reported,
-)
+from tvimdesign.report.tolerate.tolerance_data import contributor_rows, figure_data, limit_rows, output_rows, reported
 from tvimdesign.report.tolerate.tolerance_report import FILES, sections_of, sentences, verdict
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import power_of_two
@@ -43,9 +37,7 @@ class TolerancedModule:
     notes: tuple[str, ...]
 
 
-def tolerate_study(
-    path: Path, out: Path, samples: int, *, overwrite: bool, as_json: bool
-) -> None:  # fmt: skip
+def tolerate_study(path: Path, out: Path, samples: int, *, overwrite: bool, as_json: bool) -> None:
     """Analyse a study's or a design's tolerances and write a folder. Raises InputError, InfeasibleError,
     and TvimError once all but the figure is done.
     """

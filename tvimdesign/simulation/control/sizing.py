@@ -79,7 +79,7 @@ def controller_of(resolved: ResolvedModule) -> Controller | None:
 
 def _linearised(
     phase: PhaseFunctions, state: Array, current: float, inputs: Array
-) -> tuple[float, Array, Array, Array]:  # fmt: skip
+) -> tuple[float, Array, Array, Array]:
     """Return how fast the hot face heats [K/s], and the heat equation's and the face's derivatives, at an instant."""
     y, u = ca.SX.sym("state", len(state)), ca.SX.sym("current")
     rates = phase.rates(y, u, inputs)

@@ -70,7 +70,7 @@ def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
             *notes_for([swing.case for swing in swings]),
             *overload_notes(resolved, [(swing.case, float(np.max(np.abs(swing.motion.torque)))) for swing in swings]),
         ),
-    )  # fmt: skip
+    )
 
 
 def _swung(resolved: ResolvedModule, case: Case, periods: int) -> Swung:

@@ -194,10 +194,10 @@ def _relaxation_findings(at: Specimen) -> tuple[Finding, ...]:
         return left_after(state, 1.0) / float(linear[0])
 
     return (
-        at.finding("stress_after_1_s", "Pa", "stress 1 s after the strain began",
-                   lambda state: left_after(state, 1.0)),
-        at.finding("stress_after_100_s", "Pa", "stress 100 s after the strain began",
-                   lambda state: left_after(state, 100.0)),
+        at.finding("stress_after_1_s", "Pa", "stress 1 s after the strain began", lambda state: left_after(state, 1.0)),
+        at.finding(
+            "stress_after_100_s", "Pa", "stress 100 s after the strain began", lambda state: left_after(state, 100.0)
+        ),
         at.finding("largest_stress", "Pa", "largest stress", lambda state: float(np.max(_stress(state)))),
         at.finding("linear_share", "1", "share of the linear spectrum's stress after 1 s", linear_share),
-    )  # fmt: skip
+    )

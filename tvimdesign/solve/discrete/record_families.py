@@ -97,9 +97,7 @@ def _groups(study: Study, first: Records, listed: Mapping[str, Sequence[str]]) -
     return [tuple(name for name in listed if name in names) for names, _ in groups]
 
 
-def _classes(
-    study: Study, first: Records, names: Sequence[str], listed: Mapping[str, Sequence[str]]
-) -> list[Mixture]:  # fmt: skip
+def _classes(study: Study, first: Records, names: Sequence[str], listed: Mapping[str, Sequence[str]]) -> list[Mixture]:
     """Return mixtures of the combinations of some choices, grouped by words that make the same structure."""
     combinations = [
         dict(zip(names, chosen, strict=True)) for chosen in itertools.product(*(listed[name] for name in names))
@@ -119,9 +117,7 @@ def _classes(
     ]
 
 
-def _mixture(
-    study: Study, records: Sequence[Records], facts: Sequence[Mapping[str, Any]], first: Records
-) -> Mixture:  # fmt: skip
+def _mixture(study: Study, records: Sequence[Records], facts: Sequence[Mapping[str, Any]], first: Records) -> Mixture:
     numbers = {
         name: tuple(fact[name] for fact in facts)
         for name, value in facts[0].items()
@@ -181,9 +177,7 @@ def possible(study: Study, family: Family) -> Family:
     return Family(records, tuple(mixtures))
 
 
-def _of_it_alone(
-    study: Study, model: MixedDevice, limits: Sequence[Constraint], mixture: Mixture
-) -> list[Constraint]:  # fmt: skip
+def _of_it_alone(study: Study, model: MixedDevice, limits: Sequence[Constraint], mixture: Mixture) -> list[Constraint]:
     """Return the limits that depend on a mixture's records and on nothing else that is free."""
     without_cycle = [limit for limit in limits if not on_cycle(study.table, limit.output)]
     outputs = list(dict.fromkeys(limit.output for limit in without_cycle))

@@ -92,7 +92,7 @@ class Trees:
         study = with_records(self.study, records)
         return Optimizer(
             study, self.reference, self.progress, objectives=self.objectives, deadline=self.deadline, mixtures=mixtures
-        )  # fmt: skip
+        )
 
 
 def refuse_too_many(families: Sequence[Family], sizes: Sizes) -> None:

@@ -96,7 +96,7 @@ def _values(optimizer: Optimizer, study: Study, nearest: Run) -> dict[str, float
 
 def _way(
     optimizer: Optimizer, conflict_set: ConflictSet, now: Mapping[str, float], values: Mapping[str, float]
-) -> float:  # fmt: skip
+) -> float:
     """Return how much of the move that conflicting limits need some values make up for, to first order."""
     limits = {f"{limit.part_of or limit.output} {limit.sense}": limit.limit for limit in optimizer.problem.limits}
     way = 0.0

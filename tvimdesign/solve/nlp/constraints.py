@@ -162,7 +162,7 @@ def _clashing(study: Study, start: Mapping[str, Any], behind: Sequence[Input]) -
 
 def _cures(
     study: Study, start: Mapping[str, Any], behind: Sequence[Input], satisfied: Callable[[Mapping[str, Any]], bool]
-) -> list[str]:  # fmt: skip
+) -> list[str]:
     """Return changes of one input each after which values are as they must be; each was tried."""
     cures = []
     for row in behind:

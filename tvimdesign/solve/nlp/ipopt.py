@@ -61,9 +61,7 @@ Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
 """Where a run begins: anywhere; anywhere, to end where all limits are met; near another optimum, none of whose
 multipliers hold; at an optimum, with them; at the optimum
 itself, which is sought more exactly."""
-_SETTINGS: dict[Beginning, dict[str, Any]] = {
-    "cold": _ANYWHERE, "feasible": _FEASIBLE, "warm": _WARM, "sharp": _WARM,
-}  # fmt: skip
+_SETTINGS: dict[Beginning, dict[str, Any]] = {"cold": _ANYWHERE, "feasible": _FEASIBLE, "warm": _WARM, "sharp": _WARM}
 _SHARP = 1e-11
 """Tolerance that separates a limit which hardly presses from one which does not."""
 _MOST_ITERATIONS = {"cold": 120, "near": 60, "warm": 25, "sharp": 60}

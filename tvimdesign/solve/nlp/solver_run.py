@@ -134,8 +134,7 @@ MEANINGS = {
     "Maximum_WallTime_Exceeded": Meaning("ran out of time", _MORE_TIME),
     "Restoration_Failed": Meaning("lost its way back to the equations of the switch", _BETTER_START),
     "Error_In_Step_Computation": Meaning(
-        "could not compute a step: the equations are close to singular there",
-        _BETTER_START,
+        "could not compute a step: the equations are close to singular there", _BETTER_START
     ),
     "Invalid_Number_Detected": Meaning(
         "met a point where an output is no number, such as a leg that cannot reach its pin",

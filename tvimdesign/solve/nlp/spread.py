@@ -222,9 +222,7 @@ def sobol_indices(
         return alone, alone
     dists: list[Any] = list(contributors)
     with np.errstate(invalid="ignore", divide="ignore"):
-        indices = stats.sobol_indices(
-            func=finite, n=samples, dists=dists, rng=np.random.default_rng(seed)
-        )  # fmt: skip
+        indices = stats.sobol_indices(func=finite, n=samples, dists=dists, rng=np.random.default_rng(seed))
     return np.nan_to_num(np.atleast_2d(indices.first_order)), np.nan_to_num(np.atleast_2d(indices.total_order))
 
 

@@ -143,13 +143,7 @@ class TrustRegion:
             return answer, solver.stats(), to, self._programme.at(to)
 
     def _ends_here(
-        self,
-        point: Point,
-        answer: Mapping[str, Any],
-        near: Mapping[str, Array],
-        beginning: Beginning,
-        *,
-        stands: bool,
+        self, point: Point, answer: Mapping[str, Any], near: Mapping[str, Array], beginning: Beginning, *, stands: bool
     ) -> bool:
         """Return whether the cycle's own rows and slopes say that an optimum of the models is one."""
         if self._breach(point) > 0.0:

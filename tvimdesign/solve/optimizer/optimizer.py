@@ -349,9 +349,8 @@ class Optimizer:
         return least, largest
 
     def record(
-        self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float,
-        parameters: Parameters,
-    ) -> Run:  # fmt: skip
+        self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float, parameters: Parameters
+    ) -> Run:
         """Return the solver's result from some inputs. Raise KeyboardInterrupt if one arrived.
 
         CasADi takes an interrupt that comes while it evaluates a function for a failure of that.

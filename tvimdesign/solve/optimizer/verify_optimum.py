@@ -230,10 +230,7 @@ def exceeded(values: Mapping[str, float], table: Table) -> tuple[Constraint, ...
 
 def sorted_by_acceptance(names: Collection[str], accept: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Ratings exceeded, those that a study does not accept and those that it does."""
-    return (
-        tuple(name for name in names if name not in accept),
-        tuple(name for name in names if name in accept),
-    )
+    return (tuple(name for name in names if name not in accept), tuple(name for name in names if name in accept))
 
 
 def exceeded_at_start(study: Study) -> dict[str, float]:

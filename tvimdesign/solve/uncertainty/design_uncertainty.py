@@ -94,7 +94,7 @@ class UncertaintyModel:
 
     def at(
         self, resolved: ResolvedModule, modules: int, draws: int = DRAWS, deadline: Deadline = NEVER
-    ) -> DesignUncertainty:  # fmt: skip
+    ) -> DesignUncertainty:
         """Draw `modules` (a power of two) of a design by the study's tolerances, `draws` from the ranges.
 
         Without `modules` there is no yield. Raises TimeOverError at the deadline.

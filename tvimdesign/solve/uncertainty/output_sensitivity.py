@@ -52,7 +52,7 @@ def output_sensitivities(
     at = model.start[[model.index[name] for name in variables]]
     return OutputSensitivities(
         tuple(names[i] for i in places), tuple(variables), values[places], at, slopes[places], left_out
-    )  # fmt: skip
+    )
 
 
 class OutputDerivatives:

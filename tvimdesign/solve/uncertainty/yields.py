@@ -114,9 +114,7 @@ class Yields:
         numbers = {name: float(values[name]) for name in self._model.names}
         return ResolvedModule(self._study, {**numbers, **self._model.words})
 
-    def at(
-        self, inputs: Array, seed: int | None = None, deadline: Deadline = NEVER, count: int = MODULES
-    ) -> Drawn:  # fmt: skip
+    def at(self, inputs: Array, seed: int | None = None, deadline: Deadline = NEVER, count: int = MODULES) -> Drawn:
         """Draw modules of the design with these inputs, `count` or more, from the study's seed unless another is given.
 
         What was drawn before is not drawn again. Raises TimeOverError at the deadline.

@@ -321,9 +321,7 @@ def _axis_schema(value: Schema, *, ranged: bool) -> Schema:
     listed: Schema = {"type": "array", "minItems": 1, "items": value}
     if not ranged:
         return listed
-    steps: Schema = {
-        "count": {"type": "integer", "minimum": 2}, "step": value, "spacing": {"enum": list(_SPACINGS)},
-    }  # fmt: skip
+    steps: Schema = {"count": {"type": "integer", "minimum": 2}, "step": value, "spacing": {"enum": list(_SPACINGS)}}
     return {"anyOf": [listed, shape({"from": value, "to": value, **steps}, ["from", "to"])]}
 
 

@@ -150,9 +150,7 @@ def _write(study: Study) -> dict[str, Any]:
 def _schema(table: Table) -> Schema:
     allowed = {name: {"description": meaning, "allOf": [QUANTITY]} for name, (_, meaning) in _ALLOWED.items()}
     given = shape(field_schemas(GivenTrajectory), ["moments", "angles"])
-    trajectory = {
-        "description": f"angles of the housing over time: {_EXPECTED}", "anyOf": [given, {"type": "string"}]
-    }  # fmt: skip
+    trajectory = {"description": f"angles of the housing over time: {_EXPECTED}", "anyOf": [given, {"type": "string"}]}
     return mapping(
         {**{name: set_schema(row) for name, row in task_quantities(table).items()}, **allowed, "trajectory": trajectory}
     )

@@ -61,10 +61,7 @@ def _bytes(path: Path) -> bytes:
     shown = printable(path)
     try:
         return ordinary_bytes(
-            path,
-            MOST_BYTES,
-            "a study file (YAML)",
-            lambda size: StudyError([Mistake(shown, 0, 0, "", _too_big(size))]),
+            path, MOST_BYTES, "a study file (YAML)", lambda size: StudyError([Mistake(shown, 0, 0, "", _too_big(size))])
         )
     except FileNotFoundError:
         raise InputError(f"{shown}: no such file; {_similar(path) or '`tvimdesign new` writes a study'}") from None

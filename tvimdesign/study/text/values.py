@@ -62,7 +62,7 @@ class Reading:
 
     def unknown_quantity(
         self, place: Place, path: str, what: str, name: str, known: Iterable[str], point: str = ""
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Note a name that is no such quantity; of one that only another mode has, which one.
 
         A quantity that is meant instead is named with its operating point, `point` or else the hot one.

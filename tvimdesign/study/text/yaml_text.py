@@ -16,11 +16,7 @@ from tvimdesign.study.text.source import CONTROL
 
 MOST_NODES = 10_000
 DEEPEST = 20
-_TAGS = {
-    "text": {"str", "int", "float", "bool", "null"},
-    "list": {"seq"},
-    "map": {"map"},
-}
+_TAGS = {"text": {"str", "int", "float", "bool", "null"}, "list": {"seq"}, "map": {"map"}}
 _TAG_PREFIX = "tag:yaml.org,2002:"
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 

@@ -199,7 +199,7 @@ def test_a_gap_is_counted_and_drops_no_column(tmp_path: Path, gap: str) -> None:
         ("Time [mm:ss]", ["0:58", "1:03", "1:06"], [0.0, 5.0, 8.0]),
         ("Time (hh:mm)", ["0:58", "OPEN", "1:06"], [0.0, np.nan, 480.0]),
     ],
-)  # fmt: skip
+)
 def test_clock_times_are_seconds_from_the_first_row(
     tmp_path: Path, heading: str, cells: list[str], seconds: list[float]
 ) -> None:

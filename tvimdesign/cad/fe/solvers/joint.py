@@ -33,7 +33,7 @@ from ngsolve import (
     x,
     y,
     z,
-)  # fmt: skip
+)
 
 BETWEEN_PLATES = 0.25
 """Poisson's ratio of rigid modules: pressed between stiff plates they are as stiff as three times the shear modulus."""

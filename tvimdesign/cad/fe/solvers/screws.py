@@ -30,7 +30,7 @@ from ngsolve import (
     sqrt,
     x,
     y,
-)  # fmt: skip
+)
 
 DEEP, NEAR = 1.2, 1.6
 """Depth of the core that is drawn, over that of the screws' holes; how much of the link, over the core's radius."""

@@ -28,7 +28,7 @@ from ngsolve import (
     x,
     y,
     z,
-)  # fmt: skip
+)
 
 POISSON = 0.3
 ORDER = 2  # 3 on the same mesh moves rates by 0.2 %, stresses by 2 %

@@ -45,9 +45,8 @@ kinds.option(
     record=("peltier_module", "form"),
 )
 kinds.record(
-    "spreader_material", "spreaders", "aluminum_6061", "Sheet between rigid heaters and the PCL",
-    requires=WITH_TILES,
-)  # fmt: skip
+    "spreader_material", "spreaders", "aluminum_6061", "Sheet between rigid heaters and the PCL", requires=WITH_TILES
+)
 for name, unit, field, description in (
     ("peltier_bulk_modulus", "GPa", "bulk_modulus", "Bulk modulus of a module that is cut to the PCL"),
     ("peltier_length", "mm", "length", "Length of one rectangular heater, along its row"),

@@ -149,8 +149,7 @@ def _margins_missed(answer: StudyResult) -> Verdict | None:
     if reached is None:
         return Verdict("margins_missed", "Margins not reached: the time limit ended the search")
     return Verdict(
-        "margins_missed",
-        f"Margins not reached: yield {percent(reached.together)} of {percent(reached.asked)} asked",
+        "margins_missed", f"Margins not reached: yield {percent(reached.together)} of {percent(reached.asked)} asked"
     )
 
 
