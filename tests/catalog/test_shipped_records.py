@@ -133,7 +133,7 @@ def test_wires_rise_in_the_preferred_metric_sizes() -> None:
     assert set(sizes) <= set(metric)
 
 
-LOSS_FACTORS = {"fields_metal": 0.01, "paraffin_rt60": 0.1}
+LOSS_FACTORS = {"eva_28": 0.1, "fields_metal": 0.01, "paraffin_rt60": 0.1}
 
 
 def test_solid_spectrum_has_a_modulus_of_one_at_1_hertz() -> None:
@@ -176,6 +176,15 @@ def test_solids_soften_and_take_up_heat_as_calibrated() -> None:
         assert sensible + value("latent_heat") == pytest.approx(231e3, rel=0.02)
 
     of_every(PCL, check)
+
+
+def test_eva_flows_through_a_melt_indexer_as_its_title_states() -> None:
+    value = CATALOG.record("polymers", "eva_28").value
+    assert value("melt_reference_temperature") == pytest.approx(463.15)
+    pressure = 2.16 * 9.81 / (math.pi / 4 * 9.474e-3**2)
+    flow = math.pi * (2.083e-3 / 2) ** 4 * pressure / (8 * value("zero_shear_viscosity") * 8e-3)
+    by_its_expansion = 830.0  # kg/m3 at 190 degC
+    assert 1e3 * flow * by_its_expansion * 600.0 == pytest.approx(500.0, rel=0.05)  # g in 10 minutes
 
 
 @pytest.mark.parametrize(

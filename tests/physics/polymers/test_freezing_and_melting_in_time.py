@@ -54,6 +54,13 @@ def test_half_freezes_in_1_to_3_minutes_at_40_degrees(grade: str) -> None:
     assert 60.0 <= textbook.half_time(CELSIUS + 40.0, kinetics_of(grade)) <= 180.0
 
 
+def test_eva_freezes_where_published_peaks_have_it() -> None:
+    # BASF, TI/ES 1474 e: 80 to 88 degC at 13 to 15 % vinyl acetate; 2.08 K less for each per cent more.
+    record = Catalog().record("polymers", "eva_28")
+    assert peak(10.0, kinetics_of("eva_28")) == pytest.approx(84.0 - 14.0 * 2.08, abs=3.0)
+    assert record.value("melting_end") - CELSIUS == pytest.approx(95.5 - 14.0 * 1.36, abs=3.0)
+
+
 @pytest.mark.parametrize("celsius", [25.0, 32.0, 40.0, 45.0])
 @pytest.mark.parametrize("exponent", [2.5, 3.0])
 def test_avrami_plot_of_a_quenched_melt_is_straight_with_slope_n(celsius: float, exponent: float) -> None:
