@@ -4,14 +4,20 @@ import csv
 import itertools
 import json
 import math
+import signal
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import attack
+import psutil
 import pytest
 import yaml
+from support import are_gone, wait_until
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.processes import end_process_tree
 from tvimdesign.report.atlas.atlas_page import rows_of
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study
@@ -111,3 +117,29 @@ def test_the_command_writes_tables_and_studies(tvimdesign, tmp_path):
     assert {limit.output for limit in study.require} >= {"holding_torque", "cycle_time", "joint_stiffness@hot"}
     assert (out / "atlas.svg").exists()
     assert (out / "report.html").exists()
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize("number", ["SIGTERM", "SIGKILL"])
+def test_its_workers_end_with_the_command(tmp_path, number):
+    if not hasattr(signal, number):
+        pytest.skip("Windows has no such signal")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "tvimdesign", "atlas", PLAN, "--out", tmp_path, "--workers", "2", "--no-plots"],
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    workers: list[int] = []
+
+    def started():
+        tree = psutil.Process(process.pid).children(recursive=True)
+        workers[:] = [child.pid for child in tree if any("spawn_main" in word for word in child.cmdline())]
+        return bool(workers)
+
+    try:
+        assert wait_until(started, 60.0)
+        process.send_signal(getattr(signal, number))
+        assert process.wait(30.0) in (128 + signal.SIGTERM, -9)
+        assert are_gone(workers)
+    finally:
+        for each in (process.pid, *workers):
+            end_process_tree(each)

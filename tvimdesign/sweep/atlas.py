@@ -8,18 +8,22 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
 from tvimdesign import __version__
 from tvimdesign.base.atomic_files import atomic_write, make_folder
+from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.environment import ask_for_one_thread
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.processes import end_process_tree
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.pareto.tradeoff import ONE_POINT
@@ -70,7 +74,7 @@ def compute(plan: Atlas, folder: Path, workers: int, say: Say) -> tuple[dict[str
     ask_for_one_thread()
     waiting = [family for family in plan.families if _known(plan, folder, *family) is None]
     seconds, failures = 0.0, list[TvimError]()
-    with ProcessPoolExecutor(workers or os.cpu_count() or 1, get_context("spawn")) as pool:
+    with _pool(workers or os.cpu_count() or 1) as pool:
         jobs = {pool.submit(_answered, plan, folder, *family): family for family in waiting}
         say(f"{len(plan.families) - len(waiting)} of {len(plan.families)} families are there")
         for done, job in enumerate(as_completed(jobs), start=1):
@@ -82,6 +86,24 @@ def compute(plan: Atlas, folder: Path, workers: int, say: Say) -> tuple[dict[str
             say(f"family {done} of {len(waiting)}: {kind} on {hardware} hardware")
     counts = {"families": len(plan.families), "computed": len(waiting) - len(failures), "cpu_s": seconds}
     return counts, failures
+
+
+@contextmanager
+def _pool(workers: int) -> Iterator[ProcessPoolExecutor]:
+    """Start processes that end when this one does, and at once where it is interrupted."""
+    with ProcessPoolExecutor(workers, get_context("spawn"), _begin_worker, (os.getpid(),)) as pool:
+        try:
+            yield pool
+        except BaseException:
+            for process in active_children():
+                end_process_tree(process.pid or 0)
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _begin_worker(parent: int) -> None:
+    follow_parent(parent)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
 
 
 def _key(plan: Atlas, study: Study) -> str:
