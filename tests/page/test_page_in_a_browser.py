@@ -268,5 +268,9 @@ def test_a_sweep_is_drawn_and_its_cells_are_brushed(opened: Callable[..., Opened
     assert rows.locator("th").all_inner_texts() == ["3", "4"]  # not what never happens
     figure.get_by_role("button", name="Keep all").click()
     assert rows.count() == 6
+    marked = found.page.locator("tr[aria-current=true] th")
+    assert marked.count() == 0
+    figure.locator("svg path[d^='M1 0A']").last.click(force=True)
+    assert marked.all_inner_texts() == ["6"]
     assert [url for url in found.requests if not url.startswith(("file:", "data:", "blob:"))] == []
     assert found.complaints == []

@@ -150,8 +150,8 @@ def explore(
     source: Annotated[
         Path,
         typer.Argument(
-            metavar="STUDY|RESULT|SWEEP",
-            help="Study file, folder or design.json of a run, or folder of a sweep.",
+            metavar="STUDY|RESULT|SWEEP|ATLAS",
+            help="Study file, folder or design.json of a run, or folder of a sweep or an atlas.",
             autocompletion=options.designs_and_studies,
         ),
     ],

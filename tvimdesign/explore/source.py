@@ -1,4 +1,4 @@
-"""Sources of an explorer: a study file, a result with its design and front, or a sweep with its cells."""
+"""Sources of an explorer: a study file, a result with its design and front, a sweep with its cells, or an atlas."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -8,9 +8,12 @@ from typing import Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.messages import Way
-from tvimdesign.explore.state import State, beginning, refuse_other_folders
+from tvimdesign.explore.state import State, beginning, refuse_other_folders, sized_state
+from tvimdesign.report.atlas.atlas_page import STUDIES, module_points
+from tvimdesign.report.atlas.make_atlas import SUMMARY
 from tvimdesign.report.output.numbers import axis_label
 from tvimdesign.report.sweep.sweep_figures import shown_cells
+from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import Design, read_design
 from tvimdesign.study.sections.all_sections import written
@@ -32,6 +35,8 @@ class Source:
     """As in its results.json."""
     cells: SweptCells | None = None
     """Of the sweep."""
+    modules: Sequence[Mapping[str, Any]] = ()
+    """Rows of the atlas that have one."""
 
     @property
     def text(self) -> bytes:
@@ -50,6 +55,8 @@ class Source:
         """Return the points of the front or the cells of the sweep in the table's units; None for a study."""
         if self.cells:
             return shown_cells(self.cells)
+        if self.modules:
+            return module_points(self.modules)
         if self.front is None or not self.front["points"]:
             return None
         names, table = list(self.front["units_of_values"]), self.study.table
@@ -64,6 +71,8 @@ class Source:
         """Return the state that shows a point of the front or a cell. Raises InputError if there is none."""
         if self.cells:
             return _state_of(self.cells, number)
+        if self.modules and self.folder:
+            return _of_atlas(self.tree, self.folder, self.modules, number)
         point = next((point for point in (self.front or {"points": []})["points"] if point["number"] == number), None)
         if point is None or self.folder is None:
             raise InputError(f"point {number}: the front has none of this number")
@@ -75,9 +84,14 @@ class Source:
 
 
 def open_source(path: Path, settings: Sequence[str] = ()) -> Source:
-    """Open a study file, the folder or design.json of a result, or the folder of a sweep. Raises InputError."""
+    """Open a study file, the folder or design.json of a result, or the folder of a sweep or an atlas.
+
+    Raises InputError.
+    """
     if is_sweep(path):
         return _sweep(path, settings)
+    if (path / SUMMARY).is_file():
+        return _atlas(path, settings)
     design = path / "design.json" if path.is_dir() else path
     if design.suffix == ".json":
         return _result(read_design(design), design)
@@ -108,6 +122,32 @@ def _state_of(cells: SweptCells, number: int) -> State:
     cell = cells.cell(number)
     way: Way = "evaluate" if cell.answered or not cell.study.vary else "optimize"
     return State(way=way, changes=cell.changes, at={**beginning(cell.study), **cell.at})
+
+
+def _atlas(folder: Path, settings: Sequence[str]) -> Source:
+    """Open an atlas at its first module."""
+    try:
+        rows = json.loads((folder / SUMMARY).read_bytes())["rows"]
+        modules = [row for row in rows if row["status"] == OPTIMAL]
+        tree = tree_of_file(_study_of(folder, modules[0]), settings)
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        raise InputError(f"{folder / SUMMARY}: no modules of `tvimdesign atlas` can be read: {error!r}") from error
+    return Source(tree, read_tree(tree), folder=folder, modules=modules)
+
+
+def _study_of(folder: Path, row: Mapping[str, Any]) -> Path:
+    return folder / STUDIES / f"{row['kind']}-{row['torque [N*m]']:g}Nm-{row['cycle [s]']:g}s.yaml"
+
+
+def _of_atlas(base: StudyTree, folder: Path, modules: Sequence[Mapping[str, Any]], number: int) -> State:
+    """Return the state that shows a module of an atlas, evaluated. Raises InputError if it cannot be shown."""
+    if not 1 <= number <= len(modules):
+        raise InputError(f"module {number}: the atlas has the modules 1 to {len(modules)}")
+    path = _study_of(folder, modules[number - 1])
+    tree = tree_of_file(path)
+    if read_tree(tree).mode != read_tree(base).mode:
+        raise InputError(f"module {number}: it is of another mode; explore {path}")
+    return sized_state(base, tree_yaml(tree)).model_copy(update={"way": "evaluate"})
 
 
 def _of_design(design: Design) -> dict[str, Any]:

@@ -7,7 +7,7 @@ export const FRONT = { title: "Front", one: "point", many: "designs" };
 
 /**
  * Draw the points; a brush, or the ends typed in below, keep only those within, in the table too. A value that is null never happens.
- * `choose`, where there is one, is called with the number of a point that is clicked.
+ * `choose` is called with the number of a point that is clicked; without it the point's row in the table is marked.
  * @param {any} place
  * @param {any} data
  * @param {{ choose?: (number: number) => void }} [hooks]
@@ -48,7 +48,7 @@ export function draw(place, data, { choose } = {}) {
     }],
   }));
 
-  if (choose) scatter.made.on("click", (/** @type {any} */ { data: one }) => choose(one.number));
+  scatter.made.on("click", (/** @type {any} */ { data: one }) => (choose ?? mark)(one.number));
 
   const parallel = chart(place, { says: `Parallel coordinates of ${data.labels.join(", ")}`, height: 360 }, (look) => ({
     parallel: { left: 60, right: 60, top: 76, bottom: 24 },
@@ -87,6 +87,10 @@ export function draw(place, data, { choose } = {}) {
 
   const drawn = new Set(data.points.map(({ number }) => String(number)));
   const rows = [...place.closest("section").querySelectorAll("tbody tr")];
+  const mark = (number) => {
+    for (const row of rows) row.ariaCurrent = String(row.cells[0].textContent.trim() === String(number));
+    rows.find((row) => row.ariaCurrent === "true")?.scrollIntoView({ block: "center" });
+  };
   const renew = (write = true) => {
     const kept = new Set(data.points.filter(inside).map(({ number }) => String(number)));
     const brushed = ends.flat().some((end) => end !== null);

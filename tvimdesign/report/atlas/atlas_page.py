@@ -3,6 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.units import from_si
@@ -114,7 +115,7 @@ def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, flo
         facts.append((kind, _in_short(entry["title"], [cell for cell in cells if cell.kind == kind])))
     modules = [cell for cell in cells if cell.status == OPTIMAL]
     sections = [
-        Section("map", "Map", [_brushed(plan, modules), _grid(modules)]),
+        Section("map", "Map", [_brushed(cells, command.out), _grid(modules)]),
         Section("empty", "Empty cells", [_empty([cell for cell in cells if cell.status != OPTIMAL])]),
     ]
     files = {"atlas.csv": "every cell", "atlas.png": "the figure", "atlas.svg": "for print", "atlas.pdf": "for print"}
@@ -135,23 +136,30 @@ def _in_short(title: str, cells: Sequence[AtlasCell]) -> str:
     return "; ".join([*sentences, *([f"ended by {ends}"] if ends else [])])
 
 
-def _brushed(plan: Atlas, modules: Sequence[AtlasCell]) -> Drawn:
-    names = ["torque", "density", *_BRUSHED]
+def module_points(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the rows with a module as points, numbered as in the table of modules."""
+    modules = [row for row in rows if row["status"] == OPTIMAL]
+    kinds = list(dict.fromkeys(row["kind"] for row in rows))
+    columns = {"torque": "torque [N*m]", "density": "density [N*m/kg]"}
+    columns |= {name: f"{name} [{_UNITS[name]}]" for name in _BRUSHED}
     labels = ["torque asked [N·m]", "torque over mass [N·m/kg]", *(axis_label(name, _UNITS[name]) for name in _BRUSHED)]
     points = [
         {
-            "number": place, "status": plan.kinds[cell.kind]["title"], "hollow": False,
-            "group": list(plan.kinds).index(cell.kind),
-            "values": [cell.torque, cell.density, *(from_si(cell.values[name], _UNITS[name]) for name in _BRUSHED)],
+            "number": number, "status": row["kind"], "hollow": False, "group": kinds.index(row["kind"]),
+            "values": [row[column] for column in columns.values()],
         }
-        for place, cell in enumerate(modules, start=1)
+        for number, row in enumerate(modules, start=1)
     ]  # fmt: skip
-    data = {
-        "of": [CYCLE, "density"], "names": names, "labels": labels, "points": points,
-        "words": {"title": "Modules", "one": "module", "many": "modules"},
-    }  # fmt: skip
-    says = "Each point is the lightest module of a cell. Drag along an axis below to keep only what lies within."
-    return Drawn("brushed", "front.js", says, data, libraries=["echarts"])
+    words = {"title": "Modules", "one": "module", "many": "modules"}
+    return {"of": [CYCLE, "density"], "names": list(columns), "labels": labels, "points": points, "words": words}
+
+
+def _brushed(cells: Sequence[AtlasCell], folder: Path) -> Drawn:
+    says = (
+        "Each point is the lightest module of a cell. Drag along an axis below to keep only what lies within. Click a "
+        f"point for its row and study; `tvimdesign explore {folder}` shows it in 3-D."
+    )
+    return Drawn("brushed", "front.js", says, module_points(rows_of(cells)), libraries=["echarts"])
 
 
 def _grid(modules: Sequence[AtlasCell]) -> Grid:

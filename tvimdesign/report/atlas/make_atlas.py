@@ -16,6 +16,9 @@ from tvimdesign.study.atlas_studies import Atlas
 from tvimdesign.study.written_studies import study_text
 from tvimdesign.sweep.atlas import FAMILIES, cells_of, compute, study_of
 
+SUMMARY = "atlas.json"
+"""File of every row, with counts."""
+
 
 def make_atlas(
     plan: Path | None, out: Path, *, kinds: tuple[str, ...], workers: int, overwrite: bool, resume: bool, plots: bool,
@@ -46,7 +49,7 @@ def make_atlas(
             **head(), "cells": len(cells), "statuses": dict(Counter(cell.status for cell in cells)), **counts,
             "rows": rows,
         }  # fmt: skip
-        folder.write_json("atlas.json", summary)
+        folder.write_json(SUMMARY, summary)
         command.begin_plots([Drawing("atlas", "analysis_figures.atlas", figure_data(atlas, cells))], "Atlas")
         page = atlas_page(atlas, cells, counts, command)
         command.shown = command.shown[:1]  # the tables are in the page and in atlas.csv
