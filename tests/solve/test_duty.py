@@ -160,6 +160,8 @@ def test_a_study_reports_its_duty() -> None:
         ("require: {response_time@duty: '<= 60 s'}", "the study has no duty"),
         ("duty: {switches_per_hour: 2}\nrequire: {module_mass@duty: '<= 60 g'}", "is not simulated in a duty"),
         ("control: {draws: 2}\nrequire: {return_time@control: '<= 60 s'}", "is not simulated in a control"),
+        ("control: {draws: 2}\nrequire: {highest_switch_rate@control: '>= 2 1/h'}", "limit `highest_switch_rate@duty`"),
+        ("require: {overshoot: '<= 3 K'}", "limit `overshoot@control`"),
     ],
 )
 def test_a_limit_on_what_is_not_simulated_is_refused(sections: str, words: str) -> None:
@@ -169,13 +171,20 @@ def test_a_limit_on_what_is_not_simulated_is_refused(sections: str, words: str) 
 
 def test_limits_of_both_are_read_written_and_checked() -> None:
     text = study_path("paper_reconstructed").read_text()
-    limits = "{return_time@duty: '<= 3000 s', response_time@control: '<= 1 s'}"
+    limits = (
+        "{return_time@duty: '<= 3000 s', response_time@control: '<= 1 s', "
+        "highest_switch_rate@duty: '>= 30 1/h', overshoot@control: '<= 20 K', slowdown@control: '<= 0.5'}"
+    )
     study = read_study_text(f"{text}\nduty: {{switches_per_hour: 2}}\ncontrol: {{draws: 2}}\nrequire: {limits}\n")
-    assert (len(study.require), len(study.simulated)) == (0, 2)
-    assert written(study)["require"].keys() == {"return_time@duty", "response_time@control"}
+    assert (len(study.require), len(study.simulated)) == (0, 5)
+    names = ["return_time@duty", "response_time@control", "highest_switch_rate@duty", "overshoot@control",
+             "slowdown@control"]  # fmt: skip
+    assert list(written(study)["require"]) == names
     result = answer(study)
     satisfied = {check.output: check.kept for check in result.checks if check.origin == "require"}
-    assert satisfied == {"return_time@duty": True, "response_time@control": False}
+    assert satisfied == dict(zip(names, (True, False, False, True, False), strict=True))
+    assert result.duty is not None
+    assert result.design.values["highest_switch_rate@duty"] == pytest.approx(result.duty.most / HOUR)
     assert not result.feasible
 
 

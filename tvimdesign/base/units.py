@@ -81,7 +81,7 @@ _COMMON = (
     "newton Nm N.m mN.m N.mm Nm/rad N.m/rad N.m/deg Nm.s/rad N.m.s/rad kg.m^2 kg.mm^2 g.mm^2 Pa kPa MPa GPa bar "
     "pascal psi Pa.s mPa.s kg/m^3 g/cm^3 K kelvin degC Celsius 1/K Hz kHz hertz rpm rad/s W/K mW/K W/m/K W/(m.K) "
     "W/m^2/K W/(m^2.K) J/kg/K kJ/kg/K J/(kg.K) kJ/(kg.K) kJ/kg J/g J/kg kJ/mol J/mol mV/K V/K uV/K % percent "
-    "kg*mm^2 A/s rad/s^2 J/K K^2 m^4 1/rad mrad N/m N/mm N*m/A K*mm^2/W mN*m ohm*m mm^3/(N*m)"
+    "kg*mm^2 1/h A/s rad/s^2 J/K K^2 m^4 1/rad mrad N/m N/mm N*m/A K*mm^2/W mN*m ohm*m mm^3/(N*m)"
 )
 
 

@@ -26,7 +26,7 @@ from tvimdesign.device.compression import (
     vane_stiffness,
     vane_tiles,
 )
-from tvimdesign.device.core import clearances, layout, mass_properties, materials, motor_choice, task
+from tvimdesign.device.core import clearances, duty_and_control, layout, mass_properties, materials, motor_choice, task
 from tvimdesign.device.core.heat import heater_form, softening, stiffening, thermal_stack
 from tvimdesign.device.core.impedance import (
     joint_impedance,
@@ -37,7 +37,7 @@ from tvimdesign.device.core.impedance import (
 )
 from tvimdesign.device.core.springs import spring_as_drawn, torsion_springs
 from tvimdesign.device.lock import free_joint
-from tvimdesign.device.motor import motor_clearances, motor_layout, motor_mass_properties
+from tvimdesign.device.motor import motor_clearances, motor_layout, motor_load, motor_mass_properties
 from tvimdesign.device.shear import (
     arc_laps,
     arcs,
@@ -56,7 +56,8 @@ SHARED_FILES = (
     materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
     warm_structure, large_motion, thermal_stack, softening, stiffening, mass_properties, clearances, axial_preload,
     process, heater_form, screws, tang, dowels, hard_stops, heater_adhesive, liner, bearing, preload_adjuster, cover,
-    motor_choice, motor_layout, motor_mass_properties, motor_clearances, task, cost,
+    motor_choice, motor_layout, motor_mass_properties, motor_clearances, task, motor_load, cost,
+    duty_and_control,
 )  # fmt: skip
 FILES_OF_MODE: dict[str, tuple[ModuleType, ...]] = {
     "shear": (

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from tvimdesign import __version__
 from tvimdesign.device import Input, Table
+from tvimdesign.device.core.duty_and_control import CONTROL, DUTY
 from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, phase_history
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -17,7 +18,7 @@ from tvimdesign.simulation.working_cycle.melt_history import intervals
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, given_profiles
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.control import ControlResult, control_of
-from tvimdesign.solve.duty import DutyResult, duty_of
+from tvimdesign.solve.duty import HOUR, DutyResult, duty_of
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
     advice_of,
@@ -33,7 +34,7 @@ from tvimdesign.solve.search import Keep, Search, SearchInterrupted, optimize
 from tvimdesign.solve.variants import Cooling, Idealization, cooling, idealizations
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
-from tvimdesign.study.study import CONTROL, CONTROLLED, DUTY, Requirement
+from tvimdesign.study.study import CONTROLLED, Requirement
 from tvimdesign.study.written_studies import started_at
 
 ROUNDS = 2
@@ -172,6 +173,8 @@ def _tightened(study: Study, result: StudyResult) -> Study | None:
     values, limits = result.design.values, []
     for limit in study.simulated:
         base = limit.output.partition("@")[0]
+        if base not in values:
+            return None
         least = limit.limit - (values[limit.output] - values[base])
         if not np.isfinite(least) or limit.limit > 0.0 >= least:
             return None
@@ -183,11 +186,15 @@ def _simulated(
     study: Study, duty: DutyResult | None, control: ControlResult | None, values: Mapping[str, float]
 ) -> dict[str, float]:
     """Return the limited outputs in a duty and under the controller; NaN where there is no such cycle."""
-    seen = dict(duty.quantities) if duty else {}
-    of_state = {DUTY: seen, CONTROL: {}}
+    of_state: dict[str, dict[str, float]] = {DUTY: {}, CONTROL: {}}
+    if duty:
+        of_state[DUTY] = duty.quantities | {"highest_switch_rate": duty.most / HOUR}
     if control:
         slower = control.settling_of_nominal * values["response_time"]
-        of_state[CONTROL] = dict(zip(CONTROLLED, (slower, control.hottest_pads), strict=True))
+        of_state[CONTROL] = {
+            **dict(zip(CONTROLLED, (slower, control.hottest_pads), strict=True)),
+            "overshoot": control.overshoot, "slowdown": control.settling, "controlled_share": control.controlled.share,
+        }  # fmt: skip
     parted = ((limit.output, *limit.output.split("@")) for limit in study.simulated)
     return {name: of_state[state].get(base, np.nan) for name, base, state in parted}
 

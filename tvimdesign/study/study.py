@@ -271,8 +271,6 @@ class Study(_Part):
         return "optimize" if self.vary else "evaluate"
 
 
-DUTY, CONTROL = "duty", "control"
-"""What is simulated of a design once it is found; it follows `@` in the name of an output there."""
 CONTROLLED = ("response_time", "peak_peltier_temperature")
 """Outputs that are simulated under the controller."""
 _SAME_TEMPERATURE = 1e-6

@@ -23,7 +23,7 @@ _HEAD = (
 
 def outside_of(text: str) -> set[str]:
     """Return the names of cases that a page lists as outside their limits."""
-    return set(re.findall(rf"^\| \[.*\]\(#(\w+)\) \|.*\| {OUTSIDE} \|$", text, re.MULTILINE))
+    return set(re.findall(rf"^\| \[.*\]\(#(\w+)\) \|.*, {OUTSIDE} \|$", text, re.MULTILINE))
 
 
 def page(outcomes: Sequence[Outcome]) -> str:
@@ -63,18 +63,18 @@ def _counts(outcomes: Sequence[Outcome]) -> str:
 
 
 def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
-    yield "| case | value | expected | limit | found | of limit | verdict |"
-    yield "|---|---|---|---|---|---|---|"
+    yield "| case | value | expected | limit | found | of limit |"
+    yield "|---|---|---|---|---|---|"
     for each in outcomes:
         name = each.case.name
         if not each.quantities:
-            yield f"| [{name}](#{name}) | | | | | | {OPEN} |"
             continue
         compared, row = each.worst
+        verdict = "" if each.verdict == INSIDE else f", {each.verdict}"
         unit = "" if compared.quantity.unit == "1" else f" {compared.quantity.unit}"
         yield (
             f"| [{name}](#{name}) | {_label(compared, row)} | {_number(row.expected)}{unit} | {_number(row.limit)} "
-            f"| {_number(row.found)} | {row.of_limit:+.2f} | {each.verdict} |"
+            f"| {_number(row.found)} | {row.of_limit:+.2f}{verdict} |"
         )
 
 

@@ -73,17 +73,22 @@ def test_the_folder_of_a_design_is_loaded_by_its_clients(folder: tuple[Path, dic
 
 
 @pytest.mark.slow
-def test_the_arm_of_the_page_swings_soft_and_stays_where_it_froze(folder: tuple[Path, dict[str, Any]]) -> None:
-    block = re.search(r'^```python title="arm.py"\n(.*?)^```', PAGE.read_text(), re.M | re.S)
+def test_the_arm_of_the_page_catches_softly_and_carries_frozen(folder: tuple[Path, dict[str, Any]]) -> None:
+    page = PAGE.read_text()
+    block = re.search(r'^```python title="arm.py"\n(.*?)^```', page, re.M | re.S)
     assert block
     (folder[0] / "arm.py").write_text(block.group(1))
     words = [sys.executable, "arm.py", "."]
     done = subprocess.run(words, cwd=folder[0], capture_output=True, text=True, check=True)
     assert "WARNING" not in done.stderr
-    found = re.findall(r"elbow at +(\S+) mrad, swings +(\S+) mrad", done.stdout)
-    (soft, swing), (frozen, still), (_, again) = ((float(at), float(by)) for at, by in found)
-    assert still < 0.1 * min(swing, again)
-    assert abs(frozen) > 0.5 * abs(soft) > 5.0
+    lines = re.findall(r"from +(\S+) to +(\S+) mrad, at +(\S+) in the end; shoulder at most (\S+) N.m", done.stdout)
+    caught, carried, hard, _ = (
+        (float(low), float(high), float(end), float(torque)) for low, high, end, torque in lines
+    )
+    assert caught[3] < 0.9 * hard[3]
+    assert abs(caught[2]) > 10.0 * abs(hard[2])
+    assert carried[1] - carried[0] < 0.1 * (caught[1] - caught[0])
+    assert done.stdout in page
 
 
 @pytest.mark.parametrize(

@@ -68,3 +68,72 @@ def test_a_margin_is_limited_by_each_part_that_holds() -> None:
     limited = {limit.output for limit in constraints_of(study, table, chosen)}
     assert limited.issuperset(parts)
     assert whole.name not in limited
+
+
+URDF = """<robot name="arm">
+  <link name="upper"/>
+  <link name="forearm"><inertial><origin xyz="0.1 0.02 0.01" rpy="0.3 0.2 -0.4"/><mass value="0.8"/>
+    <inertia ixx="0.001" ixy="0.0001" ixz="0.0002" iyy="0.004" iyz="-0.0001" izz="0.0045"/></inertial></link>
+  <link name="hand"><inertial><origin xyz="0 0.03 0"/><mass value="0.3"/>
+    <inertia ixx="0.0002" ixy="0" ixz="0" iyy="0.0003" iyz="0" izz="0.0004"/></inertial></link>
+  <link name="tip"/>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="forearm"/><axis xyz="0.1 0.9 0.2"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="wrist" type="revolute"><parent link="forearm"/><child link="hand"/>
+    <origin xyz="0.25 0 0.02" rpy="0.5 -0.2 0.7"/><axis xyz="1 0 0"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="grip" type="fixed"><parent link="hand"/><child link="tip"/><origin xyz="0.06 0.02 0"/></joint>
+</robot>
+"""
+
+
+def test_an_arm_of_a_urdf_is_that_of_mujoco(tmp_path: Path) -> None:
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_string(URDF)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    inertia = np.zeros(model.nv)
+    mujoco.mj_mulM(model, data, inertia, np.eye(model.nv)[0])
+    # Gravity across the axis: its moment is largest where the centre of mass is beside the axis.
+    axis = np.array([0.1, 0.9, 0.2]) / np.linalg.norm([0.1, 0.9, 0.2])
+    model.opt.gravity[:] = 9.80665 * np.cross(axis, [1.0, 0.0, 0.0]) / np.linalg.norm(np.cross(axis, [1.0, 0.0, 0.0]))
+    moments = []
+    for data.qpos[0] in np.linspace(0.0, 2.0 * np.pi, 721):
+        mujoco.mj_forward(model, data)
+        moments.append(data.qfrc_bias[0])
+    (tmp_path / "arm.urdf").write_text(URDF)
+    study = read_study_text(_text({"urdf": "arm.urdf", "joint": "elbow", "payload": "1 kg"}), folder=tmp_path)
+    length, mass, centre, share = (
+        study.module[name] for name in ("arm_length", "arm_mass", "arm_centre_share", "arm_inertia_share")
+    )
+    assert share * mass * length**2 == pytest.approx(inertia[0], rel=1e-9)
+    assert 9.80665 * mass * centre * length == pytest.approx(np.max(moments), rel=1e-4)
+    assert mass == pytest.approx(1.1)
+    assert study.module["payload"] == 1.0
+    longer = read_study_text(
+        _text({"urdf": "arm.urdf", "joint": "elbow", "arm_length": "0.5 m", "arm_mass": "2 kg"}), folder=tmp_path
+    )
+    assert longer.module["arm_centre_share"] * 0.5 == pytest.approx(centre * length)
+    assert longer.module["arm_mass"] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("task", "content", "words"),
+    [
+        ({"urdf": "arm.urdf"}, URDF, "`urdf` stands alone"),
+        ({"urdf": "arm.urdf", "joint": "knee"}, URDF, "no revolute joint 'knee': it has elbow, wrist"),
+        ({"urdf": "arm.urdf", "joint": "elbow"}, URDF[:200], "is no XML"),
+        ({"urdf": "arm.urdf", "joint": "elbow"}, URDF.replace('"0.25 0 0.02"', '"0.25 0"'), "is not three numbers"),
+        (
+            {"urdf": "arm.urdf", "joint": "elbow"},
+            URDF.replace('child link="tip"', 'child link="forearm"'),
+            "own parent",
+        ),
+        ({"urdf": "arm.urdf", "joint": "wrist", "arm_length": "1 mm"}, URDF, "its arm_centre_share is"),
+        ({"urdf": "none.urdf", "joint": "elbow"}, URDF, "cannot be read"),
+    ],
+)
+def test_a_urdf_without_an_arm_is_refused(task: dict[str, object], content: str, words: str, tmp_path: Path) -> None:
+    (tmp_path / "arm.urdf").write_text(content)
+    with pytest.raises(StudyError, match=words):
+        read_study_text(_text(task), folder=tmp_path)

@@ -51,7 +51,12 @@ class Motor(NamedTuple):
     rotor_mass: float
     rotor_inertia: float
     torque_constant: float
+    """For an rms current [N*m/A]."""
+    winding_resistance: float
+    """Between two terminals [ohm]."""
     continuous_torque: float
+    peak_torque: float
+    rated_speed: float
     bearing_bore: float
     bearing_radius: float
     bearing_width: float
@@ -89,7 +94,10 @@ def drive_motor(m: Module) -> Motor:
         rotor_mass=m.motor.value("rotor_mass"),
         rotor_inertia=m.motor.value("rotor_inertia"),
         torque_constant=m.motor.value("torque_constant"),
+        winding_resistance=m.motor.value("winding_resistance"),
         continuous_torque=m.motor.value("continuous_torque"),
+        peak_torque=m.motor.value("peak_torque"),
+        rated_speed=m.motor.value("rated_speed"),
         bearing_bore=0.5 * m.motor_bearing.value("bore"),
         bearing_radius=0.5 * m.motor_bearing.value("outer_diameter"),
         bearing_width=m.motor_bearing.value("width"),

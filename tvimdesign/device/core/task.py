@@ -47,13 +47,13 @@ class Trajectory(NamedTuple):
     at_rest: bool = True
     name: str = "given"
 
-    def sampled(self) -> tuple[float, Any, Any]:
-        """Return the step [s], and the angles [rad] and accelerations [rad/s^2] of a cubic spline at each."""
+    def sampled(self) -> tuple[float, Any, Any, Any]:
+        """Return the step [s]; angles [rad], speeds [rad/s], accelerations [rad/s^2] of a cubic spline at each."""
         from scipy.interpolate import CubicSpline
 
         spline = CubicSpline(self.moments, self.angles, bc_type="clamped" if self.at_rest else "natural")
         times = np.linspace(self.moments[0], self.moments[-1], SAMPLES + 1)
-        return float(times[1] - times[0]), spline(times), spline(times, 2)
+        return float(times[1] - times[0]), spline(times), spline(times, 1), spline(times, 2)
 
 
 # --- the load --------------------------------------------------------------------------------------------------------
@@ -166,30 +166,30 @@ def bandwidth(m: Module) -> Scalar:
 
 
 @quantities.helper(per_point=True)
-def trajectory_states(m: Module) -> tuple[Scalar, Scalar]:
-    """Largest torque [N*m] and angle [rad] of the joint while the housing follows the trajectory."""
+def trajectory_states(m: Module) -> tuple[list[Scalar], list[Scalar]]:
+    """Torques [N*m] and angles [rad] of the joint after each step in which the housing follows the trajectory."""
     if isinstance(m.trajectory, str):
-        return 0.0, 0.0
-    step, angles, accelerations = m.trajectory.sampled()
+        return [], []
+    step, angles, _, accelerations = m.trajectory.sampled()
     joint, _, damping = m.task_swing(m.task_joint)
     base = list(accelerations)
     motion = driven.followed(joint, m.pcl_modes, step, SAMPLES, base=base, structure_damping=damping)
     moments = [m.gravity_moment * np.sin(m.gravity_angle + angle) for angle in angles[1:]]
     torques = [torque - moment for torque, moment in zip(motion.torques, moments, strict=True)]
     turned = [angle - moment / m.joint_stiffness for angle, moment in zip(motion.angles, moments, strict=True)]
-    return driven.largest(torques), driven.largest(turned)
+    return torques, turned
 
 
 @quantities.output("N*m", per_point=True)
 def trajectory_torque(m: Module) -> Scalar:
     """Largest torque in the joint while the housing follows the trajectory, gravity counted; 0 without one."""
-    return m.trajectory_states[0]
+    return driven.largest(m.trajectory_states[0])
 
 
 @quantities.output("rad", per_point=True)
 def trajectory_deflection(m: Module) -> Scalar:
     """Largest angle of the joint while the housing follows the trajectory, gravity counted; 0 without one."""
-    return m.trajectory_states[1]
+    return driven.largest(m.trajectory_states[1])
 
 
 # --- impact ----------------------------------------------------------------------------------------------------------

@@ -9,7 +9,6 @@ from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
 quantities = QuantityGroup("Gaps", WITH_MOTOR)
-torques = QuantityGroup("Hold", WITH_MOTOR)
 
 
 @quantities.output("mm", at_least(0.0, "the module's retainer would rub on the motor's hub: more foot_height"))
@@ -160,14 +159,3 @@ _DENTS = "a force at the link's end that the joint just holds would dent the rac
 def motor_bearing_margin(m: Module) -> Scalar:
     """Static rating of one of the motor's bearings less the force on it; zero without a motor."""
     return m.drive_motor.bearing_rating - m.motor_bearing_load
-
-
-# --- what the motor must bear ----------------------------------------------------------------------------------------
-
-_TOO_WEAK = "the motor cannot for long turn the springs alone by the stroke"
-
-
-@torques.output("N*m", advice=(Rule(sense=">=", value=0.0, reason=_TOO_WEAK),))
-def motor_torque_margin(m: Module) -> Scalar:
-    """Continuous torque of the motor less what turns the springs alone by the stroke; zero without a motor."""
-    return m.drive_motor.continuous_torque - m.spring_stiffness * m.stroke

@@ -238,11 +238,16 @@ class Steady(Output):
 
 
 @dataclass(frozen=True, kw_only=True)
-class FirstOscillation(Output):
-    """Output that is the mean of `function` over the first oscillation of a released link.
+class Simulated(Output):
+    """Output that is simulated once a design is found; it cannot be minimised."""
 
-    Simulated once a design is found: it is reported, and can be neither required nor minimised.
-    """
+    state: str = ""
+    """State that is simulated: a study may require `name@state`. Empty if it cannot be required."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FirstOscillation(Simulated):
+    """Output that is the mean of `function` over the first oscillation of a released link."""
 
 
 Quantity: TypeAlias = Input | Choice | Output

@@ -20,6 +20,7 @@ from tvimdesign.device.table.quantity import (
     Phase,
     Quantity,
     Rule,
+    Simulated,
     Steady,
     template_name,
 )
@@ -28,7 +29,7 @@ F = TypeVar("F", bound=Callable[[Module], Any])
 
 GROUPS = (
     "Materials", "Process", "Layout", "Springs", "Impedance", "Lost motion", "Hold", "Task", "Switch", "Softening",
-    "Stiffening", "Size and weight", "Gaps", "Axial play", "Cost",
+    "Stiffening", "Duty and control", "Size and weight", "Gaps", "Axial play", "Cost",
 )  # fmt: skip
 """The headings under which reports list quantities, in their order."""
 
@@ -231,6 +232,14 @@ class QuantityGroup:
         """Add the mean of a function over the first swing of a released link, at each operating point."""
         return self._add(FirstOscillation, unit, per_point=True, headline=headline)
 
+    def simulated(self, name: str, unit: str, state: str, description: str) -> None:
+        """Add what is simulated of a design in a state such as its duty."""
+        quantity = Simulated(
+            name=name, unit=unit, description=description, group=self.group, function=_nowhere, state=state,
+            better=directions().get(name),
+        )  # fmt: skip
+        self.quantities.append(quantity)
+
     def _add(self, kind: type[Output], unit: str, **fields: Any) -> Callable[[F], F]:
         """Return a decorator that adds a function as a quantity of a kind."""
 
@@ -244,6 +253,11 @@ class QuantityGroup:
             return function
 
         return add
+
+
+def _nowhere(_: Module) -> float:
+    """Return no number: a simulation supplies it."""
+    return float("nan")
 
 
 def with_parts(quantities: Iterable[Quantity]) -> tuple[Quantity, ...]:

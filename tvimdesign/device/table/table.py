@@ -18,6 +18,7 @@ from tvimdesign.device.table.quantity import (
     Phase,
     Quantity,
     Scalar,
+    Simulated,
     Steady,
     Supplied,
 )
@@ -76,7 +77,7 @@ class Table:
         return [
             name
             for quantity in self.outputs
-            if not (quantity.instant or quantity.hidden or isinstance(quantity, FirstOscillation))
+            if not (quantity.instant or quantity.hidden or isinstance(quantity, Simulated))
             for name in ([f"{quantity.name}@{point}" for point in points] if quantity.per_point else [quantity.name])
         ]
 
@@ -140,7 +141,7 @@ class Table:
             return known[name]
         base, _, point = name.partition("@")
         quantity = self.quantity(base)
-        if not isinstance(quantity, Output) or isinstance(quantity, (*Supplied, FirstOscillation)):
+        if not isinstance(quantity, Output) or isinstance(quantity, (*Supplied, Simulated)):
             raise InputError(f"{name!r} has no value")
         known[name] = quantity.call([self._resolve(self._at(need, point), known) for need in quantity.needs])
         return known[name]
@@ -158,7 +159,7 @@ class Table:
         open_quantities = {
             quantity.name
             for quantity in self.quantities
-            if isinstance(quantity, (*Supplied, FirstOscillation)) or getattr(quantity, "instant", False)
+            if isinstance(quantity, (*Supplied, Simulated)) or getattr(quantity, "instant", False)
         }
         return [
             quantity.name
@@ -181,7 +182,7 @@ class Table:
         values: dict[str, Scalar] = {}
         for name in wanted:
             quantity = self.quantity(name)
-            if isinstance(quantity, (*Supplied, FirstOscillation)):
+            if isinstance(quantity, (*Supplied, Simulated)):
                 values[name] = quantity.call([self._resolve(need, known) for need in quantity.needs])
             else:
                 values[name] = self._resolve(name, known)

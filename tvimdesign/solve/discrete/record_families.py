@@ -14,7 +14,7 @@ import numpy as np
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.components.cost import GROUP as COST_GROUP
-from tvimdesign.device.table.quantity import FirstOscillation, Supplied
+from tvimdesign.device.table.quantity import Simulated, Supplied
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture, discrete_records, listed_records, with_records
 from tvimdesign.study import Study, given
@@ -152,7 +152,7 @@ def _blends(table: Table, word: str) -> bool:
     decides = {feature.choice for row in rows for feature in row.requires}
     decides |= {row.parts_differ_with.choice for row in table.outputs if row.parts_differ_with}
     plain = not any(
-        row.hidden or row.instant or row.per_point or isinstance(row, (*Supplied, FirstOscillation))
+        row.hidden or row.instant or row.per_point or isinstance(row, (*Supplied, Simulated))
         for row in _readers(table, [word])
     )
     return word not in decides and plain

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.device import FirstOscillation, Table
+from tvimdesign.device import Simulated, Table
 from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -41,7 +41,7 @@ def output_sensitivities(
 ) -> OutputSensitivities:
     """Differentiate the wanted outputs by every variable of the module, or `by` some inputs. Raises SimulationError."""
     model = resolved.functions
-    names = [n for n in wanted if not isinstance(resolved.table.quantity(n), FirstOscillation)]
+    names = [n for n in wanted if not isinstance(resolved.table.quantity(n), Simulated)]
     variables = by or [row.name for row in resolved.table.inputs if _is_variable(resolved, model, row.name)]
     variables = [name for name in variables if name not in resolved.replaced]
     derivatives = OutputDerivatives(model, names, REPORTED)

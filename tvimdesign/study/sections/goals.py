@@ -6,7 +6,8 @@ from collections.abc import Collection
 
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
-from tvimdesign.device import FirstOscillation, Output, Table
+from tvimdesign.device import Output, Simulated, Table
+from tvimdesign.device.core.duty_and_control import CONTROL, DUTY
 from tvimdesign.study.sections.section import (
     LIMIT,
     NUMBER_VALUE,
@@ -18,9 +19,7 @@ from tvimdesign.study.sections.section import (
     output_name,
 )
 from tvimdesign.study.study import (
-    CONTROL,
     CONTROLLED,
-    DUTY,
     FEWEST_POINTS,
     MOST_POINTS,
     FrontOptions,
@@ -143,8 +142,9 @@ def named_output(reading: Reading, key: Text, path: str, name: str) -> Output | 
         add(key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`")
     elif row.instant:
         add(key, path, "changes during the switch and has no single value", "an output with one value")
-    elif isinstance(row, FirstOscillation):
-        add(key, path, "is seen in a simulated release once a design is found", "an output that is computed", _INSTEAD)
+    elif isinstance(row, Simulated):
+        instead = f"limit `{base}@{row.state}`" if row.state else _INSTEAD
+        add(key, path, "is simulated once a design is found", "an output that is computed", instead)
     elif row.per_point and not at:
         add(key, path, "has a value at each operating point", one_of([f"{base}@{name}" for name in points]))
     elif row.per_point and point not in points:
@@ -164,14 +164,16 @@ def is_simulated(name: str, points: Collection[str]) -> bool:
 def _simulated(reading: Reading, key: Text, path: str, name: str) -> Output | None:
     """Return the output that is limited in a duty or under the controller, None (and a problem) where there is none."""
     base, _, state = name.partition("@")
-    row = named_output(reading, key, path, base)
+    given = reading.table.by_name.get(base)
+    own = isinstance(given, Simulated) and given.state == state
+    row = given if own and isinstance(given, Output) else named_output(reading, key, path, base)
     if row is None:
         return None
     duty, control = reading.section("duty"), reading.section("control")
     if not (duty.switches_per_hour if state == DUTY else control.draws):
         wanted = f"`{DUTY}: {{switches_per_hour: 6}}`" if state == DUTY else f"`{CONTROL}: {{draws: 64}}`"
         reading.problems.add(key, path, f"the study has no {state}", wanted)
-    elif base not in (reading.table.behind_supplied if state == DUTY else CONTROLLED):
+    elif not own and base not in (reading.table.behind_supplied if state == DUTY else CONTROLLED):
         expected = (
             "an output of the switch, such as peak_peltier_temperature" if state == DUTY else one_of(list(CONTROLLED))
         )
@@ -252,8 +254,11 @@ def _reads_as(text: str, unit: str, value: float) -> bool:
 def _require_schema(table: Table) -> Schema:
     limits = [LIMIT, {"type": "array", "minItems": 1, "items": LIMIT}]
     either: Schema = {"anyOf": limits}
-    simulated = {f"^({'|'.join(names)})@{state}$": either for state, names in
-                 ((DUTY, sorted(table.behind_supplied)), (CONTROL, CONTROLLED))}  # fmt: skip
+    of_state = {DUTY: sorted(table.behind_supplied), CONTROL: list(CONTROLLED)}
+    for row in table.outputs:
+        if isinstance(row, Simulated) and row.state:
+            of_state[row.state].append(row.name)
+    simulated = {f"^({'|'.join(names)})@{state}$": either for state, names in of_state.items()}
     return mapping({}, by_output(table, either) | simulated)
 
 

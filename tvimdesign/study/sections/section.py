@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, TypeVar
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from tvimdesign.device import Choice, FirstOscillation, Input, Output, Table
+from tvimdesign.device import Choice, Input, Output, Simulated, Table
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.mistakes import Mistakes, step
 from tvimdesign.study.text.values import Reading, entries, exactly, flag, in_unit, number, unknown_keys, whole
@@ -90,9 +90,7 @@ def set_schema(quantity: Input | Choice) -> Schema:
 def by_output(table: Table, schema: Schema) -> Schema:
     """Return the schema for each output that a study may name, by the pattern of its full names."""
     named = [
-        output
-        for output in table.outputs
-        if not (output.instant or output.hidden or isinstance(output, FirstOscillation))
+        output for output in table.outputs if not (output.instant or output.hidden or isinstance(output, Simulated))
     ]
     return {
         f"^{output.name}{'@' + POINT if output.per_point else ''}$": {"description": described(output), **schema}

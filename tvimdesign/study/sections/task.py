@@ -1,4 +1,7 @@
-"""The section `task`: an arm with its payload and its motions; inputs of the group "Task", limits, a trajectory."""
+"""The section `task`: an arm with its payload and its motions; inputs of the group "Task", limits, a trajectory.
+
+The arm may be that beyond a joint of a URDF; what the section gives besides comes in place of the URDF's.
+"""
 
 import csv
 import io
@@ -19,6 +22,7 @@ from tvimdesign.study.sections.section import (
     set_schema,
     shape,
 )
+from tvimdesign.study.sections.urdf_arm import arm_of
 from tvimdesign.study.study import GivenTrajectory, Requirement, Study
 from tvimdesign.study.text.mistakes import step
 from tvimdesign.study.text.values import (
@@ -39,6 +43,7 @@ _ALLOWED = {
     "allowed_sag": ("sag@cold", "largest sag of the frozen joint: the requirement `sag@cold`"),
     "allowed_force": ("impact_force@cold", "largest force of the impact, which the frozen joint has most of"),
 }
+_URDF = {"urdf": "file of a robot, beside the study", "joint": "its joint that the module is"}
 _MOST_MOMENTS = 1000
 _LARGEST_FILE = 1_000_000
 _EXPECTED = "moments: [0 s, 0.5 s] and angles: [0 deg, 40 deg], for one, or the name of a CSV file beside the study"
@@ -54,12 +59,14 @@ def _read(reading: Reading, node: Node | None) -> dict[str, Any]:
     """Return what `module`, `require` and `trajectory` take from the section; every problem is noted."""
     problems, rows = reading.problems, task_quantities(reading.table)
     given = entries(problems, node, "task", "an arm_length, a payload and what the arm does")
-    known = unknown_keys(problems, given, "task", "part of a task", [*rows, *_ALLOWED, "trajectory"])
+    known = unknown_keys(problems, given, "task", "part of a task", [*rows, *_ALLOWED, "trajectory", *_URDF])
     module: dict[str, float | str] = {"task": ARM} if known else {}
     limits: list[Requirement] = []
     trajectory = None
     for name, value in known.items():
         path = step("task", name)
+        if name in _URDF:
+            continue
         if name == "trajectory":
             trajectory = _trajectory(reading, value, path)
             continue
@@ -75,7 +82,35 @@ def _read(reading: Reading, node: Node | None) -> dict[str, Any]:
             module[name] = read
     if trajectory is not None:
         module["trajectory"] = "given"
+    module = {**_from_urdf(reading, known, module.get("arm_length")), **module}
     return {"module": module, "require": tuple(limits), "trajectory": trajectory}
+
+
+def _from_urdf(reading: Reading, known: dict[str, Node], length: Any) -> dict[str, float]:
+    """Return what a URDF gives of the arm, on a `length` [m] unless None; empty without one or with a problem noted."""
+    if not known.keys() & _URDF:
+        return {}
+    first = next(name for name in _URDF if name in known)
+    given = [text(reading.problems, known.get(name, known[first]), step("task", name), f"the {meaning}")
+             for name, meaning in _URDF.items()]  # fmt: skip
+    if None in given:
+        return {}
+    try:
+        if len(known.keys() & _URDF) < len(_URDF):
+            raise InputError(f"`{first}` stands alone")
+        arm = arm_of(_content(reading.folder / str(given[0])), str(given[1]))
+        length = length or arm.length
+        shares = {"arm_length": length, "arm_mass": arm.mass, "arm_centre_share": arm.centre / length,
+                  "arm_inertia_share": arm.inertia / (arm.mass * length**2)}  # fmt: skip
+        for name, value in shares.items():
+            row = reading.table.quantity(name)
+            assert isinstance(row, Input)
+            if not row.lower <= value <= row.upper:
+                raise InputError(f"its {name} is {exactly(value, row.unit)}")
+    except InputError as error:
+        reading.problems.add(known[first], step("task", first), str(error), "`urdf: arm.urdf` and `joint: elbow`")
+        return {}
+    return shares
 
 
 def _trajectory(reading: Reading, node: Node, path: str) -> GivenTrajectory | None:
@@ -122,17 +157,25 @@ def _checked(moments: list[float], angles: list[float], *, at_rest: bool) -> Giv
 def _of_csv(path: Path) -> tuple[list[float], list[float]]:
     """Return times [s] and angles [rad] of a file's first two columns, below a heading; raises InputError."""
     try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST_FILE + 1)
-        rows = [row for row in csv.reader(io.StringIO(content.decode("utf-8-sig"))) if row]
-        if len(content) > _LARGEST_FILE:
-            raise InputError(f"{path.name} is larger than {_LARGEST_FILE // 1_000_000} MB")
+        rows = [row for row in csv.reader(io.StringIO(_content(path))) if row]
         times, angles = zip(*((float(row[0]), float(row[1])) for row in rows[1:]), strict=True)
-    except OSError as error:
-        raise InputError(f"{path.name} cannot be read: {error.strerror}") from error
     except (ValueError, IndexError, csv.Error) as error:
         raise InputError(f"{path.name} needs a heading, then a time in s and an angle in rad a line") from error
     return list(times), list(angles)
+
+
+def _content(path: Path) -> str:
+    """Return the text of a small file; raises InputError."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST_FILE + 1)
+        if len(content) > _LARGEST_FILE:
+            raise InputError(f"{path.name} is larger than {_LARGEST_FILE // 1_000_000} MB")
+        return content.decode("utf-8-sig")
+    except OSError as error:
+        raise InputError(f"{path.name} cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path.name} is no text in UTF-8") from error
 
 
 def _write(study: Study) -> dict[str, Any]:
@@ -152,7 +195,12 @@ def _schema(table: Table) -> Schema:
     given = shape(field_schemas(GivenTrajectory), ["moments", "angles"])
     trajectory = {"description": f"angles of the housing over time: {_EXPECTED}", "anyOf": [given, {"type": "string"}]}
     return mapping(
-        {**{name: set_schema(row) for name, row in task_quantities(table).items()}, **allowed, "trajectory": trajectory}
+        {
+            **{name: set_schema(row) for name, row in task_quantities(table).items()},
+            **allowed,
+            "trajectory": trajectory,
+            **{name: {"description": meaning, "type": "string"} for name, meaning in _URDF.items()},
+        }
     )
 
 
