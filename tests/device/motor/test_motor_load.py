@@ -1,5 +1,6 @@
 """The motor's torque, heat and speed in a task, against an arm on a spring that is turned alike."""
 
+import re
 from functools import cache
 
 import numpy as np
@@ -81,3 +82,16 @@ def test_a_small_motor_does_not_bear_the_task(motor: str, *, bears: bool) -> Non
     margins = [values[name] for name in ("motor_peak_margin", "motor_heat_margin")]
     assert all(margin >= 0.0 for margin in margins) == bears
     assert values["motor_speed_margin"] > 0.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("payload", "chosen"), [("200 g", "frameless_70x10"), ("1 kg", "frameless_85x13")])
+def test_the_motor_is_chosen_with_the_module(payload: str, chosen: str) -> None:
+    text = study_path("driven_joint").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^  motor: .*\n|^  motor_torque_margin: .*\n|^robust: .*\n", "", text)
+    motors = "  motor: {choose: [frameless_50x08, frameless_70x10, frameless_85x13]}\n"
+    text = text.replace("vary:\n", f"{TASK.replace('200 g', payload)}vary:\n{motors}")
+    margins = "  motor_peak_margin: '>= 0 N.m'\n  motor_heat_margin: '>= 0 N.m'\n"
+    result = answer(read_study_text(text.replace("require:\n", f"require:\n{margins}")))
+    assert result.feasible
+    assert result.design.choices["motor"] == chosen

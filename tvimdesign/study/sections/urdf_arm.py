@@ -8,7 +8,6 @@ from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from tvimdesign.base.errors import InputError
 
@@ -21,13 +20,16 @@ class Frame(NamedTuple):
 
     origin: Array
     """[m]."""
-    rotation: Rotation
+    rotation: Array
+    """Matrix from it to that of the joint."""
 
     def then(self, element: ElementTree.Element | None) -> Frame:
         """Return the frame that an `origin` of a URDF places in this one."""
         xyz, rpy = (_vector(element, name, (0.0, 0.0, 0.0)) for name in ("xyz", "rpy"))
-        turned = Rotation.from_euler("xyz", rpy)  # about fixed axes
-        return Frame(self.origin + self.rotation.apply(xyz), self.rotation * turned)
+        turned = np.eye(3)
+        for angle, axis in zip(rpy, np.eye(3), strict=True):  # roll, pitch and yaw, about fixed axes
+            turned = _turn(angle, axis) @ turned
+        return Frame(self.origin + self.rotation @ xyz, self.rotation @ turned)
 
 
 class Arm(NamedTuple):
@@ -67,7 +69,7 @@ def arm_of(text: str, joint: str) -> Arm:
             continue
         body = frame.then(inertial.find("origin"))
         kilograms = _number(inertial.find("mass"), "value")
-        along = body.rotation.inv().apply(axis)
+        along = body.rotation.T @ axis
         mass += kilograms
         moment += kilograms * body.origin
         inertia += along @ _tensor(inertial.find("inertia")) @ along + kilograms * _from_axis(body.origin, axis) ** 2
@@ -78,7 +80,7 @@ def arm_of(text: str, joint: str) -> Arm:
 
 def _carried(robot: ElementTree.Element, joint: ElementTree.Element) -> Iterator[tuple[str, Frame]]:
     """Yield the links beyond a joint with their frames."""
-    beyond = [(_link(joint, "child"), Frame(np.zeros(3), Rotation.identity()))]
+    beyond = [(_link(joint, "child"), Frame(np.zeros(3), np.eye(3)))]
     reached = set()
     while beyond:
         name, frame = beyond.pop()
@@ -96,6 +98,13 @@ def _carried(robot: ElementTree.Element, joint: ElementTree.Element) -> Iterator
 def _link(joint: ElementTree.Element, end: str) -> str:
     element = joint.find(end)
     return "" if element is None else element.get("link", "")
+
+
+def _turn(angle: float, axis: Array) -> Array:
+    """Return the matrix of a rotation about a unit vector (Rodrigues)."""
+    cross: Array = np.cross(np.eye(3), axis)
+    turned: Array = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
+    return turned
 
 
 def _from_axis(point: Array, axis: Array) -> float:
