@@ -96,8 +96,10 @@ def torque(data: dict[str, Any]) -> Figure:
         axes.plot(loop["angle"], loop["torque"], label="joint", **theme.style_of(0))
         if any(loop["springs"]):
             axes.plot(loop["angle"], loop["springs"], label="springs alone", **theme.style_of(1))
+        for side in (-1.0, 1.0):
+            axes.axvline(side * data["stop_angle"], label="hard stops" if side > 0.0 else None, **theme.style_of(2))
         axes.set(xlabel=data["labels"]["angle"], ylabel=data["labels"]["torque"])
         theme.heading(axes, loop["title"])
         axes.locator_params(nbins=theme.TICKS)
-    figure.legend(*axes.get_legend_handles_labels(), loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    figure.legend(*axes.get_legend_handles_labels(), loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=3)
     return figure

@@ -105,6 +105,7 @@ def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
     contact = ", while the PCL is in contact" if design.value("parting_share") > 0.0 else ""
     return {
         "title": f"Torque that turns the joint through its stroke{contact}",
+        "stop_angle": design.value("stop_angle"),
         "labels": {"angle": axis_label("angle", "rad"), "torque": axis_label("torque", "N*m")},
         "loops": loops,
     }
