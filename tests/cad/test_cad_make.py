@@ -19,6 +19,8 @@ import random_choices
 import random_designs
 import trimesh
 from cad_designs import Made
+from manifold3d import Manifold, Mesh64
+from plate_copies import copies_on_a_plate
 from support import study_path
 
 from tvimdesign.base import processes
@@ -48,7 +50,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     assert report.reused == ()
     expected = {"assembly.step", "assembly.glb", "assembly.json", "assembly.md", "bom.csv", "preview.png",
                 "views/exploded.png", "views/section.png", "views/wiring.svg", "module.py", "springs/spring.pdf",
-                "springs/spring.csv"}  # fmt: skip
+                "springs/spring.csv", "print/plate_1.3mf"}  # fmt: skip
     pictures = {file for file in report.files if file.startswith("views/step_")}
     assert all(f"({picture})" in (report.folder / "assembly.md").read_text("utf-8") for picture in pictures)
     expected |= pictures
@@ -74,6 +76,24 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     assert found == set(report.files)
     names = {step.partition(", ")[2] for step in steps}  # beside its number among all
     assert {f"drawing: {kind}" for kind in ("housing", "rotor", "spring right")} <= names
+
+
+@pytest.mark.gate
+def test_the_bed_has_every_printed_part_on_its_flat_side(made: Made) -> None:
+    copies = copies_on_a_plate((made.report.folder / "print/plate_1.3mf").read_bytes())
+    names = [name for name, _ in copies]
+    # PETG is too soft for the casting jig.
+    assert sorted(names) == ["housing", "link", "retainer", "rotor", "setting_fork", "setting_fork"]
+    bodies = [Manifold(Mesh64(body.vertices, body.faces.astype(np.uint64))) for _, body in copies]
+    for number, (name, body) in enumerate(copies):
+        printed = trimesh.load_mesh(made.report.folder / f"print/{name}.stl")
+        assert body.volume == pytest.approx(printed.volume, rel=1e-6), name
+        assert body.bounds[0][2] == pytest.approx(0.0, abs=1e-6), name
+        assert (body.bounds[0][:2] > 2.5).all(), name
+        assert (body.bounds[1] < [217.5, 217.5, 250.0]).all(), name
+        assert all(bodies[number].min_gap(other, 10.0) >= 5.0 for other in bodies[:number]), name
+    check = next(check for check in made.report.checks if check.name == "print/plate_1.3mf")
+    assert check.ok
 
 
 @pytest.mark.gate

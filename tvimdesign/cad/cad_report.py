@@ -97,6 +97,8 @@ ASSEMBLY_DATA = "assembly.json"
 ASSEMBLY_NOTE = "assembly.md"
 TREATMENT = "treatment"
 """Word of a material's record, and of the titles: what its specimens had undergone."""
+PRINT_TEMPERATURES = ("nozzle_temperature", "bed_temperature")
+"""Values of a material's record, and of the titles, in degC: how it is printed."""
 BILL_OF_MATERIALS = "bom.csv"
 MODULE_SCRIPT = "module.py"
 PREVIEW = "preview.png"
@@ -125,6 +127,11 @@ def print_stl(kind: str) -> str:
 def print_3mf(kind: str) -> str:
     """Return the same with unit, name, material and colour."""
     return f"print/{kind}.3mf"
+
+
+def plate_3mf(number: int) -> str:
+    """Return a bed full of parts as they are printed, counted from 1, with the settings of their process."""
+    return f"print/plate_{number}.3mf"
 
 
 def mesh_stl(kind: str) -> str:

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 import trimesh
 from cad_designs import BEARINGS, BLOCKS, DRIVEN, SPRUNG_BLOCKS, TILES, design_of
+from plate_copies import copies_on_a_plate
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.export import mesh as meshing
-from tvimdesign.cad.export import print_files
+from tvimdesign.cad.export import print_bed, print_files
 from tvimdesign.cad.export.mesh import CHORD, Mesh, face_meshes, solid_mesh
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import dimensions
@@ -244,3 +245,68 @@ def test_a_face_left_out_is_meshed_at_a_finer_chord(
     else:
         with pytest.raises(GeometryError, match="no triangles"):
             solid_mesh(box)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_parts_on_a_bed_lie_apart_and_within_it(seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    bed, gap = (220.0, 180.0), print_bed.GAP
+    discs = [(float(radius), 0.0) for radius in draw.uniform(2.0, 80.0, draw.integers(1, 9))]
+    bars = [(3.0, float(length)) for length in draw.uniform(5.0, 200.0, draw.integers(1, 9))]
+    around = np.linspace(0.0, tau, 60, endpoint=False)
+    outlines = [
+        np.stack((radius * np.cos(around), radius * np.sin(around) + half * np.sign(np.sin(around))), axis=1)
+        for radius, length in (*discs, *bars) for half in (0.5 * length,)
+    ]  # fmt: skip
+    spots = print_bed.lay_out([*outlines, 120.0 * outlines[0] / discs[0][0]], bed)
+    assert spots[-1] is None  # larger than the bed
+    placed = []
+    for spot, (radius, length) in zip(spots, (*discs, *bars), strict=False):
+        assert spot is not None
+        # The part is what is within its radius of a line from the first point to the last.
+        last = np.array([length, 0.0] if spot.turned else [0.0, length])
+        first = np.array([spot.x + radius, spot.y + radius])
+        assert (np.array([spot.x, spot.y]) >= 0.5 * gap).all()
+        assert (first + last + radius <= np.array(bed) - 0.5 * gap).all()
+        line = first + np.linspace(0.0, 1.0, 201)[:, None] * last
+        for bed_number, other, beside in placed:
+            apart = np.hypot(*(line[:, None] - other[None]).transpose(2, 0, 1)).min() - radius - beside
+            assert spot.bed != bed_number or apart >= gap - 0.02
+        placed.append((spot.bed, line, radius))
+    assert {number for number, _, _ in placed} == set(range(1 + max(number for number, _, _ in placed)))
+
+
+def test_round_parts_fill_the_corners_of_one_bed() -> None:
+    around = np.linspace(0.0, tau, 90, endpoint=False)
+    discs = [radius * np.stack((np.cos(around), np.sin(around)), axis=1) for radius in (75.0, 41.0)]
+    spots = print_bed.lay_out(discs, (220.0, 220.0))
+    assert [spot and spot.bed for spot in spots] == [0, 0]
+
+
+def test_a_plate_has_every_copy_in_its_place_and_its_settings() -> None:
+    dims = dimensions(design_of("plate", {}))
+    body, _ = print_files.printed_mesh("bracket", print_files.as_printed(bracket(), UP, 0.0))
+    temperatures = {"nozzle_temperature": "240", "bed_temperature": "85"}
+    data = print_files.plate_bytes(
+        "bed 1 of 1",
+        [print_files.Laid(body, PRODUCT, [(10.0, 20.0, False), (70.0, 30.0, True)])],
+        print_bed.description(dims, "PETG", temperatures),
+        print_bed.slicer_config(dims, 1270.0, temperatures),
+    )
+    (_, straight), (name, turned) = copies_on_a_plate(data)
+    assert name == "bracket & <foot>"
+    assert straight.bounds == pytest.approx(np.array([[10.0, 20.0, 0.0], [50.0, 50.0, 16.0]]), abs=1e-6)
+    assert turned.bounds == pytest.approx(np.array([[70.0, 30.0, 0.0], [100.0, 70.0, 16.0]]), abs=1e-6)
+    assert [copy.volume for copy in (straight, turned)] == pytest.approx([body.volume] * 2)  # turned, not mirrored
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        lines = archive.read("Metadata/Slic3r_PE.config").decode().splitlines()
+        root = ET.fromstring(archive.read("3D/3dmodel.model"))
+    settings = dict(line.removeprefix("; ").split(" = ") for line in lines[2:])
+    # Three lines of 0.4 mm make the least wall of 1.2 mm; 45 degrees from upright are as many from level.
+    assert settings["perimeters"] == "3"
+    assert settings["support_material_threshold"] == "45"
+    assert settings["bed_shape"] == "0x0,220x0,220x220,0x220"
+    assert (settings["temperature"], settings["first_layer_bed_temperature"]) == ("240", "85")
+    about = root.find(".//{*}metadata[@name='Description']")
+    assert about is not None
+    assert about.text == "PETG: 0.4 mm nozzle, layers of 0.2 mm, 3 walls, infill 100 %, nozzle at 240 °C, bed at 85 °C"

@@ -13,16 +13,13 @@ from tvimdesign.base.yaml_data import own_data
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.bill_of_materials import MADE_TO_ORDER, Item, cost, greased
 from tvimdesign.cad.assembly.heater_leads import set_points_in_words
+from tvimdesign.cad.export.print_bed import LINE, walls
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
 from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.catalog.offers import between
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
-
-_LINE = 0.4
-"""Width of a printed line [mm] of the commonest nozzle."""
-_ROUNDING = 1e-6
 
 
 def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra: Sequence[Item] = ()) -> bytes:
@@ -96,11 +93,11 @@ def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]
 
 
 def _walls(dims: Dimensions) -> str:
-    """Return how many lines of plastic go around everything: as many as make the thinnest wall of the process."""
-    count, least = math.ceil(dims.minimum_wall / _LINE - _ROUNDING), f"{dims.minimum_wall:.3g}"
+    """Return the walls to set, and where all parts lie on a bed with these settings."""
     return (
-        f" Set at least {count} walls, with lines of {_LINE} mm: the thinnest wall there may be, {least} mm, "
-        "and the thread around each screw's hole are then of unbroken lines."
+        f" Set at least {walls(dims)} walls, with lines of {LINE} mm: the thinnest wall there may be, "
+        f"{dims.minimum_wall:.3g} mm, and the thread around each screw's hole are then of unbroken lines. "
+        f"`{cad_report.plate_3mf(1)}` has the parts, with jigs, on a bed; a second bed has the next number."
     )
 
 

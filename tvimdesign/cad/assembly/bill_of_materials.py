@@ -224,13 +224,14 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
     No part of it, and not in its mass.
     """
     record = str(design.choices["structure_material"])
-    bears = f"of {titles.get('structure_material', record)} where that bears 80 °C, else of aluminium, PC or ABS"
+    title = titles.get("structure_material", record)
+    bears = f"of {title} where that bears {jigs.CAST_AT:g} °C, else of aluminium, PC or ABS"
     jig = [Item(kind, 1, True, record, f"Fixture, {bears}", 0.0, _papers(kind), fixture=True) for kind in jigs.DRAWN]
     if design.value("spring_count"):
         holds = "Fixture: holds the rotor at rest while its springs are set"
         files = _papers(jigs.FORK)
         jig.append(Item(jigs.FORK, jigs.FORK_COUNT, True, record, holds, 0.0, files, fixture=True))
-    release = "Mould release for thermoplastics at 80 °C, wiped thinly on mould and lid"
+    release = f"Mould release for thermoplastics at {jigs.CAST_AT:g} °C, wiped thinly on mould and lid"
     return [*jig, Item("mould_release", 1, False, "", release, 0.0, ())]
 
 

@@ -3,6 +3,7 @@
 import io
 import zipfile
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from math import hypot
 from xml.sax.saxutils import escape, quoteattr
@@ -17,6 +18,7 @@ from OCP.gp import gp_Dir, gp_Pnt
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.export.mesh import Array, Mesh, face_meshes
+from tvimdesign.cad.export.print_bed import SLICER_CONFIG
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import holes, tight_box
 from tvimdesign.cad.geometry.kinds import Production
@@ -139,21 +141,54 @@ def stl_bytes(body: trimesh.Trimesh) -> bytes:
 
 def threemf_bytes(body: trimesh.Trimesh, product: Product) -> bytes:
     """Return a mesh as 3MF: millimetres, the part's name, its material with its colour."""
-    colour = "#" + "".join(f"{round(255 * part):02X}" for part in product.colour)
-    points = "".join(f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in body.vertices.tolist())
-    triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in body.faces.tolist())
+    return plate_bytes(product.name, [Laid(body, product)])
+
+
+@dataclass(frozen=True, eq=False)
+class Laid:
+    """A part as it is printed, and where its copies lie."""
+
+    body: trimesh.Trimesh
+    product: Product
+    places: Sequence[tuple[float, float, bool]] = ()
+    """Corner of the box of each copy [mm], and whether it is turned by 90 degrees; none of what lies as it is."""
+
+    def transforms(self) -> list[str]:
+        """Return attributes of the items: rows of a rotation about z, and the way to the place."""
+        (left, front, _), (_, back, _) = self.body.bounds.tolist()
+        attributes = []
+        for x, y, is_turned in self.places:
+            rows, start = ("0 1 0 -1 0 0 0 0 1", (-back, left)) if is_turned else ("1 0 0 0 1 0 0 0 1", (left, front))
+            attributes.append(f' transform="{rows} {x - start[0]:.9g} {y - start[1]:.9g} 0"')
+        return attributes or [""]
+
+
+def plate_bytes(title: str, parts: Sequence[Laid], description: str = "", config: str = "") -> bytes:
+    """Return parts on a bed as 3MF, with their settings in words, and in a file of their own for a slicer."""
+    resources, items = [], []
+    for number, part in enumerate(parts):
+        product, material, thing = part.product, 2 * number + 1, 2 * number + 2
+        colour = "#" + "".join(f"{round(255 * share):02X}" for share in product.colour)
+        points = "".join(f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in part.body.vertices.tolist())
+        triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in part.body.faces.tolist())
+        resources.append(
+            f'<basematerials id="{material}"><base name={quoteattr(product.material)} displaycolor="{colour}"/>'
+            f'</basematerials><object id="{thing}" type="model" name={quoteattr(product.name)} pid="{material}" '
+            f'pindex="0"><mesh><vertices>{points}</vertices><triangles>{triangles}</triangles></mesh></object>'
+        )
+        items += [f'<item objectid="{thing}"{transform}/>' for transform in part.transforms()]
+    about = f'<metadata name="Description">{escape(description)}</metadata>' if description else ""
     model = (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<model unit="millimeter" xml:lang="en-US" xmlns="{_CORE}">'
-        f'<metadata name="Title">{escape(product.name)}</metadata><metadata name="Application">tvimdesign</metadata>'
-        f'<resources><basematerials id="1"><base name={quoteattr(product.material)} displaycolor="{colour}"/>'
-        f'</basematerials><object id="2" type="model" name={quoteattr(product.name)} pid="1" pindex="0"><mesh>'
-        f"<vertices>{points}</vertices><triangles>{triangles}</triangles></mesh></object></resources>"
-        f'<build><item objectid="2"/></build></model>\n'
+        f'<metadata name="Title">{escape(title)}</metadata><metadata name="Application">tvimdesign</metadata>{about}'
+        f"<resources>{''.join(resources)}</resources><build>{''.join(items)}</build></model>\n"
     )
+    plain = '<Default Extension="config" ContentType="text/plain"/>' if config else ""
     types = (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="{_TYPES}">'
         '<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
-        '<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>\n'
+        '<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>'
+        f"{plain}</Types>\n"
     )
     relations = (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="{_RELATIONS}"><Relationship '
@@ -161,6 +196,7 @@ def threemf_bytes(body: trimesh.Trimesh, product: Product) -> bytes:
         "</Relationships>\n"
     )
     entries = {"[Content_Types].xml": types, "_rels/.rels": relations, "3D/3dmodel.model": model}
+    entries |= {SLICER_CONFIG: config} if config else {}
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as archive:
         for name, text in entries.items():

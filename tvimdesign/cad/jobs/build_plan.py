@@ -1,17 +1,20 @@
 """Which pieces of work make a module's files: each kind of part, the checks, the assembly, the papers, the pictures."""
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 from math import dist
 from pathlib import Path
 
 import cadquery as cq
+import numpy as np
 import trimesh
 from OCP.BinTools import BinTools
 from OCP.TopoDS import TopoDS_Shape
 
 from tvimdesign.base.errors import GeometryError
+from tvimdesign.base.units import from_si
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, one_solid, place
 from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
@@ -25,7 +28,16 @@ from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, dra
 from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
-from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
+from tvimdesign.cad.export.print_bed import description, lay_out, slicer_config
+from tvimdesign.cad.export.print_files import (
+    Laid,
+    as_printed,
+    closed,
+    plate_bytes,
+    printed_mesh,
+    stl_bytes,
+    threemf_bytes,
+)
 from tvimdesign.cad.export.step_file import Product, product, read_part, validation, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
@@ -40,7 +52,7 @@ from tvimdesign.study.design import Design
 
 PICTURES = "pictures"
 """The work without which a module can still be made: a machine may not be able to render."""
-_SOLID, _MESH = "solid.bin", "mesh.npz"
+_SOLID, _MESH, _PRINTED = "solid.bin", "mesh.npz", "printed.npz"
 _READ_BACK = 1e-6
 """How far a part may be from what its STEP file says, relative; centroids in mm."""
 
@@ -93,12 +105,19 @@ def build_plan(dims: Dimensions) -> list[Work]:
         *inspections,
         *(Work(name=kind, do=partial(_casting_jig, kind), named=True) for kind in jigs.DRAWN),
         *(setting if coils else ()),
+        Work(name="plates", do=_plates, needs=_plated(kinds, bool(coils)), named=True, words="print beds"),
         Work(name="inspect_casting", do=_inspect_casting, needs=(jigs.part_of(kinds), *jigs.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True, words="assembly files"),
         Work(name="script", do=_script, named=True, words="script of the parts"),
         Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True, words="bill of materials"),
     ]
+
+
+def _plated(kinds: Sequence[str], has_springs: bool) -> tuple[str, ...]:
+    """Return the work that a print bed needs: meshes to lay on it, and parts to count copies of."""
+    made = [f"{kind}_for_makers" for kind in kinds if is_of_structure(kind)]
+    return (*kinds, *made, *jigs.DRAWN, *((jigs.FORK,) if has_springs else ()))
 
 
 def _words(kind: str) -> str:
@@ -160,11 +179,14 @@ def _setting_fork(job: Job) -> list[SolidCheck]:
 def _fixture(job: Job, kind: str, solid: cq.Solid) -> list[SolidCheck]:
     """Write a fixture, which is made of what the structure is made of."""
     _keep(job.folder / "kept" / _SOLID, solid)
-    of = str(job.design.choices[STRUCTURE])
-    density = job.design.value("structure_density")
-    what = Product(name=kind, colour=jigs.COLOUR, material=of, density=density)
+    what = _of_structure(job, kind)
     _sheet(job, kind, solid, what, drawing_requirements(kind, job.dims, job.design.choices))
     return [*_step(job.folder, solid, what), _print(job, kind, solid, what, jigs.MAKING[kind])]
+
+
+def _of_structure(job: Job, fixture: str) -> Product:
+    of = str(job.design.choices[STRUCTURE])
+    return Product(name=fixture, colour=jigs.COLOUR, material=of, density=job.design.value("structure_density"))
 
 
 def _spring(kind: str, job: Job) -> list[SolidCheck]:
@@ -200,8 +222,44 @@ def _print(job: Job, kind: str, solid: cq.Solid, what: Product, making: Producti
         body, distance = printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))
+    write_mesh(job.folder / "kept" / _PRINTED, Mesh(body.vertices, body.faces))
     _write(job.folder, cad_report.print_3mf(kind), threemf_bytes(body, what))
     return _stl(job.folder, name, kind, body, distance)
+
+
+def _plates(job: Job) -> list[SolidCheck]:
+    """Lay the printed parts on beds, and the casting jig if their material bears its heat."""
+    if job.design.choices["making_method"] == "milled":
+        return []
+    meshes = {need: folder / _PRINTED for need, folder in job.needs.items() if (folder / _PRINTED).exists()}
+    module = MODULES[job.dims.mode]
+    drawn = _solids({kind: job.needs[kind] for kind in module.drawn(job.dims)})
+    counts = Counter(kind_of(name) for name in module.stand(job.dims, drawn, 0.0))
+    counts |= Counter({jigs.FORK: jigs.FORK_COUNT})
+    if from_si(job.design.value("structure_service_temperature"), "degC") >= jigs.CAST_AT:
+        counts |= Counter([*jigs.DRAWN])
+    parts = {need.removesuffix("_for_makers"): closed(need, _mesh(path)) for need, path in meshes.items()}
+    copies = [kind for kind in parts for _ in range(counts[kind])]
+    spots = lay_out(
+        [np.asarray(parts[kind].vertices)[:, :2] for kind in copies], (job.dims.bed_length, job.dims.bed_width)
+    )
+    known = {name: job.titles[name] for name in cad_report.PRINT_TEMPERATURES if name in job.titles}
+    density, material = job.design.value("structure_density"), str(job.design.choices[STRUCTURE])
+    config = slicer_config(job.dims, density, known) if len(known) == len(cad_report.PRINT_TEMPERATURES) else ""
+    about = description(job.dims, job.titles.get(STRUCTURE, material), known)
+    beds = 1 + max((spot.bed for spot in spots if spot), default=-1)
+    for number in range(beds):
+        laid = []
+        for kind, body in parts.items():
+            lying = zip(copies, spots, strict=True)
+            places = [(at.x, at.y, at.turned) for copy, at in lying if copy == kind and at and at.bed == number]
+            what = _of_structure(job, kind) if kind in jigs.MAKING else product(job.design, kind)
+            laid += [Laid(body, what, places)] if places else []
+        title = f"{job.design.name}, bed {number + 1} of {beds}"
+        _write(job.folder, cad_report.plate_3mf(number + 1), plate_bytes(title, laid, about, config))
+    outside = spots.count(None)
+    text = f"{len(copies) - outside} printed parts lie on {beds} beds, {outside} are too large for one"
+    return [SolidCheck(cad_report.plate_3mf(1), float(outside), 0.0, not outside, text)]
 
 
 def _stl(folder: Path, name: str, kind: str, body: trimesh.Trimesh, distance: float) -> SolidCheck:

@@ -24,6 +24,7 @@ from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.record import Record
+from tvimdesign.base.units import from_si
 from tvimdesign.base.user_cache import FOLDER_VARIABLE, cache_folder
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
@@ -136,9 +137,16 @@ def _titles(design: Design) -> dict[str, str]:
             if row.category and row.name in design.choices:
                 record = catalog_of(design).record(row.category, design.choices[row.name])
                 titles[row.name] = _ordered_by(record, design, row.name)
-                if row.name == "structure_material" and cad_report.TREATMENT in record.words:
-                    titles[cad_report.TREATMENT] = record.words[cad_report.TREATMENT]
+                if row.name == "structure_material":
+                    titles |= _printing_words(record)
     return titles
+
+
+def _printing_words(record: Record) -> dict[str, str]:
+    """Return a material's printing temperatures and the treatment of its specimens, if its record has them."""
+    known = [name for name in cad_report.PRINT_TEMPERATURES if record.has(name)]
+    words = {name: f"{from_si(record.value(name), 'degC'):.0f}" for name in known}
+    return words | {name: word for name, word in record.words.items() if name == cad_report.TREATMENT}
 
 
 def _ordered_by(record: Record, design: Design, row: str) -> str:

@@ -24,6 +24,8 @@ PINS = (1.5, 2.5)
 """Radii of the two guide pins [mm], before and behind the part; assumed, 1 to 4: unlike, so the lid lies one way."""
 WALL = 2.0
 """Least way from dam to pin, and from pin to edge [mm]; assumed, 1 to 4."""
+CAST_AT = 80.0
+"""Temperature of mould and lid while the PCL is cast [degC]; it melts at about 60."""
 COLOUR = (0.55, 0.62, 0.50)
 FORK = "setting_fork"
 FORK_COUNT = STOPS
