@@ -54,7 +54,7 @@ class Turn(IntEnum):
     SECOND = 1
     USUAL = 2
     LATE = 3
-    """No other work waits for it."""
+    """No other work waits for it, but print beds."""
 
 
 @dataclass(frozen=True, kw_only=True)
