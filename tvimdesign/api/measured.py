@@ -46,7 +46,6 @@ class Fitted:
     """Result of fitting measured data: parameters with intervals of 95 %, notes, residuals, and a record."""
 
     def __init__(self, measured: Measured) -> None:
-        """Hold a measurement of `measure_files`."""
         self._measured = measured
 
     @property

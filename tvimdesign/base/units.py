@@ -192,7 +192,6 @@ def _fail(text: str, unit: str, reason: str, unit_text: str = "") -> NoReturn:
 
 
 def _split(text: str, unit: str) -> tuple[float, str]:
-    """Split a quantity into its number and the text of its unit."""
     match = _NUMBER.fullmatch(text)
     if match is None:
         _fail(text, unit, "this does not start with a number")

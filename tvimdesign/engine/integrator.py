@@ -55,7 +55,6 @@ class Motion:
     """An equation of motion, recorded from expressions (SX)."""
 
     def __init__(self, y: Any, u: Any, k: Any, rates: Any, jacobian: Any, mass: Array) -> None:
-        """Record the rates and their Jacobian by `y`."""
         self.rates = Tape.of([y, u, k], [rates], inverses=True)
         self.slopes = Tape.of([y, u, k], [rates, jacobian], inverses=True)
         rows, columns = (np.array(part, dtype=np.int64) for part in jacobian.sparsity().get_triplet())

@@ -194,7 +194,6 @@ class Room:
     """Registers in which one thread steps a motion: those of its slopes with a step's own behind them, of its rates."""
 
     def __init__(self, motion: Motion) -> None:
-        """Place the constants."""
         self.slopes = lanes_of(motion.slopes, 3 * motion.size + motion.system.pattern.size + 1)
         self.rates = lanes_of(motion.rates)
 

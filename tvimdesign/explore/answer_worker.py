@@ -99,7 +99,6 @@ class DesignFolder(ResultsFolder):
     """The folder of one design that an explorer made parts of, if it did; nothing is claimed in it."""
 
     def __init__(self, path: Path) -> None:
-        """Know the path."""
         self.path = path
 
 

@@ -220,12 +220,10 @@ class Engine:
 
 
 def _module(study: Study, values: Mapping[str, float], words: Mapping[str, str]) -> dict[str, Any]:
-    """Return the data from which a module is drafted."""
     return {"mode": study.mode, "choices": dict(words), "values": finite_data(dict(values))}
 
 
 def _listed(study: Study, state: State) -> dict[str, str]:
-    """Return the choices from lists, as the controls have them."""
     return {
         name: state.at[name]
         for name, allowed in study.vary.items()

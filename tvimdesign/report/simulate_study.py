@@ -81,7 +81,6 @@ def sheet_csv(sheet: CurveTable) -> str:
 
 
 def _shown(column: Column) -> list[float]:
-    """Return a column's values in its unit."""
     return [from_si(float(value), column.unit) for value in column.values]
 
 

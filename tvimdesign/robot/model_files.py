@@ -202,7 +202,6 @@ def sdf(model: JointModel, state: JointState) -> str:
 
 
 def _with_texts(owner: Xml.Element, kind: str, **texts: str) -> Xml.Element:
-    """Add an element with a text in each of its own elements."""
     element = Xml.SubElement(owner, kind)
     for own, text in texts.items():
         Xml.SubElement(element, own).text = text

@@ -209,7 +209,6 @@ def node_of(value: Any, file: str, problems: Mistakes, path: str = "", depth: in
 
 
 def _has_unit(value: tuple[Any, ...]) -> bool:
-    """Return whether a tuple holds numbers and their unit."""
     *numbers, unit = value or ("",)
     return bool(numbers) and isinstance(unit, str) and all(_is_number(number) for number in numbers)
 
@@ -219,7 +218,6 @@ def _is_number(value: Any) -> bool:
 
 
 def _number(value: Any) -> str:
-    """Write a number with all its digits."""
     return str(int(value)) if isinstance(value, Integral) else repr(float(value))
 
 

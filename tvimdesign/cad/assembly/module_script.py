@@ -129,7 +129,6 @@ def _location(location: cq.Location) -> str:
 
 
 def _text(value: Any) -> str:
-    """Return an argument as Python."""
     if isinstance(value, _Recorded):
         return value.text
     if isinstance(value, Named):
@@ -265,7 +264,6 @@ def _numbers(mode: str, read: Mapping[str, float]) -> list[str]:
 
 
 def _function(kind: str, lines: Sequence[str], result: str) -> str:
-    """Return the function that draws a part."""
     about = f'    """Draw the part {kind.replace("_", " ")}."""'
     return "\n".join(["", "", f"def {kind}() -> cq.Shape:", about, *lines, f"    return solid_of({result})"])
 

@@ -264,7 +264,6 @@ def screw_rows(module: ResolvedModule, carried: Carried) -> dict[str, float]:
 
 
 def _tightened(module: ResolvedModule, choice: str) -> _Tightened:
-    """Return the screw of a choice, tightened as all are."""
     screw = module.values[choice]
     assert isinstance(screw, Record)
     diameter, drill = (float(screw.value(name)) for name in ("nominal_diameter", "tap_drill"))

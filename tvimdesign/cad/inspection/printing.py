@@ -113,7 +113,6 @@ def overhangs(triangles: Triangles, overhang_angle: float) -> list[Overhang]:
 
 
 def _connected(corners: Array, chosen: Index) -> list[Index]:
-    """Group triangles that share a corner."""
     if not len(chosen):
         return []
     points = np.round(corners[chosen].reshape(-1, 3), 4) + 0.0

@@ -376,7 +376,6 @@ def _solids(needs: Mapping[str, Path]) -> dict[str, cq.Solid]:
 
 
 def _meshes(needs: Mapping[str, Path]) -> dict[str, Mesh]:
-    """Return the meshes of those solids, by kind."""
     return {kind: _mesh(folder / _MESH) for kind, folder in needs.items()}
 
 

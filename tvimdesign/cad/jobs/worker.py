@@ -172,7 +172,6 @@ class WorkerPool:
         return left
 
     def _tell(self) -> None:
-        """Pass on the results that are new."""
         for result in self._untold:
             self._made(result)
         self._untold = []
@@ -268,7 +267,6 @@ def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> No
 
 
 def _end_with(parent: BaseProcess) -> None:
-    """End this process once its parent has ended."""
     parent.join()
     os._exit(1)
 
@@ -288,7 +286,6 @@ def _done(
 
 
 def _end(hand: _Hand) -> None:
-    """End a child."""
     hand.line.close()
     if hand.process.is_alive():
         hand.process.kill()

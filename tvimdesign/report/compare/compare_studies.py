@@ -139,7 +139,6 @@ def _results(paths: Sequence[Path]) -> list[Case]:
 
 
 def _study_text(case: Case, settings: Sequence[str]) -> str:
-    """Return a study as it was answered, as text."""
     if case.path.suffix == ".json":
         return json.dumps(read_design(case.path).study, indent=2)
     return study_text(tree_of_file(case.path, settings))

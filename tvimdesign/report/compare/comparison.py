@@ -157,7 +157,6 @@ class Outcome:
         return [*sentences, *(standing(contest) for contest in self.contests)]
 
     def _verdicts(self) -> list[str]:
-        """Return the verdicts of finished runs."""
         designs = {label: answer.get(self.which, {}) for label, answer in self.found.items()}
         texts = [f"{label}: {design['verdict']}." for label, design in designs.items() if design.get("verdict")]
         return [f"Verdict on {text}" for text in texts]

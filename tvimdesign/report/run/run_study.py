@@ -151,7 +151,6 @@ _STEP = "yield and intervals"
 
 
 def _add_uncertainty(answered: AnsweredStudy, progress: Progress) -> None:
-    """Add yield and intervals to an answer with a design."""
     from tvimdesign.report.run.answered_study import note_left_out, note_no_uncertainty, note_uncertainty
     from tvimdesign.report.run.uncertainty_data import uncertainty_of
 

@@ -135,7 +135,6 @@ def _panel(panel: dict[str, Any], data: dict[str, Any], there: set[str]) -> dict
 
 
 def _brushed(plan: SweepPlan, seen: CellTable) -> Drawn | None:
-    """Return the cells, to be brushed."""
     data = cell_points(plan, seen.listed)
     if data is None:
         return None
@@ -147,5 +146,4 @@ def _brushed(plan: SweepPlan, seen: CellTable) -> Drawn | None:
 
 
 def _finite(value: Value) -> float | None:
-    """Return a number that can be drawn."""
     return float(value) if isinstance(value, int | float) and math.isfinite(value) else None

@@ -41,7 +41,6 @@ class PhaseEngine:
     """One phase, recorded when it is first asked for; `inputs` is a vector in the order of the model's names."""
 
     def __init__(self, phase: PhaseFunctions) -> None:
-        """Start with an empty record."""
         self.phase = phase
         self.integrals = [row.name for row in phase.paths if row.reduce == "integral"]
         self.size = phase.state_size

@@ -21,7 +21,6 @@ class PhaseResults:
     """The results of one run of a phase."""
 
     def __init__(self, run: PhaseRun) -> None:
-        """Start with nothing evaluated."""
         self.run, self.of = run, run.of
         self._seen: dict[tuple[str, ...], Array] = {}
         """Quantities at the ends of the steps, by those that are recorded together."""
@@ -113,7 +112,6 @@ class PhaseResults:
         )  # fmt: skip
 
     def _moving(self, now: Instant) -> tuple[Array, Array]:
-        """Return rates at an instant, and their tangents."""
         (pair,) = self.run.motion.rates.tangents(
             (now.state, np.array([now.current]), self.run.constants),
             (now.of_state, now.of_current[None], self._of_constants),

@@ -54,7 +54,6 @@ class Symbols(ca.ArrayInterfaceSX):
         return _quick(super().__array_ufunc__(ufunc, method, *inputs, **kwargs))
 
     def __array_function__(self, *call: Any) -> Any:
-        """Apply any other function of numpy."""
         return _quick(super().__array_function__(*call))
 
     def __getitem__(self, place: Any) -> Any:
@@ -64,7 +63,6 @@ class Symbols(ca.ArrayInterfaceSX):
         return _quick(super().__getitem__(place))
 
     def __neg__(self) -> Any:
-        """Negate each entry."""
         return _of(ca.SX.unary(ca.OP_NEG, self._v), self._ndim)
 
 

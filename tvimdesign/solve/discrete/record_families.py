@@ -141,7 +141,6 @@ def _facts(study: Study, records: Records) -> dict[str, float | str]:
 
 
 def _readers(table: Table, names: Iterable[str]) -> list[Output]:
-    """Return the outputs that read some words."""
     words = {row.name for row in table.choices} & set(names)
     return [row for row in table.outputs if words & set(row.needs)]
 

@@ -56,7 +56,6 @@ class Relaxation:
     """Runs by ends and beginning."""
 
     def __post_init__(self) -> None:
-        """Start with nothing solved."""
         self.constant_current_optimum = ConstantCurrentOptimum(self.optimizer)
 
     @cached_property
@@ -74,7 +73,6 @@ class Relaxation:
         return runs
 
     def _from_starts(self, most: int | None) -> list[Run]:
-        """Return a run from every start, or `most` of them."""
         runs: list[Run] = []
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)

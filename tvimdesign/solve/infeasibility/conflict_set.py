@@ -66,7 +66,6 @@ class ElasticMode:
     """An optimizer's problem with a slack on every limit, and one for all that a requirement is put on at once."""
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Add the slacks."""
         self.optimizer, problem = optimizer, optimizer.problem
         keys = [(limit.part_of or limit.output, limit.sense, limit.limit) for limit in problem.limits]
         places = {key: place for place, key in enumerate(dict.fromkeys(keys))}
@@ -164,7 +163,6 @@ class SecondTry:
     """Failed starts, started again from a feasible design; the elastic problem is built once."""
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Start with nothing built."""
         self._optimizer = optimizer
 
     @cached_property

@@ -151,7 +151,6 @@ def _behind(study: Study, outputs: Sequence[str]) -> list[Input]:
 
 
 def _clashing(study: Study, start: Mapping[str, Any], behind: Sequence[Input]) -> str:
-    """Return the values that clash, defaults included."""
     shown = [
         f"{row.name} {format_quantity(start[row.name], row.unit)}"
         + ("" if row.name in study.module or row.name in study.vary else " (default)")

@@ -41,7 +41,6 @@ class Curvatures:
     """Curvature of what the cycle supplies by the unknowns, learned from the slopes of one cycle after another."""
 
     def __init__(self, values: int, unknowns: int) -> None:
-        """Begin with none."""
         self.matrices = np.zeros((values, unknowns, unknowns))
 
     def learn(self, before: CycleModel, after: CycleModel) -> None:

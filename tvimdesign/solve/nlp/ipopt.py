@@ -148,7 +148,6 @@ class ProgrammeSolver:
         self, unknowns: int, rows: int, settings: Mapping[str, Any], plugin: str = "ipopt",
         most_points: float = math.inf,
     ) -> None:  # fmt: skip
-        """Build it."""
         self._held = _Held()
         x, p = ca.MX.sym("x", unknowns), ca.MX.sym("p", 0)
         self._calls = [

@@ -62,7 +62,6 @@ class MixedDevice(DeviceFunctions):
     def __init__(
         self, table: Table, given: Mapping[str, Any], points: Sequence[str], cells: int, mixtures: Sequence[Mixture]
     ) -> None:
-        """Add the shares to the inputs."""
         self.mixtures = tuple(mixtures)
         shares = {name: float(place == 0) for mixture in mixtures for place, name in enumerate(mixture.shares)}
         super().__init__(table, {**given, **shares}, points, cells)

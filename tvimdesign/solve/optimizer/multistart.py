@@ -108,7 +108,6 @@ class Multistart:
         return self.model.mixed(point) if isinstance(self.model, MixedDevice) else point
 
     def _exists(self, point: Array) -> bool:
-        """Return whether the module exists."""
         values = self.model.values(point, self.cycle)
         numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
         return (

@@ -32,7 +32,6 @@ class NeighboringOptima:
     """Tries what lies beside the ends of the starts, from the states that were found there."""
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Start with nothing solved."""
         self._optimizer = optimizer
         self._periods: dict[int, float] = {}
         """By place among the free numbers."""
@@ -139,7 +138,6 @@ class NeighboringOptima:
         return float(run.inputs[self._optimizer.model.index[self._optimizer.free[place].name]])
 
     def _periods_in(self, place: int, value: float) -> int:
-        """Return the whole periods in a value."""
         return math.floor(value / self._periods[place])
 
     def _crossed(self, runs: list[Run]) -> Run | None:

@@ -212,7 +212,6 @@ class Tradeoff:
         return self._value(point, objective) < self._value(other, objective) * (1.0 - ONE_POINT)
 
     def _value(self, point: Point, objective: Objective) -> float:
-        """Return the value that an objective minimises."""
         built = self.optimizer.reference
         return sum(weight * point.values[name] / built[name] for name, weight in objective.weights.items())
 

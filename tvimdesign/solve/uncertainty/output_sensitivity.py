@@ -59,7 +59,6 @@ class OutputDerivatives:
     """Outputs of one model with their derivatives by some inputs, at any design."""
 
     def __init__(self, model: DeviceFunctions, outputs: Sequence[str], fineness: float = FINER) -> None:
-        """Record the outputs."""
         self.model, self.outputs = model, tuple(outputs)
         self.supplied = {name: _supplied_behind(model, name) for name in outputs}
         """What each output needs of the cycle."""

@@ -143,7 +143,6 @@ def _plausible(
 
 
 def _resolved(optimizer: Optimizer, run: Run) -> ResolvedModule:
-    """Return the module of a run."""
     model = optimizer.model
     numbers = {name: float(run.inputs[i]) for name, i in model.index.items()}
     return ResolvedModule(optimizer.study, {**numbers, **model.words}, run.current_profiles)

@@ -181,7 +181,6 @@ class Tolerancing:
         return [limit for limit in self.limits if changes[self.outputs.index(limit.output)] != 0.0]
 
     def _draws(self, samples: int, seed: int) -> Drawn:
-        """Return what draws modules."""
         models = {self.outputs: self.many}
 
         def drawn(draw: Draw) -> Array:
@@ -212,7 +211,6 @@ class Tolerancing:
         )  # fmt: skip
 
     def _satisfied(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:
-        """Return each limit, and all together."""
         shares = []
         every = np.ones(drawn.values.shape[1], dtype=bool)
         for limit in self.limits:

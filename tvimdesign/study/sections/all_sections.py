@@ -26,8 +26,6 @@ def _read_format(reading: Reading, node: Node | None) -> None:
 
 
 def _words(name: str, meaning: str) -> Section:
-    """Declare a section that is a text."""
-
     def read(reading: Reading, node: Node | None) -> str:
         if node is None or (isinstance(node, Text) and node.empty):
             return ""

@@ -145,7 +145,6 @@ def _trajectory(reading: Reading, node: Node, path: str) -> GivenTrajectory | No
 
 
 def _checked(moments: list[float], angles: list[float], *, at_rest: bool) -> GivenTrajectory:
-    """Return a trajectory; raises InputError for one that is none."""
     if len(moments) != len(angles) or not 2 <= len(moments) <= _MOST_MOMENTS:
         counts = f"{len(moments)} moments and {len(angles)} angles"
         raise InputError(f"{counts}: must be as many, and 2 to {_MOST_MOMENTS}")

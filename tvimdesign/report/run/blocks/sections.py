@@ -121,7 +121,6 @@ def front_section(front: FrontEntry, names: list[str], drawn: Block | None = Non
 
 
 def _points(front: FrontEntry, names: list[str]) -> Grid:
-    """Return a row for each point, with the file of its design."""
     units, yields = front["units_of_values"], any("yield_share" in point for point in front["points"])
     heads = [Head("point", right=True), *(Head(f"{name} [{units[name]}]" if units[name] else name, right=True)
                                           for name in names)]  # fmt: skip

@@ -133,7 +133,6 @@ class Residuals:
     """Measured less predicted, channel after channel, as functions of the solver's numbers."""
 
     def __init__(self, problem: Problem) -> None:
-        """Build the functions."""
         self.problem = problem
         inner = ca.MX.sym("x", len(problem.parameters))
         values: Values = {parameter.name: parameter.outer(inner[i]) for i, parameter in enumerate(problem.parameters)}
