@@ -10,7 +10,7 @@ import numpy as np
 
 from tvimdesign.device.core.layout import evened_least
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.solids.shapes import Section, sector, tooth
@@ -138,19 +138,19 @@ _YIELDS = "the stops would yield under the torque that the frozen joint holds"
 PARTS = ("stop_face_safety", "stop_post_safety", "stop_tooth_safety")
 
 
-@strengths.output("1", Rule(sense=">=", value=1.0, reason=f"{_YIELDS}: more stop_depth, or a thicker rotor"))
+@strengths.output("1", at_least(1.0, f"{_YIELDS}: more stop_depth, or a thicker rotor"))
 def stop_face_safety(m: Module) -> Scalar:
     """Cold strength of the structure over `holding_safety` times the pressure between tooth and post."""
     return m.cold_strength / (m.holding_safety * m.stop_contact_stress)
 
 
-@strengths.output("1", Rule(sense=">=", value=1.0, reason=f"{_YIELDS}: more stop_length or stop_depth"))
+@strengths.output("1", at_least(1.0, f"{_YIELDS}: more stop_length or stop_depth"))
 def stop_post_safety(m: Module) -> Scalar:
     """Cold strength across the layers of a print over `holding_safety` times the stress at the foot of a post."""
     return m.cold_layer_strength / (m.holding_safety * m.stop_post_stress)
 
 
-@strengths.output("1", Rule(sense=">=", value=1.0, reason=f"{_YIELDS}: more stop_tooth_width"))
+@strengths.output("1", at_least(1.0, f"{_YIELDS}: more stop_tooth_width"))
 def stop_tooth_safety(m: Module) -> Scalar:
     """Cold strength of the structure over `holding_safety` times the stress at the root of a tooth."""
     return m.cold_strength / (m.holding_safety * m.stop_tooth_stress)

@@ -14,7 +14,7 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import Scalar, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, lasting_load, layer
 from tvimdesign.physics.solids import structure, wedge
@@ -118,7 +118,7 @@ _SQUEEZED = (
 )
 
 
-@quantities.output("1", Rule(sense="<=", value=0.5, reason=_SQUEEZED), headline=True)
+@quantities.output("1", at_most(0.5, _SQUEEZED), headline=True)
 def block_strain(m: Module) -> Scalar:
     """Compression of the molten block at full stroke, of its depth.
 

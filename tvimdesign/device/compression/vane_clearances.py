@@ -5,7 +5,7 @@ import numpy as np
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_CUTOUT
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids.shapes import between_planes
@@ -127,7 +127,7 @@ def slot_width_margin(m: Module) -> Scalar:
 _PRESSED_OUT = "what is squeezed out of the blocks' places could reach the springs, were all of it to go outwards"
 
 
-@quantities.output("mm", advice=(Rule(sense=">=", value=0.0, reason=_PRESSED_OUT),))
+@quantities.output("mm", advice=(at_least(0.0, _PRESSED_OUT),))
 def squeezed_block_gap(m: Module) -> Scalar:
     """Room between springs and blocks squeezed at the stops, which bulge outwards, beyond the radial clearance."""
     # A block squeezed by half needs half its own volume beside its place. Some of that goes inwards, and into the
@@ -160,10 +160,9 @@ def pad_seat_margin(m: Module) -> Scalar:
     return m.pad_seat - m.minimum_wall
 
 
-_SHARP = "the slot's corners leave sharp edges beside the pads: a larger slot_corner_offset"
-
-
-@quantities.output("mm", at_least(0.0, _SHARP))
+@quantities.output(
+    "mm", at_least(0.0, "the slot's corners leave sharp edges beside the pads: a larger slot_corner_offset")
+)
 def slot_edge_margin(m: Module) -> Scalar:
     """Offset of the slots' corners beyond the one at which the edges they leave beside the pads have 60 degrees."""
     return m.slot_corner_offset + 0.5 * m.corner_radius

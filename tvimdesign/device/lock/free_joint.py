@@ -16,7 +16,7 @@ import numpy as np
 from tvimdesign.device.components.hard_stops import SLIVER, STOPS
 from tvimdesign.device.core.layout import LEAST_FILLET, evened_least
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions.contacts import journal_torque
@@ -141,7 +141,7 @@ def melt_stress(m: Module) -> Scalar:
     return layer.traction(m.layer_drag_torque, m.layer_polar_moment, m.pcl_outer_radius)
 
 
-@turns.output("1", Rule(sense=">=", value=1.0, reason="the molten layer would tear or slip: a slower turn_speed"))
+@turns.output("1", at_least(1.0, "the molten layer would tear or slip: a slower turn_speed"))
 def layer_strain_safety(m: Module) -> Scalar:
     """Strain the molten layer bears over what it remembers of the turn at its outer radius."""
     weighted = sum(stiffness * tau**2 for tau, stiffness in m.pcl_modes_at_hot)

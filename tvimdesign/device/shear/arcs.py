@@ -13,7 +13,7 @@ from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_CUTOUT
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar, at_least, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.solids.shapes import NOTHING, Section, inner_corner, outer_corner, rectangle_at, sector, stacked
 
@@ -199,7 +199,7 @@ def liner_web(m: Module) -> Scalar:
 _KEYED = "keys of the PCL would stand in the liner: key_count 0, or liner_material: none"
 
 
-@rules.output("1", Rule(sense="<=", value=0.5, reason=_KEYED), requires=WITH_LINER)
+@rules.output("1", at_most(0.5, _KEYED), requires=WITH_LINER)
 def keys_in_liner(m: Module) -> Scalar:
     """Keys of an arc that would have to go through its liner; zero without."""
     return m.key_count

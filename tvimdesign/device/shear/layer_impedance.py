@@ -19,7 +19,7 @@ from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.shear.spreader_seat import PAD_PARTS, TILE_PARTS
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import Scalar, at_least, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import lasting_load, layer, shear_lag
 from tvimdesign.physics.polymers import melt, polymer, transitions
@@ -139,7 +139,7 @@ def layer_strain(m: Module) -> Scalar:
     return layer.shear_strain(m.pcl_outer_radius, m.stroke, m.pcl_thickness)
 
 
-@quantities.output("1", Rule(sense=">=", value=1.0, reason="the molten layer would tear or slip"))
+@quantities.output("1", at_least(1.0, "the molten layer would tear or slip"))
 def layer_strain_safety(m: Module) -> Scalar:
     """Strain the molten layer bears over the strain it sees."""
     return m.pcl_melt_strain_limit / m.layer_strain
@@ -208,10 +208,9 @@ def layer_edge_traction(m: Module) -> Scalar:
     return m.layer_edge_rise * layer.traction(m.holding_torque, m.layer_polar_moment, m.pcl_outer_radius)
 
 
-_PEELS = "the bond may fail along the arcs' edges below the torque that the joint must hold"
-
-
-@quantities.output("1", advice=(Rule(sense=">=", value=1.0, reason=_PEELS),))
+@quantities.output(
+    "1", advice=(at_least(1.0, "the bond may fail along the arcs' edges below the torque that the joint must hold"),)
+)
 def layer_edge_safety(m: Module) -> Scalar:
     """Strength of the bond over the traction along the edge of an arc under the torque the joint holds."""
     return m.bond_strength / m.layer_edge_traction
@@ -288,7 +287,7 @@ def freezing_traction(m: Module) -> Scalar:
 _MAY_PART = "the freezing layer shrinks, the rotor cannot follow, and the bond may part at its inner edge"
 
 
-@plays.output("1", advice=(Rule(sense=">=", value=1.0, reason=_MAY_PART),))
+@plays.output("1", advice=(at_least(1.0, _MAY_PART),))
 def freezing_safety(m: Module) -> Scalar:
     """Strength of the bond over the tension that the freezing layer puts on it."""
     return m.bond_strength / m.freezing_traction
@@ -313,7 +312,7 @@ def expansion_travel(m: Module) -> Scalar:
     return m.structure_expansion * length * (m.core_temperature_at_hot - m.ambient_temperature)
 
 
-@plays.output("%", advice=(Rule(sense="<=", value=0.1, reason=_FLOATS),))
+@plays.output("%", advice=(at_most(0.1, _FLOATS),))
 def layer_play(m: Module) -> Scalar:
     """Way of the rotor off the layer, by its play and by expansion, over the layer's thickness: so much more melt."""
     return (m.axial_play + m.expansion_travel) / m.pcl_thickness

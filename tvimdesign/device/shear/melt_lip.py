@@ -24,7 +24,7 @@ from tvimdesign.device.components.axial_preload import GRAVITY, HOUR
 from tvimdesign.device.core.clearances import MM
 from tvimdesign.device.shear.floor_heat import BELOW
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Feature, Scalar, at_least, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import layer_end, shape_factors
 from tvimdesign.physics.heat_flow.layer_end import Arm, Lip
@@ -111,7 +111,7 @@ def melt_hold(m: Module) -> Scalar:
 _CREEPS = "so much of the molten layer creeps out in an hour with the axis level (assumed, 0.5 to 5 %)"
 
 
-@retention.output("%", advice=(Rule(sense="<=", value=0.01, reason=_CREEPS),))
+@retention.output("%", advice=(at_most(0.01, _CREEPS),))
 def melt_loss(m: Module) -> Scalar:
     """Share of the layer that gravity moves out past an edge in an hour at the hot point, the axis level."""
     gap, length = m.pcl_thickness + m.freezing_travel, m.arc_width

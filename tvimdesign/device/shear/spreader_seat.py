@@ -11,7 +11,7 @@ import numpy as np
 from tvimdesign.device.components.heater_adhesive import WITH_PADS
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow.shape_factors import constriction
 from tvimdesign.physics.layers import layer
@@ -111,7 +111,7 @@ def seat_holding_torque(m: Module) -> Scalar:
 _PULLED = "the freezing layer would pull the spreaders out of their seats: a thicker spreader"
 
 
-@strengths.output("1", Rule(sense=">=", value=1.0, reason=_PULLED), requires=WITH_TILES, default=1e3)
+@strengths.output("1", at_least(1.0, _PULLED), requires=WITH_TILES, default=1e3)
 def seat_pull_safety(m: Module) -> Scalar:
     """Strength of the seats over what the freezing layer pulls at them with, by which no module is pulled."""
     pull = np.fmin(m.freezing_traction, m.pcl_bond_strength) * m.pcl_area
@@ -136,7 +136,7 @@ _HOT = "the heaters' adhesive is above its continuous service temperature: choos
 ratings = QuantityGroup("Switch")
 
 
-@ratings.output("K", ratings=(Rule(sense=">=", value=0.0, reason=_HOT),), requires=WITH_TILES)
+@ratings.output("K", ratings=(at_least(0.0, _HOT),), requires=WITH_TILES)
 def heater_adhesive_margin(m: Module) -> Scalar:
     """Rating of the adhesive around the spreaders less the highest temperature of the modules; zero without."""
     return m.heater_adhesive_rating - m.peak_peltier_temperature

@@ -43,6 +43,11 @@ def at_least(value: float, reason: str, exists_above: float | None = None) -> Ru
     return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above)
 
 
+def at_most(value: float, reason: str) -> Rule:
+    """Return an upper limit that belongs to the machine."""
+    return Rule(sense="<=", value=value, reason=reason)
+
+
 @dataclass(frozen=True)
 class Feature:
     """Something a module has only where a study asks for it."""

@@ -283,10 +283,7 @@ def cutout_ground_gap(m: Module) -> Scalar:
     return m.foot_height - m.cutout_diameter
 
 
-_MEETS = "the thermal cut-out meets the retainer: a smaller one, or heater_fuse: none"
-
-
-@cutout_rules.output("mm", at_least(0.0, _MEETS))
+@cutout_rules.output("mm", at_least(0.0, "the thermal cut-out meets the retainer: a smaller one, or heater_fuse: none"))
 def cutout_retainer_gap(m: Module) -> Scalar:
     """Room between the thermal cut-out below the floor and what is within it."""
     return m.cutout_radius - 0.5 * m.cutout_diameter - m.retainer_radius

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import SOFTENING, Rule, Scalar
+from tvimdesign.device.table.quantity import SOFTENING, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import heat
 
@@ -49,7 +49,7 @@ def soft_threshold(m: Module) -> Scalar:
     return m.softening_band * (m.soft_impedance if m.impedance_targets == "stated" else m.joint_impedance_at_hot)
 
 
-@quantities.output("1", Rule(sense=">=", value=0.0, reason="the joint never gets as soft as `soft_impedance` asks"))
+@quantities.output("1", at_least(0.0, "the joint never gets as soft as `soft_impedance` asks"))
 def soft_reach(m: Module) -> Scalar:
     """Distance of the hot joint below the soft threshold, as the logarithm of the ratio."""
     return np.log(m.soft_threshold) - np.log(m.joint_impedance_at_hot)
@@ -74,7 +74,7 @@ def response_time(m: Module) -> Scalar:
     return near_face_time(m) if m.response_criterion == "near_face" else far_face_time(m)
 
 
-@quantities.output("s", advice=(Rule(sense=">=", value=0.0, reason="the joint is not yet soft when the switch ends"),))
+@quantities.output("s", advice=(at_least(0.0, "the joint is not yet soft when the switch ends"),))
 def softening_margin(m: Module) -> Scalar:
     """Time from the joint being soft to the end of the switch."""
     return m.response_time - m.softening_time
@@ -122,7 +122,7 @@ def sensed_temperature(m: Module) -> Scalar:
 @quantities.output(
     "K",
     advice=(
-        Rule(sense=">=", value=0.0, reason="the layer never is at the hot point's temperature during the cycle, so the "
+        at_least(0.0, "the layer never is at the hot point's temperature during the cycle, so the "
              "joint is not as soft as its values at `hot` say; see softened_stiffness and softened_impedance"),
     ),
 )  # fmt: skip
@@ -158,7 +158,7 @@ def peak_current(m: Module) -> Scalar:
     return m.drive_current
 
 
-@quantities.output("A", ratings=(Rule(sense=">=", value=0.0, reason="above the heater's rated current"),))
+@quantities.output("A", ratings=(at_least(0.0, "above the heater's rated current"),))
 def current_margin(m: Module) -> Scalar:
     """Rated current of the heater less the highest one of them takes in the switch."""
     return m.peltier_max_current - m.peak_current / m.heater_strings
@@ -182,23 +182,19 @@ def peak_rotor_temperature(m: Module) -> Scalar:
     return m.stack_profile.plate_face
 
 
-@quantities.output(
-    "K", ratings=(Rule(sense=">=", value=0.0, reason="the heater is above the temperature it is rated for"),)
-)
+@quantities.output("K", ratings=(at_least(0.0, "the heater is above the temperature it is rated for"),))
 def peltier_temperature_margin(m: Module) -> Scalar:
     """Rated temperature of the heater less the highest it sees."""
     return m.peltier_max_temperature - m.peak_peltier_temperature
 
 
-@quantities.output("K", ratings=(Rule(sense=">=", value=0.0, reason="the PCL decomposes"),))
+@quantities.output("K", ratings=(at_least(0.0, "the PCL decomposes"),))
 def pcl_temperature_margin(m: Module) -> Scalar:
     """Temperature at which the PCL starts to decompose less the highest it sees."""
     return m.pcl_decomposition_temperature - m.peak_pcl_temperature
 
 
-@quantities.output(
-    "K", ratings=(Rule(sense=">=", value=0.0, reason="the structure is above its continuous service temperature"),)
-)
+@quantities.output("K", ratings=(at_least(0.0, "the structure is above its continuous service temperature"),))
 def structure_temperature_margin(m: Module) -> Scalar:
     """Service temperature of the structure less the highest temperature of the pads that touch it."""
     return m.structure_service_temperature - m.peak_peltier_temperature

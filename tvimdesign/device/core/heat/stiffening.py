@@ -3,7 +3,7 @@
 import numpy as np
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import EQUILIBRIUM_STIFFENING, STIFFENING, Rule, Scalar
+from tvimdesign.device.table.quantity import EQUILIBRIUM_STIFFENING, STIFFENING, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import heat
 
@@ -26,7 +26,7 @@ def stiff_threshold(m: Module) -> Scalar:
     return (m.stiff_impedance if m.impedance_targets == "stated" else m.joint_impedance_at_cold) / m.stiffening_band
 
 
-@quantities.output("1", Rule(sense=">=", value=0.0, reason="the joint never gets as stiff as `stiff_impedance` asks"))
+@quantities.output("1", at_least(0.0, "the joint never gets as stiff as `stiff_impedance` asks"))
 def stiff_reach(m: Module) -> Scalar:
     """Distance of the cold joint above the stiff threshold, as the logarithm of the ratio."""
     return np.log(m.joint_impedance_at_cold) - np.log(m.stiff_threshold)
@@ -66,7 +66,7 @@ def return_time(m: Module) -> Scalar:
 @quantities.output(
     "1",
     advice=(
-        Rule(sense=">=", value=1.0, reason="the joint counts as stiff while a slice of its layer is mostly liquid: "
+        at_least(1.0, "the joint counts as stiff while a slice of its layer is mostly liquid: "
              "it resists at its frequency, and gives way under a lasting load"),
     ),
 )  # fmt: skip
@@ -78,7 +78,7 @@ def stiffening_over_freezing(m: Module) -> Scalar:
 @quantities.output(
     "1",
     advice=(
-        Rule(sense=">=", value=0.0, reason="soft and stiff overlap: between the two thresholds the joint counts as "
+        at_least(0.0, "soft and stiff overlap: between the two thresholds the joint counts as "
              "both, and the times of a switch say nothing"),
     ),
 )  # fmt: skip
@@ -123,24 +123,19 @@ def stiffening_peak_current(m: Module) -> Scalar:
     return -m.drive_current
 
 
-@quantities.output("A", ratings=(Rule(sense=">=", value=0.0, reason="cooling is above the heater's rated current"),))
+@quantities.output("A", ratings=(at_least(0.0, "cooling is above the heater's rated current"),))
 def cooling_current_margin(m: Module) -> Scalar:
     """Rated current of the heater less the highest one of them takes while the joint stiffens."""
     return m.peltier_max_current - m.stiffening_peak_current / m.heater_strings
 
 
-@quantities.output(
-    "K", ratings=(Rule(sense=">=", value=0.0, reason="the pads' outer side is above the temperature it is rated for"),)
-)
+@quantities.output("K", ratings=(at_least(0.0, "the pads' outer side is above the temperature it is rated for"),))
 def cold_side_temperature_margin(m: Module) -> Scalar:
     """Rated temperature of the heater less the highest of its outer side."""
     return m.peltier_max_temperature - m.peak_cold_side_temperature
 
 
-@quantities.output(
-    "K",
-    ratings=(Rule(sense=">=", value=0.0, reason="the structure is above its service temperature while it stiffens"),),
-)
+@quantities.output("K", ratings=(at_least(0.0, "the structure is above its service temperature while it stiffens"),))
 def stiffening_structure_margin(m: Module) -> Scalar:
     """Service temperature of the structure less the highest of the pads' outer side, which touches it."""
     return m.structure_service_temperature - m.peak_cold_side_temperature

@@ -17,7 +17,7 @@ import numpy as np
 from tvimdesign.base.record import Record
 from tvimdesign.device.core.materials import CRYSTALLIZING, GLASS
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, lasting_load, layer
 from tvimdesign.physics.motions import motion, one_sided
@@ -237,9 +237,7 @@ def impedance_range(m: Module) -> Scalar:
     return m.joint_stiffness_at_cold / m.joint_stiffness_at_hot
 
 
-@quantities.output(
-    "kg*mm^2", advice=(Rule(sense=">=", value=0.0, reason="the module's own parts have more inertia than that"),)
-)
+@quantities.output("kg*mm^2", advice=(at_least(0.0, "the module's own parts have more inertia than that"),))
 def load_inertia(m: Module) -> Scalar:
     """Inertia that is left for the load: the moving inertia less that of the module's own parts."""
     return m.moving_inertia - m.parts_inertia

@@ -13,7 +13,7 @@ import numpy as np
 
 from tvimdesign.device.core.materials import CRYSTALLIZING
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import contacts
@@ -112,9 +112,7 @@ def melt_stress(m: Module) -> Scalar:
 
 
 @quantities.output(
-    "1",
-    Rule(sense=">=", value=1.0, reason="the melt breaks, or slips on its faces, at the hot point's frequency"),
-    requires=CRYSTALLIZING,
+    "1", at_least(1.0, "the melt breaks, or slips on its faces, at the hot point's frequency"), requires=CRYSTALLIZING
 )
 def melt_stress_safety(m: Module) -> Scalar:
     """Shear stress at which the flowing melt breaks over the largest it sees."""

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import Scalar, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.motions.contacts import (
     crossed_groove_depth,
@@ -48,9 +48,7 @@ WEAR_STROKES = 1e6
 """Full strokes to both sides for which wear counts, as fatigue does [1]."""
 
 
-@quantities.output(
-    "mm", advice=(Rule(sense="<=", value=1e-4, reason="legs wear into their pins: grease them"),), sprung=True
-)
+@quantities.output("mm", advice=(at_most(1e-4, "legs wear into their pins: grease them"),), sprung=True)
 def pin_wear(m: Module) -> Scalar:
     """Depth that a leg wears into its pin in 1e6 full strokes to both sides, all of the wear on the pin.
 
@@ -73,9 +71,7 @@ def friction_torque(m: Module) -> Scalar:
     return m.pin_friction_torque + m.bearing_friction_torque + m.preload_friction_torque
 
 
-@quantities.output(
-    "1", advice=(Rule(sense="<=", value=0.5, reason="friction holds the soft joint far off its rest"),), sprung=True
-)
+@quantities.output("1", advice=(at_most(0.5, "friction holds the soft joint far off its rest"),), sprung=True)
 def friction_share(m: Module) -> Scalar:
     """Friction torque over the springs' torque at full stroke; beyond one the springs do not bring the joint back."""
     return m.friction_torque / m.spring_torque_full_stroke

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
@@ -145,7 +145,7 @@ def warm_structure_loss(m: Module) -> Scalar:
 _SOFT = "the hot part of the structure is soft: the hot joint is that soft only with its structure above its rating"
 
 
-@quantities.output("1", advice=(Rule(sense=">=", value=0.5, reason=_SOFT),))
+@quantities.output("1", advice=(at_least(0.5, _SOFT),))
 def hot_structure_share(m: Module) -> Scalar:
     """Stiffness of the structure at the hot point over that at 23 degC."""
     return m.warm_structure_stiffness_at_hot / m.structure_stiffness

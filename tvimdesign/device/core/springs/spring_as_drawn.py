@@ -21,7 +21,7 @@ the PCL, the floor as the air.
 import numpy as np
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import plastics
 from tvimdesign.physics.springs import drawn_spring as drawn
@@ -142,7 +142,7 @@ def spring_static_safety(m: Module) -> Scalar:
 
 @quantities.output(
     "1",
-    advice=(Rule(sense=">=", value=1.0, reason="the spring would break before 1e6 cycles"),),
+    advice=(at_least(1.0, "the spring would break before 1e6 cycles"),),
     headline=True,
     least_of=("coil_fatigue_safety", "tang_fatigue_safety"),
 )
@@ -204,10 +204,7 @@ def preload_loss(m: Module) -> Scalar:
     return m.preload_angle * (at_once - plastics.winding_left(m.spring_rate, *_spring_holds(m)))
 
 
-_CREPT = "a spring lifts off at full stroke once pins and floor have crept"
-
-
-@quantities.output("rad", advice=(Rule(sense=">=", value=0.0, reason=_CREPT),))
+@quantities.output("rad", advice=(at_least(0.0, "a spring lifts off at full stroke once pins and floor have crept"),))
 def crept_preload_margin(m: Module) -> Scalar:
     """Preload that is left at the end of the stroke, less what creep takes of it; adjusters can set it anew."""
     return m.preload_margin - m.preload_loss

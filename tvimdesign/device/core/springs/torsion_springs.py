@@ -6,7 +6,7 @@ is its mirror image."""
 import numpy as np
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Rule, Scalar
+from tvimdesign.device.table.quantity import Feature, Scalar, at_least, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.springs import spring
@@ -46,8 +46,8 @@ def spring_rate(m: Module) -> Scalar:
     return spring.rate(m.spring_youngs_modulus, m.wire_diameter, m.coil_diameter, m.active_coils, m.rate_model)
 
 
-@quantities.output("1", Rule(sense=">=", value=4.0, reason="cold coiling, EN 13906-3", exists_above=1.2),
-             Rule(sense="<=", value=20.0, reason="cold coiling, EN 13906-3"))  # fmt: skip
+@quantities.output("1", at_least(4.0, "cold coiling, EN 13906-3", exists_above=1.2),
+             at_most(20.0, "cold coiling, EN 13906-3"))  # fmt: skip
 def spring_index(m: Module) -> Scalar:
     """Coil diameter over wire diameter, C."""
     return spring.spring_index(m.wire_diameter, m.coil_diameter)
@@ -132,9 +132,7 @@ def least_spring_stiffness(m: Module) -> Scalar:
 _BENT = "the springs' stiffness changes by more than a tenth over the stroke"
 
 
-@quantities.output(
-    "1", advice=(Rule(sense=">=", value=0.9, reason=_BENT), Rule(sense="<=", value=1.1, reason=_BENT)), headline=True
-)
+@quantities.output("1", advice=(at_least(0.9, _BENT), at_most(1.1, _BENT)), headline=True)
 def stiffness_over_stroke(m: Module) -> Scalar:
     """Stiffness of the springs at full stroke over that at rest."""
     return m.spring_stiffness_full_stroke / m.spring_stiffness
@@ -167,9 +165,7 @@ def spring_unwinding(m: Module) -> Scalar:
     return -m.windings[3]
 
 
-@quantities.output(
-    "rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act")
-)
+@quantities.output("rad", at_least(0.0, "a spring without preload lifts off, and half of them act"))
 def preload_margin(m: Module) -> Scalar:
     """Preload that is left at the stops of the opposing springs, less what a loose tang's play takes."""
     return m.preload_angle - m.spring_unwinding - m.spring_play
@@ -182,9 +178,7 @@ def spring_tensile_strength(m: Module) -> Scalar:
     return spring.tensile_strength(m.wire_diameter, [(range_["coefficient"], range_["exponent"]) for range_ in ranges])
 
 
-@quantities.output(
-    "1", advice=(Rule(sense=">=", value=1.0, reason="the strength of this wire is extrapolated to its size"),)
-)
+@quantities.output("1", advice=(at_least(1.0, "the strength of this wire is extrapolated to its size"),))
 def wire_range_margin(m: Module) -> Scalar:
     """Wire diameter against the nearer end of the range the material's strength is known for, above one inside."""
     ranges = m.spring_material.table("strength")
@@ -241,16 +235,13 @@ _LIFTS = (
 )
 
 
-@quantities.output("deg", Rule(sense=">=", value=0.0, reason=_LIFTS))
+@quantities.output("deg", at_least(0.0, _LIFTS))
 def free_angle_margin(m: Module) -> Scalar:
     """Preload that is left at the stops, less what the free angle of the springs that go in may take."""
     return m.preload_margin - m.fitted_angle_tolerance
 
 
-_STAY_OUT = "four of five springs as bought stay out"
-
-
-@quantities.output("1", advice=(Rule(sense=">=", value=0.2, reason=_STAY_OUT),))
+@quantities.output("1", advice=(at_least(0.2, "four of five springs as bought stay out"),))
 def sorted_share(m: Module) -> Scalar:
     """Share of the springs as bought that go in: all with adjusters, else those within `free_angle_sorting`."""
     if m.preload_adjuster != "fixed":
@@ -258,9 +249,7 @@ def sorted_share(m: Module) -> Scalar:
     return spring.share_within(m.free_angle_sorting, m.free_angle_tolerance)
 
 
-@quantities.output(
-    "1", Rule(sense=">=", value=1.0, reason="the rotor's pins would break off between two layers of the print")
-)
+@quantities.output("1", at_least(1.0, "the rotor's pins would break off between two layers of the print"))
 def pin_safety(m: Module) -> Scalar:
     """Bending strength of the rotor's pins, cold, over the stress under the leg at full winding."""
     force = m.held_spring_rate * m.spring_winding / m.leg_arm
@@ -269,10 +258,7 @@ def pin_safety(m: Module) -> Scalar:
     return m.structure_layer_strength / spring.bending_stress(force * height, m.pin_diameter, 1.0)
 
 
-@quantities.output(
-    "1",
-    advice=(Rule(sense=">=", value=1.0, reason="pins may crack at their fillet: a thicker pin, or a larger fillet"),),
-)
+@quantities.output("1", advice=(at_least(1.0, "pins may crack at their fillet: a thicker pin, or a larger fillet"),))
 def pin_foot_safety(m: Module) -> Scalar:
     """Bending strength of the rotor's pins, cold, over the peak of the stress at their fillet at full winding."""
     return m.pin_safety / structure.bent_at_fillet(m.pin_diameter, m.foot_fillet)
