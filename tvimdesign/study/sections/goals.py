@@ -18,14 +18,7 @@ from tvimdesign.study.sections.section import (
     mapping,
     output_name,
 )
-from tvimdesign.study.study import (
-    CONTROLLED,
-    FEWEST_POINTS,
-    MOST_POINTS,
-    FrontOptions,
-    Requirement,
-    Study,
-)
+from tvimdesign.study.study import CONTROLLED, FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement, Study
 from tvimdesign.study.text.mistakes import one_of, quoted, step
 from tvimdesign.study.text.values import (
     Reading,
