@@ -132,3 +132,9 @@ def lost_motion(m: Module) -> Scalar:
     Friction on the pins, play of the link on the core, and play of the core in the hub.
     """
     return m.friction_play + m.link_play + m.bearing_play
+
+
+@quantities.output("1", advice=(Rule(sense="<=", value=0.5, reason="half the stroke may move nothing"),))
+def lost_motion_share(m: Module) -> Scalar:
+    """Share of the stroke that is lost motion, to either side of rest."""
+    return m.lost_motion / m.stroke

@@ -137,23 +137,21 @@ def _lost_motion(value: _Values, *, much: bool = True) -> list[Fact]:
 
     The note names what adds most.
     """
-    shares = {"lost_motion": value.values["lost_motion"] / value.values["stroke"]}
-    if "friction_share" in value.values:
-        shares["friction_share"] = value.values["friction_share"]
-    wholes = {"lost_motion": f"the ±{from_si(value.values['stroke'], 'deg'):.3g}° stroke"}
+    shares = {name: value.values[name] for name in _LOSES if name in value.values}
+    wholes = {"lost_motion_share": f"the ±{from_si(value.values['stroke'], 'deg'):.3g}° stroke"}
     wholes["friction_share"] = "spring torque"
     shown = [name for name, share in shares.items() if (share > _LARGE) is much]
     if not shown:
         return []
     first, *others = (f"{value.in_percent(name, shares[name])} of {wholes[name]}" for name in shown)
     most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in shown]
-    title = f"{'Much' if much else 'Little'} {'lost motion' if 'lost_motion' in shown else 'friction'}"
+    title = f"{'Much' if much else 'Little'} {'lost motion' if 'lost_motion_share' in shown else 'friction'}"
     note = f"{'above' if much else 'below'} a tenth, most by {' and '.join(dict.fromkeys(most))}"
     return [Fact(title, [first, *(f"friction {part}" for part in others)], note)]
 
 
 _LOSES = {
-    "lost_motion": ("friction_play", "link_play", "bearing_play"),
+    "lost_motion_share": ("friction_play", "link_play", "bearing_play"),
     "friction_share": ("pin_friction_torque", "bearing_friction_torque", "preload_friction_torque"),
 }
 
