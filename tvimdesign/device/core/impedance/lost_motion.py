@@ -134,7 +134,7 @@ def lost_motion(m: Module) -> Scalar:
     return m.friction_play + m.link_play + m.bearing_play
 
 
-@quantities.output("1", advice=(Rule(sense="<=", value=0.5, reason="half the stroke may move nothing"),))
+@quantities.output("1", advice=(at_most(0.5, "half the stroke may move nothing"),))
 def lost_motion_share(m: Module) -> Scalar:
     """Share of the stroke that is lost motion, to either side of rest."""
     return m.lost_motion / m.stroke
