@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import driven, lasting_load
 from tvimdesign.physics.motions.motion import Joint
@@ -228,7 +228,7 @@ def impact_deflection(m: Module) -> Scalar:
 _STOPPED = "the soft joint meets its stops in the impact, which then takes more torque than impact_torque@hot"
 
 
-@quantities.output("rad", advice=(Rule(sense=">=", value=0.0, reason=_STOPPED),))
+@quantities.output("rad", advice=(at_least(0.0, _STOPPED),))
 def impact_stop_margin(m: Module) -> Scalar:
     """Angle from the soft joint's largest deflection in the impact to its stops."""
     return m.stop_angle - m.impact_deflection_at_hot
@@ -237,7 +237,7 @@ def impact_stop_margin(m: Module) -> Scalar:
 _BREAKS = "the frozen joint holds less than the impact's largest torque"
 
 
-@quantities.output("N*m", advice=(Rule(sense=">=", value=0.0, reason=_BREAKS),), rises_with="holding_torque")
+@quantities.output("N*m", advice=(at_least(0.0, _BREAKS),), rises_with="holding_torque")
 def impact_torque_margin(m: Module) -> Scalar:
     """Torque that the frozen joint holds beyond that of the impact."""
     return m.holding_torque - m.impact_torque_at_cold

@@ -5,7 +5,7 @@ import numpy as np
 from tvimdesign.device.components.bearing import BEARINGS, load_per_torque
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
 quantities = QuantityGroup("Gaps", WITH_MOTOR)
@@ -155,7 +155,7 @@ def motor_bearing_load(m: Module) -> Scalar:
 _DENTS = "a force at the link's end that the joint just holds would dent the races of the motor's bearings"
 
 
-@quantities.output("N", advice=(Rule(sense=">=", value=0.0, reason=_DENTS),))
+@quantities.output("N", advice=(at_least(0.0, _DENTS),))
 def motor_bearing_margin(m: Module) -> Scalar:
     """Static rating of one of the motor's bearings less the force on it; zero without a motor."""
     return m.drive_motor.bearing_rating - m.motor_bearing_load

@@ -9,7 +9,7 @@ import numpy as np
 from tvimdesign.device.core.motor_choice import WITH_MOTOR
 from tvimdesign.device.core.task import WITH_ARM
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import driven
 
@@ -19,7 +19,7 @@ springs = QuantityGroup("Hold", WITH_MOTOR)
 _TOO_WEAK = "the motor cannot for long turn the springs alone by the stroke"
 
 
-@springs.output("N*m", advice=(Rule(sense=">=", value=0.0, reason=_TOO_WEAK),))
+@springs.output("N*m", advice=(at_least(0.0, _TOO_WEAK),))
 def motor_torque_margin(m: Module) -> Scalar:
     """Continuous torque of the motor less what turns the springs alone by the stroke; zero without a motor."""
     return m.drive_motor.continuous_torque - m.spring_stiffness * m.stroke
@@ -81,7 +81,7 @@ def task_speed(m: Module) -> Scalar:
 _TORQUE = "the motor's peak torque does not reach that of its task"
 
 
-@quantities.output("N*m", advice=(Rule(sense=">=", value=0.0, reason=_TORQUE),))
+@quantities.output("N*m", advice=(at_least(0.0, _TORQUE),))
 def motor_peak_margin(m: Module) -> Scalar:
     """Peak torque of the motor beyond that of its task, soft and frozen."""
     return m.drive_motor.peak_torque - np.fmax(m.motor_torque_at_hot, m.motor_torque_at_cold)
@@ -90,7 +90,7 @@ def motor_peak_margin(m: Module) -> Scalar:
 _HEAT = "the motor's winding gets too hot in its task"
 
 
-@quantities.output("N*m", advice=(Rule(sense=">=", value=0.0, reason=_HEAT),))
+@quantities.output("N*m", advice=(at_least(0.0, _HEAT),))
 def motor_heat_margin(m: Module) -> Scalar:
     """Continuous torque of the motor beyond the rms torque of its task, soft and frozen."""
     return m.drive_motor.continuous_torque - np.fmax(m.motor_rms_torque_at_hot, m.motor_rms_torque_at_cold)
@@ -99,7 +99,7 @@ def motor_heat_margin(m: Module) -> Scalar:
 _SPEED = "the task is faster than the motor at its rated speed"
 
 
-@quantities.output("rpm", advice=(Rule(sense=">=", value=0.0, reason=_SPEED),))
+@quantities.output("rpm", advice=(at_least(0.0, _SPEED),))
 def motor_speed_margin(m: Module) -> Scalar:
     """Rated speed of the motor beyond that of its task."""
     return m.drive_motor.rated_speed - m.task_speed
