@@ -16,7 +16,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.simulation.working_cycle.trajectory import Trajectory
-from tvimdesign.solve.batch.batch_model import SLOW, Kernel
+from tvimdesign.solve.batch.batch_model import Kernel, pace_of
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.phase_kernel import Steps
 from tvimdesign.study import Study, given
@@ -74,10 +74,7 @@ class QuickModel:
 
     def set_pace(self, inputs: Array) -> None:
         """Let the steps follow a module from now on."""
-        cycle = self._simulator.run(inputs)
-        slow = SLOW * float(inputs[self.model.index["horizon"]])
-        ends = {name: cycle.values[phase.phase.ends] for name, phase in self.model.phases.items()}
-        self._pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+        self._pace = pace_of(self._simulator, inputs)
 
     def inputs(self, known: Mapping[str, Any]) -> Array:
         """Return the vector of a module's numbers."""
@@ -109,7 +106,7 @@ class QuickModel:
     def _record(self) -> None:
         moving = [name for name in self.model.names if name != "rotor_cells"]
         try:
-            kernel = CycleKernel(self.model, moving, self.model.switch_names, _STEPS, _STEPS)
+            kernel = CycleKernel(self.model, moving, self.model.switch_names, _STEPS)
             for drawn in self._maps.values():
                 drawn.record()
         except ValueError:

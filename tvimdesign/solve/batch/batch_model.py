@@ -27,8 +27,16 @@ Array = NDArray[np.float64]
 
 _LOOSE = 2e-3
 """Tolerance of a simulation that a pace is taken from."""
-SLOW = 0.1
+_SLOW = 0.1
 """Share of the horizon that a phase is paced by which never ends as drawn."""
+
+
+def pace_of(simulator: Simulator, inputs: Array, phases: Collection[str] | None = None) -> Pace:
+    """Return how the design with these inputs goes through some phases of its cycle, or all."""
+    cycle = simulator.run(inputs, phases=phases)
+    slow = _SLOW * float(inputs[simulator.model.index["horizon"]])
+    ends = {name: cycle.values[phase.phase.ends] for name, phase in simulator.model.phases.items()}
+    return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
 
 
 class BatchModel:
@@ -56,11 +64,7 @@ class BatchModel:
         """Return how the design with these inputs goes through its cycle; None if nothing depends on it."""
         if self.cycle is None:
             return None
-        model = self._simulator.model
-        cycle = self._simulator.run(inputs, phases=list(self.cycle.phases))
-        slow = SLOW * float(inputs[model.index["horizon"]])
-        ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
-        return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+        return pace_of(self._simulator, inputs, list(self.cycle.phases))
 
     def fitted(self, pace: Pace | None, inputs: Array, beside: Pace | None = None) -> Pace | None:
         """Return a pace with steps as coarse as modules of its design bear.

@@ -22,8 +22,6 @@ Array = NDArray[np.float64]
 BLOCK = 512
 """Designs that go through the cycle together."""
 STEPS = Steps(40, 1.0 / 32.0, 1.15)
-FREEZING = Steps(40, 1.0 / 32.0, 1.15)
-"""Steps of a phase in which the polymer has a history."""
 COARSE = (
     Steps(8, 0.25, 2.0), Steps(10, 0.125, 2.0), Steps(12, 0.125, 2.0), Steps(16, 0.0625, 1.5), Steps(20, 0.03125, 1.5),
     Steps(24, 0.03125, 1.15), Steps(40, 0.03125, 1.15), Steps(64, 0.03125, 1.15),
@@ -55,12 +53,7 @@ class CycleKernel:
     """The supplied rows of many designs of one model, as functions of some of its inputs."""
 
     def __init__(
-        self,
-        model: DeviceFunctions,
-        moving: Sequence[str],
-        wanted: Collection[str],
-        steps: Steps = STEPS,
-        freezing: Steps = FREEZING,
+        self, model: DeviceFunctions, moving: Sequence[str], wanted: Collection[str], steps: Steps = STEPS
     ) -> None:
         """Take what the wanted supplied rows need; all inputs but the `moving` are constants."""
         self.model = model
@@ -73,7 +66,7 @@ class CycleKernel:
                 [row.name for row in phase.events if row.name in rows or row.name in ending],
                 [row.name for row in phase.paths if row.name in rows],
                 [row.name for row in phase.steadies if row.name in rows],
-                freezing if phase.phase.after else steps,
+                steps,
             )
             for name, phase in model.phases.items()
             if any(row.phase == name for row in rows.values()) or phase.phase.ends in ending
