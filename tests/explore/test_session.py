@@ -1,7 +1,6 @@
 """A session of the explorer and its worker process."""
 
 import asyncio
-import io
 import json
 import os
 import signal
@@ -252,13 +251,13 @@ class _Interrupted(Engine):
 
 def test_a_job_ends_at_the_next_thing_it_says_and_another_is_answered(tmp_path: Path) -> None:
     source = open_source(small_study(tmp_path))
-    engine, answers = _Interrupted(source.tree), io.StringIO()
+    engine, written = _Interrupted(source.tree), list[Any]()
     state = json.loads(source.first.model_dump_json())
 
     def done(number: int, stage: str) -> dict[str, Any]:
-        return _done(engine, {"number": number, "stage": stage, "state": state}, tmp_path, answers)
+        return _done(engine, {"number": number, "stage": stage, "state": state}, tmp_path, written.append)
 
     assert done(1, "exact") == {"superseded": True}
     assert not engine.went_on
-    assert answers.getvalue() == ""
+    assert written == []
     assert done(2, "quick")["shown"]["stage"] == "quick"

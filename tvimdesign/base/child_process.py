@@ -1,6 +1,7 @@
 """Child processes of our own: started alike, and gone when their parent is, however that ends."""
 
 import ctypes
+import json
 import os
 import signal
 import subprocess
@@ -33,6 +34,18 @@ def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> s
         options["pass_fds"] = (pipe,)
     command = [sys.executable, "-X", "utf8", "-m", "tvimdesign.base.run_child", module, *arguments]
     return subprocess.Popen(command, env=environment, **options)
+
+
+def line_writer() -> Callable[[Any], None]:
+    """Return what writes data to standard output, a line of JSON each; what a library prints goes to standard error."""
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+
+    def write(data: Any) -> None:
+        answers.write(json.dumps(data) + "\n")
+        answers.flush()
+
+    return write
 
 
 def read_lines(process: subprocess.Popen[str], put: Callable[[str | None], object]) -> None:

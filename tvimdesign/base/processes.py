@@ -156,6 +156,12 @@ def communicate(process: subprocess.Popen[Any], limit: float = LIMIT) -> tuple[A
     return wait_for(ProcessorLimit(process.pid, limit), lambda seconds: process.communicate(timeout=seconds))
 
 
+def last_line(output: IO[bytes]) -> str:
+    """Return the last line of what processes wrote to a file."""
+    output.seek(0)
+    return " ".join(output.read().decode(errors="replace").strip().splitlines()[-1:])
+
+
 class FedProcess:
     """A child process that is sent lines of text while this one works on; ended if it has not ended when it is left.
 

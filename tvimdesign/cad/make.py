@@ -10,13 +10,13 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, Self
+from typing import Any, Self
 
 from tvimdesign.base.atomic_files import make_folder
 from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import GeometryError, InputError
-from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError, end_process_tree, wait_for
+from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError, end_process_tree, last_line, wait_for
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
 LIMIT = 3600.0
@@ -116,7 +116,7 @@ class PartsProcess:
             why = f"the CAD process ended with code {code}"
         except ProcessorTimeError as error:
             why = f"the CAD process failed: {error}"
-        return _report(self._out, state, why, _tail(self._tail))
+        return _report(self._out, state, why, last_line(self._tail))
 
 
 def _messages(said: queue.Queue[str | None], watch: ProcessorLimit) -> Iterator[dict[str, Any]]:
@@ -141,10 +141,3 @@ def _report(out: Path, state: dict[str, Any], why: str, tail: str) -> CadReport:
         notes=tuple(state["notes"]),
         reused=tuple(state["reused"]),
     )
-
-
-def _tail(progress_output: IO[bytes]) -> str:
-    """Return last line of what the child wrote to standard error."""
-    progress_output.seek(0)
-    written = progress_output.read().decode(errors="replace").strip().splitlines()
-    return written[-1] if written else ""

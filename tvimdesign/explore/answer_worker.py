@@ -7,23 +7,23 @@ under way, as a newer one stands in its place; the process goes on.
 import hashlib
 import io
 import json
-import os
 import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TextIO
 
-from tvimdesign.base.child_process import follow_parent
+from tvimdesign.base.child_process import follow_parent, line_writer
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.interrupts import interrupt_came, interrupt_handler, raise_pending
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import table_for
 from tvimdesign.explore.engine import Answer, Engine, refused
 from tvimdesign.explore.history import PARTS
-from tvimdesign.explore.shown import finite_data
 from tvimdesign.explore.source import open_source
 from tvimdesign.explore.state import State
 from tvimdesign.page.page_file import page_fragment
+from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.run_page import run_page
 from tvimdesign.report.run.study_files import sized_text
@@ -45,24 +45,23 @@ class _Quiet(io.TextIOBase):
 def main() -> None:
     """Answer jobs until there are no more."""
     follow_parent()
-    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)  # what a library prints must not stand among the answers
+    write = line_writer()
     signal.signal(signal.SIGINT, lambda *_: None)  # between jobs there is nothing to end
     sys.stderr = _Quiet(sys.stderr)
     source, folder, settings = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
     engine = Engine(open_source(source, settings).tree)
-    _write_line(answers, {"ready": True})
+    write({"ready": True})
     for line in sys.stdin:
         job = json.loads(line)
-        _write_line(answers, {"number": job["number"], **_done(engine, job, folder, answers)})
+        write({"number": job["number"], **_done(engine, job, folder, write)})
 
 
-def _done(engine: Engine, job: dict[str, Any], folder: Path, answers: TextIO) -> dict[str, Any]:
+def _done(engine: Engine, job: dict[str, Any], folder: Path, write: Callable[[Any], None]) -> dict[str, Any]:
     """Answer a job; an interrupted one has no answer, whatever a library made of the interrupt."""
 
     def progress(text: str) -> None:
         raise_pending()
-        _write_line(answers, {"number": job["number"], "progress": text})
+        write({"number": job["number"], "progress": text})
 
     try:
         with interrupt_handler((signal.SIGINT,)):
@@ -88,11 +87,6 @@ def _reply_data(reply: Answer, folder: Path) -> dict[str, Any]:
         data["report"] = report_fragment(folder, reply.answered)
         data["design"] = {"name": design_name(design), "json": design_json(design).decode()}
     return data
-
-
-def _write_line(answers: TextIO, data: dict[str, Any]) -> None:
-    answers.write(json.dumps(data, allow_nan=False) + "\n")
-    answers.flush()
 
 
 class DesignFolder(ResultsFolder):
@@ -122,7 +116,7 @@ def report_fragment(folder: Path, answered: AnsweredStudy) -> dict[str, Any]:
     own = folder / PARTS / design_name(answered.result.design)
     page = run_page(DesignFolder(own), answered)
     left_out = {"study", "versions", *(() if (own / "cad").is_dir() else ("assembly",))}
-    return {"folder": f"{PARTS}/{own.name}", **finite_data(page_fragment(page, left_out))}
+    return {"folder": f"{PARTS}/{own.name}", **all_finite(page_fragment(page, left_out))}
 
 
 if __name__ == "__main__":

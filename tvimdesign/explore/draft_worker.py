@@ -5,7 +5,6 @@ Run as `python -m tvimdesign.explore.draft_worker`.
 
 import base64
 import json
-import os
 import sys
 from collections.abc import Mapping
 from typing import Any
@@ -13,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from tvimdesign.base.child_process import follow_parent
+from tvimdesign.base.child_process import follow_parent, line_writer
 from tvimdesign.base.errors import TvimError
 from tvimdesign.cad.assembly.draft_module import Draft, DraftMesh, draft_module
 from tvimdesign.cad.geometry.dimensions import dimensions_of
@@ -26,12 +25,10 @@ _DIGITS = 4
 def main() -> None:
     """Answer jobs until there are no more."""
     follow_parent()
-    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)  # what a library prints must not stand among the answers
+    write = line_writer()
     for line in sys.stdin:
         job = json.loads(line)
-        answers.write(json.dumps({"number": job["number"], **drafted(job)}) + "\n")
-        answers.flush()
+        write({"number": job["number"], **drafted(job)})
 
 
 def drafted(job: Mapping[str, Any]) -> dict[str, Any]:

@@ -23,9 +23,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
 
-from tvimdesign.base.child_process import follow_parent, read_lines, start_child
+from tvimdesign.base.child_process import follow_parent, line_writer, read_lines, start_child
 from tvimdesign.base.environment import NAMES
 from tvimdesign.base.errors import OutputError, TvimError
+from tvimdesign.base.processes import last_line
 from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy
 from tvimdesign.sweep.shards import Shards, ShardWriter
 
@@ -221,7 +222,7 @@ class Pool:
         """Take a worker that has ended from the list; where it had cells, another one tries them again, one by one."""
         code = worker.process.wait()
         del self._workers[worker.number]
-        complaint = _tail(self._errors)
+        complaint = last_line(self._errors)
         if worker.error:
             raise (OutputError if code == OutputError.exit_code else TvimError)(worker.error)
         if worker.process.stdin:
@@ -256,16 +257,12 @@ class Pool:
             shard.append([(cell.key, CellAnswer("crashed", reason, None, None, nothing), 0.0)])
 
 
-def _tail(errors: IO[bytes]) -> str:
-    errors.seek(0)
-    return " ".join(errors.read().decode(errors="replace").strip().splitlines()[-1:])
-
-
 def main() -> int:
     """Answer cells until there are no more."""
     follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     os.environ.update(dict.fromkeys(NAMES, "1"))  # there is a process for each core
+    say = line_writer()
     job, folder = pickle.loads(base64.b64decode(sys.stdin.readline()))
     answers = ChunkAnswers(job)
     with ShardWriter(Path(folder), job.columns) as shard:
@@ -275,19 +272,14 @@ def main() -> int:
                 reply = answers.answer(json.loads(line))
                 shard.append(reply)
             except TvimError as error:
-                _say({"error": str(error)})
+                say({"error": str(error)})
                 return error.exit_code
             cells = sum(seconds for _, _, seconds in reply)
-            _say({
+            say({
                 "done": len(reply), "cells_s": cells, "chunk_s": time.perf_counter() - began,
                 "cpu_s": time.process_time() - spent, "warm": sum(answer.warm for _, answer, _ in reply),
             })  # fmt: skip
     return 0
-
-
-def _say(what: dict[str, Any]) -> None:
-    sys.stdout.write(json.dumps(what) + "\n")
-    sys.stdout.flush()
 
 
 if __name__ == "__main__":

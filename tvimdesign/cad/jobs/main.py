@@ -21,7 +21,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.atomic_files import atomic_write
-from tvimdesign.base.child_process import follow_parent
+from tvimdesign.base.child_process import follow_parent, line_writer
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import from_si
@@ -173,13 +173,10 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, Callable[..., N
     """
     follow_parent()
     gc.disable()  # a seventh of the time to load: this process keeps all that it makes; its children collect
-    # The kernel prints to standard output from C++; the parent reads only what is written to this copy of it.
-    lines = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)
+    write = line_writer()  # the kernel prints to standard output from C++
 
     def say(**message: Any) -> None:
-        lines.write(json.dumps(message) + "\n")
-        lines.flush()
+        write(message)
 
     try:
         if arguments[0] == WAITING:

@@ -17,9 +17,10 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.atomic_files import atomic_write
-from tvimdesign.base.child_process import follow_parent
+from tvimdesign.base.child_process import follow_parent, line_writer
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
 from tvimdesign.device import Table
+from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.output.tables import results, soft_in_words
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.blocks.warnings import warnings_of
@@ -174,7 +175,7 @@ class ComparisonJob:
         """Return a front in SI, with the study's own optimum where it is on it; null where something never happens."""
         first, second = front.outputs
         points = sorted(undominated([*front.points, optimum], front.outputs), key=lambda point: point.values[first])
-        reported = {
+        plain: dict[str, Any] = all_finite({
             "first": first,
             "second": second,
             "notes": front.notes,
@@ -184,8 +185,7 @@ class ComparisonJob:
                 {"where": point.where, "values": point.values, "current_profiles": point.current_profiles}
                 for point in points
             ],
-        }
-        plain: dict[str, Any] = json.loads(json.dumps(reported), parse_constant=lambda _: None)
+        })  # fmt: skip
         return plain
 
 
@@ -193,9 +193,7 @@ def main(arguments: list[str]) -> int:
     """Run the job; print each step, and when something is written."""
     follow_parent()
 
-    def write_line(message: dict[str, Any]) -> None:
-        sys.stdout.write(json.dumps(message) + "\n")
-        sys.stdout.flush()
+    write_line = line_writer()
 
     def keep(design_answer: dict[str, Any]) -> None:
         atomic_write(Path(out), json.dumps(design_answer).encode())
