@@ -10,8 +10,9 @@ import numpy as np
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si
 from tvimdesign.explore.quick_model import Evaluated, QuickModel
-from tvimdesign.explore.shown import Shown, finite_data, shown_design
+from tvimdesign.explore.shown import Shown, shown_design
 from tvimdesign.explore.state import State, set_values, text_of, tree_of
+from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study, note_uncertainty
 from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.reasons import complaint
@@ -80,7 +81,7 @@ class Engine:
                 return Answer({"status": WAITS})
             known = given(study)
             values = self._evaluated(study, known, {})
-            shown = {**shown_design(study, free, known, values.values), "curves": finite_data(values.curves)}
+            shown = {**shown_design(study, free, known, values.values), "curves": all_finite(values.curves)}
             return Answer({"status": "", **shown}, None, _module(study, values.values, values.words))
         listed = _listed(free, state)
         study = self._read(set_values(tree_of(self._base, state), listed)) if listed else free
@@ -96,7 +97,7 @@ class Engine:
         evaluated = self._evaluated(study, known, optimum)
         shown = shown_design(study, free, known, evaluated.values, moved.active, moved.ends)
         shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in optimum.items()}}
-        shown["curves"] = finite_data(evaluated.curves)
+        shown["curves"] = all_finite(evaluated.curves)
         return Answer({"status": "", **shown}, None, _module(study, evaluated.values, evaluated.words))
 
     def _problem_index(self, name: str) -> int:
@@ -178,7 +179,7 @@ class Engine:
             at = {name: design.values[name] for name in free.vary if name in design.values}
             evaluated = self._evaluated(answered.study, known, at)
             if not design.current_profiles:  # these curves are of constant currents
-                shown["curves"] = finite_data(evaluated.curves)
+                shown["curves"] = all_finite(evaluated.curves)
         shown["at"] = {
             name: text_of(free, name, design.choices.get(name, design.values.get(name, 0.0))) for name in free.vary
         }
@@ -220,7 +221,7 @@ class Engine:
 
 
 def _module(study: Study, values: Mapping[str, float], words: Mapping[str, str]) -> dict[str, Any]:
-    return {"mode": study.mode, "choices": dict(words), "values": finite_data(dict(values))}
+    return {"mode": study.mode, "choices": dict(words), "values": all_finite(dict(values))}
 
 
 def _listed(study: Study, state: State) -> dict[str, str]:

@@ -4,9 +4,9 @@ import math
 from collections.abc import Collection, Mapping
 from typing import Any
 
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import from_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.numbers import in_labels, label, number
+from tvimdesign.report.output.numbers import in_labels, label, with_unit
 from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words
 from tvimdesign.solve.optimizer.verify_optimum import exceeded, kept
@@ -82,7 +82,7 @@ def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
     got = value if abs(margin) > _ROUNDING else limit.limit
     return {"name": limit.name, "label": label(limit.part_of or limit.output), "of": limit.part_of or limit.output,
             "sense": limit.sense, "text": in_labels(check.text),
-            "got": f"{number(from_si(got, unit))} {pretty(unit)}".rstrip(),
+            "got": with_unit(got, unit),
             "margin": margin_text(check, table), "stands": stands, "origin": limit.origin}  # fmt: skip
 
 
@@ -90,17 +90,6 @@ def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
     """Ratings that the module is beyond."""
     texts = [(in_labels(in_words(limit, study.table)), limit.output) for limit in exceeded(values, study.table)]
     return [{"text": text, "label": label(name), "accepted": name in study.accept} for text, name in texts]
-
-
-def finite_data(data: Any) -> Any:
-    """Plain data with none in place of numbers that JSON does not have."""
-    if isinstance(data, Mapping):
-        return {name: finite_data(item) for name, item in data.items()}
-    if isinstance(data, list) and all(type(item) is float for item in data):
-        return [item if math.isfinite(item) else None for item in data]
-    if isinstance(data, list | tuple):
-        return [finite_data(item) for item in data]
-    return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
 def _finite(value: float) -> float | None:

@@ -1,6 +1,5 @@
 """One virtual test, from a study file to a finished folder: sheets as CSV, the figure, and what was read off."""
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +9,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.page.blocks import Block, Drawn, Grid, Points, Section
 from tvimdesign.report.output.command import Command, design_file, record_files
-from tvimdesign.report.output.numbers import curves_csv, finite, head, in_unit
+from tvimdesign.report.output.numbers import curves_csv, finite, finite_in, head, in_unit
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
@@ -93,7 +92,7 @@ def findings(trial: Trial) -> dict[str, Any]:
         "findings": [
             {
                 "name": finding.name,
-                **{part: _plain(value, finding.unit) for part, value in _parts(finding)},
+                **{part: finite_in(value, finding.unit) for part, value in _parts(finding)},
                 "unit": pretty(finding.unit),
                 "si": {part: finite(value) for part, value in _parts(finding)}
                 | {"unit": pretty(si_unit(finding.unit))},
@@ -111,11 +110,6 @@ def _parts(finding: Finding) -> Iterator[tuple[str, float | None]]:
         yield "value", finding.value
         return
     yield from (("nominal", finding.value), ("low", finding.low), ("high", finding.high))
-
-
-def _plain(value: float | None, unit: str) -> float | None:
-    """Return a number in its unit; JSON has no infinity, what never happens is null."""
-    return from_si(value, unit) if value is not None and math.isfinite(value) else None
 
 
 def figure_data(trial: Trial) -> dict[str, Any]:

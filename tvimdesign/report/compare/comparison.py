@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
-from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.units import pretty
 from tvimdesign.report.compare.comparison_table import (
     ParetoComparison,
     Row,
@@ -15,7 +15,7 @@ from tvimdesign.report.compare.comparison_table import (
     plain,
     standing,
 )
-from tvimdesign.report.output.numbers import csv_text, head
+from tvimdesign.report.output.numbers import csv_text, finite_in, head
 from tvimdesign.solve.pareto.front_shape import leads
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
@@ -119,7 +119,7 @@ class Outcome:
         heads = {name: f"{name} [{pretty(self.unit(name))}]" for name in names}
         rows = [
             {"study": label, "front": front,
-             **{heads[name]: self._in_unit(name, value) for name, value in point["values"].items()}}
+             **{heads[name]: finite_in(value, self.unit(name)) for name, value in point["values"].items()}}
             for label, front, point in self._points()
         ]  # fmt: skip
         return csv_text(rows, ["study", "front", *heads.values()], 8)
@@ -130,16 +130,13 @@ class Outcome:
                 yield from ((label, f"{first} against {second}", point) for point in front["points"])
 
     def _point(self, point: dict[str, Any]) -> dict[str, Any]:
-        values = {name: self._in_unit(name, value) for name, value in point["values"].items()}
+        values = {name: finite_in(value, self.unit(name)) for name, value in point["values"].items()}
         return {
             "where": point["where"],
             "values": values,
             "si": point["values"],
             "current_profiles": point["current_profiles"],
         }
-
-    def _in_unit(self, name: str, value: float | None) -> float | None:
-        return None if value is None else from_si(value, self.unit(name))
 
     # --- what follows ---
 

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from tvimdesign.base.units import format_quantity, from_si, pretty, si_unit
 from tvimdesign.device import Output, Table
-from tvimdesign.report.output.numbers import csv_text, finite, listed, number
+from tvimdesign.report.output.numbers import csv_text, finite, finite_in, listed, number
 from tvimdesign.solve.pareto.front_shape import ALIKE, Lead
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
@@ -95,18 +95,14 @@ def plain(row: Row) -> dict[str, Any]:
     return {
         "name": row.name,
         "unit": pretty(row.unit),
-        "values": {label: _shown(value, row.unit) for label, value in row.values.items()},
+        "values": {label: finite_in(value, row.unit) for label, value in row.values.items()},
         "si": {label: finite(value) for label, value in row.values.items()},
         "si_unit": pretty(si_unit(row.unit)),
-        "intervals": {label: [_shown(end, row.unit) for end in ends] for label, ends in row.ends.items()},
+        "intervals": {label: [finite_in(end, row.unit) for end in ends] for label, ends in row.ends.items()},
         "ratio": {label: row.ratio(label) for label in others},
         "verdict": {label: row.verdict(label) for label in others},
         "description": row.description,
     }
-
-
-def _shown(value: float, unit: str) -> float | None:
-    return from_si(value, unit) if math.isfinite(value) else None
 
 
 def compare_csv(rows: Mapping[str, Sequence[Row]]) -> str:
@@ -151,7 +147,7 @@ class ParetoComparison:
             "gained": self.gained, "limited": self.limited, "unit": pretty(self.limited_unit),
             "leads": [
                 {"from": from_si(lead.lower, self.limited_unit),
-                 "to": from_si(lead.upper, self.limited_unit) if math.isfinite(lead.upper) else None,
+                 "to": finite_in(lead.upper, self.limited_unit),
                  "best": lead.best, "alone": lead.alone, "least_ratio": lead.least, "most_ratio": lead.most}
                 for lead in self.leads
             ],

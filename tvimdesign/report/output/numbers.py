@@ -109,14 +109,10 @@ Ends = tuple[float | None, float | None]
 def number_entry(value: float, unit: str, ends: Ends | None = None) -> NumberEntry:
     """Return a number (SI) of a quantity people read in `unit`, with its range (SI) if that is known."""
     low, high = ends or (None, None)
-
-    def shown(number: float | None) -> float | None:
-        return None if number is None else finite(from_si(number, unit))
-
     return {
-        "value": shown(value),
-        "low": shown(low),
-        "high": shown(high),
+        "value": finite_in(value, unit),
+        "low": finite_in(low, unit),
+        "high": finite_in(high, unit),
         "unit": pretty(unit),
         "si": {"value": finite(value), "low": finite(low), "high": finite(high), "unit": pretty(si_unit(unit))},
     }
@@ -139,6 +135,11 @@ def all_finite(data: Any) -> Any:
 def finite(value: float | None) -> float | None:
     """Return a number, or None for what never happens: JSON has no infinity."""
     return value if value is not None and math.isfinite(value) else None
+
+
+def finite_in(value: float | None, unit: str) -> float | None:
+    """Return a number (SI) in a unit, or None for what never happens."""
+    return None if value is None else finite(from_si(value, unit))
 
 
 def number(value: float | None, digits: int = 4) -> str:

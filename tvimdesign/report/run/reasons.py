@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from tvimdesign.base.units import pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.choices_tables import choice_text
-from tvimdesign.report.output.numbers import at_its_least, csv_text, label, listed
+from tvimdesign.report.output.numbers import at_its_least, csv_text, finite, label, listed
 from tvimdesign.report.output.results_format import Conflict, LimitEntry, Optimum, SideEntry, Stands, Starts, Why
 from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words
@@ -77,7 +77,7 @@ def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
             margin, unit = margin_of(limit, table)
             rows.append({
                 "limit": limit.text, "stands": stands, "origin": limit.origin,
-                "margin": margin if math.isfinite(margin) else None, "margin_unit": pretty(unit),
+                "margin": finite(margin), "margin_unit": pretty(unit),
                 "step": limit.step, "shadow_price": limit.shadow_price, "sensitivity": dict(limit.sensitivity),
             })  # fmt: skip
     return rows
