@@ -143,7 +143,7 @@ def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document:
                 f"{kind}: cylinder R{radius} {heights}"
             )
         elif abs(face.normalAt().z) < 1e-9:
-            assert any(wall_is_told(row, face) or width_is_told(row, face, solid) for row in level), (
+            assert any(wall_is_told(row, face) for row in level) or width_is_told(rows, face, solid), (
                 f"{kind}: wall at {face.Center()} {heights}"
             )
 
@@ -156,11 +156,18 @@ def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
     return is_sized and (f"on ⌀{figure(2.0 * from_axis)} " in row.place or row.place.startswith(("x ", "over")))
 
 
-def width_is_told(row: FeatureRow, face: cq.Face, solid: cq.Solid) -> bool:
-    """Return whether a row without a place, as of what is bought, tells how wide the part is across a face."""
-    normal = face.normalAt()
-    across = [vertex.X * normal.x + vertex.Y * normal.y for vertex in solid.Vertices()]
-    return not row.place and row.size == f"{figure(max(across) - min(across))} wide"
+def width_is_told(rows: list[FeatureRow], face: cq.Face, solid: cq.Solid) -> bool:
+    """Return whether rows without a place, as of what is bought, tell how wide the part is across all of a face."""
+    normal, lowest = face.normalAt(), solid.BoundingBox().zmin
+    reached, end = (level - lowest for level in (face.BoundingBox().zmin, face.BoundingBox().zmax))
+    for row in sorted(rows, key=lambda each: each.bottom):
+        level = lowest + 0.5 * (row.bottom + row.top)
+        walls = [wall for wall in solid.Faces() if wall.BoundingBox().zmin < level < wall.BoundingBox().zmax]
+        across = [(wall.Center().x * normal.x + wall.Center().y * normal.y) for wall in walls]
+        is_wide = not row.place and row.size == f"{figure(max(across) - min(across))} wide"
+        if is_wide and abs(row.bottom - reached) < 1e-3 and row.top < end + 1e-3:
+            reached = row.top
+    return abs(reached - end) < 1e-3
 
 
 def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
