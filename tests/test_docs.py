@@ -27,12 +27,6 @@ def _blocks(language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", README, re.M | re.S)
 
 
-def test_the_first_two_commands_are_the_study_and_the_tests() -> None:
-    start = README.index("## Quick start")
-    quick = README[start : README.index("\n## ", start + 1)]
-    assert re.findall(r"^```(?:sh|bash|console)\n(.*?)^```", quick, re.M | re.S)[:2] == ["make study\n", "make test\n"]
-
-
 def test_the_readme_is_read_in_a_few_minutes() -> None:
     assert len(README.split()) <= 1200
     pictures = {ROOT / path for path in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)}
@@ -151,12 +145,6 @@ def test_the_record_in_the_docs_can_be_used(tmp_path: Path) -> None:
     text = f"mode: shear\ncatalog: {tmp_path}\nmodule: {{peltier_module: my_pad}}\n"
     study = read_study_text(text, "docs/catalogue.md")
     assert answer(study).design.choices["peltier_module"] == "my_pad"
-
-
-def test_the_glossary_is_in_order() -> None:
-    rows = re.findall(r"^\| ([^|]+) \|", (ROOT / "docs/glossary.md").read_text(), re.M)[1:]
-    assert len(rows) > 20
-    assert rows == sorted(rows, key=lambda row: row.lower().replace(",", ""))
 
 
 def test_the_prints_that_measure_a_printer_are_described() -> None:

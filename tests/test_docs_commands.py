@@ -113,12 +113,6 @@ def test_all_commands_of_a_page(page: str, process: Command, tmp_path: Path) -> 
         _check_the_tutorial_s_table(tmp_path / "results/elbow/results.json")
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if not page.endswith("index.md")])
-def test_a_page_starts_with_its_command(page: str) -> None:
-    start = (DOCS / page).read_text().split("\n\n")[1]
-    assert re.search(r"(?:`|^|\n)(?:tvimdesign|make) \w", start), start
-
-
 PAGE_CALLS = re.compile(r"(?<=`)(?:study|result)\b[.\[][^`]*")
 WRITES = ("parts(", "robot(", "save(", "show(", "run(", "sweep(")
 

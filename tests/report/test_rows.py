@@ -61,17 +61,6 @@ def test_the_groups_come_first_with_their_counts(printed: Any) -> None:
     assert max(map(len, text.splitlines())) <= 80
 
 
-def test_groups_are_listed_whole_with_headlines_and_choices(printed: Any) -> None:
-    found = {row.name for row in rows.matching(rows.named_rows("shear"), "process")}
-    assert {"process", "minimum_wall"} <= found  # the choice stands in the group of materials
-    text = printed("springs", 100)
-    own = [row for row in rows.named_rows("shear") if row.group == "Springs"]
-    assert all(row.name in text for row in own)
-    assert "module_mass" not in text
-    lines = printed("weight", 80).splitlines()
-    assert next(line for line in lines if "mass" in line and not line.startswith("weight")).startswith("module_mass")
-
-
 @pytest.mark.parametrize("mode", MODES)
 def test_names_are_never_broken(printed: Any, mode: str) -> None:
     groups = {row.group for row in rows.named_rows(mode)}
