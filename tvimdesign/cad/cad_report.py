@@ -107,48 +107,21 @@ SECTION = "views/section.png"
 WIRING = "views/wiring.svg"
 SPRING_SHEET = "springs/spring.pdf"
 SPRING_TABLE = "springs/spring.csv"
-
-
-def step_picture(number: int) -> str:
-    """Return the picture of a step of the assembly note, in which parts come into their places."""
-    return f"views/step_{number:02d}.png"
-
-
-def step(kind: str) -> str:
-    """Return the part as it is to be, for machining and for reading into other CAD."""
-    return f"step/{kind}.step"
-
-
-def print_stl(kind: str) -> str:
-    """Return the part lying as it is printed, its holes larger by the process's compensation."""
-    return f"print/{kind}.stl"
-
-
-def print_3mf(kind: str) -> str:
-    """Return the same with unit, name, material and colour."""
-    return f"print/{kind}.3mf"
-
-
-def plate_3mf(number: int) -> str:
-    """Return a bed full of parts as they are printed, counted from 1, with the settings of their process."""
-    return f"print/plate_{number}.3mf"
-
-
-def mesh_stl(kind: str) -> str:
-    """Return triangles of a part that is bought, as it is: to look at and to simulate with."""
-    return f"mesh/{kind}.stl"
-
-
-def drawing_dxf(kind: str) -> str:
-    """Return the drawing of a part that is made of the structure's material."""
-    return f"drawings/{kind}.dxf"
-
-
-def cut_dxf(kind: str) -> str:
-    """Return the outline of a part that is a plate, for a laser or a water jet."""
-    return f"drawings/{kind}_cut.dxf"
-
-
-def drawing_pdf(kind: str) -> str:
-    """Return the same drawing, to print."""
-    return f"drawings/{kind}.pdf"
+step_picture = "views/step_{:02d}.png".format
+"""The picture of a step of the assembly note, in which parts come into their places."""
+step = "step/{}.step".format
+"""The part as it is to be, for machining and for reading into other CAD."""
+print_stl = "print/{}.stl".format
+"""The part lying as it is printed, its holes larger by the process's compensation."""
+print_3mf = "print/{}.3mf".format
+"""The same with unit, name, material and colour."""
+plate_3mf = "print/plate_{}.3mf".format
+"""A bed full of parts as they are printed, counted from 1, with the settings of their process."""
+mesh_stl = "mesh/{}.stl".format
+"""Triangles of a part that is bought, as it is: to look at and to simulate with."""
+drawing_dxf = "drawings/{}.dxf".format
+"""The drawing of a part that is made of the structure's material."""
+cut_dxf = "drawings/{}_cut.dxf".format
+"""The outline of a part that is a plate, for a laser or a water jet."""
+drawing_pdf = "drawings/{}.pdf".format
+"""The same drawing, to print."""
