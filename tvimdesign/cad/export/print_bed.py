@@ -94,7 +94,7 @@ def walls(dims: Dimensions) -> int:
 
 
 def description(dims: Dimensions, material: str, temperatures: Mapping[str, str]) -> str:
-    """Return the settings in words, for any slicer; `temperatures` [degC] by their names, such as are known."""
+    """Return the settings in words, for any slicer; `temperatures` [degC] by their names."""
     heat = "".join(f", {name.removesuffix('_temperature')} at {value} °C" for name, value in temperatures.items())
     return f"{material}: {LINE:g} mm nozzle, layers of {LAYER:g} mm, {walls(dims)} walls, infill 100 %{heat}"
 

@@ -244,9 +244,10 @@ def _plates(job: Job) -> list[SolidCheck]:
         [np.asarray(parts[kind].vertices)[:, :2] for kind in copies], (job.dims.bed_length, job.dims.bed_width)
     )
     known = {name: job.titles[name] for name in cad_report.PRINT_TEMPERATURES if name in job.titles}
-    density, material = job.design.value("structure_density"), str(job.design.choices[STRUCTURE])
-    config = slicer_config(job.dims, density, known) if len(known) == len(cad_report.PRINT_TEMPERATURES) else ""
-    about = description(job.dims, job.titles.get(STRUCTURE, material), known)
+    density, config = job.design.value("structure_density"), ""
+    about = job.titles.get(STRUCTURE, str(job.design.choices[STRUCTURE]))
+    if len(known) == len(cad_report.PRINT_TEMPERATURES):  # of a filament that is printed at home
+        config, about = slicer_config(job.dims, density, known), description(job.dims, about, known)
     beds = 1 + max((spot.bed for spot in spots if spot), default=-1)
     for number in range(beds):
         laid = []
@@ -258,8 +259,8 @@ def _plates(job: Job) -> list[SolidCheck]:
         title = f"{job.design.name}, bed {number + 1} of {beds}"
         _write(job.folder, cad_report.plate_3mf(number + 1), plate_bytes(title, laid, about, config))
     outside = spots.count(None)
-    text = f"{len(copies) - outside} printed parts lie on {beds} beds, {outside} are too large for one"
-    return [SolidCheck(cad_report.plate_3mf(1), float(outside), 0.0, not outside, text)]
+    text = f"print beds: {beds}; parts on them: {len(copies) - outside}; too large for one, with room around: {outside}"
+    return [SolidCheck(cad_report.plate_3mf(1), float(outside), 0.0, True, text, warned=bool(outside))]
 
 
 def _stl(folder: Path, name: str, kind: str, body: trimesh.Trimesh, distance: float) -> SolidCheck:
