@@ -28,7 +28,11 @@ BOTH = {
         "friction_share": {"shares": {"pin_friction": 0.6}}, "pin_wear": {"shares": {"bond_strength": 0.6}},
     },
 }  # fmt: skip
-MANY = BOTH | {"held": BOTH["held"] | {"pin_wear <=": 0.7}}
+THREE = BOTH | {"held": BOTH["held"] | {"pin_wear <=": 0.7}}
+FOUR = {
+    "held": THREE["held"] | {"foot_margin >=": 0.7},
+    "intervals": BOTH["intervals"] | {"foot_margin": {"shares": {"layer_height": 0.6}}},
+}
 RUBS = RunWarning(
     advice_text("friction_share", 13.7, "", table_for("shear")), "", "grave", "it does not return by its springs"
 )
@@ -97,8 +101,11 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | {"intervals": {}}, [], "Build it: one first, and check the retainer thread before more"),
         (answer(), SURE | BOTH, [],
          "Build it: one first, and measure the structure layer strength and the pin friction before more"),
-        (answer(), SURE | MANY, [],
-         "Build it: one first, and measure the structure layer strength, the pin friction and 1 other before more "
+        (answer(), SURE | THREE, [],
+         "Build it: one first, and measure the structure layer strength, the pin friction and the bond strength "
+         "before more"),
+        (answer(), SURE | FOUR, [],
+         "Build it: one first, and measure the structure layer strength, the pin friction and 2 others before more "
          "(summary.txt: Measure first)"),
         (answer(), {}, [], "Optimum found"),
     ],

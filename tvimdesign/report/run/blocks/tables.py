@@ -221,6 +221,6 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
     for limit, share in uncertainty["held"].items():
         first = measure_first(limit.partition(" ")[0], uncertainty)
         test = values[first]["source"].partition("test: ")[2] if first else ""
-        rows.append((limit, f"{100.0 * share:.3g} %", first, test))
+        rows.append((limit, f"{100.0 * share:.3g} %", first or "no single input", test or "the built part"))
     heads = ("limit", "met in", "measure first", "test")
     return grid(f"{TO_MEASURE}: limits met in a part of the ranges only", heads, rows, right=(1,))

@@ -38,7 +38,7 @@ DOUBT = 0.25
 """Share of the plausible cases in which the limit most in doubt must be met."""
 
 _MOST_NAMED = 2
-"""Unmeasured inputs that a verdict names."""
+"""Unmeasured inputs that a verdict names, and one more rather than count it."""
 
 TO_MEASURE = "Measure first"
 """First words of the table that lists all of them."""
@@ -224,11 +224,10 @@ def _to_measure(uncertainty: Mapping[str, Any], least: float) -> str:
     inputs = [f"the {label(name)}" for name in first if name]
     if not inputs:
         return ""
-    named, more = inputs[:_MOST_NAMED], len(inputs) - _MOST_NAMED
-    listed = f" (summary.txt: {TO_MEASURE})"
-    others = f"{more} other{'s' if more > 1 else ''}"
-    words = f"{', '.join(named)} and {others}" if more > 0 else " and ".join(named)
-    return f"{words} before more{listed if more > 0 else ''}"
+    if len(inputs) <= _MOST_NAMED + 1:
+        return f"{', '.join(inputs[:-1])}{' and ' if inputs[1:] else ''}{inputs[-1]} before more"
+    named, more = ", ".join(inputs[:_MOST_NAMED]), len(inputs) - _MOST_NAMED
+    return f"{named} and {more} others before more (summary.txt: {TO_MEASURE})"
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:
