@@ -12,7 +12,7 @@ from tvimdesign.report.output.command import Command, design_file, record_files
 from tvimdesign.report.output.numbers import curves_csv, finite, finite_in, head, in_unit
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.trial import Column, CurveTable, Finding, PlottedLine, Trial
 from tvimdesign.simulation.virtual_tests import find_test
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import Study, read_tree
@@ -115,11 +115,13 @@ def _parts(finding: Finding) -> Iterator[tuple[str, float | None]]:
 def figure_data(trial: Trial) -> dict[str, Any]:
     """Return what the figure of a test is drawn from: every panel with its lines in the units of the axes."""
     sheets = {sheet.name: sheet for sheet in trial.sheets}
-    return {"title": trial.title, "panels": [_panel(panel, sheets) for panel in trial.panels]}
-
-
-def _panel(panel: Panel, sheets: dict[str, CurveTable]) -> dict[str, Any]:
-    return {**vars(panel), "lines": [_line(line, sheets[line.sheet]) for line in panel.lines]}
+    return {
+        "title": trial.title,
+        "panels": [
+            {**vars(panel), "lines": [_line(line, sheets[line.sheet]) for line in panel.lines]}
+            for panel in trial.panels
+        ],
+    }
 
 
 def _line(line: PlottedLine, sheet: CurveTable) -> dict[str, Any]:

@@ -92,7 +92,7 @@ class AnchoredSearch:
 
     def _warm(self, study: Study, table: Table) -> Solution | None:
         """Return the optimum sought from the anchor's; None if that is impossible or no optimum results."""
-        if not _alike(study, self._anchor_study, table):
+        if _problem(study, table) != _problem(self._anchor_study, table):
             return None
         has_lists = discrete_sizes(study, table).names or len(discrete_records(study, table)) > 1
         if has_lists or study.robust or study.profile.pieces():
@@ -117,11 +117,6 @@ def _with_fixed(study: Study, followed: Collection[str]) -> Study:
     starts = given(study)
     vary = {name: allowed for name, allowed in study.vary.items() if name not in free}
     return study.model_copy(update={"vary": vary, "module": {**study.module, **{name: starts[name] for name in free}}})
-
-
-def _alike(study: Study, other: Study, table: Table) -> bool:
-    """Return whether two studies differ in fixed numbers alone, not in words or whole numbers, which are shapes."""
-    return _problem(study, table) == _problem(other, table)
 
 
 def _problem(study: Study, table: Table) -> dict[str, Any]:

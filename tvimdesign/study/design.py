@@ -127,8 +127,9 @@ def read_design(path: str | os.PathLike[str]) -> Design:
     """
     path = Path(path)
     shown = printable(path)
+    too_big = f"{shown} has more than {MAX_BYTES} bytes; give the path of {_WANTED}, a few tens of kilobytes"
     try:
-        data = ordinary_bytes(path, MAX_BYTES, _WANTED, lambda _: _too_big(shown))
+        data = ordinary_bytes(path, MAX_BYTES, _WANTED, lambda _: InputError(too_big))
     except FileNotFoundError:
         raise InputError(f"{shown}: no such file; `tvimdesign run` writes a design.json") from None
     problems = Mistakes(shown)
@@ -157,10 +158,6 @@ def _plain(data: bytes, problems: Mistakes) -> dict[str, Any] | None:
 
 
 _WANTED = "a design.json that `tvimdesign run` wrote"
-
-
-def _too_big(shown: str) -> InputError:
-    return InputError(f"{shown} has more than {MAX_BYTES} bytes; give the path of {_WANTED}, a few tens of kilobytes")
 
 
 # --- checks ---

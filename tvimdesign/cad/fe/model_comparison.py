@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from tvimdesign.base.record import Record
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
+from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.contacts import tightened_force
 from tvimdesign.physics.solids import fasteners, plates, structure, wedge
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
@@ -126,7 +127,9 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         "coil_stress": values["coil_stress_per_angle"] / values["held_spring_rate"] * 1e-6,
         "tang_stress": values["tang_stress_per_angle"] / values["held_spring_rate"] * 1e-6,
         "hub": hub, "core": values["core_stiffness"], "link": values["link_stiffness"],
-        "natural_frequency": _frequency(values["spring_stiffness"] + hub, float(inputs["moving_inertia"])),
+        "natural_frequency": float(
+            motion.natural_frequency(values["spring_stiffness"] + hub, inputs["moving_inertia"])
+        ),
         "core_stress": values["cold_layer_strength"] / yields * 1e-6,
         "link_friction_torque": values["link_friction_torque"],
         "foot_force": 1.0 / (values["spring_count"] * values["placement_radius"]),
@@ -210,10 +213,6 @@ def _vanes(rotor: float, plate: float, housing: float, floor: float) -> dict[str
         "rotor_vanes_and_plate": structure.series(rotor, plate),
         "housing_vanes_and_floor": structure.series(housing, floor),
     }
-
-
-def _frequency(stiffness: float, inertia: float) -> float:
-    return math.sqrt(stiffness / inertia) / (2.0 * math.pi)
 
 
 _MPA = 1e-6

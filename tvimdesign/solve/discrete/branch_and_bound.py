@@ -168,7 +168,8 @@ class BranchAndBound:
             node = min(self._open, key=self._urgency)
             self._open.remove(node)
             if node.bound >= self.cutoff:
-                self._bounded[node.relaxation.place][_slices(node.box)] = True
+                box = tuple(slice(first, last + 1) for first, last in node.box)
+                self._bounded[node.relaxation.place][box] = True
                 continue
             self._try(self._combinations_of(node))
             if not is_one(node.box):
@@ -350,7 +351,3 @@ class BranchAndBound:
         best = min((run.start.objective for run in self.found.values()), default=None)
         so_far = "" if best is None else f": objective {best:.5g} so far"
         relaxation.optimizer.progress(f"{solved} solved, {left} of combinations left{so_far}")
-
-
-def _slices(box: Box) -> tuple[slice, ...]:
-    return tuple(slice(first, last + 1) for first, last in box)

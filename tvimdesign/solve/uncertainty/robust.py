@@ -164,19 +164,15 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
         if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
             return run
         optimizer.progress("adding margins to the limits on times")
-        optimum = _again(optimizer, run, within, objective)
+        optimum = optimizer.solve(within, warm=run, objective=objective)
+        if not optimum.start.converged:
+            optimum = optimizer.solve(within, begin=run.inputs, objective=objective)
         if not optimum.start.converged and optimizer.deadline.passed:
             optimizer.deadline.leave_out(MARGINS)
             optimizer.margins = before
             return run
         run = optimum
     return run
-
-
-def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
-    """Return the optimum with other margins, warm from the last optimum or else from its inputs."""
-    optimum = optimizer.solve(within, warm=run, objective=objective)
-    return optimum if optimum.start.converged else optimizer.solve(within, begin=run.inputs, objective=objective)
 
 
 def _report_unmargined(optimizer: Optimizer, margins: dict[str, float]) -> None:

@@ -239,15 +239,10 @@ def name_faces(whole: Any, mm: dict[str, float]) -> None:
         beside = abs((centre.x**2 + centre.y**2) ** 0.5 - mm["placement_radius"]) < 0.2
         if flat and abs(low - top) < 1e-3:
             face.name = "turned"
-        elif flat and abs(low - ground) < 1e-3 and _stands(beside, wide, mm):
+        elif flat and abs(low - ground) < 1e-3 and beside and wide < 3 * mm["mount_boss_radius"]:  # a foot
             face.name = "fixed"
         else:
             face.name = "free"
     named = {face.name for face in whole.faces}
     if not named >= {"turned", "fixed"}:
         raise ValueError(f"of the faces that turn and that stand on the ground only {named - {'free'}} were found")
-
-
-def _stands(beside: bool, wide: float, mm: dict[str, float]) -> bool:
-    """Return whether a face at the ground is a foot, which holds the housing, and not the skirt."""
-    return beside and wide < 3 * mm["mount_boss_radius"]

@@ -95,11 +95,6 @@ def sink(m: Module) -> lumps.Lump | None:
     return lumps.Lump(conductance=contact, capacity=m.sink_capacity, surface=surface)
 
 
-def _heat_links(m: Module) -> tuple[lumps.Link, ...]:
-    """Return the links between the stack and the bodies beside and around it, and among these."""
-    return (*m.floor_links, *m.stack_links, *m.side_links, *m.loss_links)
-
-
 @quantities.helper()
 def stack(m: Module) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
@@ -130,7 +125,7 @@ def stack(m: Module) -> heat.Stack:
         uneven_conductance=m.uneven_sideways,
         sink=m.sink,
         around=m.around_pads,
-        links=_heat_links(m),
+        links=(*m.floor_links, *m.stack_links, *m.side_links, *m.loss_links),
         lip=m.lip,
         to_spreader=m.to_spreader / m.pcl_area,
         layer_resistance=m.layer_resistance,
