@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.device import Table, table_for
-from tvimdesign.device.table.quantity import FirstOscillation, Output, Supplied
+from tvimdesign.device.table.quantity import Output, Simulated, Supplied
 from tvimdesign.study import Study, given, read_study
 from tvimdesign.study.design import Design
 from tvimdesign.study.study import Options
@@ -149,9 +149,7 @@ def _is_plain(row: Output, table: Table) -> bool:
     """Whether a row follows from the inputs alone, without an operating point and without a simulation."""
     behind = [table.by_name[name] for name in (row.name, *table.ancestors(row.name)) if name in table.by_name]
     return not any(
-        isinstance(one, (*Supplied, FirstOscillation))
-        or getattr(one, "per_point", False)
-        or getattr(one, "instant", False)
+        isinstance(one, (*Supplied, Simulated)) or getattr(one, "per_point", False) or getattr(one, "instant", False)
         for one in behind
     )
 

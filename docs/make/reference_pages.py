@@ -23,7 +23,6 @@ ABOUT = {
     "Hold": "Creep under a load, the backlash it leaves, and what a quick turn loses.",
     "Axial play": "What the PCL loses in volume, how the rotor follows, and what creeps out of the melt.",
     "Switch": "The thermal stack and its surroundings.",
-    "Duty and control": "Repeated use and control, simulated; `require` has them as `name@duty`, `name@control`.",
     "Task": "Arm, payload and motion of a study's task, and what they ask of the joint.",
     "Softening": "Heating until the joint is soft.",
     "Stiffening": "Cooling until the joint is stiff again.",

@@ -3,7 +3,7 @@
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
 DUTY, CONTROL = "duty", "control"
-quantities = QuantityGroup("Duty and control")
+quantities = QuantityGroup("Switch")
 quantities.simulated(
     "highest_switch_rate", "1/h", DUTY, "Most switches an hour, each to soft and back, that exceed no rating"
 )

@@ -71,7 +71,7 @@ def motor_heat(m: Module) -> Scalar:
     return 1.5 * m.drive_motor.winding_resistance * current**2
 
 
-@quantities.output("rpm")
+@quantities.output("rad/s")
 def task_speed(m: Module) -> Scalar:
     """Largest speed of the housing, and so of the motor, in sine and trajectory."""
     sine = m.sine_amplitude * 2.0 * np.pi * m.sine_to
@@ -99,7 +99,7 @@ def motor_heat_margin(m: Module) -> Scalar:
 _SPEED = "the task is faster than the motor at its rated speed"
 
 
-@quantities.output("rpm", advice=(at_least(0.0, _SPEED),))
+@quantities.output("rad/s", advice=(at_least(0.0, _SPEED),))
 def motor_speed_margin(m: Module) -> Scalar:
     """Rated speed of the motor beyond that of its task."""
     return m.drive_motor.rated_speed - m.task_speed

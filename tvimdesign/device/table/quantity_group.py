@@ -29,7 +29,7 @@ F = TypeVar("F", bound=Callable[[Module], Any])
 
 GROUPS = (
     "Materials", "Process", "Layout", "Springs", "Impedance", "Lost motion", "Hold", "Task", "Switch", "Softening",
-    "Stiffening", "Duty and control", "Size and weight", "Gaps", "Axial play", "Cost",
+    "Stiffening", "Size and weight", "Gaps", "Axial play", "Cost",
 )  # fmt: skip
 """The headings under which reports list quantities, in their order."""
 
