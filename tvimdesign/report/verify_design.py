@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.record import Record
 from tvimdesign.base.units import pretty
 from tvimdesign.cad.fe.model_comparison import SOLVERS, Compared, compared
 from tvimdesign.cad.fe.run_solvers import Solved, export_parts, require_fe, run_solvers
@@ -157,9 +156,6 @@ def refuse_other_parts(module: ResolvedModule) -> None:
         raise InputError(
             f"verify: heater_form is {form}; FE draws rigid modules below an arc, in a vane only pads cut to the PCL"
         )
-    liner = module.values.get("liner_material", "none")
-    if isinstance(liner, Record):
-        raise InputError(f"verify: liner_material is {liner.name}; FE knows no sheet between PCL and rotor")
 
 
 def _solved(

@@ -57,12 +57,7 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
     first = section(tree(tmp_path / "out/report.html"), "first")
     facts = [(words(one[0]), words(one[1])) for one in first.findall(".//dl/div")]
     assert {"Size and mass", "Times", "Heating", "Soft", "Stiff", "Idealized ~"} <= {label for label, _ in facts}
-    of_the_width = {
-        "Starts",
-        "Much lost motion",
-        "Little lost motion",
-        "Little friction",
-    }  # their notes stand in a line that has room for them
+    of_the_width = {"Starts", "Stroke"}  # their notes stand in a line that has room for them
     parts = [part for label, text in facts if label not in of_the_width for part in text.split(" · ")]
     assert [part for part in parts if part not in summary] == []
     warnings = [words(one).removeprefix("Warning ").partition(";")[0] for one in first.findall(".//ul/li")]

@@ -22,6 +22,8 @@ PAD_GAP = 0.2
 OTHER_GAPS = 0.3, 0.25, 0.35
 """The same where the first leaves an edge shorter than `SLIVER`, which gets no mesh: a wall beside a vane's end."""
 SLIVER = 0.005
+WALL_GAP = 0.3
+"""How far the plain wall stands back from the springs' wells [mm], which would touch it: such a floor gets no mesh."""
 
 
 def tube(inner: float, outer: float, bottom: float, top: float) -> Any:
@@ -166,7 +168,7 @@ def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
     Where a radius leaves a tenth of a millimetre straight no mesh is found.
     """
     far = 500.0
-    wall = tube(mm["housing_inner_radius"], mm["housing_outer_radius"], 0.0, mm["rim_level"])
+    wall = tube(mm["housing_inner_radius"] + WALL_GAP, mm["housing_outer_radius"], 0.0, mm["rim_level"])
     housing = (whole - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
     # Filled before it is cut, else the rounded openings' edges stay in its faces. Holes of leads are filled too.
     deep = mm["floor_thickness"] if mm["spreader_depth"] else mm["peltier_thickness"] + 0.2

@@ -106,7 +106,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         Fact("Heating", [value("switch_energy"), peaks]),
     ]
     doubts = (*_manufacturing(answer, uncertainty), *_model(uncertainty, answer.design.study))
-    return [*facts, *_lost_motion(value), *_active_constraints(answer), *doubts]
+    return [*facts, _stroke(value), *_active_constraints(answer), *doubts]
 
 
 def heater_voltage(answer: StudyResult, uncertainty: Mapping[str, Any]) -> str:
@@ -128,26 +128,17 @@ def _times(value: _Values) -> Iterator[str]:
         yield "never stiff again"
 
 
-_LARGE = 0.1
-"""Share of stroke or spring torque from which lost motion or friction is much, and stands on the first screen."""
+def _stroke(value: _Values) -> Fact:
+    """Return the stroke with what of it is lost motion, and friction over spring torque; the note names what adds most.
 
-
-def _lost_motion(value: _Values, *, much: bool = True) -> list[Fact]:
-    """Return lost motion and friction as shares of the stroke and of spring torque, those that are much or the others.
-
-    The note names what adds most.
+    A lock has no spring torque.
     """
-    shares = {name: value.values[name] for name in _LOSES if name in value.values}
-    wholes = {"lost_motion_share": f"the ±{from_si(value.values['stroke'], 'deg'):.3g}° stroke"}
-    wholes["friction_share"] = "spring torque"
-    shown = [name for name, share in shares.items() if (share > _LARGE) is much]
-    if not shown:
-        return []
-    first, *others = (f"{value.in_percent(name, shares[name])} of {wholes[name]}" for name in shown)
-    most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in shown]
-    title = f"{'Much' if much else 'Little'} {'lost motion' if 'lost_motion_share' in shown else 'friction'}"
-    note = f"{'above' if much else 'below'} a tenth, most by {' and '.join(dict.fromkeys(most))}"
-    return [Fact(title, [first, *(f"friction {part}" for part in others)], note)]
+    names = [name for name in _LOSES if name in value.values]
+    lost, *others = (value.in_percent(name, value.values[name]) for name in names)
+    stroke = f"±{from_si(value.values['stroke'], 'deg'):.3g}°, {lost} of it lost motion"
+    most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in names]
+    note = f"most by {' and '.join(dict.fromkeys(most))}"
+    return Fact("Stroke", [stroke, *(f"friction {share} of spring torque" for share in others)], note)
 
 
 _LOSES = {
@@ -291,7 +282,6 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
-        *_lost_motion(_Values(answer, uncertainty), much=False),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table),
         *_yield(answer, uncertainty, table), *_together(uncertainty),
     ]  # fmt: skip
