@@ -130,7 +130,7 @@ def test_torque_of_a_sine_and_a_trajectory_is_mujoco_s(name: str, point: str, st
     assert deflection == pytest.approx(module.quantity(f"sine_deflection@{point}"), rel=TOLERANCE)
     if isinstance(values["trajectory"], Trajectory):
         upright = replace(module, values={**values, "gravity": 0.0})
-        every, _, accelerations = values["trajectory"].sampled()
+        every, _, _, accelerations = values["trajectory"].sampled()
         times = every * np.arange(len(accelerations))
         _, torques = _followed(arm, times[-1], lambda time: np.interp(time, times, accelerations))
         assert np.max(np.abs(torques)) == pytest.approx(upright.quantity(f"trajectory_torque@{point}"), rel=TOLERANCE)
