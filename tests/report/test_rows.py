@@ -72,6 +72,11 @@ def test_names_are_never_broken(printed: Any, mode: str) -> None:
         assert set(rows._important(own)) <= words
 
 
+def test_an_input_of_records_has_its_value_by_each(printed: Any) -> None:
+    text = " ".join(printed("minimum_wall", 110).split())
+    assert "print_pc_bambu 1.2 (0.8 to 1.6), print_peek 1.2" in text
+
+
 def test_a_word_that_finds_nothing_is_told_with_the_nearest() -> None:
     with pytest.raises(InputError, match="did you mean 'weight'"):
         rows.print_rows("shear", "wieght", as_json=False)

@@ -11,6 +11,7 @@ from rich.text import Text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
+from tvimdesign.catalog.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.numbers import in_unit
@@ -34,7 +35,7 @@ def print_rows(mode: str, word: str, as_json: bool) -> None:
     if as_json:
         print(json.dumps([_plain(row) for row in matches], indent=2))
     elif word:
-        _print_found(matches, word, wide_console())
+        _print_found(matches, word, mode, wide_console())
     else:
         _print_groups(rows, mode, wide_console())
 
@@ -92,7 +93,7 @@ def _asked_for(row: Quantity) -> bool:
     return row.headline if isinstance(row, Output) else isinstance(row, Input) and row.variable
 
 
-def _print_found(rows: Sequence[Quantity], word: str, console: Console) -> None:
+def _print_found(rows: Sequence[Quantity], word: str, mode: str, console: Console) -> None:
     """Print those asked for most, then the others by group: a name with its facts, below it its description."""
     also = synonyms().get(word.lower().replace("_", " "))
     if also:
@@ -107,6 +108,23 @@ def _print_found(rows: Sequence[Quantity], word: str, console: Console) -> None:
         console.print(Text.assemble((plain["name"], "bold"), "  ", (_facts(plain), "dim")), no_wrap=True, crop=False)
         allowed = f" [{plain['allowed']}]" if plain["allowed"] else ""
         console.print(Padding(Text(plain["description"] + allowed), (0, 0, 0, 4)))
+        if isinstance(row, Input) and len(rows) == 1 and row.record:
+            console.print(Padding(Text(_by_record(row, mode)), (0, 0, 0, 4)))
+
+
+def _by_record(row: Input, mode: str) -> str:
+    """Return an input's value, with its range, by each record that it may come from."""
+    choice = table_for(mode).by_name[row.record[0]] if row.record else None
+    if row.record is None or not isinstance(choice, Choice) or not choice.category:
+        return ""
+    catalog, values = Catalog(), []
+    for name in catalog.names(choice.category):
+        record = catalog.record(choice.category, name)
+        if record.has(row.record[1]):
+            entry = record.entry(row.record[1])
+            ends = [in_unit(end, row.unit) for end in (entry.low, entry.high) if end is not None]
+            values.append(f"{name} {in_unit(entry.value, row.unit)}" + (f" ({' to '.join(ends)})" if ends else ""))
+    return ", ".join(values)
 
 
 def _facts(plain: dict[str, Any]) -> str:
