@@ -223,4 +223,8 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
         test = values[first]["source"].partition("test: ")[2] if first else ""
         rows.append((limit, f"{100.0 * share:.3g} %", first or "no single input", test or "the built part"))
     heads = ("limit", "met in", "measure first", "test")
-    return grid(f"{TO_MEASURE}: limits met in a part of the ranges only", heads, rows, right=(1,))
+    note = (
+        "`tvimdesign new built.yaml --from FOLDER` keeps the parts: set what was measured there and run it. "
+        "A new search draws other parts."
+    )
+    return grid(f"{TO_MEASURE}: limits met in a part of the ranges only", heads, rows, right=(1,), note=note)
