@@ -90,6 +90,14 @@ def test_a_family_is_computed_again_only_after_a_change(plan, folder):
     )
 
 
+@pytest.mark.gate
+def test_families_of_another_atlas_are_reused(plan, folder, tmp_path):
+    assert compute(plan, tmp_path, 1, lambda _: None, (folder,))[0]["computed"] == 0
+    assert cells_of(plan, tmp_path) == cells_of(plan, folder)
+    with pytest.raises(InputError, match="no folder of an atlas"):
+        compute(plan, tmp_path, 1, lambda _: None, (tmp_path / "none",))
+
+
 def test_a_time_that_may_never_come_has_no_high_end():
     values = dict.fromkeys(OUTPUTS, 1.0)
     cell = AtlasCell("foil", 5.0, 60.0, "optimal", "middle", values, (), {"cycle_time": (30.0, math.inf)})

@@ -133,6 +133,10 @@ def atlas(
     out: options.Out = None,
     overwrite: options.Overwrite = False,
     resume: options.Resume = False,
+    reuse: Annotated[
+        list[Path] | None,
+        typer.Option("--reuse", metavar="FOLDER", help="Atlas whose families are taken, too; repeat it."),
+    ] = None,
     workers: options.Workers = 0,
     plots: options.Plots = True,
     json: options.AsJson = False,
@@ -142,7 +146,7 @@ def atlas(
 
     make_atlas(
         plan, out or Path("results/atlas"), kinds=tuple(kinds or ()), workers=workers, overwrite=overwrite,
-        resume=resume, plots=plots, as_json=json,
+        resume=resume, plots=plots, as_json=json, reuse=tuple(reuse or ()),
     )  # fmt: skip
 
 

@@ -22,7 +22,7 @@ from tvimdesign import __version__
 from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.environment import ask_for_one_thread
-from tvimdesign.base.errors import TvimError
+from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.processes import end_process_tree
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
@@ -68,9 +68,12 @@ class AtlasCell:
         return f"{self.kind}-{self.torque:g}Nm-{self.cycle:g}s"
 
 
-def compute(plan: Atlas, folder: Path, workers: int, say: Say) -> tuple[dict[str, float], list[TvimError]]:
-    """Compute the families that the folder lacks; return counts, seconds of the processor, and what failed."""
+def compute(
+    plan: Atlas, folder: Path, workers: int, say: Say, others: Sequence[Path] = ()
+) -> tuple[dict[str, float], list[TvimError]]:
+    """Compute the families that neither the folder has nor `others`; return counts, processor seconds, and failures."""
     make_folder(folder / FAMILIES)
+    _copy_families(plan, others, folder)
     ask_for_one_thread()
     waiting = [family for family in plan.families if _known(plan, folder, *family) is None]
     seconds, failures = 0.0, list[TvimError]()
@@ -86,6 +89,17 @@ def compute(plan: Atlas, folder: Path, workers: int, say: Say) -> tuple[dict[str
             say(f"family {done} of {len(waiting)}: {kind} on {hardware} hardware")
     counts = {"families": len(plan.families), "computed": len(waiting) - len(failures), "cpu_s": seconds}
     return counts, failures
+
+
+def _copy_families(plan: Atlas, others: Sequence[Path], folder: Path) -> None:
+    """Copy families of today that the folder lacks from other atlases; raises InputError for a folder that is none."""
+    for other in others:
+        if not (other / FAMILIES).is_dir():
+            raise InputError(f"--reuse {other}: no folder of an atlas; it has no {FAMILIES}/")
+        for family in plan.families:
+            if _known(plan, folder, *family) is None and _known(plan, other, *family) is not None:
+                name = f"{'-'.join(family)}.json"
+                atomic_write(folder / FAMILIES / name, (other / FAMILIES / name).read_bytes())
 
 
 @contextmanager

@@ -22,14 +22,14 @@ SUMMARY = "atlas.json"
 
 def make_atlas(
     plan: Path | None, out: Path, *, kinds: tuple[str, ...], workers: int, overwrite: bool, resume: bool, plots: bool,
-    as_json: bool,
+    as_json: bool, reuse: tuple[Path, ...] = (),
 ) -> None:  # fmt: skip
-    """Compute an atlas and write its folder. Raises InputError, OutputError."""
+    """Compute an atlas, with the families of others, and write its folder. Raises InputError, OutputError."""
     atlas, began = Atlas.read(plan).only(kinds), time.perf_counter()
     command = Command(out, overwrite=overwrite, as_json=as_json, plots=plots, resume=resume, keep=FAMILIES)
     with command:
         folder = command.folder
-        counts, failures = compute(atlas, folder.path, workers, command.progress)
+        counts, failures = compute(atlas, folder.path, workers, command.progress, reuse)
         command.failures += failures
         command.progress("gathering the cells")
         cells = cells_of(atlas, folder.path)
