@@ -130,8 +130,8 @@ def test_the_command_writes_tables_and_studies(tvimdesign, tmp_path):
 @pytest.mark.gate
 @pytest.mark.parametrize("number", ["SIGTERM", "SIGKILL"])
 def test_its_workers_end_with_the_command(tmp_path, number):
-    if not hasattr(signal, number):
-        pytest.skip("Windows has no such signal")
+    if number == "SIGKILL" and sys.platform != "linux":
+        pytest.skip("only Linux ends the workers of a process that is killed outright")
     process = subprocess.Popen(
         [sys.executable, "-m", "tvimdesign", "atlas", PLAN, "--out", tmp_path, "--workers", "2", "--no-plots"],
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
