@@ -17,6 +17,7 @@ from tvimdesign.study.text.mistakes import StudyError
 STUDY = study_path("paper_shear").read_text()
 TASK = {
     "payload": "3 kg", "arm_mass": "0.6 kg", "arm_length": "0.2 m", "allowed_sag": "5 mm", "allowed_force": "60 N",
+    "allowed_hic": 700,
     "gravity_angle": "90 deg",
     "trajectory": {"moments": ["0 s", "1 s"], "angles": ["0 deg", "90 deg"]},
 }  # fmt: skip
@@ -32,6 +33,7 @@ def test_a_task_is_read_written_and_evaluated() -> None:
     limits = {limit.output: limit.limit for limit in study.require}
     assert limits["sag@cold"] == 0.005
     assert limits["impact_force@cold"] == 60.0
+    assert limits["head_injury@cold"] == 700.0
     again = read_study_text(yaml.safe_dump(written(study), allow_unicode=True))
     assert again.module == study.module
     assert again.trajectory == study.trajectory

@@ -24,8 +24,12 @@ ARM = "arm"
 WITH_ARM = (Feature("task", WITHOUT),)
 SAMPLES = 120
 """Equal steps in which a trajectory is followed."""
-IMPACT_STEPS = 36
-"""Steps of a contact up to its largest force, and of a link that swings with what has struck it."""
+CONTACT_STEPS = 16
+"""Steps up to the largest force of a body on an arm that does not give."""
+CONTACTS = 8
+"""So many times as long contacts are followed: a frozen joint has then stopped a body heavier than its arm."""
+SWING_STEPS = 36
+"""Steps of a link that swings with what has struck it."""
 SWING = 0.6
 """Share of the swing's period that is followed; the first peak is at a quarter, later only where nothing rings."""
 SPECTRUM = 5
@@ -195,12 +199,31 @@ def trajectory_deflection(m: Module) -> Scalar:
 # --- impact ----------------------------------------------------------------------------------------------------------
 
 
+@quantities.helper()
+def impact_step(m: Module) -> Scalar:
+    """Step in time of a contact [s]."""
+    return 0.5 * np.pi * np.sqrt(m.impact_mass / m.impact_stiffness) / CONTACT_STEPS
+
+
+@quantities.helper(per_point=True)
+def impact_forces(m: Module) -> list[Scalar]:
+    """Forces of the contacts [N] after each step."""
+    striker = driven.Striker(m.impact_mass, m.impact_speed, m.arm_length, m.impact_stiffness)
+    joint, _, damping = m.task_swing(m.task_joint)
+    count = CONTACTS * CONTACT_STEPS
+    return driven.followed(joint, m.pcl_modes, m.impact_step, count, striker=striker, structure_damping=damping).forces
+
+
 @quantities.output("N", per_point=True)
 def impact_force(m: Module) -> Scalar:
     """Largest force as a body strikes the arm's end, by the contact's stiffness, the arm's inertia and the joint."""
-    striker = driven.Striker(m.impact_mass, m.impact_speed, m.arm_length, m.impact_stiffness)
-    step = 0.5 * np.pi * np.sqrt(m.impact_mass / m.impact_stiffness) / (IMPACT_STEPS - 2)
-    return driven.largest(driven.followed(m.task_joint, m.pcl_modes, step, IMPACT_STEPS, striker=striker).forces)
+    return driven.largest(m.impact_forces)
+
+
+@quantities.output("1", per_point=True)
+def head_injury(m: Module) -> Scalar:
+    """Head Injury Criterion (HIC15) of the body that strikes, if it is a head and the contact its skull."""
+    return driven.head_injury(m.impact_forces, m.impact_mass, m.impact_step)
 
 
 @quantities.helper(per_point=True)
@@ -209,8 +232,8 @@ def caught(m: Module) -> driven.Followed:
     joint = m.task_joint._replace(inertia=m.task_inertia + m.impact_mass * m.arm_length**2)
     speed = m.impact_mass * m.impact_speed * m.arm_length / joint.inertia
     joint, angular, damping = m.task_swing(joint)
-    step = 2.0 * np.pi / angular * SWING / IMPACT_STEPS
-    return driven.followed(joint, m.pcl_modes, step, IMPACT_STEPS, speed, structure_damping=damping)
+    step = 2.0 * np.pi / angular * SWING / SWING_STEPS
+    return driven.followed(joint, m.pcl_modes, step, SWING_STEPS, speed, structure_damping=damping)
 
 
 @quantities.output("N*m", per_point=True)

@@ -7,6 +7,7 @@ Sources: Den Hartog, Mechanical Vibrations, 4th ed., ch. 2 (support that moves);
 """
 
 from collections.abc import Callable, Sequence
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +18,10 @@ from tvimdesign.physics.polymers import polymer
 
 Stiffness = Callable[[Any], tuple[Any, Any]]
 """Real and imaginary stiffness [N*m/rad] at an angular frequency [rad/s]."""
+GRAVITY = 9.80665
+"""Standard gravity [m/s^2]."""
+INJURY_WINDOW = 0.015
+"""Longest time [s] over which a head's acceleration counts."""
 ITERATIONS = 10
 """Of a frequency that the stiffness depends on: each halves the error in its logarithm at least."""
 
@@ -164,3 +169,22 @@ def largest(values: Sequence[Any]) -> Any:
     for value in values:
         most = np.fmax(most, np.fabs(value))
     return most
+
+
+def head_injury(forces: Sequence[Any], mass: Any, step: Any) -> Any:
+    """Return the Head Injury Criterion HIC15 of a head of a mass [kg] that is at rest and pushed by forces [N].
+
+    The forces are those after each step [s]. It is the largest (t2 - t1) a^2.5 with the mean acceleration a between
+    both times in multiples of gravity, over at most 15 ms (49 CFR 571.208); 700 is its limit there. A mean
+    over more than 15 ms counts as one of 15 ms, which is less than the largest. Windows of up to half of the steps are
+    tried.
+    """
+    gained: list[Any] = [0.0]
+    for before, force in zip([0.0, *forces], forces, strict=False):
+        gained.append(gained[-1] + 0.5 * step * (before + force) / (mass * GRAVITY))
+    worst: Any = 0.0
+    for length in range(1, len(gained) // 2 + 1):
+        most = reduce(np.fmax, [end - start for start, end in zip(gained, gained[length:], strict=False)])
+        seconds = length * step
+        worst = np.fmax(worst, np.fmin(seconds, INJURY_WINDOW) * (most / seconds) ** 2.5)
+    return worst

@@ -42,6 +42,10 @@ from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence
 _ALLOWED = {
     "allowed_sag": ("sag@cold", "largest sag of the frozen joint: the requirement `sag@cold`"),
     "allowed_force": ("impact_force@cold", "largest force of the impact, which the frozen joint has most of"),
+    "allowed_hic": (
+        "head_injury@cold",
+        "largest Head Injury Criterion (HIC15) of a head that strikes the frozen joint",
+    ),
 }
 _URDF = {"urdf": "file of a robot, beside the study", "joint": "its joint that the module is"}
 _MOST_MOMENTS = 1000
