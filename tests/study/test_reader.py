@@ -284,6 +284,7 @@ def test_schema_and_studies_name_format_and_version() -> None:
         assert line.format("../") in path.read_text(), path.name
         assert line.format("") in example_text(path.stem), path.name
     assert line.format("") in template_text()
+    assert example_text("paper_as_published") == example_text("paper_reconstructed")  # its name before
 
 
 def test_the_template_and_its_commented_lines_fit_the_schema() -> None:

@@ -66,6 +66,7 @@ def evaluating(design: Design) -> Study:
 
 
 SCHEMA_FILE = "study.schema.json"
+_RENAMED = {"paper_as_published": "paper_reconstructed"}
 """What editors find beside a study, or above `studies/`, once `tvimdesign schema` has written it."""
 
 
@@ -85,7 +86,7 @@ def examples() -> dict[str, str]:
 
 def example_text(name: str) -> str:
     """Text of a shipped study, for a schema beside it. Raises InputError where there is none of that name."""
-    known = list(examples())
+    known, name = list(examples()), _RENAMED.get(name, name)
     if name not in known:
         raise InputError(f"no shipped study is named {name[:60]!r}; {did_you_mean(name, known) or one_of(known)}")
     text = _shipped().joinpath(f"{name}.yaml").read_text(encoding="utf-8")

@@ -119,13 +119,22 @@ def heater_voltage(answer: StudyResult, uncertainty: Mapping[str, Any]) -> str:
 
 def _times(value: _Values) -> Iterator[str]:
     soft, stiff = (value.values[name] for name in ("softening_time", "stiffening_time"))
-    reached = from_si(value.values["softened_temperature"], "degC")
-    coldest = f", coldest PCL {reached:.0f} {pretty('degC')}" if math.isfinite(reached) else ""
-    yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}{coldest}"
+    yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}{_coldest(value)}"
     if math.isfinite(stiff):
         yield f"stiff {value('stiffening_time')} later"
     elif math.isfinite(soft):
         yield "never stiff again"
+
+
+def _coldest(value: _Values) -> str:
+    """Return the temperature that all PCL exceeds as heating stops, in whole degrees; empty if it never stops."""
+    reached = from_si(value.values["softened_temperature"], "degC")
+    if not math.isfinite(reached):
+        return ""
+    entry = value.intervals.get("softened_temperature")
+    known = entry is not None and None not in (entry["low"], entry["high"])
+    ends = range_text({end: round(entry[end]) for end in ("low", "value", "high")}) if known else ""
+    return f", PCL above {reached:.0f} {pretty('degC')}{f' ({ends})' if ends else ''}"
 
 
 def _stroke(value: _Values) -> Fact:

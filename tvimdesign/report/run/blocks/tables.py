@@ -57,7 +57,7 @@ def points_grid(answer: StudyResult) -> Grid:
     """Return the quantities that have a value at each operating point."""
     table, points = table_for(answer.design.mode), list(answer.design.study["operating_points"])
     shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
-    shown += [row for row in table.outputs if row.per_point and row.headline]
+    shown += [row for row in table.outputs if row.per_point and row.headline and row.exists(answer.design.choices)]
     at_end = {"temperature": "softened_temperature", "frequency": "frequency@hot"}
     rows = []
     for row in shown:
@@ -75,10 +75,11 @@ def module_grid(answer: StudyResult) -> Grid:
     """Return the headline quantities that have one value; none at the hot point if heating does not get there."""
     table = table_for(answer.design.mode)
     hot_unreached = "hot" in unreached_points(answer.design.values)
+    shown = [row for row in table.outputs if row.headline and not row.per_point and row.exists(answer.design.choices)]
     rows = [
         (row.group, f"{row.name}{mark(row.name, answer)}", value_text(answer, row.name, table), pretty(row.unit),
          meaning(row.name, answer.design, table))
-        for row in table.outputs if row.headline and not row.per_point and not (hot_unreached and row.at_end)
+        for row in shown if not (hot_unreached and row.at_end)
     ]  # fmt: skip
     return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
 
