@@ -34,6 +34,12 @@ from tvimdesign.study.design import Design
 from tvimdesign.study.study import Options
 
 STUDIES = Path(__file__).resolve().parents[1] / "studies"
+FRESH = {
+    "elbow_printed": 6, "elbow_machined": 5, "ankle": 5, "finger": 4, "wrist_joint": 5,
+    "wrist_compression": 13, "machined_compression": 12,
+}  # fmt: skip
+"""Studies within whose ranges validation draws modules that nobody optimized, and how many of each."""
+FRESH_SEED = 2026
 _CHUNK = 20_000
 """Designs whose rules are worked out at once."""
 _MOST = 5_000_000

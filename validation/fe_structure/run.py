@@ -67,7 +67,7 @@ def solved(study: str, work: Path, fe_python: Path) -> tuple[dict[str, float], d
     done(run, work / study / "run.txt")  # it ends with 1 where nothing meets the study: then there is no design
     if not (parts / "inputs.json").exists():
         export_parts(read_design(folder / "design.json"), parts)
-    joint, spring = (found_by(name, parts, work / study / f"{name}.json", fe_python) for name in ("joint", "spring"))
+    joint, spring = (solved_by(name, parts, work / study / f"{name}.json", fe_python) for name in ("joint", "spring"))
     inputs = json.loads((parts / "inputs.json").read_text())
     return fe_values(joint, spring), case_of(study, inputs, varied_of(study, work), joint)
 
@@ -83,10 +83,10 @@ def design_of(study: str, work: Path) -> list[Row]:
     return design_rows(study, design["values"], design["choices"])
 
 
-def found_by(solver: str, parts: Path, results: Path, fe_python: Path) -> dict[str, float]:
+def solved_by(solver: str, parts: Path, results: Path, fe_python: Path, *options: object) -> dict[str, float]:
     """Solve some parts; the mesher reports holes of its mesh on standard output."""
     printed = results.with_suffix(".txt")
-    done([fe_python, SOLVERS / f"{solver}.py", parts, results], printed)
+    done([fe_python, SOLVERS / f"{solver}.py", parts, results, *options], printed)
     if "NOT ALL FACES" in printed.read_text():
         raise ValueError(f"{printed}: faces without a mesh")
     rows: dict[str, float] = json.loads(results.read_text())

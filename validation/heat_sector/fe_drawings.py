@@ -154,7 +154,7 @@ def _strip_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
     heat, legs = c["pad_heat_capacity"] / c["pad_depth"], (1.0 - 2.0 * FILM) * c["pad_depth"]
     side = Material(c["pad_conductivity"], 100.0, heat)
     air, exchange = c["air_conductivity"], c["emissivity"] / (2.0 - c["emissivity"])
-    spread = Material(c["spreader_conductivity"], c["spreader_conductivity"], c["spreader_heat_capacity"])
+    spread = Material(c["spreader_along"], c["spreader_conductivity"], c["spreader_heat_capacity"])
     seat = c["seat_contact"] * air / c["pad_edge_contact"]
     return {
         "plate": solid, "lip": solid, "floor": solid, "ledge": solid, "hot": side, "cold": side,

@@ -7,7 +7,8 @@ beside a spreader adhesive fills it. Nothing passes the middle of the arc. Every
 
 Rigid modules cover the middle of the strip, as much of its width as of the arcs' area; a spreader of its whole width
 lies on them, and beside them is still air over the floor. So each metre of edge has its share of modules, windows,
-ledges and air. How far heat goes along the spreader is less than as drawn: an arc has more edge than its modules.
+ledges and air. Along the strip the spreader conducts as much less as its way there is shorter than that as drawn,
+solved in the spreader's own plane (`spreader.py`).
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import spreader
 from plane import PAD_FILM, Array, Body, Border, Material, Plane, Polymer, Pump, drawn, lines
 
 from tvimdesign.device import Table
@@ -77,6 +79,8 @@ class Case:
     """Outside of the housing for a metre of strip [m]."""
     spreader_depth: float = 0.0
     spreader_conductivity: float = 0.0
+    spreader_along: float = 0.0
+    """Its conductivity along the strip."""
     spreader_heat_capacity: float = 0.0
     """Per volume."""
     seat_contact: float = 0.0
@@ -114,7 +118,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         spread = {
             "spreader_depth": found["spreader_depth"], "spreader_conductivity": v["spreader_conductivity"],
             "spreader_heat_capacity": v["spreader_density"] * v["spreader_specific_heat"],
-            "spreader_contact": v["spreader_contact"],
+            "spreader_contact": v["spreader_contact"], "spreader_along": _along_strip(table, v, found),
             "seat_contact": _seat_contact(v, found["edge_length"]),
         }  # fmt: skip
     lip = {}
@@ -158,6 +162,14 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge,
         **spread, **cooled, **lip, **lined,
     )  # fmt: skip
+
+
+def _along_strip(table: Table, v: Mapping[str, Any], sizes: Mapping[str, Any]) -> float:
+    """Return the conductivity with which a strip's spreader rises as much beside its modules as that of the arc."""
+    beside = 1.0 - sizes["heated_area"] / sizes["pcl_area"]
+    width = beside * sizes["pcl_area"] / sizes["edge_length"]
+    rise = spreader.mean_rise(v, **table.evaluate(v, ("tile_pitch", "tile_radius")))
+    return float(v["spreader_conductivity"] * beside * width**2 / (3.0 * rise))
 
 
 def _seat_contact(v: dict[str, Any], edges: float) -> float:
@@ -258,7 +270,7 @@ def _materials(c: Case) -> dict[str, Material]:
     if c.liner_depth:
         found["liner"] = Material(c.liner_conductivity, c.liner_conductivity, c.liner_heat_capacity)
     if c.spreader_depth:
-        sheet = Material(c.spreader_conductivity, c.spreader_conductivity, c.spreader_heat_capacity)
+        sheet = Material(c.spreader_along, c.spreader_conductivity, c.spreader_heat_capacity)
         still = Material(c.air_conductivity, c.air_conductivity, 0.0, c.pad_depth * shine)
         seat = c.seat_contact * c.air_conductivity / c.pad_edge_contact
         found |= {"spreader": sheet, "beside tiles": still, "seat": Material(seat, seat, 0.0)}

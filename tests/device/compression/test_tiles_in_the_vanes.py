@@ -64,8 +64,10 @@ def test_the_stack_has_the_spreader_between_modules_and_blocks() -> None:
     covered = 15 * 15 / (16 * 15.5)
     # 1/h + t/k + 1/(f h_m) + what spreading costs, by hand
     expected = 1e-4 + 1e-3 / 167.0 + 1e-4 / covered + values["spreader_resistance"]
-    assert 1.0 / stack.hot_contact == pytest.approx(expected, rel=1e-9)
-    assert stack.hot_capacity - stack.cold_capacity == pytest.approx(896.0 * values["spreader_mass"])
+    assert stack.spreader is not None
+    through = 1.0 / stack.hot_contact + stack.area / stack.spreader.conductance
+    assert through == pytest.approx(expected, rel=1e-9)
+    assert stack.spreader.capacity == pytest.approx(896.0 * values["spreader_mass"])
     # Half of each tile's length is open, from its lower edge to 2 mm below its upper one.
     assert stack.cold_surface.area == pytest.approx(8 * 7.5 * 13 * MM**2)
 
@@ -82,11 +84,11 @@ def test_spreaders_lose_heat_at_their_edges_and_backs() -> None:
     known = inputs_of("compression", **VANE_TILES)
     gap = known["air_conductivity"] * 8 * 16 * 1.0 * MM**2 / known["running_clearance"]
     for face in (floor, above):
-        assert link_between(two, ("hot", 0), face) - link_between(one, ("hot", 0), face) == pytest.approx(gap)
+        assert link_between(two, ("spreader", 0), face) - link_between(one, ("spreader", 0), face) == pytest.approx(gap)
     # Beside the tiles 3.8 mm of air lie behind the spreaders.
     backs = known["air_conductivity"] * 8 * (16 * 15.5 - 15 * 15) * MM**2 / (3.8 * MM)
-    assert link_between(one, ("hot", 0), walls) == pytest.approx(backs)
-    assert link_between(two, ("hot", 0), housing) > link_between(one, ("hot", 0), housing)
+    assert link_between(one, ("spreader", 0), walls) == pytest.approx(backs)
+    assert link_between(two, ("spreader", 0), housing) > link_between(one, ("spreader", 0), housing)
 
 
 def test_heat_of_closed_modules_is_stored() -> None:

@@ -230,27 +230,27 @@ def test_temperature_of_metal_and_plastic_lips() -> None:
 def test_a_plastic_lip_takes_what_the_plane_says(study: str, warm: tuple[float, ...], given_heat: float) -> None:
     inputs = given(read_study(study_path(study)))
     one = TABLE.evaluate(inputs, ["lip", "edge_length", "pcl_melting"])
-    names = [("hot", 0), ("layer", 0), ("face", 0), ("plate", 0), *(("beside", i) for i in range(3)),
+    names = [("spreader", 0), ("layer", 0), ("face", 0), ("plate", 0), *(("beside", i) for i in range(3)),
              ("around", 7), ("around", 1), ("around", 2)]  # fmt: skip
     at = dict(zip(names, warm, strict=True))
     phases = Conductivities(inputs["pcl_conductivity_solid"], inputs["pcl_conductivity_melt"])
     melting, cells = one["pcl_melting"], np.full(CELLS, at["layer", 0])
 
     def conducting(wall: float) -> tuple[Any, Any]:
-        kelvin, pads, cold = (celsius + 273.15 for celsius in (cells, at["hot", 0], wall))
+        kelvin, pads, cold = (celsius + 273.15 for celsius in (cells, at["spreader", 0], wall))
         own = phases.mixed(fraction_at(kelvin, melting))
         mean = 0.5 * (phases.solid + phases.melt)
         to_lip = (mean_conductivity(place, own[0], cold, phases, melting) / mean for place in (kelvin, pads))
         return next(to_lip), next(to_lip)
 
     lip = warm_lip(one["lip"], cells, at.__getitem__, conducting)
-    taken = np.sum(lip.from_layer) + lip.from_places["hot", 0]
+    taken = np.sum(lip.from_layer) + lip.from_places["spreader", 0]
     assert taken / one["edge_length"] == pytest.approx(given_heat, rel=0.12)
 
 
 def test_a_lip_gives_what_it_takes_and_less_from_the_melt() -> None:
     one = found("lip", structure_conductivity=0.2)
-    at = {("hot", 0): 90.0, ("face", 0): 60.0, ("plate", 0): 55.0, ("around", 7): 50.0, ("around", 1): 40.0,
+    at = {("spreader", 0): 90.0, ("face", 0): 60.0, ("plate", 0): 55.0, ("around", 7): 50.0, ("around", 1): 40.0,
           ("around", 2): 30.0, ("beside", 0): 45.0, ("beside", 1): 35.0, ("beside", 2): 25.0}  # fmt: skip
     cells = np.linspace(85.0, 62.0, CELLS)
     lip = warm_lip(one["lip"], cells, at.__getitem__, lambda _: (np.linspace(0.9, 1.1, CELLS), 0.9))

@@ -9,12 +9,16 @@ import pytest
 from cad_designs import TILES
 from device_values import inputs_of
 from device_values import values_of as of_default
+from heat_sector.spreader import mean_rise
+from random_designs import FRESH_SEED, Draws, Tally
+from support import study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.physics.heat_flow import heat, peltier
+from tvimdesign.study import given, read_study
 
 MM = 1e-3
 TABLE = table_for("shear")
@@ -114,9 +118,22 @@ def test_the_stack_has_the_spreader_between_modules_and_layer() -> None:
     # 1/h + t/k + 1/(f h_m) + the fin's, by hand
     covered = 6 * 200 * MM**2 / values["pcl_area"]
     expected = 1e-4 + 1e-3 / 167.0 + 1e-4 / covered + values["spreader_resistance"]
-    assert 1.0 / stack.hot_contact == pytest.approx(expected, rel=1e-9)
-    assert stack.hot_capacity - stack.cold_capacity == pytest.approx(896.0 * values["spreader_mass"])
-    assert values["spreader_resistance"] < 0.1 * expected
+    assert stack.spreader is not None
+    through = 1.0 / stack.hot_contact + stack.area / stack.spreader.conductance
+    assert through == pytest.approx(expected, rel=1e-9)
+    assert stack.spreader.capacity == pytest.approx(896.0 * values["spreader_mass"])
+    assert 0.0 < values["spreader_resistance"] < 0.2 * expected
+
+
+@pytest.mark.parametrize("study", ["elbow_printed", "ankle"])
+def test_spreading_below_random_arcs_is_that_of_a_thin_plate_in_two_dimensions(study: str) -> None:
+    read = read_study(study_path(study))
+    for design in Draws(read, FRESH_SEED).keeping_rules(8, Tally()):
+        # What goes around the tiles' corners into the plate's thickness has a test of its own: thin, it is little.
+        known = {**given(read), **{name: design.values[name] for name in read.vary}, "spreader_thickness": 2e-5}
+        values = TABLE.evaluate(known, ["spreader_resistance", "tile_pitch", "tile_radius"])
+        model = values.pop("spreader_resistance") * known["spreader_conductivity"] * known["spreader_thickness"]
+        assert model == pytest.approx(mean_rise(known, **values), rel=0.25), design.name
 
 
 def foil(resistance: float = 5.0) -> Record:

@@ -96,16 +96,20 @@ def test_what_a_liner_gives_sideways_leaves_its_cells_as_each_is_warm(bare_stack
     assert less[:-3] == pytest.approx(0.0, abs=1e-12)
 
 
-def test_what_a_spreader_gives_to_others_passes_the_contact_below_it_too(bare_stack: Make) -> None:
-    pads, away = 40.0, lumps.Link(("spreader", 0), ("ambient", 0), 0.5)
-    stack = bare_stack(hot_contact=1.0 / (0.02 * AREA), to_spreader=0.02, links=(away,))
+def test_a_spreader_stores_what_comes_from_the_pads_less_what_it_gives_on(bare_stack: Make) -> None:
+    away, body = lumps.Link(("spreader", 0), ("ambient", 0), 0.5), lumps.Lump(50.0, 8.0, lumps.NOWHERE)
+    stack = bare_stack(hot_contact=1.0 / (0.02 * AREA), spreader=body, links=(away,))
     state = heat.initial_state(stack, 5, COLD)
-    state[1] += pads / 100.0
-    seen = heat.profile(state, stack)
-    lost = 0.5 * (seen.spreader - COLD)
-    assert seen.hot - seen.spreader == pytest.approx(0.02 * (seen.through_layer[0] + lost), rel=1e-9)
-    bare = heat.profile(state, stack._replace(links=()))
-    assert seen.through_layer[0] < bare.through_layer[0]
+    state[1] += 0.4
+    state[-1] += 0.3
+    seen, given = heat.profile(state, stack), heat.rates(state, stack, 0.0)
+    assert (seen.hot - COLD, seen.spreader - COLD) == pytest.approx((40.0, 30.0))
+    stored = 50.0 * 10.0 - 0.5 * 30.0 - seen.through_layer[0]
+    assert 8.0 * 100.0 * given[-1] == pytest.approx(stored, rel=1e-9)
+    more = heat.stored_energy(state, stack) - heat.stored_energy(
+        state, stack._replace(spreader=body._replace(capacity=7.0))
+    )
+    assert more == pytest.approx(seen.spreader - 273.15, rel=1e-9)
 
 
 AIR, PLATE_POLYMER = 295.15, 373.15

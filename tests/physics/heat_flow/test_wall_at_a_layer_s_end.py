@@ -116,7 +116,7 @@ def lips(draw: st.DrawFn) -> tuple[layer_end.Lip, Array, dict[Place, float]]:
         layer_end.Arm(draw(conductances), ((AIR, 0.3), (PLATE, 0.5)), 0.8),
     )
     cells = np.array(draw(st.lists(temperatures, min_size=1, max_size=6)))
-    places = {("hot", 0): draw(temperatures), AIR: draw(temperatures), PLATE: draw(temperatures)}
+    places = {("spreader", 0): draw(temperatures), AIR: draw(temperatures), PLATE: draw(temperatures)}
     return layer_end.Lip(draw(conductances), draw(conductances), arms), cells, places
 
 
@@ -138,7 +138,7 @@ def test_temperatures_that_leave_no_residual_are_those_of_the_closed_form(
     case: tuple[layer_end.Lip, Array, dict[Place, float]],
 ) -> None:
     lip, cells, places = case
-    conducting = melting(cells, places["hot", 0])
+    conducting = melting(cells, places["spreader", 0])
     closed = layer_end.warm_lip(lip, cells, places.__getitem__, conducting)
     assert closed.residuals == (0.0, 0.0)
 
@@ -152,9 +152,9 @@ def test_temperatures_that_leave_no_residual_are_those_of_the_closed_form(
     assert joined.temperature == pytest.approx(closed.temperature, rel=1e-10)
     assert joined.from_layer == pytest.approx(closed.from_layer, rel=1e-7, abs=1e-9)
     assert joined.from_places == pytest.approx(closed.from_places, rel=1e-7, abs=1e-9)
-    assert sum(joined.from_layer) + joined.from_places["hot", 0] + _through_arms(lip, joined, places) == pytest.approx(
-        0.0, abs=1e-9
-    )
+    assert sum(joined.from_layer) + joined.from_places["spreader", 0] + _through_arms(
+        lip, joined, places
+    ) == pytest.approx(0.0, abs=1e-9)
 
 
 def _through_arms(lip: layer_end.Lip, warm: Any, places: dict[Place, float]) -> float:
@@ -171,12 +171,12 @@ def test_residuals_say_how_far_given_temperatures_are_off(
 ) -> None:
     lip, cells, places = case
     alike = layer_end.warm_lip(lip, cells, places.__getitem__, lambda _: (np.ones(len(cells)), 1.0)).temperature
-    closed = layer_end.warm_lip(lip, cells, places.__getitem__, melting(cells, places["hot", 0])).temperature
+    closed = layer_end.warm_lip(lip, cells, places.__getitem__, melting(cells, places["spreader", 0])).temperature
     first, _ = layer_end.warm_lip(
-        lip, cells, places.__getitem__, melting(cells, places["hot", 0]), (alike + off[0], closed)
+        lip, cells, places.__getitem__, melting(cells, places["spreader", 0]), (alike + off[0], closed)
     ).residuals
     _, second = layer_end.warm_lip(
-        lip, cells, places.__getitem__, melting(cells, places["hot", 0]), (alike, closed + off[1])
+        lip, cells, places.__getitem__, melting(cells, places["spreader", 0]), (alike, closed + off[1])
     ).residuals
     assert first == pytest.approx(-off[0], abs=1e-9)
     assert second == pytest.approx(-off[1], abs=1e-9)

@@ -210,9 +210,9 @@ def heater_strings(m: Module) -> Scalar:
 @quantities.output("K*mm^2/W", requires=WITH_TILES)
 def spreader_resistance(m: Module) -> Scalar:
     """Resistance of the way along the spreader to what its modules do not cover, times the layer's area."""
-    outlines = 2.0 * m.heater_count * (m.peltier_length + m.peltier_width)
-    return peltier.spreading_resistance(
-        m.pcl_area, m.heated_area, outlines, m.spreader_conductivity, m.spreader_thickness
+    width, tile = m.pcl_outer_radius - m.pcl_inner_radius, (m.peltier_length, m.peltier_width)
+    return peltier.row_spreading_resistance(
+        m.pcl_area, width, m.heater_count, tile, 2, m.spreader_conductivity, m.spreader_thickness
     )
 
 

@@ -25,7 +25,7 @@ from tvimdesign.physics.heat_flow.lumps import Link
 
 quantities = QuantityGroup("Switch")
 
-HOT, BESIDE, FLOOR = ("hot", 0), ("beside", 0), ("around", CORNER)
+SPREADER, BESIDE, FLOOR = ("spreader", 0), ("beside", 0), ("around", CORNER)
 AT_CORNER = 4.0 / np.pi
 """Free height below a lip that resists as a contact does, over the contact's thickness of layer. Around a corner heat
 goes along quarter circles, which at a radius r resist pi r/2: a contact is as 2/pi of it more radius. In a quarter of a
@@ -122,7 +122,7 @@ def air_beside(m: Module) -> tuple[Scalar, Scalar]:
     still air.
     """
     gap = m.pcl_thickness if m.melt_lip == NO_LIP else m.running_clearance
-    across = lumps.air_gap(1.0, gap, m.air_conductivity, m.surface_emissivity, HOT, FLOOR)
+    across = lumps.air_gap(1.0, gap, m.air_conductivity, m.surface_emissivity, SPREADER, FLOOR)
     up = gap * lumps.link_conductance(across, m.pcl_melting.end, m.ambient_temperature)
     evenly = np.sqrt(m.air_conductivity * up)
     return lumps.in_series(evenly, m.pcl_conductivity_melt), evenly / (m.pad_edge_contact * gap)
@@ -140,11 +140,11 @@ def side_links(m: Module) -> tuple[Link, ...]:
     near, far = shape_factors.gap_end(slot) if m.melt_lip == NO_LIP else below_lip(slot)[::-1]
     through = m.edge_length * conductivity
     if m.melt_lip != NO_LIP:
-        return (*_liner_rim(m), Link(HOT, FLOOR, near * through))
+        return (*_liner_rim(m), Link(SPREADER, FLOOR, near * through))
     corner = m.structure_conductivity * m.edge_length * shape_factors.corner_shape(near)
     inside = shape_factors.FALLING * shape_factors.gap_end_depth(slot) / (near + far)
-    to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
-    return (*_liner_rim(m), to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
+    to_floor = Link(SPREADER, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
+    return (*_liner_rim(m), to_floor, Link(SPREADER, BESIDE, far * through, of_layer=inside))
 
 
 LINER, PLATE = ("liner", 0), ("plate", 0)

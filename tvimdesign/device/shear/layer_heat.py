@@ -171,7 +171,7 @@ def edge_drops(m: Module) -> tuple[Scalar, Scalar]:
     even = m.stack.beside[0].conductance * (mean - now.beside[0])
     given = m.pad_wall * (side - corner)
     if m.cold_end is not None and now.lip is not None:
-        given = given + m.edge_length * m.cold_end.near * (now.hot - now.lip.temperature)
+        given = given + m.edge_length * m.cold_end.near * (now.spreader - now.lip.temperature)
     return (given / m.heater_along, (even + m.uneven_sideways * (now.plate[0] - mean)) / m.plate_to_edge)
 
 
@@ -196,12 +196,12 @@ class LayerSurroundings(NamedTuple):
 def layer_surroundings(m: Module) -> LayerSurroundings:
     """Surroundings of the layer's slices at an instant."""
     now, (conductivity, slot) = m.stack_profile, m.air_beside
-    to_floor, lip = now.hot - now.around[CORNER], None
+    to_floor, lip = now.spreader - now.around[CORNER], None
     if m.cold_end is not None:
         assert now.lip is not None  # a cold end is that of a lip
         lip = now.lip.temperature
         into_lip, into_floor = layer_end.below_lip(slot)
-        to_floor = into_lip * (now.hot - lip) + into_floor * to_floor
+        to_floor = into_lip * (now.spreader - lip) + into_floor * to_floor
     return LayerSurroundings(
         cells=now.cells,
         through=conductivity / m.stack.conductivity_melt * to_floor,

@@ -131,7 +131,7 @@ def layer_drawing_time(m: Module) -> Scalar:
 
 quantities = QuantityGroup("Switch")
 
-HOT, FACE, PLATE, BESIDE = ("hot", 0), ("face", 0), ("plate", 0), ("beside", 0)
+SPREADER, FACE, PLATE, BESIDE = ("spreader", 0), ("face", 0), ("plate", 0), ("beside", 0)
 Means = tuple[tuple[Place, Scalar], ...]
 UNEVEN = 0.5
 """Share that is left at the arcs' edge of the rise of the plate's face over its mean: half, as where a heated face
@@ -224,7 +224,7 @@ def lip(m: Module) -> Lip | None:
     (root, mean), (conductivity, slot) = m.lip_root, m.air_beside
     arms = [
         Arm(m.structure_conductivity / onto * m.edge_length, root),
-        Arm(layer_end.below_lip(slot)[0] * conductivity * m.edge_length, ((HOT, 1.0),)),
+        Arm(layer_end.below_lip(slot)[0] * conductivity * m.edge_length, ((SPREADER, 1.0),)),
     ]
     for i, (through, warmer, floor) in enumerate(zip(m.below_lips, _lip_faces(m), BELOW, strict=True)):
         edge = tuple((place, weight * warmer) for place, weight in mean)

@@ -12,8 +12,8 @@ carries its own history instead, and freezes late and supercooled.
 
 A state is a one-dimensional array: cold side, hot side, polymer cells from the hot side on, plate cells, the lumps
 beside the plate, the sink if there is one, the lumps around the pads, the middle of the pads' legs where these have a
-heat capacity, the liner if there is one, and with kinetics one extended fraction for each polymer cell. Temperatures
-stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the order of one.
+heat capacity, spreader and liner if there are any, and with kinetics one extended fraction for each polymer cell.
+Temperatures stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the order of one.
 """
 
 import itertools
@@ -48,15 +48,16 @@ class _Parts(NamedTuple):
     sink: Any
     around: Any
     legs: Any
+    spreader: Any
     liner: Any
     extended: Any
 
 
 def _lengths(stack: Stack) -> tuple[int, ...]:
-    """Return the counts of entries after the polymer's: plate, beside it, sink, around the pads, their legs, liner."""
+    """Return the counts of entries after the polymer's, in the order of a state."""
     bodies = (len(stack.beside), int(stack.sink is not None), len(stack.around))
-    legs, sheet = int(stack.legs_capacity is not None), LINER_CELLS * int(stack.liner is not None)
-    return stack.plate_cells, *bodies, legs, sheet
+    thin = int(stack.legs_capacity is not None), int(stack.spreader is not None)
+    return stack.plate_cells, *bodies, *thin, LINER_CELLS * int(stack.liner is not None)
 
 
 def _parts(state: Any, stack: Stack) -> _Parts:
@@ -103,13 +104,12 @@ def profile(state: Any, stack: Stack) -> Profile:
     cells, fractions = _layer(parts, stack)
     plate = _kelvin(parts.plate)
     hot = _kelvin(parts.hot)
+    spreader = hot if stack.spreader is None else _kelvin(parts.spreader[0])
     sheet = _kelvin(parts.liner)
-    near_half, far_half = _wall_halves(stack, cells, fractions, hot, plate[0] if stack.liner is None else sheet[0])
+    near_half, far_half = _wall_halves(stack, cells, fractions, spreader, plate[0] if stack.liner is None else sheet[0])
     plate_half = 0.5 * stack.plate_thickness / stack.plate_cells / (stack.plate_conductivity * stack.area)
 
-    way = 1.0 / (stack.hot_contact * stack.area) + near_half
-    spreader = _spreader(parts, stack, (hot, cells[0]), way)
-    inflow = (spreader - cells[0]) / (way - stack.to_spreader)
+    inflow = (spreader - cells[0]) / (1.0 / (stack.hot_contact * stack.area) + near_half)
     inside = _between_cells(stack, cells, fractions)
     to_face = far_half + 1.0 / (stack.plate_contact * stack.area)
     if stack.liner is None:
@@ -147,22 +147,6 @@ def profile(state: Any, stack: Stack) -> Profile:
     return now._replace(lip=warm_lip(stack.lip, cells, now.at, conducting, stack.lip_temperatures))
 
 
-def _spreader(parts: _Parts, stack: Stack, ends: tuple[Any, Any], way: Any) -> Any:
-    """Return the temperature [K] of what lies on the pads, on the `way` [K/W] from them to the polymer's first cell.
-
-    What it gives to others passes from the pads to it as well.
-    """
-    (hot, cell), beyond = ends, way - stack.to_spreader
-    onward, heat = 1.0 / beyond, cell / beyond
-    for link in stack.links:
-        for (group, _), (other, i) in ((link.first, link.second), (link.second, link.first)):
-            if group == "spreader":
-                met = stack.ambient if other == "ambient" else _kelvin(getattr(parts, other)[i])
-                conductance = lumps.link_conductance(link, hot, met)
-                onward, heat = onward + conductance, heat + conductance * met
-    return (hot + stack.to_spreader * heat) / (1.0 + stack.to_spreader * onward)
-
-
 def _over_mean(stack: Stack, now: Profile, wall: Any) -> tuple[Any, Any]:
     """Return the conductivity of the polymer between each cell and a temperature, and between the pads and it, over the
     mean of both phases [1]; with a history that of what is there."""
@@ -170,7 +154,7 @@ def _over_mean(stack: Stack, now: Profile, wall: Any) -> tuple[Any, Any]:
     cells, pads = both.mixed(now.fractions), both.mixed(now.fractions[0])
     if stack.freezing is None:
         cells = conduction.mean_conductivity(now.cells, cells, wall, both, stack.melting)
-        pads = conduction.mean_conductivity(now.hot, pads, wall, both, stack.melting)
+        pads = conduction.mean_conductivity(now.spreader, pads, wall, both, stack.melting)
     return cells / mean, pads / mean
 
 
@@ -211,14 +195,16 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
     cold, hot, legs = _pads(now, stack, current, linked)
     of_legs = 0.0 if stack.legs_capacity is None else peltier.OF_SIDE * stack.legs_capacity
     cold_side, hot_side = stack.cold_capacity + of_legs, stack.hot_capacity + of_legs
-    sides = np.append((cold - from_cold) / cold_side, (hot - now.through_layer[0]) / hot_side)
+    onward, spreader = _from_pads(now, stack, linked)
+    sides = np.append((cold - from_cold) / cold_side, (hot - onward) / hot_side)
     made = stack.motion_heat + current**2 * stack.layer_resistance / len(now.cells)
     layer = made - np.diff(now.through_layer) + linked["layer"][0]
     sideways = _sideways(now, stack)
     plate = (linked["plate"][0] - np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
     beside, around = _bodies(now, stack, np.sum(sideways), linked)
     sheet = now.liner if stack.liner is None else liner_heating(stack.liner, now.through_liner, linked["liner"][0])
-    bodies = np.append(np.append(np.append(np.append(plate, beside), sink), around), np.append(legs, sheet))
+    thin = np.append(np.append(legs, spreader), sheet)
+    bodies = np.append(np.append(np.append(np.append(plate, beside), sink), around), thin)
     bodies = bodies / TEMPERATURE_SCALE
     heated = np.append(sides / TEMPERATURE_SCALE, layer / _cell_mass(stack, len(now.cells)) / ENTHALPY_SCALE)
     heated = np.append(heated, bodies)
@@ -245,6 +231,14 @@ def _pads(now: Profile, stack: Stack, current: Any, linked: Mapping[str, Sequenc
     cold = linked["cold"][0] + legs.cold - carried * now.cold + of_side - tilt
     hot = linked["hot"][0] + legs.hot + carried * now.hot + of_side + tilt
     return cold, hot, (legs.middle / peltier.OF_MIDDLE + along) / stack.legs_capacity
+
+
+def _from_pads(now: Profile, stack: Stack, linked: Mapping[str, Sequence[Any]]) -> tuple[Any, Any]:
+    """Return the heat [W] from the pads' hot side to what lies on it, and the heating [K/s] of a spreader there."""
+    if stack.spreader is None:
+        return now.through_layer[0] - linked["spreader"][0], now.liner[:0]
+    flow = stack.spreader.conductance * (now.hot - now.spreader)
+    return flow, (flow - now.through_layer[0] + linked["spreader"][0]) / stack.spreader.capacity
 
 
 def _cell_mass(stack: Stack, count: int) -> Any:
@@ -283,7 +277,6 @@ def _linked(now: Profile, stack: Stack, current: Any) -> dict[str, list[Any]]:
         places["legs"] = list(peltier.legs_temperatures(now.hot, middle, now.cold))
     divided = {"layer": now.cells, "plate": now.plate} | ({} if stack.liner is None else {"liner": now.liner})
     linked = lumps.linked(stack.links, places, divided)
-    linked["hot"][0] = linked["hot"][0] + linked["spreader"][0]
     if now.lip is not None:
         _take(linked, now)
     return linked
@@ -346,6 +339,8 @@ def stored_energy(state: Any, stack: Stack) -> Any:
     if stack.legs_capacity is not None:
         heated += stack.legs_capacity * peltier.legs_temperature(parts.hot, parts.legs[0], parts.cold)
     heated += _plate_cell_capacity(stack) * np.sum(parts.plate)
+    if stack.spreader is not None:
+        heated += stack.spreader.capacity * parts.spreader[0]
     if stack.liner is not None:
         heated += stack.liner.capacity * np.mean(parts.liner)
     layer = _cell_mass(stack, len(parts.layer)) * np.sum(parts.layer)

@@ -198,7 +198,7 @@ def below_lip(slot: Any) -> tuple[Any, Any]:
     return lip, floor - AT_FLOOR / (1.0 + 2.0 * slot**2)
 
 
-HOT, LAYER = ("hot", 0), ("layer", 0)
+SPREADER, LAYER = ("spreader", 0), ("layer", 0)
 
 
 class Lip(NamedTuple):
@@ -249,7 +249,7 @@ def warm_lip(
 
 
 def _pads(lip: Lip, of_pads: Any) -> "Arm":
-    return Arm(of_pads * lip.pads, ((HOT, 1.0),))
+    return Arm(of_pads * lip.pads, ((SPREADER, 1.0),))
 
 
 def _temperature(lip: Lip, cells: Any, at: Callable[[Place], Any], of_cells: Any, of_pads: Any) -> Any:

@@ -134,12 +134,18 @@ def spreading_resistance(area: Any, fed_area: Any, fed_edge: Any, conductivity: 
     return beside / area * width / conductivity * (width / (3.0 * thickness) + AROUND_CORNER)
 
 
-def spreader_contact_resistance(
-    contact: Any, conductivity: Any, thickness: Any, fed_share: Any, fed_contact: Any
+def row_spreading_resistance(
+    area: Any, width: Any, count: Any, tile: tuple[Any, Any], sides: int, conductivity: Any, thickness: Any
 ) -> Any:
-    """Return the resistance of joint, plate and the modules' joint in series, over the whole plate [m^2 K/W].
+    """Return `spreading_resistance` of a plate that a row of rectangles feeds [m^2 K/W].
 
-    1/h + t/k + 1/(f h_m): `contact` h and `fed_contact` h_m are conductances of the two joints [W/m^2 K], `fed_share` f
-    the share of the plate that lies on modules.
+    Heat goes across the row first, out of each rectangle over its length, and then along the row, from both ends of the
+    stretch beside each. `width` [m] is that of the plate across the row, `tile` length and width of a rectangle [m];
+    `sides` is 2, or 1 where the row stands along the plate's edge. Of thin plates in two dimensions below 200 random
+    arcs it is 0.75 to 1.21, 0.97 in the mean, least where tiles crowd in the middle; along an edge 1.05 to 1.3.
     """
-    return 1.0 / contact + thickness / conductivity + 1.0 / (fed_share * fed_contact)
+    length, depth = tile
+    stretch, row = count * length * width, count * length
+    across = spreading_resistance(stretch, row * depth, sides * row, conductivity, thickness)
+    along = spreading_resistance(area, stretch, 2.0 * count * width, conductivity, thickness)
+    return across * area / stretch + along

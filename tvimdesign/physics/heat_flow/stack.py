@@ -31,7 +31,7 @@ class Stack(NamedTuple):
     cold_surface: Surface
     """Surface of the cold side towards the air; not used where there is a sink."""
     hot_contact: Any
-    """Contact conductance of hot side and polymer [W/m^2 K]."""
+    """Conductance of the contact with the polymer [W/m^2 K], of the hot side or of the spreader on it."""
     plate_contact: Any
     plate_thickness: Any
     plate_conductivity: Any
@@ -68,8 +68,8 @@ class Stack(NamedTuple):
     """A lip of the plate at the layer's edge."""
     lip_temperatures: tuple[Any, Any] | None = None
     """Of the lip [K], where they are unknowns beside the state; see `warm_lip`."""
-    to_spreader: Any = 0.0
-    """From the pads' hot side to a spreader on it [K/W], which is a part of the way to the polymer."""
+    spreader: Lump | None = None
+    """A plate between the pads' hot side and the polymer; its `surface` is not used."""
 
 
 class Profile(NamedTuple):
@@ -112,7 +112,7 @@ class Profile(NamedTuple):
         group, index = place
         if group in ("layer", "plate"):
             return np.mean(self.cells if group == "layer" else self.plate)
-        if group in ("cold", "hot"):
+        if group in ("cold", "hot", "spreader"):
             return getattr(self, group)
         return (self.plate if group == "face" else getattr(self, group))[index]
 

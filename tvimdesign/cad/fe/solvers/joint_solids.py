@@ -21,7 +21,9 @@ PAD_GAP = 0.2
 """How far the walls of a pad's pocket stand off it [mm]; they are not bonded to it."""
 OTHER_GAPS = 0.3, 0.25, 0.35
 """The same where the first leaves an edge shorter than `SLIVER`, which gets no mesh: a wall beside a vane's end."""
-SLIVER = 0.005
+SLIVER = 0.02
+BEAD_ROOM = 0.2
+"""How far a vane's sill stands off a thermistor's hole [mm], which would graze its corner."""
 WALL_GAP = 0.3
 """How far the plain wall stands back from the springs' wells [mm], which would touch it: such a floor gets no mesh."""
 
@@ -137,12 +139,24 @@ def _ring_housing(whole: Any, mm: dict[str, float], pads: list[Any]) -> Any:
     end of that edge, would belong to the vane as well, and a line or a point that is tied bears more than a soft pad.
     """
     far, inside = 500.0, 0.5 * (mm["hub_radius"] + mm["pcl_inner_radius"])
-    plain = whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    bare = _without_bead_hole(whole, mm) - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    plain = bare.UnifySameDomain()
     housing = plain
     for gap in (PAD_GAP, *OTHER_GAPS):
         housing = _with_gaps(plain, pads, gap)
         if min(float(edge.mass) for edge in housing.edges) > SLIVER:
             break
+    return housing
+
+
+def _without_bead_hole(housing: Any, mm: dict[str, float]) -> Any:
+    """Return housing whose floor has no hole for a thermistor, which grazes the corner of a vane's sill."""
+    wide, floor = mm.get("thermistor_seat_diameter", 0.0), -mm["floor_thickness"]
+    for low, high in (face.bounding_box for face in housing.faces) if wide else ():
+        if abs(high.x - low.x - wide) < 1e-3 and abs(high.y - low.y - wide) < 1e-3 and abs(low.z - floor) < 1e-3:
+            middle, radius = Pnt(0.5 * (low.x + high.x), 0.5 * (low.y + high.y), floor), 0.5 * wide
+            sill = Cylinder(Pnt(middle.x, middle.y, 0.0), Dir(0, 0, 1), r=radius + BEAD_ROOM, h=high.z + 1.0)
+            return (housing - sill) + Cylinder(middle, Dir(0, 0, 1), r=radius, h=-floor)
     return housing
 
 

@@ -28,7 +28,7 @@ from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import peltier, shape_factors
+from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
 
 CUT = "flexible"
 WITH_TILES = (Feature("heater_form", CUT),)
@@ -129,26 +129,21 @@ def heater_coverage(m: Module) -> Scalar:
 
 
 @flows.helper()
-def pad_contact(m: Module) -> Scalar:
-    """Conductance from the modules' hot side to the layer [W/m^2 K]: contact, and the spreader where there is one."""
+def layer_contact(m: Module) -> Scalar:
+    """Conductance of what heats the layer with it [W/m^2 K]: of pads, or of a spreader from the middle of its depth."""
     if m.heater_form == CUT:
         return m.hot_contact
-    through = peltier.spreader_contact_resistance(
-        m.hot_contact, m.spreader_conductivity, m.spreader_thickness, m.heater_coverage, m.spreader_contact
-    )
-    return 1.0 / (through + m.spreader_resistance)
+    return 1.0 / (1.0 / m.hot_contact + 0.5 * m.spreader_thickness / m.spreader_conductivity)
 
 
 @flows.helper()
-def to_spreader(m: Module) -> Scalar:
-    """Part of that between the modules' hot side and the mean of the spreader [m^2 K/W]; zero without one."""
-    return 0.0 if m.heater_form == CUT else 1.0 / (m.heater_coverage * m.spreader_contact) + m.spreader_resistance
-
-
-@flows.helper(requires=WITH_TILES)
-def spreader_capacity(m: Module) -> Scalar:
-    """Heat capacity of all spreaders [J/K], counted at the modules' hot side; zero without."""
-    return m.spreader_mass * m.spreader_specific_heat
+def spreader(m: Module) -> lumps.Lump | None:
+    """All spreaders as a body behind the modules' hot sides; none on pads that are cut."""
+    if m.heater_form == CUT:
+        return None
+    through = 1.0 / (m.heater_coverage * m.spreader_contact) + 0.5 * m.spreader_thickness / m.spreader_conductivity
+    conductance = m.pcl_area / (through + m.spreader_resistance)
+    return lumps.Lump(conductance, m.spreader_mass * m.spreader_specific_heat, lumps.NOWHERE)
 
 
 gaps = QuantityGroup("Gaps", WITH_TILES)

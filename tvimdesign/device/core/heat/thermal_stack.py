@@ -4,11 +4,10 @@ Each mode defines what the heat passes: `pcl_area` and `pcl_depth`, the plate be
 `plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`, `core_share`), the pads' open
 `cold_area` and the way along them to a sink there (`cold_to_sink`); the bodies around the pads (`around_pads`), what
 passes heat to, from and between them (`floor_links`, `stack_links`, `side_links`, `loss_links`, and a `lip` of the
-plate), and how the plate loses heat in the end
-(`plate_losses`); what of the layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes
-from them to the layer (`pad_contact`, of which `to_spreader` lies before a spreader), and what is heated on the way
-(`spreader_capacity`); and by `layer_temperatures`, `column_shares` and `moment_now` what a partly molten layer is to
-the joint. `heater_form.py` has the layer that its own current heats.
+plate), and how the plate loses heat in the end (`plate_losses`); what of the layer's area the pads have
+(`heated_area`), in how many `heater_strings`, and what spreads their heat (`spreader_resistance`); and by
+`layer_temperatures`, `column_shares` and `moment_now` what a partly molten layer is to the joint. `heater_form.py` has
+the spreader, and the layer that its own current heats.
 
 The joint's own motion makes heat in the PCL. It is a sine at the frequency of an operating point, by the torque that
 turns the hot joint by its stroke: a joint that is still stiff turns less, and heats next to nothing. The damping is
@@ -108,11 +107,12 @@ def stack(m: Module) -> heat.Stack:
         melting=m.pcl_melting,
         peltier=m.pads,
         cold_capacity=side,
-        hot_capacity=side + m.spreader_capacity,
+        hot_capacity=side,
         legs_capacity=legs,
         # The pads' cold sides meet the air in the windows; the ledges are plastic.
         cold_surface=lumps.Surface(m.cold_area, m.cold_side_coefficient, m.surface_emissivity),
-        hot_contact=m.pad_contact,
+        hot_contact=m.layer_contact,
+        spreader=m.spreader,
         plate_contact=m.rotor_contact,
         liner=m.liner_sheet,
         plate_thickness=m.backing_depth,
@@ -127,7 +127,6 @@ def stack(m: Module) -> heat.Stack:
         around=m.around_pads,
         links=(*m.floor_links, *m.stack_links, *m.side_links, *m.loss_links),
         lip=m.lip,
-        to_spreader=m.to_spreader / m.pcl_area,
         layer_resistance=m.layer_resistance,
     )
 

@@ -1,0 +1,82 @@
+"""FE of random modules, which nobody optimized and no figure of the product was fitted to; writes fresh.csv.
+
+    PYTHONPATH=benchmarks python validation/fe_structure/fresh.py --fe-python FE/bin/python [--work FOLDER] [STUDY ...]
+
+draws designs that keep all rules within the ranges of studies, seeded, exports their parts, and solves joint and link
+on elements 1.6 times as large as those of run.py. Studies of another command may run at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from models import study_file
+from random_designs import FRESH, FRESH_SEED, Draws, Tally
+from run import alone, solved_by
+
+from tvimdesign.cad.fe import model_comparison as comparison
+from tvimdesign.cad.fe.run_solvers import export_parts
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.study import given, read_study
+
+RESULTS = Path(__file__).with_name("fresh.csv")
+HEADER = ("study", "draw", "quantity", "model", "fe", "ratio")
+COARSER = 1.6
+AT_POINTS = ("storage_modulus@cold", "pcl_stiffness@cold", "spring_stiffness", "moving_inertia", "rotor_inertia")
+"""What FE needs beside the quantities that follow from the inputs alone."""
+NAMES = ("hub", "link", "core", "plate", "floor", "rotor_vanes_and_plate", "housing_vanes_and_floor", "core_stress",
+         "plate_stress", "edge_traction", "seat_traction")  # fmt: skip
+
+
+def rows_of(study: str, work: Path, fe_python: Path) -> Iterator[list[str]]:
+    """Solve the random designs of a study; a design without a mesh gives a row without values."""
+    read = read_study(study_file(study))
+    for place, design in enumerate(Draws(read, FRESH_SEED).keeping_rules(FRESH[study], Tally())):
+        varied = {name: design.values[name] for name in read.vary if name in design.values}
+        module = ResolvedModule(read, {**given(read), **varied})
+        design.values.update({k: float(v) for k, v in module.table.evaluate(module.values, AT_POINTS).items()})
+        folder = work / f"{study}_{place}"
+        if not (folder / "inputs.json").exists():
+            export_parts(design, folder)
+        try:
+            joint, link = (
+                solved_by(name, folder, folder / f"{name}_fe.json", fe_python, "--coarser", COARSER)
+                for name in ("joint", "link")
+            )
+        except (subprocess.SubprocessError, ValueError) as trouble:
+            print(f"{study} {place}: {trouble}", file=sys.stderr, flush=True)
+            yield [study, str(place), "no mesh", "", "", ""]
+            continue
+        model, fe = comparison.model_values(module), {**comparison.joint_rows(joint), "link": link["link"]}
+        for name in NAMES:
+            if name in fe and name in model:
+                ratio = model[name] / fe[name]
+                yield [study, str(place), name, f"{model[name]:.4g}", f"{fe[name]:.4g}", f"{ratio:.3f}"]
+
+
+def main() -> None:
+    """Solve the designs of the studies named, and put their rows in place of those that stood in fresh.csv."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("studies", nargs="*", metavar="STUDY", default=list(FRESH))
+    parser.add_argument("--fe-python", type=Path, default=Path(sys.executable))
+    parser.add_argument("--work", type=Path, default=Path("fe_work"))
+    requested = parser.parse_args()
+    for study in requested.studies:
+        fresh = []
+        for row in rows_of(study, requested.work.resolve(), requested.fe_python):
+            print(*row, flush=True)
+            fresh.append(row)
+        with alone():
+            rows = list(csv.reader(RESULTS.open(newline="")))[1:] if RESULTS.exists() else []
+            with RESULTS.open("w", newline="") as file:
+                others = [row for row in rows if row[0] != study]
+                csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*others, *fresh])])
+
+
+if __name__ == "__main__":
+    main()
