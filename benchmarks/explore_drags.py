@@ -25,8 +25,8 @@ from aiohttp import ClientSession, ClientWebSocketResponse
 from aiohttp.test_utils import TestServer
 
 from tvimdesign.base.units import from_si
+from tvimdesign.explore.engine import value_names
 from tvimdesign.explore.server import Server
-from tvimdesign.explore.shown import value_names
 from tvimdesign.explore.state import State, tree_of
 from tvimdesign.solve.result import answer
 from tvimdesign.study import Range, Study, given, read_tree

@@ -11,7 +11,7 @@ from scipy.optimize import differential_evolution, minimize
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.device import Event, Input, Path, Steady, Table
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import Study
 from tvimdesign.study.study import Options, Range

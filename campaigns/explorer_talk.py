@@ -13,8 +13,8 @@ from typing import Any
 import aiohttp
 
 from tvimdesign.base.errors import TvimError
-from tvimdesign.explore.history import open_history
 from tvimdesign.explore.source import open_source
+from tvimdesign.explore.state import open_history
 
 Changes = dict[str, str]
 """Values of the module under the hand, by name."""

@@ -31,8 +31,7 @@ from ended_commands import COMMANDS, FIRST, GOES_ON, NEEDS_FE, ROOT, SERVES
 from tvimdesign.base.atomic_files import UNFINISHED
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.results_folder import PROGRESS, ResultsFolder
-from tvimdesign.explore.history import FILE, open_history, write_history, written_digest
-from tvimdesign.explore.state import State
+from tvimdesign.explore.state import FILE, State, open_history, write_history, written_digest
 
 QUICK = ("fit", "simulate")
 """Commands of about a second, which run whole in the `--real` folders."""

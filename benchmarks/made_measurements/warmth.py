@@ -13,7 +13,7 @@ from tvimdesign.simulation.measurement.kinds import dsc, pad
 from tvimdesign.simulation.measurement.kinds.dsc import Run
 from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule
 from tvimdesign.simulation.measurement.measure_files import kind_sheet
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.study import read_study
 
 STUDY = Path(__file__).parents[2] / "studies" / "paper_reconstructed.yaml"

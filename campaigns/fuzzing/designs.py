@@ -12,7 +12,7 @@ from fuzzing.kind import ROOT, Drawn, Kind
 from fuzzing.mutations import encoded, mutated_data, mutated_text, paths
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.study.design import read_design
 from tvimdesign.study.written_studies import result_text
 

@@ -18,9 +18,9 @@ from fuzzing.kind import ROOT, Drawn, Kind
 from fuzzing.mutations import ODD, mutated_text
 from tvimdesign.explore import session as explored
 from tvimdesign.explore.engine import Engine
-from tvimdesign.explore.history import History
 from tvimdesign.explore.session import Session
 from tvimdesign.explore.source import Source, open_source
+from tvimdesign.explore.state import History
 from tvimdesign.explore.worker_process import Job
 
 STUDY = ROOT / "campaigns/small.yaml"

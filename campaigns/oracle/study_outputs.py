@@ -18,7 +18,7 @@ from oracle.compare import Renames, Value
 from oracle.frozen_files import FOLDER, read_frozen
 from tvimdesign.base.units import si_unit
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 
 CODE = Path(tvimdesign.__file__).parents[1]
 """The tree under test: its studies are read, whichever tree this script is in."""

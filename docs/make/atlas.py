@@ -19,7 +19,7 @@ from tvimdesign.base.units import parse_quantity
 from tvimdesign.report.atlas.atlas_page import ending_limits, figure_data, front_of, rows_of
 from tvimdesign.report.figures import theme
 from tvimdesign.report.figures.analysis_figures import atlas
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, MASS, TORQUE
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel

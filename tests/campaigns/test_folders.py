@@ -24,8 +24,8 @@ from fuzzing.kind import Drawn, Kind
 from kills import Try
 
 from tvimdesign.base import atomic_files, manifest
-from tvimdesign.explore.history import open_history, write_history, written_digest
 from tvimdesign.explore.source import open_source
+from tvimdesign.explore.state import open_history, write_history, written_digest
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study_text
 

@@ -8,9 +8,8 @@ from device_values import inputs_of
 from support import tight
 
 from tvimdesign.device import Supplied, Table, table_for
-from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 POINTS = ("cold", "hot")
 

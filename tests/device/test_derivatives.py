@@ -8,10 +8,9 @@ from event_derivatives import differences, found_by_engine, shown_by_cvodes
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table, table_for
-from tvimdesign.simulation.working_cycle.cycle_engine import Supplied
+from tvimdesign.simulation.working_cycle.cycle import Cycle, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]
 # Not the depth of a hub that has none: it has no share of itself by which it could be changed.

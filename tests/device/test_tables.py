@@ -17,8 +17,8 @@ from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Supplied, Table, table_for
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.device.table.quantity_group import _all_inputs
+from tvimdesign.simulation.working_cycle.cycle import Cycle
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
 from tvimdesign.study import given, read_study_text
 

@@ -16,10 +16,10 @@ from aiohttp.test_utils import TestServer
 from explored import SMALL, TOKEN, awaited, served, small_study, talking
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.history import FILE, open_history, write_history
 from tvimdesign.explore.messages import read_message
 from tvimdesign.explore.server import HOST, Server, serve
 from tvimdesign.explore.source import open_source
+from tvimdesign.explore.state import FILE, open_history, write_history
 from tvimdesign.study import Range, read_study
 from tvimdesign.study.text.mistakes import StudyError
 

@@ -9,10 +9,10 @@ import numpy as np
 from scipy.optimize import brentq, root
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.cycle import Array, Cycle, Trajectory
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
-from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle, Trajectory
 
 FIRST_STRETCH = 120.0  # s; each after it is twice as long
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from support import fine
 
-from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
+from tvimdesign.simulation.working_cycle.cycle import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Grid
 

@@ -5,7 +5,7 @@ from functools import cache
 from support import study_path
 
 from tvimdesign.robot.joint_model import JointModel, RigidBody, joint_model
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 
 STUDY = {"shear": "paper_reconstructed", "compression": "paper_compression"}

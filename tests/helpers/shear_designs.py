@@ -8,8 +8,8 @@ import pytest
 from support import fine, tight
 
 from tvimdesign.device import table_for
+from tvimdesign.simulation.working_cycle.cycle import Cycle
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.study import given, read_study_text
 
 Build = Callable[..., DeviceFunctions]

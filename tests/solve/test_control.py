@@ -12,10 +12,10 @@ from support import study_path
 from tvimdesign.report.output.tables import control_entry
 from tvimdesign.report.run.blocks.facts import main_facts
 from tvimdesign.robot.fmu_file import write_fmu
-from tvimdesign.simulation.control.closed_loop import ControlledModule, Lags
+from tvimdesign.simulation.control.controller import ControlledModule, Lags
 from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
 from tvimdesign.solve.control import LATE, OVERSHOOT, SHARE, WATCHED, control_of, drawn_modules
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study

@@ -15,9 +15,9 @@ from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
 from tvimdesign.report.run.blocks.facts import more_facts
 from tvimdesign.report.run.blocks.verdict import verdict
-from tvimdesign.report.run.check_study import foreseen_ratings
 from tvimdesign.report.run.front_report import of_ratings, said_of_ratings
 from tvimdesign.report.run.reasons import above_rating
+from tvimdesign.report.run.run_study import foreseen_ratings
 from tvimdesign.solve.pareto.tradeoff import Point
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text

@@ -9,7 +9,7 @@ from support import study_path
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.report.rows import print_rows
-from tvimdesign.report.run.check_study import describe
+from tvimdesign.report.run.run_study import describe
 from tvimdesign.solve.result import answer
 from tvimdesign.study import Study, given, read_study, read_study_text
 from tvimdesign.study.resolve import record_checks

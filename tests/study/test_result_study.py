@@ -8,7 +8,7 @@ from cad_designs import shipped_design
 from comparable import COMPRESSION, SHEAR, entrants
 from support import ROOT, Command, refused
 
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.result import answer
 from tvimdesign.study import Study, StudyError, read_study_text
 from tvimdesign.study.conditions import refuse_unequal

@@ -25,7 +25,7 @@ from fe_drawings import DRAWINGS, SHEET, Drawing, graded
 from outside_judge import CASES, PADS, case_of
 from warm_joint import WarmJoint
 
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 
 with (ROOT / "validation/heat_sector/outside_judge.csv").open(newline="", encoding="utf-8") as file:
     ROWS = list(csv.DictReader(file))

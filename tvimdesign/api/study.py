@@ -207,7 +207,7 @@ class Study:
         Raises StudyError for every mistake, InputError for a module that cannot be, InfeasibleError for limits that
         bounds prove impossible.
         """
-        from tvimdesign.report.run.check_study import foreseen_ratings
+        from tvimdesign.report.run.run_study import foreseen_ratings
         from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
         from tvimdesign.study.resolve import record_checks
 

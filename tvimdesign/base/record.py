@@ -1,11 +1,32 @@
-"""Records: values and tables in SI, each with source and status."""
+"""Records: values and tables in SI, each with source and status.
+
+Reads this package's own YAML, by the C library where there is one: a tenth of the time.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
 from typing import Any
 
+import yaml
+
 from tvimdesign.base.errors import CatalogError
+
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+def plain_data(text: str) -> Any:
+    """Return the mappings, lists, texts and numbers of a text."""
+    return yaml.load(text, Loader=_LOADER)
+
+
+@cache
+def own_data(module: str, name: str) -> Any:
+    """Return the content of the data file of a name beside a module's file, read once. Nobody may change it."""
+    return plain_data(Path(module).with_name(name).read_text(encoding="utf-8"))
+
 
 STATUSES = ("measured", "datasheet", "handbook", "calibrated", "assumed")
 

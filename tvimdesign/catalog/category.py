@@ -9,8 +9,7 @@ from math import prod
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tvimdesign.base.record import Entry, Record, RecordTable
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.record import Entry, Record, RecordTable, plain_data
 
 AGREEMENT = 0.1
 """Share by which a value may differ from what a table of the same record comes to: fits of one melt are no closer."""

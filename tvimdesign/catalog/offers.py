@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, NamedTuple
 
-from tvimdesign.base.record import Entry
+from tvimdesign.base.record import Entry, own_data
 from tvimdesign.base.units import parse_quantity
-from tvimdesign.base.yaml_data import own_data
 
 QUOTE = "quote"
 """Price of what no dated list was read for."""

@@ -89,7 +89,7 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
 @app.command()
 def check(study: options.StudyFile, settings: options.Settings = None, json: options.AsJson = False) -> None:
     """Check a study: every mistake, and limits that conflict."""
-    from tvimdesign.report.run.check_study import check_study
+    from tvimdesign.report.run.run_study import check_study
 
     check_study(study, settings or (), as_json=json)
 

@@ -19,9 +19,8 @@ from tvimdesign.base.interrupts import interrupt_came, interrupt_handler, raise_
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import table_for
 from tvimdesign.explore.engine import Answer, Engine, refused
-from tvimdesign.explore.history import PARTS
 from tvimdesign.explore.source import open_source
-from tvimdesign.explore.state import State
+from tvimdesign.explore.state import PARTS, State
 from tvimdesign.page.page_file import page_fragment
 from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.run.answered_study import AnsweredStudy

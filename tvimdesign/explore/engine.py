@@ -1,6 +1,10 @@
-"""Answers for a page: quick ones while something is dragged, exact ones when it is let go."""
+"""Answers for a page: quick ones while something is dragged, exact ones when it is let go.
 
-from collections.abc import Callable, Mapping, Sequence
+Data of a module for a page: limits with their state, variables at their ends, and every value.
+"""
+
+import math
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
@@ -9,24 +13,117 @@ import numpy as np
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si
+from tvimdesign.device import Table
 from tvimdesign.explore.quick_model import Evaluated, QuickModel
-from tvimdesign.explore.shown import Shown, shown_design
 from tvimdesign.explore.state import State, set_values, text_of, tree_of
-from tvimdesign.report.output.numbers import all_finite
+from tvimdesign.report.output.numbers import all_finite, in_labels, label, with_unit
+from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study, note_uncertainty
 from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.run.uncertainty_data import Uncertainty
-from tvimdesign.solve.nlp.constraints import impossible, refuse_contradictory, refuse_impossible
+from tvimdesign.solve.nlp.constraints import (
+    Constraint,
+    constraints_of,
+    impossible,
+    in_words,
+    refuse_contradictory,
+    refuse_impossible,
+)
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.parametric_optimizer import Moved, ParametricOptimizer
 from tvimdesign.solve.optimizer.refinements import put_at_bounds
-from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
+from tvimdesign.solve.optimizer.verify_optimum import exceeded, kept, verify_optimum
+from tvimdesign.solve.result import ConstraintCheck
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Options, Range, Study, given, read_tree
 from tvimdesign.study.tree import StudyTree
+
+_ROUNDING = 1e-6
+"""Margin that is what a solver leaves of zero."""
+Shown = dict[str, Any]
+"""Plain data, as JSON has it."""
+
+
+def shown_design(
+    study: Study, free: Study, known: Mapping[str, Any], values: Mapping[str, float], active: Collection[str] = (),
+    ends: Mapping[str, str] | None = None,
+) -> Shown:  # fmt: skip
+    """Return a module's values (SI, by full name) for the page; `free` is the study with its variables.
+
+    `known` is what the study gives, `active` are the active limits, `ends` variables at an end of their range.
+    """
+    table = study.table
+    return {
+        "values": [_finite(from_si(values[name], table.unit(name))) for name in value_names(free)],
+        "limits": limits_shown(study, known, values, active),
+        "warnings": ratings_shown(study, values),
+        "variables": {
+            name: {"value": _finite(from_si(values[name], table.unit(name))), "end": (ends or {}).get(name, "")}
+            for name in free.vary if name in values
+        },
+    }  # fmt: skip
+
+
+def value_names(study: Study) -> list[str]:
+    """Return the outputs whose values are shown, in the table's order."""
+    seen = {row.name for row in study.table.first_oscillations}
+    return [name for name in study.table.names(study.operating_points) if name.partition("@")[0] not in seen]
+
+
+def limits_shown(
+    study: Study, known: Mapping[str, Any], values: Mapping[str, float], active: Collection[str]
+) -> list[Shown]:
+    """Return every requirement and the active or violated rules, violated ones first.
+
+    Of the limits that one requirement puts on several outputs, and that are met, the closest is shown.
+    """
+    stand = [
+        (limit, _stands(limit, values[limit.output], study.table, limit.name in active))
+        for limit in constraints_of(study, study.table, known)
+    ]
+    order = ("violated", "active", "met")
+    stand.sort(key=lambda pair: (order.index(pair[1]), -float(pair[0].residual(values[pair[0].output]))))
+    limits = [
+        _limit(limit, values[limit.output], study.table, stands) for limit, stands in stand
+        if limit.origin == "require" or stands != "met"
+    ]  # fmt: skip
+    first = {(row["of"], row["sense"]): row for row in reversed(limits)}
+    return [row for row in limits if row["stands"] != "met" or first[row["of"], row["sense"]] is row]
+
+
+def _stands(limit: Constraint, value: float, table: Table, presses: bool) -> str:
+    if not kept(limit, value, table):
+        return "violated"
+    return "active" if presses or -float(limit.residual(value)) <= NOTHING else "met"
+
+
+def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
+    margin = -float(limit.residual(value))
+    check = ConstraintCheck(
+        text=in_words(limit, table), output=limit.output, value=value, margin=margin, scale=limit.scale,
+        absolute=limit.absolute, kept=stands != "violated", worst=margin, origin=limit.origin, part_of=limit.part_of,
+    )  # fmt: skip
+    unit = table.unit(limit.output)
+    got = value if abs(margin) > _ROUNDING else limit.limit
+    return {"name": limit.name, "label": label(limit.part_of or limit.output), "of": limit.part_of or limit.output,
+            "sense": limit.sense, "text": in_labels(check.text),
+            "got": with_unit(got, unit),
+            "margin": margin_text(check, table), "stands": stands, "origin": limit.origin}  # fmt: skip
+
+
+def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
+    """Ratings that the module is beyond."""
+    texts = [(in_labels(in_words(limit, study.table)), limit.output) for limit in exceeded(values, study.table)]
+    return [{"text": text, "label": label(name), "accepted": name in study.accept} for text, name in texts]
+
+
+def _finite(value: float) -> float | None:
+    """Return a number for JSON; None for infinity, the time of what never happens."""
+    return float(f"{value:.7g}") if math.isfinite(value) else None
+
 
 Stage: TypeAlias = Literal["quick", "exact", "confirmed", "report"]
 """While something is dragged; when it is let go; from every start, as `run` does; what was exact last, once more."""

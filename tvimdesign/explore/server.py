@@ -20,10 +20,10 @@ from aiohttp.http_exceptions import HttpProcessingError
 
 import tvimdesign.page
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.history import PARTS, open_history
 from tvimdesign.explore.messages import MOST_BYTES
 from tvimdesign.explore.session import Session
 from tvimdesign.explore.source import open_source
+from tvimdesign.explore.state import PARTS, open_history
 from tvimdesign.report.output.terminal import wide_console
 
 STATIC = {"page": Path(str(resources.files(tvimdesign.page))) / "static", "explore": Path(__file__).parent / "static"}

@@ -14,12 +14,23 @@ from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import pretty
 from tvimdesign.explore import messages
-from tvimdesign.explore.engine import Stage
-from tvimdesign.explore.history import PARTS, History, open_history, write_history, written_digest
+from tvimdesign.explore.engine import Stage, value_names
 from tvimdesign.explore.messages import Change, Message
-from tvimdesign.explore.shown import value_names
 from tvimdesign.explore.source import Source, open_source
-from tvimdesign.explore.state import Pinned, State, changed, controls_shown, saved_text, sized_state, tree_of
+from tvimdesign.explore.state import (
+    PARTS,
+    History,
+    Pinned,
+    State,
+    changed,
+    controls_shown,
+    open_history,
+    saved_text,
+    sized_state,
+    tree_of,
+    write_history,
+    written_digest,
+)
 from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run.parts_of_design import in_short, make_parts_of

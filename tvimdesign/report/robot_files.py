@@ -16,7 +16,7 @@ from tvimdesign.robot.joint_model import JointModel, joint_model, make_bodies, r
 from tvimdesign.robot.model_files import mjcf, ros2_control, sdf, urdf
 from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.curves import impedance_sweep
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design, write_design
 
 Columns = dict[str, list[float]]

@@ -14,7 +14,7 @@ from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, PlottedLine, Trial
 from tvimdesign.simulation.virtual_tests import find_test
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import read_design
 from tvimdesign.study.tree import study_file, tree_of_file

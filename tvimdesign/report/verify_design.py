@@ -17,7 +17,7 @@ from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import csv_text, finite, head, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import Progress
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design
 
 DATA = "verify.json"

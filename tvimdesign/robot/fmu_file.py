@@ -29,7 +29,7 @@ from tvimdesign.robot.joint_equations import (
 )
 from tvimdesign.simulation.control.controller import Controller
 from tvimdesign.simulation.control.sizing import controller_of
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 COMPILERS = ("cc", "gcc", "clang")
 FLAGS = ("-std=c99", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-w")

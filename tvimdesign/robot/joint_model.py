@@ -22,7 +22,7 @@ from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.joint_tests.case import Case, cases
 from tvimdesign.simulation.joint_tests.release import ANGLE
 from tvimdesign.simulation.link_motion.sampled_motion import RIGID, in_series
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 STEP_SHARE = 0.02
 """The time step times the joint's quickest angular frequency: first-order steps keep a release within 0.6 % then."""

@@ -11,7 +11,7 @@ from tvimdesign.base.errors import InputError
 
 if TYPE_CHECKING:  # the command line lists the tests, and must not load numpy for that
     from tvimdesign.simulation.trial import Trial
-    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+    from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 
 class VirtualTest(NamedTuple):

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.simulation.control.closed_loop import ControlledModule, Lags
-from tvimdesign.simulation.control.controller import Controller
+from tvimdesign.simulation.control.controller import ControlledModule, Controller, Lags
 from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, unmeasured_inputs
 

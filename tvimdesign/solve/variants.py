@@ -12,8 +12,7 @@ from tvimdesign.device import Choice
 from tvimdesign.device.table.quantity import STIFFENING
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
 from tvimdesign.solve.nlp.constraints import on_cycle
 
 _SAME, _SAME_CYCLE = 1e-6, 2e-3

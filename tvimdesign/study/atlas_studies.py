@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.record import plain_data
 from tvimdesign.base.units import parse_quantity
-from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.study.reader import read_tree
 from tvimdesign.study.sizing import JointTask, diameters, study_text
 from tvimdesign.study.study import Study

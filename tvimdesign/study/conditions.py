@@ -17,8 +17,7 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Choice, Input
 from tvimdesign.study.resolve import given
 from tvimdesign.study.study import Range, Requirement, Robust, Study, Vary
-from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError
-from tvimdesign.study.text.source import printable, read_text
+from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, printable, read_text
 from tvimdesign.study.text.values import ROUNDING
 from tvimdesign.study.text.yaml_text import Mapping, compose
 

@@ -22,8 +22,7 @@ from tvimdesign.device import MODES, Choice, Input, Table, table_for
 from tvimdesign.study.reader import read_tree
 from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.study import Study
-from tvimdesign.study.text.mistakes import At, Mistakes, StudyError, quoted, step
-from tvimdesign.study.text.source import is_folder, ordinary_bytes, printable
+from tvimdesign.study.text.mistakes import At, Mistakes, StudyError, is_folder, ordinary_bytes, printable, quoted, step
 from tvimdesign.study.text.values import below, limits
 from tvimdesign.study.text.yaml_text import LOADER
 from tvimdesign.study.tree import tree_of_values

@@ -11,10 +11,9 @@ from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.study.resolve import with_fitting_defaults
 from tvimdesign.study.sections.all_sections import NAMES, SECTIONS
 from tvimdesign.study.sections.goals import is_simulated
-from tvimdesign.study.sections.sweep_block import SweepBlock
+from tvimdesign.study.sections.sweeps import SweepBlock
 from tvimdesign.study.study import Study
-from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted
-from tvimdesign.study.text.source import is_folder
+from tvimdesign.study.text.mistakes import Mistakes, is_folder, one_of, quoted
 from tvimdesign.study.text.values import Reading, text, unknown_keys
 from tvimdesign.study.text.yaml_text import Node, Text
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_text

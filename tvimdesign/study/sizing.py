@@ -8,8 +8,8 @@ from importlib.resources import files
 from typing import Any, Self
 
 from tvimdesign.base.errors import InputError, UnitError
+from tvimdesign.base.record import plain_data
 from tvimdesign.base.units import format_quantity, from_si, parse_quantity
-from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, table_for
 from tvimdesign.study.written_studies import SCHEMA_FILE

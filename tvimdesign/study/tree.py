@@ -12,8 +12,18 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.study.sections.all_sections import NAMES
-from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, quoted, step
-from tvimdesign.study.text.source import CONTROL, check_characters, printable, read_text
+from tvimdesign.study.text.mistakes import (
+    CONTROL,
+    At,
+    Mistake,
+    Mistakes,
+    StudyError,
+    check_characters,
+    printable,
+    quoted,
+    read_text,
+    step,
+)
 from tvimdesign.study.text.values import misfit
 from tvimdesign.study.text.yaml_text import DEEPEST, Broken, Mapping, Node, Sequence, Text, compose, yaml_of
 

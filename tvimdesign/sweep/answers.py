@@ -7,8 +7,7 @@ from typing import Any
 from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError, TvimError
 from tvimdesign.device import Choice
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import given_profiles
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, given_profiles
 from tvimdesign.solve.anchored_search import AnchoredSearch
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, refuse_impossible
 from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL

@@ -24,7 +24,7 @@ from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.environment import ask_for_one_thread
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.processes import end_process_tree
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.pareto.tradeoff import ONE_POINT
 from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, HOT, MASS, TORQUE, UNANSWERED, MapCell, map_of

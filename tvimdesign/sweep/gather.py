@@ -10,7 +10,7 @@ from typing import NamedTuple
 from tvimdesign.base.atomic_files import TABLE_ENCODING, whole_file
 from tvimdesign.base.errors import OutputError
 from tvimdesign.base.units import from_si
-from tvimdesign.study.sections.sweep_block import SweptAxis
+from tvimdesign.study.sections.sweeps import SweptAxis
 from tvimdesign.sweep.plan import SweepPlan, is_words, rounded, senses
 from tvimdesign.sweep.shards import Shards, StoredCell
 

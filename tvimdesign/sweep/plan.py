@@ -14,7 +14,7 @@ from tvimdesign.base.units import from_si, parse_quantity
 from tvimdesign.device import Choice
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.reader import read_swept
-from tvimdesign.study.sections.sweep_block import EVERY_OUTPUT, SweepBlock, SweptAxis, SweptRange
+from tvimdesign.study.sections.sweeps import EVERY_OUTPUT, SweepBlock, SweptAxis, SweptRange
 from tvimdesign.study.text.mistakes import StudyError
 from tvimdesign.study.text.yaml_text import Node, Text
 from tvimdesign.study.tree import StudyTree, with_value, without_section

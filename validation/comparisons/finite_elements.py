@@ -13,7 +13,7 @@ import yaml
 from fe_structure.models import DESIGN, designed, model_values
 
 from tvimdesign.physics.solids import structure
-from tvimdesign.physics.springs import drawn_spring, spring
+from tvimdesign.physics.springs import spring
 
 Values = Mapping[str, Any]
 VALIDATION = Path(__file__).resolve().parents[1]
@@ -30,18 +30,18 @@ def springs(_: Values) -> Values:
     results: dict[str, list[float]] = {"rate": [], "fibre": [], "bend": [], "coil": []}
     for case in stored["springs"].values():
         wire, coil, pitch, arm = (1e-3 * case[name] for name in ("wire_diameter", "coil_diameter", "pitch", "arm"))
-        shape = drawn_spring.DrawnSpring(
+        shape = spring.DrawnSpring(
             wire, coil, 2.0 * np.pi * case["turns"], pitch, arm, (case["bend_ratio"] + 0.5) * wire
         )
-        coils = drawn_spring.active_coils(shape, stored["poissons_ratio"])
+        coils = spring.drawn_coils(shape, stored["poissons_ratio"])
         straight = spring.bending_stress(1.0, wire, 1.0) * 1e-6
         factor = spring.inner_fibre_factor(coil / wire)
         results["rate"].append(spring.rate(case["modulus"] * 1e9, wire, coil, coils))
         results["fibre"].append(straight * factor * (1.0 + 0.5 * coil / arm))
         if case["bend_ratio"] >= 1.0:
-            results["bend"].append(straight * drawn_spring.bend_stress_factor(shape))
+            results["bend"].append(straight * spring.bend_stress_factor(shape))
         if "coil" in case:
-            results["coil"].append(straight * drawn_spring.coil_stress_factor(shape, factor))
+            results["coil"].append(straight * spring.coil_stress_factor(shape, factor))
     return results
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from comparisons.numbers import si
-from tvimdesign.cad.drawing.iso_286 import limit_deviations, standard_tolerance
+from tvimdesign.cad.drawing.drawing_requirements import limit_deviations, standard_tolerance
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.motions import contacts
 from tvimdesign.physics.solids import fasteners, structure

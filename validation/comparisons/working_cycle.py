@@ -10,7 +10,7 @@ from fe_structure.models import study_file
 
 from tvimdesign.report.paper.paper_case import published_model, published_values
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.study import read_study
 
 Values = Mapping[str, Any]

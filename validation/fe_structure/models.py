@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from tvimdesign.cad.fe import model_comparison as comparison
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.study import given, read_study
 
 ROOT = Path(__file__).resolve().parents[2]

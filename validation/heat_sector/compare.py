@@ -26,8 +26,7 @@ from warm_joint import WarmJoint
 
 from tvimdesign.device.core.impedance.warm_structure import PartTemperatures
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, resolve_design
 from tvimdesign.study import given, read_study
 from tvimdesign.study.design import read_design
 

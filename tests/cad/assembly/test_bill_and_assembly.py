@@ -19,8 +19,7 @@ import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, WRIST, design_of, given
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.base.record import Record
-from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.base.record import Record, plain_data
 from tvimdesign.cad.assembly.assembly import MODULES, build, drawn_parts, place
 from tvimdesign.cad.assembly.assembly_note import (
     WrittenStep,

@@ -17,10 +17,9 @@ from test_drawings import no_text_lies_on_another, sheet_of, texts
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
+from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements, limit_deviations, standard_tolerance
 from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet
 from tvimdesign.cad.drawing.drawings import part_sheet
-from tvimdesign.cad.drawing.iso_286 import limit_deviations, standard_tolerance
 from tvimdesign.cad.drawing.spring_sheet import spring_lines, spring_sheet
 from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.dimensions import dimensions

@@ -16,7 +16,7 @@ from plate_copies import copies_on_a_plate
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.export import mesh as meshing
-from tvimdesign.cad.export import print_bed, print_files
+from tvimdesign.cad.export import print_files
 from tvimdesign.cad.export.mesh import CHORD, Mesh, face_meshes, solid_mesh
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import dimensions
@@ -250,7 +250,7 @@ def test_a_face_left_out_is_meshed_at_a_finer_chord(
 @pytest.mark.parametrize("seed", range(8))
 def test_parts_on_a_bed_lie_apart_and_within_it(seed: int) -> None:
     draw = np.random.default_rng(seed)
-    bed, gap = (220.0, 180.0), print_bed.GAP
+    bed, gap = (220.0, 180.0), print_files.GAP
     discs = [(float(radius), 0.0) for radius in draw.uniform(2.0, 80.0, draw.integers(1, 9))]
     bars = [(3.0, float(length)) for length in draw.uniform(5.0, 200.0, draw.integers(1, 9))]
     around = np.linspace(0.0, tau, 60, endpoint=False)
@@ -258,7 +258,7 @@ def test_parts_on_a_bed_lie_apart_and_within_it(seed: int) -> None:
         np.stack((radius * np.cos(around), radius * np.sin(around) + half * np.sign(np.sin(around))), axis=1)
         for radius, length in (*discs, *bars) for half in (0.5 * length,)
     ]  # fmt: skip
-    spots = print_bed.lay_out([*outlines, 120.0 * outlines[0] / discs[0][0]], bed)
+    spots = print_files.lay_out([*outlines, 120.0 * outlines[0] / discs[0][0]], bed)
     assert spots[-1] is None  # larger than the bed
     placed = []
     for spot, (radius, length) in zip(spots, (*discs, *bars), strict=False):
@@ -279,7 +279,7 @@ def test_parts_on_a_bed_lie_apart_and_within_it(seed: int) -> None:
 def test_round_parts_fill_the_corners_of_one_bed() -> None:
     around = np.linspace(0.0, tau, 90, endpoint=False)
     discs = [radius * np.stack((np.cos(around), np.sin(around)), axis=1) for radius in (75.0, 41.0)]
-    spots = print_bed.lay_out(discs, (220.0, 220.0))
+    spots = print_files.lay_out(discs, (220.0, 220.0))
     assert [spot and spot.bed for spot in spots] == [0, 0]
 
 
@@ -290,8 +290,8 @@ def test_a_plate_has_every_copy_in_its_place_and_its_settings() -> None:
     data = print_files.plate_bytes(
         "bed 1 of 1",
         [print_files.Laid(body, PRODUCT, [(10.0, 20.0, False), (70.0, 30.0, True)])],
-        print_bed.description(dims, "PETG", temperatures),
-        print_bed.slicer_config(dims, 1270.0, temperatures),
+        print_files.description(dims, "PETG", temperatures),
+        print_files.slicer_config(dims, 1270.0, temperatures),
     )
     (_, straight), (name, turned) = copies_on_a_plate(data)
     assert name == "bracket & <foot>"

@@ -13,7 +13,7 @@ from support import study_path
 
 from tvimdesign.cad.fe.model_comparison import joint_rows, model_values
 from tvimdesign.cad.fe.run_solvers import export_parts, run_solvers
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
 

@@ -9,12 +9,12 @@ from scipy.optimize import brentq
 from support import ROOT
 
 from tvimdesign.physics.springs import spring
-from tvimdesign.physics.springs.drawn_spring import (
+from tvimdesign.physics.springs.spring import (
     DrawnSpring,
-    active_coils,
     bend_stress_factor,
     bending_length,
     coil_stress_factor,
+    drawn_coils,
 )
 
 HANDS = (1.0, -1.0)
@@ -148,7 +148,7 @@ def drawn(case: dict[str, float]) -> DrawnSpring:
 @pytest.mark.parametrize("name", SPRINGS)
 def test_the_rate_is_that_of_fe(name: str) -> None:
     case, shape = SPRINGS[name], drawn(SPRINGS[name])
-    coils = active_coils(shape, POISSON)
+    coils = drawn_coils(shape, POISSON)
     rate = spring.rate(case["modulus"] * 1e9, shape.wire_diameter, shape.coil_diameter, coils)
     assert rate == pytest.approx(case["rate"], rel=0.01)
     handbook = spring.active_coils(case["turns"], shape.coil_diameter, shape.arm)

@@ -32,7 +32,7 @@ from tests.helpers.figures import faults, signed
 from tvimdesign.base.child_process import start_child
 from tvimdesign.device import table_for
 from tvimdesign.report.figures import analysis_figures, design_figures, theme
-from tvimdesign.report.figures.summary_sheet import summary
+from tvimdesign.report.figures.design_figures import summary
 from tvimdesign.report.figures.virtual_test_figures import drawn
 from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
 from tvimdesign.report.output import plot_process
@@ -40,7 +40,7 @@ from tvimdesign.report.output.numbers import axis_label, name_in_words
 from tvimdesign.report.run.run_plot_data import drawings, plot_data
 from tvimdesign.report.simulate_study import figure_data
 from tvimdesign.simulation.virtual_tests import TESTS, find_test
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study, read_study_text
 

@@ -18,8 +18,7 @@ from tvimdesign.robot.fmu_file import write_fmu
 from tvimdesign.simulation.joint_tests.release import ANGLE, release
 from tvimdesign.simulation.working_cycle.curves import Curves, phase_history, temperature_names
 from tvimdesign.simulation.working_cycle.cycle import TOLERANCE, Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
 from tvimdesign.solve.duty import Duty
 
 pytestmark = pytest.mark.slow  # a compiler builds each

@@ -15,7 +15,7 @@ from support import TASKS
 
 from tvimdesign.device.core.task import Trajectory
 from tvimdesign.robot.model_files import mjcf
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
 
 TOLERANCE = 0.05
 """Share by which MuJoCo may differ."""

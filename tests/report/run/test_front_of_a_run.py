@@ -27,9 +27,9 @@ from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.report.run import answered_study
 from tvimdesign.report.run import run_study as module
 from tvimdesign.report.run.blocks.sections import front_section
-from tvimdesign.report.run.check_study import check_study
 from tvimdesign.report.run.front_report import figure_data, front_csv, in_words, plain
 from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
+from tvimdesign.report.run.run_study import check_study
 from tvimdesign.solve.pareto.front import Front
 from tvimdesign.solve.pareto.tradeoff import Failure, Point
 from tvimdesign.study.design import read_design

@@ -35,7 +35,7 @@ from tvimdesign.report.run.blocks.warnings import (
 )
 from tvimdesign.report.run.first_screen import warning_lines
 from tvimdesign.report.run.uncertainty_data import Uncertainty
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel

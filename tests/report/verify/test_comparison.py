@@ -20,7 +20,7 @@ from tvimdesign.report import verify_design
 from tvimdesign.report import verify_design as verify_report
 from tvimdesign.report.output.command import Command as OutputCommand
 from tvimdesign.report.verify_design import far, verified, verify_page
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.study import read_study
 
 MODULE = resolve_study(read_study(study_path("paper_reconstructed")))

@@ -8,8 +8,14 @@ import pytest
 from robot_models import module_of
 from scipy.integrate import solve_ivp
 
-from tvimdesign.simulation.control.closed_loop import ControlledModule, Lags
-from tvimdesign.simulation.control.controller import Controller, ReactionCurve, RunningController, reaction_curve
+from tvimdesign.simulation.control.controller import (
+    ControlledModule,
+    Controller,
+    Lags,
+    ReactionCurve,
+    RunningController,
+    reaction_curve,
+)
 from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 

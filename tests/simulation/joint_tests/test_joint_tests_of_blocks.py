@@ -16,7 +16,7 @@ from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.trial import CurveTable, Trial
 from tvimdesign.simulation.virtual_tests import TESTS, find_test
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
 

@@ -13,7 +13,7 @@ from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.link_motion.course import Plant
 from tvimdesign.simulation.link_motion.link import released
 from tvimdesign.simulation.link_motion.sampled_motion import OneSided, in_series, spectrum, turns_of, with_loss
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.study import read_study
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from measured_files import csv, holds, moduli, oscillated
 import tvimdesign as tvim
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog, check_records
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, unmeasured_inputs
 
 

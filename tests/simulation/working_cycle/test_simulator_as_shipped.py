@@ -10,10 +10,8 @@ from scipy.integrate import simpson, solve_ivp
 from support import STUDIES, fine, study_path, tight
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.simulation.working_cycle.cycle import SAMPLES, Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
-from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle
+from tvimdesign.simulation.working_cycle.cycle import SAMPLES, Array, Cycle, Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, resolve_study
 from tvimdesign.study import drawn, read_study
 
 QUICK = ("fast_switch", "paper_shear", "wrist_compression")

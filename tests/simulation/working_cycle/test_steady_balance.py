@@ -16,9 +16,8 @@ sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
 from compare import Judge, model_of, plane_of
 
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.study import given, read_study
 
 Array = NDArray[np.float64]

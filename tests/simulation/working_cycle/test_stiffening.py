@@ -19,10 +19,9 @@ from support import tight
 
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile, ramp_time
-from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]
 DESIGNS = ("as it is", "thin", "sink")

@@ -9,9 +9,9 @@ import pytest
 from support import STUDIES, digits, fine, study_path
 
 from tvimdesign.device import table_for
+from tvimdesign.simulation.working_cycle.cycle import Cycle
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.batch import cycle_kernel
 from tvimdesign.solve.batch.batch_model import Kernel, of_columns
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace

@@ -12,7 +12,7 @@ from support import fine
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.solve.nlp.constraints import constraints_of
-from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
+from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
 from tvimdesign.solve.nlp.problem import LATEST
 from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Run

@@ -16,13 +16,11 @@ from scipy.stats import qmc
 from support import study_path
 
 from tvimdesign.base.deadline import NEVER
-from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.cycle import CycleEngine, Supplied
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, resolve_study
 from tvimdesign.solve.nlp import spread, trust_region
-from tvimdesign.solve.nlp.cycle_model import Curvatures, CycleModel
-from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
-from tvimdesign.solve.nlp.problem_parts import Point
+from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
+from tvimdesign.solve.nlp.problem_parts import Curvatures, CycleModel, Point
 from tvimdesign.solve.nlp.spread import Contributor, moments, sobol_points
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.intervals import draw

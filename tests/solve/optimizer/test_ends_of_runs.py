@@ -16,7 +16,7 @@ from support import Command
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.interrupts import interrupt_came, interrupt_handler
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve import search
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation

@@ -18,10 +18,10 @@ from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.problem_parts import Free
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Run
-from tvimdesign.solve.optimizer import neighboring_optima
+from tvimdesign.solve.optimizer import refinements
 from tvimdesign.solve.optimizer.multistart import FEW, MAX_DRAWS, Multistart, unit_points
-from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.refinements import NeighboringOptima
 from tvimdesign.study import Range, SolverOptions, Study, read_study, read_study_text
 
 LOWER, UPPER, SEED = 1.0, 100.0, 3
@@ -267,7 +267,7 @@ def _of_coils(period: float | None, tried: list[float]) -> Any:
 
 def test_no_neighbor_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     # One start ends in the fifth turn and is led to the third; another in the sixth is led to the fifth, and on.
-    monkeypatch.setattr(neighboring_optima, "SHAKES", 0)
+    monkeypatch.setattr(refinements, "SHAKES", 0)
     tried: list[float] = []
     led = NeighboringOptima(_of_coils(1.0, tried)).improve([_ended_at(5.5), _ended_at(6.5)])
     assert [run.start.objective for run in led] == [1.0, 1.0]
@@ -277,7 +277,7 @@ def test_no_neighbor_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch: pytest.MonkeyPatch) -> None:
     """Within a tenth of the range, 0.9 of a coil; each from the best so far, and what is no better leaves no trace."""
-    monkeypatch.setattr(neighboring_optima, "SHAKES", 12)
+    monkeypatch.setattr(refinements, "SHAKES", 12)
     tried: list[float] = []
     worse, best = _ended_at(6.5), _ended_at(5.5)
     *same, shaken = NeighboringOptima(_of_coils(None, tried)).improve([worse, best])

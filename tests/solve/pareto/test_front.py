@@ -11,7 +11,7 @@ from comparable import COARSE, COMPRESSION, SHEAR
 
 from tvimdesign.device import table_for
 from tvimdesign.report.run.front_report import front_csv, plain
-from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
+from tvimdesign.simulation.working_cycle.cycle import CycleEngine, Supplied
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Run, meaning

@@ -13,8 +13,7 @@ from scipy.stats import qmc
 from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.intervals import Interval, draw, intervals, share_of_variance
 from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, unmeasured_inputs

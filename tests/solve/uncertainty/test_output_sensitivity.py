@@ -8,7 +8,7 @@ import pytest
 from support import fine, study_path
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.output_sensitivity import OutputSensitivities, output_sensitivities
 from tvimdesign.study import read_study, read_study_text
 

@@ -17,7 +17,7 @@ from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.run.uncertainty_data import Uncertainty, below_yield, changes, yield_of
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.solution import TightenedTolerance
 from tvimdesign.solve.nlp.solver_run import Run

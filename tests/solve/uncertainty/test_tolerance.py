@@ -12,8 +12,7 @@ from support import study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule, resolve_study
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.solve.nlp.spread import moments
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel

@@ -9,7 +9,7 @@ from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import MODES, Input, table_for
 from tvimdesign.study import Robust, Study, read_study_text, standard_tolerances
 from tvimdesign.study.reader import read_swept
-from tvimdesign.study.sections.sweep_block import SweepBlock, SweptRange
+from tvimdesign.study.sections.sweeps import SweepBlock, SweptRange
 from tvimdesign.study.sections.tolerances import standard_entries
 from tvimdesign.study.tree import tree_of_values
 

@@ -9,11 +9,11 @@ from functools import partial
 from math import degrees
 from typing import Any, NamedTuple
 
-from tvimdesign.base.yaml_data import own_data
+from tvimdesign.base.record import own_data
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.bill_of_materials import MADE_TO_ORDER, Item, cost, greased
 from tvimdesign.cad.assembly.heater_leads import set_points_in_words
-from tvimdesign.cad.export.print_bed import LINE, walls
+from tvimdesign.cad.export.print_files import LINE, walls
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
 from tvimdesign.cad.parts.heater_parts import fits_in_window

@@ -7,9 +7,8 @@ from functools import cache
 from typing import NamedTuple
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.record import Record
+from tvimdesign.base.record import Record, own_data
 from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
-from tvimdesign.base.yaml_data import own_data
 from tvimdesign.device.core.heat.heater_form import HeaterFuse, heater_fuse
 from tvimdesign.study.design import Design, catalog_of
 

@@ -18,7 +18,7 @@ from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.contacts import tightened_force
 from tvimdesign.physics.solids import fasteners, plates, structure, wedge
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}
 """Idealizations that the drawn parts do not have."""

@@ -28,13 +28,15 @@ from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, dra
 from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
-from tvimdesign.cad.export.print_bed import description, lay_out, slicer_config
 from tvimdesign.cad.export.print_files import (
     Laid,
     as_printed,
     closed,
+    description,
+    lay_out,
     plate_bytes,
     printed_mesh,
+    slicer_config,
     stl_bytes,
     threemf_bytes,
 )

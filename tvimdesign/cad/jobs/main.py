@@ -68,7 +68,7 @@ def warm_up(mode: str = "") -> None:
     Compile, read data files and the table of a mode that is known, find font and letters, load what renders.
     """
     from tvimdesign.cad.assembly import assembly_note
-    from tvimdesign.cad.drawing import drawing_requirements, iso_286
+    from tvimdesign.cad.drawing import drawing_requirements
     from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
     from tvimdesign.cad.inspection import rays
     from tvimdesign.cad.jobs.cache import code_digest
@@ -76,7 +76,7 @@ def warm_up(mode: str = "") -> None:
     import_module(_NEEDED)
     if mode:
         table_for(mode)
-    data = (drawing_requirements.requirements_data, iso_286.standard_data, assembly_note.all_steps)
+    data = (drawing_requirements.requirements_data, drawing_requirements.standard_data, assembly_note.all_steps)
     for prepare in (*data, rays.compile_rays, code_digest):
         prepare()
     sheet = DrawingSheet(1.0)

@@ -6,8 +6,8 @@ from functools import cache, partial
 from types import ModuleType
 from typing import Any, Literal, TypeVar
 
+from tvimdesign.base.record import own_data
 from tvimdesign.base.units import to_si
-from tvimdesign.base.yaml_data import own_data
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import (
     Choice,

@@ -32,8 +32,7 @@ from tvimdesign.report.output.terminal import Progress
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.conditions import Case, differences, refuse_repeated, refuse_unequal
 from tvimdesign.study.design import Design, design_json, read_design
-from tvimdesign.study.text.mistakes import Mistake, StudyError
-from tvimdesign.study.text.source import printable
+from tvimdesign.study.text.mistakes import Mistake, StudyError, printable
 from tvimdesign.study.tree import study_text, tree_of_file
 
 

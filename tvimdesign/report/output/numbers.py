@@ -15,8 +15,8 @@ from typing import Any, Literal
 from pydantic import ConfigDict, with_config
 from typing_extensions import TypedDict
 
+from tvimdesign.base.record import own_data
 from tvimdesign.base.units import from_si, pretty, si_unit
-from tvimdesign.base.yaml_data import own_data
 
 _CAPITALS = {"pcl": "PCL", "peltier": "heater", "peltiers": "heaters"}
 _NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^[a-z]+(?= [<>]=)")

@@ -113,8 +113,7 @@ def _warm_up() -> None:
     """Load the figures of every run and draw on every kind of axes, so that fonts and caches are ready."""
     from tvimdesign.report.figures.theme import log_ticks, new_figure, place, png
 
-    for name in ("design_figures", "cycle_figures"):
-        import_module(f"tvimdesign.report.figures.{name}")
+    import_module("tvimdesign.report.figures.design_figures")
     figure = new_figure(3.0)
     linear, logarithmic = place(figure, 0.5, 0.5, 2.0, 2.0), place(figure, 4.0, 0.5, 2.0, 2.0)
     linear.plot([0.0, 1.0], label="°")

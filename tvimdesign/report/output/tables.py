@@ -23,7 +23,7 @@ from tvimdesign.report.output.results_format import (
     ValueEntry,
     Yield,
 )
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.control import SHARE, ControlResult
 from tvimdesign.solve.duty import DutyResult
 from tvimdesign.solve.nlp.solution import ActiveConstraint, YieldReached

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
+from tvimdesign.base.record import own_data
 from tvimdesign.base.units import to_si
-from tvimdesign.base.yaml_data import own_data
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import read_study_text
 
 if TYPE_CHECKING:
-    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+    from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 PLACES = {"mean_time": "mean", "near_face_time": "near face", "far_face_time": "far face"}
 """Places of a thermometer in the PCL, by the time that it tells."""
@@ -31,7 +31,7 @@ claims = partial(own_data, __file__, "paper_claims.yaml")
 def pair_times(**choices: str) -> tuple[dict[str, float], dict[str, float]]:
     """Return the times [s] of the shear and the compression module by place; `choices` changes words of both."""
     from tvimdesign.simulation.working_cycle.cycle import Simulator
-    from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+    from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 
     times = []
     for mode, text in case()["studies"].items():
@@ -92,7 +92,7 @@ def published_model() -> DeviceFunctions:
 @cache
 def published_module() -> ResolvedModule:
     """Return the module with a value for every input, and the records it chose."""
-    from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+    from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 
     return resolve_study(read_study_text(claims()["study"], "the paper's module"))
 

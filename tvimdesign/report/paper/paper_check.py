@@ -20,7 +20,7 @@ from tvimdesign.physics.springs import spring
 from tvimdesign.report.output.numbers import label, listed
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import print_grid, wide_console
-from tvimdesign.report.paper import paper_case, rheometer_rows, spring_rows
+from tvimdesign.report.paper import paper_case, spring_rows
 from tvimdesign.report.paper.paper_case import (
     claims,
     cycle_values,
@@ -151,7 +151,7 @@ _SMALL = 0.045
 
 
 def _small_joint() -> str:
-    from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+    from tvimdesign.simulation.working_cycle.device_functions import resolve_study
     from tvimdesign.solve.nlp.constraints import constraints_of
 
     module, factor = published_module(), _SMALL / published_values()["envelope_diameter"]
@@ -181,7 +181,7 @@ class PaperFinding:
 
 def computed(row: str) -> str:
     """Return the sentence of a row, by the function of its name."""
-    functions = {**vars(paper_case), **vars(spring_rows), **vars(rheometer_rows), **globals()}
+    functions = {**vars(paper_case), **vars(spring_rows), **vars(spring_rows), **globals()}
     return str(functions[f"_{row}"]())
 
 

@@ -1,18 +1,30 @@
-"""The paper check's rows on springs: rate, output stiffness, pretension, wire, sizes and angles."""
+"""The paper check's rows on springs: rate, output stiffness, pretension, wire, sizes and angles.
+
+The paper check's rows on rheometry: strains, frequencies and temperatures against specimen and instrument.
+
+The specimen is the paper's, between plates of 25 mm diameter 1 mm apart; what an instrument of its class can do is
+assumed with a range in `paper_claims.yaml`, as no sheet of its maker was read.
+"""
 
 import math
+
+import numpy as np
 
 from tvimdesign.base.units import from_si, to_si
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import motion
+from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.physics.springs import spring
 from tvimdesign.report.paper.paper_case import (
+    Instrument,
     from_paper,
+    instrument,
     published_module,
     published_rate,
     published_values,
     spring_rate,
 )
+from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 
 OTHER_PIN = 38e-3
 """A pin elsewhere than the ratio of one asks [m]."""
@@ -163,3 +175,151 @@ def _motion() -> str:
         f"I theta'' + b theta' + K theta = T rings, and is critically damped at b = "
         f"{motion.critical_damping(stiffness, inertia):.4f} N·m·s/rad"
     )
+
+
+_EACH_DECADE = 5
+"""Frequencies of a usual sweep in a decade."""
+_POISSON = 0.3, 0.5
+"""Poisson's ratio of a stiff plastic and of a melt."""
+_SURE = 0.1
+"""Share by which an uncorrected modulus may be low before it is called wrong."""
+
+
+def _modes(temperature: float, fraction: float) -> list[tuple[float, float]]:
+    """Return the relaxation spectrum of the paper's polymer at a temperature [K] and a solid fraction."""
+    spectrum = polymer.spectrum(temperature, fraction, published_module().quantity("pcl_rheology"))
+    return [(float(time), float(modulus)) for time, modulus in spectrum]
+
+
+def _complex_modulus(temperature: float, fraction: float, frequency: float) -> float:
+    """Return |G*| [Pa] at an angular frequency [rad/s]."""
+    storage, loss = polymer.maxwell_moduli(frequency, _modes(temperature, fraction))
+    return math.hypot(float(storage), float(loss))
+
+
+def plate_torque(stress: float) -> float:
+    """Return the torque [N*m] of a shear stress [Pa] at the plates' rim, linear to the axis: pi R^3/2 tau."""
+    return 0.5 * math.pi * (0.5 * from_paper("plate_diameter")) ** 3 * stress
+
+
+def plate_stiffness(modulus: float) -> float:
+    """Return the torsional stiffness [N*m/rad] of a specimen between the plates: pi R^4 G/(2 h)."""
+    return 0.5 * math.pi * (0.5 * from_paper("plate_diameter")) ** 4 * modulus / from_paper("plate_gap")
+
+
+def _share(device: Instrument, unit: str) -> str:
+    """Return a text such as `125 mN·m (100 to 230, assumed)`."""
+    value, low, high = (from_si(number, unit) for number in (device.value, device.low, device.high))
+    return f"{value:g} {unit.replace('*', '·').replace('uN', 'µN')} ({low:g} to {high:g}, {device.status})"
+
+
+def _strain_as_rate() -> str:
+    cold, strain = from_paper("below"), from_paper("relaxation_strain")
+    modulus = _complex_modulus(cold, 1.0, 2.0 * math.pi)
+    stress = modulus * strain
+    yielding = published_module().values["pcl_tensile_yield"] / math.sqrt(3.0)
+    rate, seconds = strain, from_paper("creep_time")
+    melt = viscoelasticity.zero_shear_viscosity(_modes(from_paper("above"), 0.0)) * rate
+    return (
+        f"as a strain it asks of the solid at 30 °C {stress / 1e6:.1f} MPa, which yields in shear at "
+        f"{yielding / 1e6:.1f} MPa, and {plate_torque(stress):.0f} N·m between 25 mm plates, where a rheometer gives "
+        f"{_share(instrument('largest_torque'), 'mN*m')}. As a rate of 10 % a second it is {rate * seconds:.0%} after "
+        f"{seconds:g} s, and {melt:.0f} Pa in the melt"
+    )
+
+
+def _frequency() -> str:
+    highest, stated = from_paper("highest_frequency"), from_paper("beyond_frequency")
+    hertz = highest / (2.0 * math.pi)
+    return f"{highest:g} rad/s is {hertz:.2f} Hz: no point of the sweep lies above {from_si(stated, 'Hz'):g} Hz"
+
+
+def _small_strain() -> str:
+    hot, strain, lowest = from_paper("above"), from_paper("sweep_strain"), from_paper("lowest_frequency")
+    least = instrument("least_torque")
+    torque = plate_torque(_complex_modulus(hot, 0.0, lowest) * strain)
+    sweep = np.geomspace(lowest, from_paper("highest_frequency"), 400)
+    torques = np.array([plate_torque(_complex_modulus(hot, 0.0, float(frequency)) * strain) for frequency in sweep])
+    reached = [float(np.interp(math.log(end), np.log(torques), sweep)) for end in (least.value, least.low, least.high)]
+    angle = strain * from_paper("plate_gap") / (0.5 * from_paper("plate_diameter"))
+    return (
+        f"at {lowest:g} rad/s the melt answers with {torque * 1e6:.3f} µN·m to {angle * 1e6:.0f} µrad, where a "
+        f"rheometer resolves {_share(least, 'uN*m')}: the sweep says something from about {reached[0]:.1f} rad/s "
+        f"({reached[1]:.2f} to {reached[2]:.1f}) on"
+    )
+
+
+def _stiff_specimen() -> str:
+    modulus = _complex_modulus(from_paper("below"), 1.0, 2.0 * math.pi)
+    specimen, frame = plate_stiffness(modulus), instrument("torsional_stiffness")
+    seen = [1.0 / (1.0 + specimen / stiffness) for stiffness in (frame.value, frame.low, frame.high)]
+    sure = [
+        _SURE / (1.0 - _SURE) * modulus * stiffness / specimen for stiffness in (frame.value, frame.low, frame.high)
+    ]
+    return (
+        f"at 30 °C the specimen is a spring of {specimen:.0f} N·m/rad, drive, shaft and plates one of "
+        f"{_share(frame, 'N*m/rad')}: uncorrected, {seen[0]:.1%} ({seen[1]:.1%} to {seen[2]:.1%}) of "
+        f"G = {modulus / 1e6:.0f} MPa is read. Within 10 % it reads up to {sure[0] / 1e6:.1f} MPa "
+        f"({sure[1] / 1e6:.2f} to {sure[2] / 1e6:.1f}); Liu et al. (10.1007/s00397-011-0560-3) found such a limit "
+        "below the plateau modulus of most melts for these plates"
+    )
+
+
+def _loss_modulus() -> str:
+    highest, least = from_paper("highest_frequency"), instrument("least_torque")
+    hot = _modes(from_paper("above"), 0.0)
+    storage, loss = (float(part) for part in polymer.maxwell_moduli(highest, hot))
+    stated = from_paper("loss_modulus")
+    torque = plate_torque(stated * from_paper("sweep_strain"))
+    return (
+        f"the melt's G'' at {highest:g} rad/s is {_pascal(loss)}, its tan(delta) {loss / storage:.2g}. A G'' of "
+        f"{stated:g} Pa at 0.01 % answers with {torque * 1e12:.2g} pN·m, where a rheometer resolves "
+        f"{_share(least, 'uN*m')}"
+    )
+
+
+def _adapted_moduli() -> str:
+    shear = _complex_modulus(from_paper("below"), 1.0, 2.0 * math.pi)
+    ends = [2.0 * (1.0 + ratio) for ratio in _POISSON]
+    return (
+        f"of an isotropic solid E is {ends[0]:.1f} to {ends[1]:.0f} times G, so that one curve follows from the other: "
+        f"G = {shear / 1e6:.0f} MPa at 30 °C and 1 Hz here, E = {ends[0] * shear / 1e6:.0f} to "
+        f"{ends[1] * shear / 1e6:.0f} MPa"
+    )
+
+
+def _sweep_time() -> str:
+    lowest, at = from_paper("lowest_frequency"), from_paper("premelt")
+    low, _, high = fractions_at(published_module(), at)
+    period = 2.0 * math.pi / lowest
+    decades = math.log10(from_paper("highest_frequency") / lowest)
+    points = np.geomspace(lowest, from_paper("highest_frequency"), round(_EACH_DECADE * decades) + 1)
+    whole = float(np.sum(2.0 * math.pi / points))
+    return (
+        f"one period at {lowest:g} rad/s takes {period:.0f} s, and {len(points)} points of one period each "
+        f"{whole / 60.0:.1f} min. At 60 °C the solid share lies between {low:.0%} and {high:.0%} by history, and "
+        "crystals melt and form meanwhile"
+    )
+
+
+def _premelt() -> str:
+    at, module = from_paper("premelt"), published_module()
+    low, nominal, high = fractions_at(module, at)
+    entry = module.values["pcl_grade"].entry("melting_end")
+    ends = [from_si(end, "degC") for end in (entry.value, entry.low or entry.value, entry.high or entry.value)]
+    equilibrium = module.values["pcl_equilibrium_melting_temperature"]
+    moduli = [_complex_modulus(at, fraction, 2.0 * math.pi) for fraction in (low, nominal, high)]
+    return (
+        f"melting ends at {ends[0]:.0f} °C ({ends[1]:.0f} to {ends[2]:.0f}): at 60 °C {nominal:.0%} is still solid on "
+        f"heating, from {low:.0%} (cooled from the melt) to {high:.0%} by history, and |G*| at 1 Hz is "
+        f"{_pascal(moduli[1])}, from {_pascal(moduli[0])} to {_pascal(moduli[2])}. Crystals that are left start "
+        f"the next freezing: melt above the equilibrium melting temperature, {from_si(equilibrium, 'degC'):.0f} °C"
+    )
+
+
+def _pascal(modulus: float) -> str:
+    """Return a modulus in the unit in which it has one to three digits before the point."""
+    for size, unit in ((1e6, "MPa"), (1e3, "kPa")):
+        if modulus >= size:
+            return f"{modulus / size:.3g} {unit}"
+    return f"{modulus:.3g} Pa"

@@ -36,7 +36,7 @@ from tvimdesign.report.run.blocks.sections import (
 )
 from tvimdesign.report.run.blocks.verdict import refused, starts_in_words
 from tvimdesign.report.run.first_screen import verdict_of
-from tvimdesign.report.run.parts_sections import (
+from tvimdesign.report.run.parts_of_design import (
     CYCLE,
     FOLDER,
     carried_files,
@@ -102,7 +102,7 @@ def summary_sheet(folder: ResultsFolder, answered: AnsweredStudy) -> Drawing:
         "picture": str(picture.resolve()) if picture.exists() else "",
         "made_by": f"{made_by_words(folder)} All tables and the module in 3-D: report.html.",
     }  # fmt: skip
-    return Drawing("summary", "summary_sheet.summary", data)
+    return Drawing("summary", "design_figures.summary", data)
 
 
 def glance(answered: AnsweredStudy) -> list[Block]:

@@ -23,11 +23,8 @@ _PROFILES = 5
 def drawings(answer: StudyResult, table: Table) -> list[Drawing]:
     """Return every figure of a run, with its data."""
     data = plot_data(answer, table)
-    rooms = {
-        "cycle": "cycle_figures", "stiffness_and_damping": "cycle_figures", "power_and_energy": "cycle_figures",
-        "impedance": "design_figures", "torque": "design_figures",
-    }  # fmt: skip
-    return [Drawing(name, f"{room}.{name}", data[name]) for name, room in rooms.items()]
+    names = ("cycle", "stiffness_and_damping", "power_and_energy", "impedance", "torque")
+    return [Drawing(name, f"design_figures.{name}", data[name]) for name in names]
 
 
 def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:

@@ -16,7 +16,7 @@ from tvimdesign.report.output.numbers import ends_text
 from tvimdesign.study import read_study_text, written_studies
 from tvimdesign.study.design import read_design
 from tvimdesign.study.sizing import LARGEST, STROKE, JointTask, diameters, hardware_by_fit, records_of, study_text
-from tvimdesign.study.text.source import printable
+from tvimdesign.study.text.mistakes import printable
 
 if TYPE_CHECKING:
     from tvimdesign.solve.uncertainty.robust import Extreme

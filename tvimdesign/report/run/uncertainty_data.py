@@ -17,7 +17,7 @@ from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.numbers import finite, in_unit, label, number_entry, percent, with_unit
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.report.output.terminal import duration
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached

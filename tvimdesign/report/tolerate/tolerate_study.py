@@ -1,28 +1,235 @@
-"""One tolerance analysis, from a study or a design to a finished folder and what the terminal says."""
+"""One tolerance analysis, from a study or a design to a finished folder and what the terminal says.
 
+A tolerance analysis on the terminal and as a page: what varies from part to part.
+
+The spread of a module in sentences: how many modules are good, what to tighten first, what the free angle does.
+"""
+
+import math
 import os
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import Table
-from tvimdesign.page.blocks import Points
+from tvimdesign.page.blocks import Block, Folded, Grid, Picture, Points, Section
 from tvimdesign.report.output.command import Command, design_file
-from tvimdesign.report.output.numbers import csv_text
+from tvimdesign.report.output.numbers import csv_text, ends_text, number
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.tables import soft_of_module
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.tolerate.tolerance_data import contributor_rows, figure_data, limit_rows, output_rows, reported
-from tvimdesign.report.tolerate.tolerance_report import FILES, sections_of, sentences, verdict
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.report.tolerate.tolerance_data import (
+    contributor_rows,
+    figure_data,
+    limit_rows,
+    output_rows,
+    reported,
+    spreads,
+)
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
-from tvimdesign.solve.uncertainty.tolerance import Spread, Tolerancing
+from tvimdesign.solve.uncertainty.tolerance import Kept, Preload, Spread, Tolerancing
 from tvimdesign.study import Study, read_study, standard_tolerances
 from tvimdesign.study.design import Design, read_design, write_design
+
+
+def spread_table(spread: Spread, data: Mapping[str, Any]) -> Grid:
+    """Return what is asked or minimised and spreads: by worst case, root-sum-square and modules drawn at random."""
+    heads = ("", "as drawn", "worst case", "rss sd", "mc mean", "mc sd", "99.73 %", "unit", "most by")
+    rows = [
+        (row["output"], number(row["as_drawn"]), ends_text(row["worst_low"], row["worst_high"], 4),
+         number(row["deviation_rss"]), number(row["mean"]), number(row["deviation"]),
+         ends_text(row["low"], row["high"], 4), row["unit"], _most_by(spread, i))
+        for i, row in enumerate(data["outputs"])
+        if row["output"] in spread.asked and spreads(spread, i)
+    ]  # fmt: skip
+    return grid("What spreads from part to part", heads, rows, right=range(1, 7), code=(0, 8))
+
+
+def concern_table(spread: Spread, table: Table) -> Grid:
+    """Tabulate limits that too many modules violate, and what carries their spread."""
+    rows = [
+        (in_words(limit.limit, table), f"{100.0 * limit.share.share:.4g} %", f"{limit.capability:.2f}",
+         _most_by(spread, spread.outputs.index(limit.limit.output)))
+        for limit in of_concern(spread)
+    ]  # fmt: skip
+    return grid("Limits that too many modules break", ("", "yield", "C_pk", "most by"), rows, right=(1, 2))
+
+
+def _most_by(spread: Spread, i: int) -> str:
+    """Return the contributor that carries most of an output's spread, with its share."""
+    most = int(spread.shares[i].argmax())
+    return f"{spread.contributors[most].name} {100.0 * spread.shares[i, most]:.0f} %"
+
+
+FILES = {
+    "outputs.csv": "spread of every output", "limits.csv": "yield of every limit",
+    "contributors.csv": "who contributes",
+}  # fmt: skip
+_FIGURE = "spread.png"
+
+
+def verdict(data: Mapping[str, Any]) -> str:
+    """Return the yield with its interval."""
+    share = data["yield"]
+    low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
+    return f"{100.0 * share['share']:.3g} % OF MODULES SATISFY ALL LIMITS ({low} to {high})"
+
+
+def sections_of(folder: ResultsFolder, spread: Spread, data: Mapping[str, Any], table: Table) -> list[Section]:
+    """Return what varies from part to part; `data` is that of tolerances.json."""
+    grids = (spread_table(spread, data), concern_table(spread, table))
+    varies: list[Block] = [grid for grid in grids if grid.rows]
+    picture = folder.path / _FIGURE
+    if picture.exists():
+        says = "Who contributes how much to each output's spread, and how modules drawn at random spread"
+        varies.append(Picture(picture.read_bytes(), says, says))
+    varies.append(Folded("Every limit and who contributes", [_limits(data), _contributors(data)]))
+    return [Section("parts", "From part to part", varies)]
+
+
+def _limits(data: Mapping[str, Any]) -> Block:
+    rows = [
+        (limit["limit"], f"{100.0 * limit['yield']:.4g} %", "" if limit["cpk"] is None else f"{limit['cpk']:.3g}",
+         limit["origin"])
+        for limit in data["limits"]
+    ]  # fmt: skip
+    return grid("Limits", ("limit", "yield", "C_pk", "because"), rows, right=(1, 2))
+
+
+def _contributors(data: Mapping[str, Any]) -> Block:
+    rows = [
+        (entry["output"], entry["contributor"], f"± {number(entry['plus_minus'])} {entry['unit']}".rstrip(),
+         entry["distribution"], entry["status"], entry["source"])
+        for entry in data["contributors"]
+    ]  # fmt: skip
+    heads = ("output", "contributor", "tolerance", "distribution", "status", "source")
+    return grid("Contributors", heads, rows, code=(0, 1))
+
+
+_GOOD = 0.9973
+"""Yield from which a limit is no concern: three standard deviations to either side."""
+_ON_THE_LIMIT = 0.1
+"""C_pk below which no tolerance helps, only another design."""
+_BENT = 0.1
+"""Difference of the two standard deviations from which an output is not linear within the tolerances."""
+_NAMED = 3
+_CARRIED = 0.2
+"""Share of a limit's variance from which a contributor counts as carrying it."""
+
+
+def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str]:
+    """Return what people should know, the most important first."""
+    worst = [limit_yield for limit_yield in spread.kept if _violated_at_worst(spread, limit_yield)]
+    corners = "no limit is violated" if not worst else f"{len(worst)} of {len(spread.kept)} limits are violated"
+    angle = [] if preload is None else [free_angle(preload)]
+    return [f"In the worst case {corners}.", *_what_first(spread, table), *angle, *_caveats(spread)]
+
+
+def _violated_at_worst(spread: Spread, limit_yield: Kept) -> bool:
+    i = spread.outputs.index(limit_yield.limit.output)
+    end = spread.worst.high[i] if limit_yield.limit.sense == "<=" else spread.worst.low[i]
+    return not float(limit_yield.limit.residual(end)) <= 1e-9
+
+
+def of_concern(spread: Spread) -> list[Kept]:
+    """Return limits that too many modules violate, the worst first."""
+    return sorted(
+        (limit_yield for limit_yield in spread.kept if limit_yield.share.share < _GOOD),
+        key=lambda limit_yield: limit_yield.share.share,
+    )
+
+
+def _what_first(spread: Spread, table: Table) -> Iterator[str]:
+    """Yield what to tighten, limit by limit; where the mean stands on the limit, that tightening does not help."""
+    concern = of_concern(spread)
+    if not concern:
+        yield f"Every limit is met by {100 * _GOOD:g} % of the modules and more: nothing needs to be tightened."
+        return
+    on_limit = [limit_yield for limit_yield in concern if limit_yield.capability < _ON_THE_LIMIT]
+    if on_limit:
+        names = ", ".join(in_words(limit_yield.limit, table) for limit_yield in on_limit[:_NAMED])
+        more = f" and {len(on_limit) - _NAMED} more" if len(on_limit) > _NAMED else ""
+        yield (
+            f"The mean stands on or beyond {names}{more}: no tolerance cures that. Move the design away from the "
+            "limit, as a study with `robust: {sigma: 3}` does."
+        )
+    mendable = [limit_yield for limit_yield in concern if limit_yield not in on_limit] or concern
+    lost = {contributor.name: 0.0 for contributor in spread.contributors}
+    for limit_yield in mendable:
+        i = spread.outputs.index(limit_yield.limit.output)
+        for j, name in enumerate(lost):
+            lost[name] += (1.0 - limit_yield.share.share) * float(spread.shares[i, j])
+    first = max(lost, key=lambda name: lost[name])
+    j = list(lost).index(first)
+    led = _led_by(spread, mendable, j)
+    yield f"Tighten {first} first: {'; '.join(_halved(spread, limit_yield, j, table) for limit_yield in led)}."
+
+
+def _led_by(spread: Spread, concern: list[Kept], j: int) -> list[Kept]:
+    """Return the limits of concern that one contributor carries most of."""
+    shares = {
+        limit_yield.limit.name: float(spread.shares[spread.outputs.index(limit_yield.limit.output), j])
+        for limit_yield in concern
+    }
+    carried = [limit_yield for limit_yield in concern if shares[limit_yield.limit.name] >= _CARRIED] or concern[:1]
+    return sorted(carried, key=lambda limit_yield: -shares[limit_yield.limit.name])[:2]
+
+
+def _halved(spread: Spread, limit_yield: Kept, j: int, table: Table) -> str:
+    """Return what a contributor carries of a limit's spread, and what half its tolerance would do."""
+    i = spread.outputs.index(limit_yield.limit.output)
+    share = float(spread.shares[i, j])
+    carried = (
+        f"it carries {100 * share:.0f} % of the variance behind {in_words(limit_yield.limit, table)}, which "
+        f"{100 * limit_yield.share.share:.3g} % meet"
+    )
+    if limit_yield.capability < _ON_THE_LIMIT:
+        return carried
+    able = limit_yield.capability / math.sqrt(1.0 - 0.75 * share)
+    return f"{carried}; with half its tolerance C_pk would be {able:.2f} instead of {limit_yield.capability:.2f}"
+
+
+def free_angle(preload: Preload) -> str:
+    """Return what the springs' free angle does to the joint, and what adjusting the preload does about it."""
+    by = " by DIN 2194, grade 2" if preload.by_row else ""
+    left = math.degrees(preload.adjusted)
+    adjusted = f"to within ±{left:.2g}°" if left > 0.0 else "out"
+    return (
+        f"The free-angle tolerance of these springs (±{math.degrees(preload.as_bought):.1f}°{by}) is "
+        f"{preload.over_stroke:.1f} times the stroke: as bought, {100 * preload.yield_as_bought.share:.3g} % of the "
+        f"modules meet all limits that depend on the preload; with the preload adjusted {adjusted}, "
+        f"{100 * preload.yield_adjusted.share:.3g} % do."
+    )
+
+
+def _caveats(result: Spread) -> Iterator[str]:
+    rss, drawn = result.deviation, result.drawn.deviation
+    spread = rss > 1e-9 * np.abs(result.nominal)
+    bent = [name for i, name in enumerate(result.outputs) if spread[i] and abs(drawn[i] - rss[i]) > _BENT * rss[i]]
+    if bent:
+        yield f"Not linear within the tolerances, so trust Monte Carlo rather than root-sum-square: {', '.join(bent)}."
+    turned = [name for i, name in enumerate(result.outputs) if spread[i] and not result.worst.by_sign[i]]
+    if turned:
+        names = ", ".join(turned)
+        yield f"Not monotonic within the tolerances, so the worst corner is not where derivatives point: {names}."
+    never = [
+        f"{name} {100 * result.drawn.never[i]:.2g} %" for i, name in enumerate(result.outputs) if result.drawn.never[i]
+    ]
+    if never:
+        yield f"Share of the modules in which it never happens: {', '.join(never)}; means leave these out."
+    if result.left_out:
+        yield f"Not in this, as they never happen or hang on a current profile: {', '.join(result.left_out)}."
+
 
 FEWEST, MOST = 1 << 8, 1 << 22
 """Modules that may be drawn."""

@@ -9,11 +9,10 @@ from scipy.optimize import nnls
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.control.controller import Controller, reaction_curve
-from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator, Trajectory
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.simulation.working_cycle.symbols import ca
-from tvimdesign.simulation.working_cycle.trajectory import Cycle, Trajectory
 
 Array = NDArray[np.float64]
 CELLS = 8

@@ -23,7 +23,7 @@ from tvimdesign.simulation.joint_tests.case import (
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.sampled_motion import TURNS_OF_A_SWING, Array, Motion, OneSided, turns_of
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 ANGLE = 0.1  # rad, the paper's perturbation
 ANGLE_PANEL = "Released"

@@ -19,7 +19,7 @@ from tvimdesign.simulation.joint_tests.case import (
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.sampled_motion import Array, Motion, OneSided
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 PERIODS = 10
 SAMPLES = 240  # of one period

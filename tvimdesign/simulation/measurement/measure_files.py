@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError, UnitError
+from tvimdesign.base.record import own_data
 from tvimdesign.base.units import parse_quantity, to_si
-from tvimdesign.base.yaml_data import own_data
 from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement
 from tvimdesign.simulation.measurement.reading.data_file import Block, DataFile, read_data_file
 from tvimdesign.simulation.measurement.reading.headings import ColumnMap

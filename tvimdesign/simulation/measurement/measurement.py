@@ -14,7 +14,7 @@ from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 
 if TYPE_CHECKING:
-    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+    from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 Settings = Mapping[str, Any]
 """By name: numbers in SI, texts as they are."""
@@ -73,7 +73,7 @@ def endings(blocks: Sequence[Block]) -> list[str]:
 
 def resolve_measured(source: Path) -> ResolvedModule:
     """Return the module of a study, or of a result's design.json."""
-    from tvimdesign.simulation.working_cycle.resolved_module import resolve_design, resolve_study
+    from tvimdesign.simulation.working_cycle.device_functions import resolve_design, resolve_study
     from tvimdesign.study import read_study
     from tvimdesign.study.design import read_design
 

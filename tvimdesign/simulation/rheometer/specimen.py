@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics.polymers import polymer, viscoelasticity, yielding
+from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
 from tvimdesign.physics.polymers.viscoelasticity import Body, KelvinVoigt, Maxwell, StandardLinearSolid
 from tvimdesign.physics.solids.structure import shear_yield
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, PlottedLine
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, melting_range
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
 
 ROOM = 23.0 + ZERO_CELSIUS
@@ -52,7 +52,7 @@ class State:
         """
         logarithm = np.zeros(len(time))
         if self.fraction > 0.0:
-            frozen = yielding.stress_of_a_ramp(time, strain, rise, self.modes, self.activation_stress)
+            frozen = viscoelasticity.stress_of_a_ramp(time, strain, rise, self.modes, self.activation_stress)
             logarithm += self.fraction * np.log(np.maximum(frozen, _NO_STRESS))
         if self.fraction < 1.0:
             molten = viscoelasticity.ramped_stress(time, strain, rise, self.modes) * self.left(strain)
@@ -129,7 +129,7 @@ def _activation_stress(resolved: ResolvedModule, temperature: float) -> float:
     rheology = resolved.quantity("pcl_rheology")
     here, room = (polymer.moduli(kelvin, 1.0, polymer.PINNED_FREQUENCY, rheology)[0] for kelvin in (temperature, ROOM))
     strength = float(shear_yield(resolved.values["pcl_tensile_yield"]) * here / room)
-    return yielding.activation_stress(strength, polymer.spectrum(temperature, 1.0, rheology))
+    return viscoelasticity.activation_stress(strength, polymer.spectrum(temperature, 1.0, rheology))
 
 
 def specimen(resolved: ResolvedModule, temperature: float) -> Specimen:

@@ -18,7 +18,7 @@ from tvimdesign.simulation.rheometer.specimen import (
     specimens,
 )
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 STRESS = 50.0  # Pa, the paper's
 LOADED = 300.0  # s, the paper's

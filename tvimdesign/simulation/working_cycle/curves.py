@@ -4,11 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.cycle import Trajectory
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
 from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, left_at
 from tvimdesign.simulation.working_cycle.phase_functions import SHOWN, PhaseFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
-from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 Curves = dict[str, list[float]]

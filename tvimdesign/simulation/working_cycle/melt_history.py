@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
 
 Array = NDArray[np.float64]
 MEMORY = "melt_memory"

@@ -22,9 +22,8 @@ from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, NO_DESIGN, NO_MODULE, Array, Ends, Run
 from tvimdesign.solve.optimizer.multistart import FEW
-from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.refinements import ConstantCurrentOptimum, ending_in_time
+from tvimdesign.solve.optimizer.refinements import ConstantCurrentOptimum, NeighboringOptima, ending_in_time
 
 _CLOSE = 0.02
 """Share of its scale by which the run nearby may violate a limit in the box for a warm run to be tried before it is

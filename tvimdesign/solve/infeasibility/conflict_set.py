@@ -23,7 +23,7 @@ import numpy as np
 
 from tvimdesign.base.units import format_quantity
 from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint
-from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
+from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
 from tvimdesign.solve.nlp.ipopt import ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
 from tvimdesign.solve.nlp.solution import ConflictSet, Side

@@ -1,4 +1,9 @@
-"""The unknowns of a problem as one vector: put together at a design, and read again as inputs, times and currents."""
+"""The unknowns of a problem as one vector: put together at a design, and read again as inputs, times and currents.
+
+A problem with the parameters of one run as the solver takes it, and with further unknowns that move its limits.
+
+Slacks that let limits give and the share of tolerance margins that a design bears are such unknowns.
+"""
 
 from collections.abc import Iterator, Mapping
 
@@ -7,7 +12,7 @@ import numpy as np
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile, ramp_time
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.problem import UNIT, Problem
-from tvimdesign.solve.nlp.problem_parts import FreeCurrent
+from tvimdesign.solve.nlp.problem_parts import FreeCurrent, Parameters, Point
 from tvimdesign.solve.nlp.solver_run import Array, Ends
 
 SHORTEST = 0.1  # s; with a slow supply all of a phase may be its ramp, and the pieces after it next to nothing
@@ -89,3 +94,39 @@ class DecisionVector:
         shares = {name for mixture in self.problem.mixtures for name in mixture.shares}
         names = [free.name for free in self.problem.free if free.name not in shares]
         return {name: float(inputs[self.model.index[name]]) for name in names}
+
+
+_NONE = np.zeros(0)
+
+
+class ExtendedProblem:
+    """A nonlinear programme: the problem's unknowns, then the further ones."""
+
+    def __init__(
+        self, problem: Problem, parameters: Parameters, by_further: Array | None = None, weights: Array = _NONE,
+        share: float = 1.0,
+    ) -> None:  # fmt: skip
+        """Take the problem at its parameters.
+
+        A further unknown (a column of `by_further`) moves the residual of each limit (a row) in proportion, and counts
+        by its weight in what is minimised, beside a `share` of the problem's own objective.
+        """
+        self.problem, self.parameters = problem, parameters
+        self._by_further, self._weights, self._share = by_further, weights, share
+        self.unknown_count, self.row_count = problem.unknown_count + len(weights), problem.row_count
+
+    def at(self, x: Array) -> Point:
+        """Evaluate the problem and its further unknowns at a point."""
+        size, first = self.problem.unknown_count, self.problem.equation_count
+        point = self.problem.at(x[:size], self.parameters)
+        if self._by_further is None:
+            return point
+        further, limits = x[size:], slice(first, first + len(self._by_further))
+        rows, by_further = point.rows.copy(), np.zeros((self.row_count, len(further)))
+        rows[limits] += self._by_further @ further
+        by_further[limits] = self._by_further
+        return point._replace(
+            objective=self._share * point.objective + float(self._weights @ further),
+            gradient=np.concatenate([self._share * point.gradient, self._weights]),
+            rows=rows, jacobian=np.hstack([point.jacobian, by_further]),
+        )  # fmt: skip

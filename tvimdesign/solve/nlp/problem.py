@@ -20,14 +20,13 @@ from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.current_profile import ramp_time
-from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
+from tvimdesign.simulation.working_cycle.cycle import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import Constraint
-from tvimdesign.solve.nlp.cycle_model import CycleModel
 from tvimdesign.solve.nlp.mixture import Mixture
-from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Parameters, Peak, Point
+from tvimdesign.solve.nlp.problem_parts import CycleModel, Free, FreeCurrent, Parameters, Peak, Point
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.cycle import Cycle
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 SAME_OPTIMUM = 1e-4
 """Two solutions are the same optimum if their objectives differ by no more than this share."""

@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import Deadline
-from tvimdesign.solve.nlp.cycle_model import Curvatures, CycleModel
-from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
+from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
 from tvimdesign.solve.nlp.ipopt import Beginning, ProgrammeSolver
-from tvimdesign.solve.nlp.problem_parts import Point
+from tvimdesign.solve.nlp.problem_parts import Curvatures, CycleModel, Point
 
 Array = NDArray[np.float64]
 

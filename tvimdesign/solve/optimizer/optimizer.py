@@ -17,8 +17,7 @@ from tvimdesign.device import Input
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
-from tvimdesign.solve.nlp.decision_vector import DecisionVector
-from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
+from tvimdesign.solve.nlp.decision_vector import DecisionVector, ExtendedProblem
 from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.problem import Problem

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Simulated, Table
 from tvimdesign.engine.tape import Tape
-from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.cycle import CycleEngine
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
 from tvimdesign.simulation.working_cycle.symbols import ca
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from tvimdesign.base.errors import InfeasibleError, TimeOverError
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, in_words, on_cycle
 from tvimdesign.solve.nlp.problem_parts import Objective

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.record import Entry, Record
 from tvimdesign.device import Input
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.study import Tolerance

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.child_process import own_processors
 from tvimdesign.base.deadline import NEVER, Deadline
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread

@@ -1,21 +1,14 @@
-"""The section `sweep`: which cells are laid over which axes, and what is done in each."""
+"""The section `sweep`: which cells are laid over which axes, and what is done in each.
 
-from dataclasses import replace
+A sweep as plain data: axes with their values or ranges, and the arrangement of cells.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Literal
 
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.sections.goals import named_output, read_limit
 from tvimdesign.study.sections.section import Schema, Section, mapping, output_name, set_schema, settable, shape
-from tvimdesign.study.sections.sweep_block import (
-    EVERY_OUTPUT,
-    METHODS,
-    MOST_CELLS,
-    SAMPLED,
-    TASKS,
-    Sense,
-    SweepBlock,
-    SweptAxis,
-    SweptRange,
-)
 from tvimdesign.study.text.mistakes import quoted, step
 from tvimdesign.study.text.values import (
     ROUNDING,
@@ -32,6 +25,61 @@ from tvimdesign.study.text.values import (
     word_of,
 )
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
+
+Sense = Literal["<=", ">=", ""]
+METHODS = ("grid", "list", "latin_hypercube", "sobol")
+SAMPLED = ("latin_hypercube", "sobol")
+TASKS = ("evaluate", "optimize")
+EVERY_OUTPUT = "all"
+MOST_CELLS = 100_000
+"""Cells of a sweep unless it says `most`: a typing error is not to become a month of work."""
+
+
+@dataclass(frozen=True)
+class SweptRange:
+    """Numbers between two ends: `count` of them in a grid; drawn where a sweep is sampled."""
+
+    lower: float
+    """SI."""
+    upper: float
+    count: int = 0
+    logarithmic: bool = False
+
+
+@dataclass(frozen=True)
+class SweptAxis:
+    """One thing that is swept: its name as `--set` takes it, and its values as they are written, or a range."""
+
+    name: str
+    unit: str
+    """Of its numbers; empty for words and for settings."""
+    whole: bool
+    """True if it counts things."""
+    number: bool
+    """True for a size of the module or a condition, which a search from a neighbour can follow."""
+    sense: Sense = ""
+    """Of a limit."""
+    values: tuple[Text, ...] = ()
+    range: SweptRange | None = None
+
+
+@dataclass(frozen=True)
+class SweepBlock:
+    """A `sweep:` section."""
+
+    method: str
+    axes: tuple[SweptAxis, ...]
+    rows: tuple[tuple[Text, ...], ...] = ()
+    """The cells of a list, a value for each axis."""
+    task: str = ""
+    """`evaluate` or `optimize`; what the study asks for where it is empty."""
+    count: int = 0
+    """Cells of a sample."""
+    seed: int = 1
+    outputs: tuple[str, ...] = ()
+    """Outputs that are kept beside those the study asks about."""
+    most: int = MOST_CELLS
+
 
 _SWEPT_SECTIONS = ("require", "operating_points", "profile", "solver", "minimize", "robust")
 """Sections in which what stands at a path can be swept."""

@@ -6,8 +6,8 @@ from functools import partial
 from typing import Any
 
 from tvimdesign.base.errors import UnitError
+from tvimdesign.base.record import own_data
 from tvimdesign.base.units import format_quantity, parse_quantity
-from tvimdesign.base.yaml_data import own_data
 from tvimdesign.device import Input, Output, Table
 from tvimdesign.study.sections.section import NUMBER, NUMBER_VALUE, POINT, Schema, Section, described, mapping, shape
 from tvimdesign.study.study import Robust, Study, Tolerance

@@ -11,8 +11,7 @@ from typing import Any, TypeAlias
 
 import yaml
 
-from tvimdesign.study.text.mistakes import At, Mistakes, Place, quoted, step
-from tvimdesign.study.text.source import CONTROL
+from tvimdesign.study.text.mistakes import CONTROL, At, Mistakes, Place, quoted, step
 
 MOST_NODES = 10_000
 DEEPEST = 20

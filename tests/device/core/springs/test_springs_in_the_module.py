@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.physics.springs import drawn_spring
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.physics.springs import spring
+from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import brought_along, read_study_text
 from tvimdesign.study import given as given_of
@@ -55,8 +55,8 @@ def test_the_drawn_wire_is_as_soft_as_fe_of_the_solid(inputs: dict[str, Any]) ->
     found = evaluate(inputs, **drawn)
     wound = 2.0 * np.pi * 3.0 + 0.12
     coil, bend = 8.0e-3 * 6.0 * np.pi / wound, 2.0 * 1.81288e-3
-    shape = drawn_spring.DrawnSpring(1.81288e-3, coil, wound, 1.91288e-3, found["leg_arm"], bend)
-    straight = 196.5e9 * np.pi * 1.81288e-3**4 / 64.0 / drawn_spring.bending_length(shape, 0.292)
+    shape = spring.DrawnSpring(1.81288e-3, coil, wound, 1.91288e-3, found["leg_arm"], bend)
+    straight = 196.5e9 * np.pi * 1.81288e-3**4 / 64.0 / spring.bending_length(shape, 0.292)
     assert found["spring_rate"] == pytest.approx(straight, rel=1e-9)
     ignored = evaluate(inputs, **drawn, leg_model="ignored")
     assert ignored["spring_rate"] > 1.2 * found["spring_rate"]

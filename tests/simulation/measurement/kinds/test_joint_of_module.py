@@ -16,8 +16,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule
 from tvimdesign.simulation.measurement.kinds.joint_of_module import JointOfModule
 from tvimdesign.simulation.measurement.record_file import write_record, write_records
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.uncertain_inputs import unmeasured_inputs
 from tvimdesign.study import read_study
 

@@ -24,8 +24,8 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import plastics
-from tvimdesign.physics.springs import drawn_spring as drawn
 from tvimdesign.physics.springs import spring
+from tvimdesign.physics.springs import spring as drawn
 
 quantities = QuantityGroup("Springs", sprung=True)
 

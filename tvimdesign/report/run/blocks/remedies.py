@@ -11,8 +11,8 @@ from typing import Any
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.record import plain_data
 from tvimdesign.base.units import parse_quantity
-from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Input, Table, table_for
 from tvimdesign.report.output.numbers import in_labels, with_unit
 from tvimdesign.solve.nlp.constraints import advice_of, on_cycle, ratings_of

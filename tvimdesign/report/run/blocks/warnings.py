@@ -7,8 +7,8 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from tvimdesign.base.deadline import NEVER, Deadline
+from tvimdesign.base.record import own_data, plain_data
 from tvimdesign.base.units import format_quantity, from_si
-from tvimdesign.base.yaml_data import own_data, plain_data
 from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.output.terminal import duration

@@ -21,8 +21,8 @@ from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, resolve_measured, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.simulation.working_cycle.symbols import ca
 
 PLACES = (

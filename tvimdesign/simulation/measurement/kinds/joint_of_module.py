@@ -20,7 +20,7 @@ from tvimdesign.device import Input
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.fitting.problem import Derived
 from tvimdesign.simulation.measurement.measurement import Measurement, OtherRecord, Settings, resolve_measured
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.simulation.working_cycle.symbols import ca
 
 MOLTEN, FROZEN = "molten", "frozen"

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
-from tvimdesign.simulation.measurement.reading.clock_times import clock_seconds, is_clock
 from tvimdesign.simulation.measurement.reading.headings import (
     ColumnMap,
     Heading,
@@ -22,7 +21,15 @@ from tvimdesign.simulation.measurement.reading.headings import (
     rank,
     unit_of,
 )
-from tvimdesign.simulation.measurement.reading.sheets import DECIMALS, Row, Sheet, file_bytes, read_sheets
+from tvimdesign.simulation.measurement.reading.sheets import (
+    DECIMALS,
+    Row,
+    Sheet,
+    clock_seconds,
+    file_bytes,
+    is_clock,
+    read_sheets,
+)
 from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blocks_of
 
 Array = NDArray[np.float64]

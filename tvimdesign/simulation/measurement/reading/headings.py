@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import yaml
 
 from tvimdesign.base.errors import InputError, UnitError
+from tvimdesign.base.record import own_data
 from tvimdesign.base.units import parse_quantity, pretty, si_unit
-from tvimdesign.base.yaml_data import own_data
 from tvimdesign.simulation.measurement.reading.sheets import DECIMALS, SEPARATORS
 
 known = partial(own_data, __file__, "headings.yaml")
