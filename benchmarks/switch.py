@@ -22,7 +22,7 @@ from quick import Quick
 from scipy.integrate import solve_ivp
 
 from tvimdesign.device import table_for
-from tvimdesign.device.core.heat import thermal_stack
+from tvimdesign.device.core import thermal_stack
 from tvimdesign.device.core.impedance import warm_structure
 from tvimdesign.device.shear import layer_heat
 from tvimdesign.device.table.module import Module

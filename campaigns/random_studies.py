@@ -39,7 +39,7 @@ from tvimdesign.report.run.reasons import complaint
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, read_tree
-from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.sections import written
 from tvimdesign.study.study import Options, Range, Requirement
 from tvimdesign.study.tree import tree_of_values
 from tvimdesign.study.written_studies import evaluating

@@ -9,7 +9,7 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
-from tvimdesign.study.sections.all_sections import SECTIONS
+from tvimdesign.study.sections import SECTIONS
 
 Quantity = Input | Choice | Output
 

@@ -16,8 +16,8 @@ from small_sweeps import plan
 from tvimdesign.page.blocks import Cell, Grid, Head, Page, Section
 from tvimdesign.page.page_file import FILE, MOST, page_html
 from tvimdesign.report.output.command import Command
-from tvimdesign.report.sweep.sweep_study import sweep_page
-from tvimdesign.sweep.gather import columns
+from tvimdesign.report.sweep_study import sweep_page
+from tvimdesign.sweep.shards import columns
 from tvimdesign.sweep.swept_cells import CellTable
 
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")

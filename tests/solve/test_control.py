@@ -16,11 +16,11 @@ from tvimdesign.simulation.control.controller import ControlledModule, Lags
 from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
-from tvimdesign.solve.control import LATE, OVERSHOOT, SHARE, WATCHED, control_of, drawn_modules
+from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE, WATCHED, control_of, drawn_modules
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
 from tvimdesign.study.reader import read_study_text
-from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.sections import written
 
 FROZEN = Path(__file__).parents[2] / "campaigns/frozen/studies"
 

@@ -20,7 +20,7 @@ from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.solve.duty import HOUR, Duty, DutyCycle
 from tvimdesign.solve.result import answer
 from tvimdesign.study.reader import read_study_text
-from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.sections import written
 from tvimdesign.study.study import Requirement
 from tvimdesign.study.text.mistakes import StudyError
 from tvimdesign.study.tree import tree_of_text

@@ -18,7 +18,7 @@ from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.study import Study, StudyError, given, read_study, read_study_text, read_tree
 from tvimdesign.study.design import JsonPlaces, design_json, read_design, write_design
-from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.sections import written
 from tvimdesign.study.tree import tree_of_values
 
 

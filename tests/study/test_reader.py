@@ -33,7 +33,7 @@ from tvimdesign.study import (
     read_study_text,
     template_text,
 )
-from tvimdesign.study.sections.all_sections import NAMES
+from tvimdesign.study.sections import NAMES
 from tvimdesign.study.text.mistakes import Mistake
 from tvimdesign.study.written_studies import example_text, json_schema
 

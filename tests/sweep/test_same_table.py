@@ -14,7 +14,7 @@ from support import ROOT, Command, environment, study_path
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
-from tvimdesign.report.sweep.sweep_study import joined
+from tvimdesign.report.sweep_study import joined
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import Cell, SweptStudy, plan_of
 from tvimdesign.sweep.pool import Pool

@@ -16,14 +16,13 @@ from tvimdesign.api.result import Result, StudyT
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.report.run.answered_study import answer_study
-from tvimdesign.report.sweep.sweep_study import sweep_folder
+from tvimdesign.report.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
 from tvimdesign.sweep.answers import CellAnswers
-from tvimdesign.sweep.gather import columns, status_values
 from tvimdesign.sweep.plan import Cell as AskedCell
 from tvimdesign.sweep.plan import CellAnswer, SweepPlan, SweptStudy, plan_of
 from tvimdesign.sweep.run_sweep import CellKeys, Executor
-from tvimdesign.sweep.shards import Shards, StoredCell
+from tvimdesign.sweep.shards import Shards, StoredCell, columns, status_values
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -1,15 +1,24 @@
-"""Child processes of our own: started alike, and gone when their parent is, however that ends."""
+"""Child processes of our own: started alike, and gone when their parent is, however that ends.
+
+Runs a module of this package as a child: `python -m tvimdesign.base.child_process MODULE [ARGUMENT...]`.
+
+The child asks to end with its parent before the module is imported, which takes seconds where it draws or solves.
+"""
 
 import ctypes
 import json
 import os
+import runpy
 import signal
 import subprocess
 import sys
 import threading
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
+
+from tvimdesign.base.errors import FolderWarning
 
 PARENT, _ALIVE = "TVIMDESIGN_PARENT", "TVIMDESIGN_ALIVE"
 """Environment variables of a child: the parent's number; the pipe that ends with it, if the kernel does not signal its
@@ -32,7 +41,7 @@ def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> s
         pipe = _pipe_of_this_process()
         environment[_ALIVE] = str(pipe)
         options["pass_fds"] = (pipe,)
-    command = [sys.executable, "-X", "utf8", "-m", "tvimdesign.base.run_child", module, *arguments]
+    command = [sys.executable, "-X", "utf8", "-m", "tvimdesign.base.child_process", module, *arguments]
     return subprocess.Popen(command, env=environment, **options)
 
 
@@ -85,3 +94,15 @@ def _pipe_of_this_process() -> int:
 def _wait_for_end(pipe: int) -> None:
     os.read(pipe, 1)
     os._exit(1)
+
+
+def main() -> None:
+    """Follow the parent, then be the module."""
+    follow_parent()
+    warnings.simplefilter("ignore", FolderWarning)  # the parent tells of it
+    del sys.argv[0]
+    runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -69,7 +69,7 @@ def tolerate(
     json: options.AsJson = False,
 ) -> None:
     """Analyse tolerances and yield. Worst case, RSS and Monte Carlo; the folder is results/<study>-tolerances."""
-    from tvimdesign.report.tolerate.tolerate_study import tolerate_study
+    from tvimdesign.report.tolerate_study import tolerate_study
 
     folder = out or options.results(study, "tolerances")
     tolerate_study(study, folder, samples, overwrite=overwrite, as_json=json)
@@ -115,7 +115,7 @@ def sweep(
     json: options.AsJson = False,
 ) -> None:
     """Run every cell of a study's sweep; gather a table. The folder is results/<study>-sweep."""
-    from tvimdesign.report.sweep.sweep_study import sweep_study
+    from tvimdesign.report.sweep_study import sweep_study
     from tvimdesign.sweep.run_sweep import Executor
 
     sweep_study(

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
+from types import ModuleType
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.table.module import Module
@@ -16,16 +17,95 @@ MODES = ("shear", "compression", LOCK)
 
 
 @cache
+def _files() -> dict[str, tuple[ModuleType, ...]]:
+    """Load the files that define quantities: those that all modes share, and those of each mode."""
+    from tvimdesign.device import lock
+    from tvimdesign.device.components import (
+        axial_preload,
+        bearing,
+        cost,
+        cover,
+        dowels,
+        hard_stops,
+        liner_and_adhesive,
+        preload_adjuster,
+        process,
+        screws,
+        tang,
+    )
+    from tvimdesign.device.compression import (
+        block_impedance,
+        ring_heat,
+        vane_clearances,
+        vane_heat,
+        vane_layout,
+        vane_tiles,
+    )
+    from tvimdesign.device.core import (
+        clearances,
+        duty_and_control,
+        heater_form,
+        layout,
+        mass_properties,
+        materials,
+        motor_choice,
+        softening,
+        spring_as_drawn,
+        task,
+        thermal_stack,
+        torsion_springs,
+    )
+    from tvimdesign.device.core.impedance import (
+        joint_impedance,
+        large_motion,
+        lost_motion,
+        structure_stiffness,
+        warm_structure,
+    )
+    from tvimdesign.device.motor import motor_layout, motor_load, motor_mass_properties
+    from tvimdesign.device.shear import (
+        arcs,
+        floor_heat,
+        keys,
+        layer_end,
+        layer_heat,
+        layer_impedance,
+        leads,
+        melt_lip,
+        pad_layout,
+        spreader_seat,
+    )
+
+    shared = (
+        materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
+        warm_structure, large_motion, thermal_stack, softening, mass_properties, clearances, axial_preload,
+        process, heater_form, screws, tang, dowels, hard_stops, liner_and_adhesive, bearing, preload_adjuster, cover,
+        motor_choice, motor_layout, motor_mass_properties, task, motor_load, cost,
+        duty_and_control,
+    )  # fmt: skip
+    of_mode = {
+        "shear": (
+            pad_layout, layer_impedance, layer_heat, layer_end, melt_lip, floor_heat, arcs, leads, keys,
+            spreader_seat,
+        ),
+        "compression": (
+            vane_layout, block_impedance, ring_heat, vane_heat, vane_clearances, vane_tiles,
+        ),
+        "lock": (lock,),
+    }  # fmt: skip
+    return {"shared": shared, **of_mode}
+
+
+@cache
 def table_for(mode: str) -> Table:
     """Return the table of a mode; raises InputError for a mode that does not exist."""
     if mode not in MODES:
         raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")
-    from tvimdesign.device.mode_files import FILES_OF_MODE, SHARED_FILES
-
+    files = _files()
     if mode != LOCK:
-        return Table(with_parts(gather((*SHARED_FILES, *FILES_OF_MODE[mode]), (mode,))), PHASES)
-    sprung = gather((*SHARED_FILES, *FILES_OF_MODE["shear"]), ("shear", LOCK))
-    return Table(with_parts(without_springs(sprung, gather(FILES_OF_MODE[LOCK], ()))), PHASES)
+        return Table(with_parts(gather((*files["shared"], *files[mode]), (mode,))), PHASES)
+    sprung = gather((*files["shared"], *files["shear"]), ("shear", LOCK))
+    return Table(with_parts(without_springs(sprung, gather(files[LOCK], ()))), PHASES)
 
 
 def without_springs(quantities: Iterable[Quantity], own: Iterable[Quantity]) -> tuple[Quantity, ...]:

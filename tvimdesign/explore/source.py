@@ -12,11 +12,11 @@ from tvimdesign.explore.state import State, beginning, refuse_other_folders, siz
 from tvimdesign.report.atlas.atlas_page import STUDIES, module_points
 from tvimdesign.report.atlas.make_atlas import SUMMARY
 from tvimdesign.report.output.numbers import axis_label
-from tvimdesign.report.sweep.sweep_figures import shown_cells
+from tvimdesign.report.sweep_figures import shown_cells
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import Design, read_design
-from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.sections import written
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_values, tree_yaml
 from tvimdesign.sweep.swept_cells import SweptCells, is_sweep, open_cells
 

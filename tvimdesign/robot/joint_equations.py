@@ -20,9 +20,8 @@ from tvimdesign.physics.polymers import polymer
 from tvimdesign.robot.model_files import document, numbers
 from tvimdesign.simulation.joint_tests.case import one_sided
 from tvimdesign.simulation.link_motion.sampled_motion import PER_DECADE
-from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, temperature_names
+from tvimdesign.simulation.working_cycle.curves import MEMORY, PHASE_UNITS, temperature_names
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
-from tvimdesign.simulation.working_cycle.melt_history import MEMORY
 from tvimdesign.simulation.working_cycle.symbols import ca
 
 MOVING = ("ambient_temperature", "frequency@hot")

@@ -11,12 +11,10 @@ from tvimdesign import __version__
 from tvimdesign.device import Input, Table
 from tvimdesign.device.core.duty_and_control import CONTROL, DUTY
 from tvimdesign.simulation.joint_tests.release import contact_seen
-from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, phase_history
+from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, intervals, phase_history
 from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule, given_profiles
-from tvimdesign.simulation.working_cycle.melt_history import intervals
-from tvimdesign.solve.control import ControlResult, control_of
-from tvimdesign.solve.duty import HOUR, DutyResult, duty_of
+from tvimdesign.solve.duty import HOUR, ControlResult, DutyResult, control_of, duty_of
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
     advice_of,

@@ -10,11 +10,18 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
 from tvimdesign.base.interrupts import interrupt_came
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.combinations import Begin, Block, ExactCombinations, SolvedBlock, enumerated_here
+from tvimdesign.solve.discrete.combinations import (
+    Begin,
+    Block,
+    ExactCombinations,
+    SolvedBlock,
+    Trees,
+    enumerated_here,
+    refuse_too_many,
+)
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
-from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible, refuse_unreachable
 from tvimdesign.solve.nlp.constraints import on_cycle

@@ -20,7 +20,7 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Table, table_for
 from tvimdesign.study.reader import read_tree
-from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.sections import written
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.mistakes import At, Mistakes, StudyError, is_folder, ordinary_bytes, printable, quoted, step
 from tvimdesign.study.text.values import below, limits

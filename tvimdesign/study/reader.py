@@ -9,7 +9,7 @@ from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.study.resolve import with_fitting_defaults
-from tvimdesign.study.sections.all_sections import NAMES, SECTIONS
+from tvimdesign.study.sections import NAMES, SECTIONS
 from tvimdesign.study.sections.goals import is_simulated
 from tvimdesign.study.sections.sweeps import SweepBlock
 from tvimdesign.study.study import Study

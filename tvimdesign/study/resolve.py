@@ -17,7 +17,7 @@ from tvimdesign.catalog.category import inherited_law_warnings
 from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.components.cost import COSTS
 from tvimdesign.device.components.cost import GROUP as COST_GROUP
-from tvimdesign.device.core.heat.heater_form import CUT, contradiction
+from tvimdesign.device.core.heater_form import CUT, contradiction
 from tvimdesign.device.core.task import ARM, Trajectory
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 

@@ -11,7 +11,7 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.study.sections.all_sections import NAMES
+from tvimdesign.study.sections import NAMES
 from tvimdesign.study.text.mistakes import (
     CONTROL,
     At,

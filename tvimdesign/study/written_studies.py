@@ -12,7 +12,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.device import MODES, Choice, Input, Table, table_for
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.study.design import Design
-from tvimdesign.study.sections.all_sections import SECTIONS, written
+from tvimdesign.study.sections import SECTIONS, written
 from tvimdesign.study.sections.section import DEFINITIONS, Schema
 from tvimdesign.study.sections.tolerances import tolerance_schema
 from tvimdesign.study.study import FORMAT, GivenCurrent, ProfileOptions, Range, Study

@@ -13,9 +13,8 @@ from typing import Any
 from tvimdesign.base.errors import InputError
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.tree import StudyTree, tree_of_file
-from tvimdesign.sweep.gather import Value, columns
 from tvimdesign.sweep.plan import ALWAYS, SweepPlan, plan_of, set_in
-from tvimdesign.sweep.shards import SHARDS
+from tvimdesign.sweep.shards import SHARDS, Value, columns
 
 MOST_DRAWN = 20_000
 """Cells of a figure; of more, every second, third, ... is drawn."""

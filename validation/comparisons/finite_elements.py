@@ -12,8 +12,8 @@ import numpy as np
 import yaml
 from fe_structure.models import DESIGN, designed, model_values
 
+from tvimdesign.physics import spring
 from tvimdesign.physics.solids import structure
-from tvimdesign.physics.springs import spring
 
 Values = Mapping[str, Any]
 VALIDATION = Path(__file__).resolve().parents[1]

@@ -9,7 +9,7 @@ import numpy as np
 
 from comparisons.numbers import array, si
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.springs import spring
+from tvimdesign.physics import spring
 
 Values = Mapping[str, Any]
 TURN = 2.0 * np.pi

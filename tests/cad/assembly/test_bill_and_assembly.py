@@ -30,11 +30,10 @@ from tvimdesign.cad.assembly.assembly_note import (
     written_steps,
 )
 from tvimdesign.cad.assembly.bill_of_materials import Item, _titled, beside, bill, bill_csv, greased
-from tvimdesign.cad.assembly.draft_module import draft_module
+from tvimdesign.cad.assembly.draft_module import CHORD, DraftKernel, DraftSolid, draft_module
 from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
 from tvimdesign.cad.drawing.spring_sheet import spring_lines
 from tvimdesign.cad.geometry.dimensions import dimensions
-from tvimdesign.cad.geometry.draft_kernel import CHORD, DraftKernel, DraftSolid
 from tvimdesign.cad.geometry.kinds import is_of_structure, kind_of
 from tvimdesign.cad.geometry.solids import block, cylinder, drawn_by, join, ring, rounded, slot, spoked_disc
 from tvimdesign.cad.jobs.build_plan import fits

@@ -17,10 +17,10 @@ from placed_solids import assert_sound, placed_solids
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import build, drawn_parts
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill
+from tvimdesign.cad.assembly.draft_module import DraftKernel
 from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.export.print_files import closed
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
-from tvimdesign.cad.geometry.draft_kernel import DraftKernel
 from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.geometry.solids import block, drawn_by, rounded, sector, turned
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks

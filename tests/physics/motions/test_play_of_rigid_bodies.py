@@ -13,7 +13,7 @@ from scipy.optimize import brentq, minimize
 from tvimdesign.physics.motions import contacts, motion, one_sided
 from tvimdesign.physics.motions.one_sided import Blocks, Touching
 from tvimdesign.physics.solids import fasteners
-from tvimdesign.physics.springs.spring import leg_ratio, pin_slip
+from tvimdesign.physics.spring import leg_ratio, pin_slip
 
 # The optimum of paper_shear.yaml as it was read and measured from outside: a coil of 8 mm of wire of 1.81 mm.
 TANG, LENGTH, LEVER, POST, LEVELS, ARM = 0.25e-3, 3.5e-3, 4.392e-3, 0.3515e-3, (1.81e-3, 7.5e-3), 14.23e-3

@@ -8,14 +8,8 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from support import ROOT
 
-from tvimdesign.physics.springs import spring
-from tvimdesign.physics.springs.spring import (
-    DrawnSpring,
-    bend_stress_factor,
-    bending_length,
-    coil_stress_factor,
-    drawn_coils,
-)
+from tvimdesign.physics import spring
+from tvimdesign.physics.spring import DrawnSpring, bend_stress_factor, bending_length, coil_stress_factor, drawn_coils
 
 HANDS = (1.0, -1.0)
 lengths = {

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.springs import spring
+from tvimdesign.physics import spring
 
 INCH = 0.0254
 POUND_FORCE_INCH = 0.1129848290276167  # N*m

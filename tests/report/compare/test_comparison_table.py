@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 
 from tvimdesign.device import MODES, Output, table_for
 from tvimdesign.device.table.quantity_group import directions
-from tvimdesign.report.compare.comparison import Outcome
+from tvimdesign.report.compare.comparison import Outcome, side_by_side, summary_text
 from tvimdesign.report.compare.comparison_job import ComparisonJob
-from tvimdesign.report.compare.comparison_page import side_by_side, summary_text
 from tvimdesign.report.compare.comparison_table import Row, against, compare_csv
 from tvimdesign.report.run.blocks.warnings import advice_text
 from tvimdesign.solve.pareto.front_shape import ALIKE

@@ -37,7 +37,7 @@ from tvimdesign.report.figures.virtual_test_figures import drawn
 from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
 from tvimdesign.report.output import plot_process
 from tvimdesign.report.output.numbers import axis_label, name_in_words
-from tvimdesign.report.run.run_plot_data import drawings, plot_data
+from tvimdesign.report.run.run_page import drawings, plot_data
 from tvimdesign.report.simulate_study import figure_data
 from tvimdesign.simulation.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study

@@ -26,7 +26,7 @@ from tvimdesign.base.errors import FolderInUseError, InputError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.report.output import terminal
 from tvimdesign.report.output.terminal import OwnMarkupConsole, RemainingTime, clock, duration
-from tvimdesign.report.sweep.sweep_study import joined
+from tvimdesign.report.sweep_study import joined
 from tvimdesign.sweep.shards import SHARDS
 
 

@@ -13,8 +13,8 @@ from tvimdesign.simulation.joint_tests.case import cases, with_paper_points
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.sampled_motion import spectrum
 from tvimdesign.simulation.trial import Trial
+from tvimdesign.simulation.working_cycle.curves import fractions_at
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
-from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.study import read_study, read_study_text
 
 

@@ -15,8 +15,8 @@ from tvimdesign.simulation.rheometer import oscillation, transient
 from tvimdesign.simulation.rheometer.specimen import check_rising, check_spectrum, specimen, specimens
 from tvimdesign.simulation.trial import Finding, Trial
 from tvimdesign.simulation.virtual_tests import TESTS, find_test
+from tvimdesign.simulation.working_cycle.curves import fractions_at, frozen_on_cooling, melting_range
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
-from tvimdesign.simulation.working_cycle.melt_history import fractions_at, frozen_on_cooling, melting_range
 from tvimdesign.study import read_study_text
 
 CELSIUS = 273.15

@@ -17,9 +17,9 @@ from hypothesis import strategies as st
 from support import STUDIES, fine, study_path
 
 from tvimdesign.device.table.quantity import STIFFENING
+from tvimdesign.simulation.working_cycle.curves import fractions_at, frozen_on_cooling
 from tvimdesign.simulation.working_cycle.cycle import Array, Cycle, CycleEngine, Simulator, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule, resolve_study
-from tvimdesign.simulation.working_cycle.melt_history import fractions_at, frozen_on_cooling
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.study import drawn, given, read_study, read_study_text

@@ -9,9 +9,9 @@ from support import sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.solve.discrete.combinations import MAX_MIXED, refuse_too_many
 from tvimdesign.solve.discrete.discrete_choices import Sizes
 from tvimdesign.solve.discrete.record_families import families_of
-from tvimdesign.solve.discrete.trees import MAX_MIXED, refuse_too_many
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture, discrete_records, with_records
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.search import optimize

@@ -23,8 +23,7 @@ from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
 from tvimdesign.solve.nlp.problem_parts import Curvatures, CycleModel, Point
 from tvimdesign.solve.nlp.spread import Contributor, moments, sobol_points
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.uncertainty.intervals import draw
-from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
+from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, draw
 from tvimdesign.study import read_study_text
 from tvimdesign.study.reader import read_study
 

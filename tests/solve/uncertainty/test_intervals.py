@@ -15,8 +15,14 @@ from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
-from tvimdesign.solve.uncertainty.intervals import Interval, draw, intervals, share_of_variance
-from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, unmeasured_inputs
+from tvimdesign.solve.uncertainty.uncertain_inputs import (
+    Interval,
+    UnmeasuredInput,
+    draw,
+    intervals,
+    share_of_variance,
+    unmeasured_inputs,
+)
 from tvimdesign.study import read_study_text, standard_tolerances
 
 TABLE = table_for("shear")

@@ -11,7 +11,7 @@ from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import given
 from tvimdesign.study.reader import read_study_text
-from tvimdesign.study.sections.all_sections import written
+from tvimdesign.study.sections import written
 from tvimdesign.study.text.mistakes import StudyError
 
 STUDY = study_path("paper_shear").read_text()

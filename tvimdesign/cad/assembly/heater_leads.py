@@ -9,7 +9,7 @@ from typing import NamedTuple
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record, own_data
 from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
-from tvimdesign.device.core.heat.heater_form import HeaterFuse, heater_fuse
+from tvimdesign.device.core.heater_form import HeaterFuse, heater_fuse
 from tvimdesign.study.design import Design, catalog_of
 
 _HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")

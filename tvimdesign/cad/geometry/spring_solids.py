@@ -11,7 +11,7 @@ import cadquery as cq
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.device.core.springs.spring_as_drawn import leg_azimuth
+from tvimdesign.device.core.spring_as_drawn import leg_azimuth
 
 VOLUME_TOLERANCE = 1e-3
 

@@ -25,7 +25,7 @@ from tvimdesign.cad.geometry.kinds import CHANGING, KINDS, SPRINGS, TURNING, is_
 from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.device.components.hard_stops import STOPS
-from tvimdesign.device.core.springs.spring_as_drawn import pin_distance
+from tvimdesign.device.core.spring_as_drawn import pin_distance
 from tvimdesign.study.design import Design
 
 ROOM = 3.0 * CHORD

@@ -15,9 +15,9 @@ from tvimdesign.device.components.bearing import BEARINGS, WITH_BEARINGS
 from tvimdesign.device.components.cover import WITH_COVER
 from tvimdesign.device.components.dowels import WITH_DOWELS
 from tvimdesign.device.components.fastening import WITH_INSERTS
-from tvimdesign.device.components.liner import WITH_LINER
+from tvimdesign.device.components.liner_and_adhesive import WITH_LINER
 from tvimdesign.device.components.preload_adjuster import WITH_ADJUSTERS
-from tvimdesign.device.core.heat.heater_form import WITH_CUTOUT, WITH_TILES
+from tvimdesign.device.core.heater_form import WITH_CUTOUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

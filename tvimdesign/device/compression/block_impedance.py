@@ -15,8 +15,8 @@ import numpy as np
 
 from tvimdesign.device.components.bearing import with_bearings
 from tvimdesign.device.components.dowels import LINK_PARTS
-from tvimdesign.device.components.liner import WITH_LINER, traction_with_liner
-from tvimdesign.device.core.heat.heater_form import CUT
+from tvimdesign.device.components.liner_and_adhesive import WITH_LINER, traction_with_liner
+from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.table.module import Module

@@ -16,7 +16,7 @@ import itertools
 import numpy as np
 
 from tvimdesign.device.compression.block_impedance import blocks_moment
-from tvimdesign.device.core.heat.heater_form import CUT
+from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
-from tvimdesign.device.core.heat.heater_form import CUT, WITH_CUTOUT
+from tvimdesign.device.core.heater_form import CUT, WITH_CUTOUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup

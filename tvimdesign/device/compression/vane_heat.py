@@ -17,7 +17,7 @@ from tvimdesign.device.compression.ring_heat import (
     WALLS,
     WITHIN,
 )
-from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
+from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

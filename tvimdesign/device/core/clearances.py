@@ -5,7 +5,7 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.springs.spring import leg_direction, pin_distance
+from tvimdesign.physics.spring import leg_direction, pin_distance
 
 quantities = QuantityGroup("Gaps")
 

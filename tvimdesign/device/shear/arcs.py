@@ -15,9 +15,9 @@ from math import pi
 
 import numpy as np
 
-from tvimdesign.device.components.liner import WITH_LINER
+from tvimdesign.device.components.liner_and_adhesive import WITH_LINER
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
-from tvimdesign.device.core.heat.heater_form import CUT, WITH_CUTOUT, WITH_TILES
+from tvimdesign.device.core.heater_form import CUT, WITH_CUTOUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
+from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

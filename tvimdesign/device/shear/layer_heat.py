@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.device.core.heat.heater_form import CUT
+from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.shear.floor_heat import CORNER, SIDE
 from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.table.module import Module

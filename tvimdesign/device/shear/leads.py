@@ -7,7 +7,7 @@ The module's colder plate ends a porch before that end, on which the leads are s
 
 import numpy as np
 
-from tvimdesign.device.core.heat.heater_form import WITH_TILES
+from tvimdesign.device.core.heater_form import WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -26,9 +26,9 @@ own: the bead stands below the spreader of each arc, over the hole that is there
 
 import numpy as np
 
-from tvimdesign.device.components.heater_adhesive import WITH_PADS
+from tvimdesign.device.components.liner_and_adhesive import WITH_PADS
 from tvimdesign.device.core.clearances import MM
-from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
+from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup

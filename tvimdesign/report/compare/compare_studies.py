@@ -15,16 +15,17 @@ from typing import Any, NamedTuple
 from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
-from tvimdesign.report.compare.comparison_job import finished_run, nothing_found
-from tvimdesign.report.compare.comparison_page import (
+from tvimdesign.report.compare.comparison import (
+    COMPARISONS,
     FILES,
+    Outcome,
     comparison_sections,
     drawings,
     first_blocks,
     summary_text,
     title_of,
 )
+from tvimdesign.report.compare.comparison_job import finished_run, nothing_found
 from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.output.command import Command, design_file, done_in_part
 from tvimdesign.report.output.page_sections import tone_of

@@ -113,7 +113,7 @@ def cycle_values(model: DeviceFunctions) -> dict[str, float]:
 
 def spring_rate(wire_diameter: float, youngs_modulus: float | None = None) -> float:
     """Rate of the paper's spring by the paper's formula [N*m/rad], with another wire [m] or modulus [Pa]."""
-    from tvimdesign.physics.springs import spring
+    from tvimdesign.physics import spring
 
     modulus = from_paper("youngs_modulus") if youngs_modulus is None else youngs_modulus
     return float(spring.rate(modulus, wire_diameter, from_paper("coil_diameter"), from_paper("coil_count")))

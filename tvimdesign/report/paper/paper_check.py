@@ -15,8 +15,8 @@ from functools import cache
 import numpy as np
 
 from tvimdesign.base.units import from_si
+from tvimdesign.physics import spring
 from tvimdesign.physics.layers import layer
-from tvimdesign.physics.springs import spring
 from tvimdesign.report.output.numbers import label, listed
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import print_grid, wide_console

@@ -136,8 +136,8 @@ _OF_RESULTS = tuple(UncertaintyEntry.__annotations__)
 
 def drawings(answered: AnsweredStudy) -> list[Drawing]:
     """Return every figure of an answer, with what it is drawn from; none where there is no design."""
-    from tvimdesign.report.run import run_plot_data
+    from tvimdesign.report.run import run_page
 
     if not answered.result.found:
         return []
-    return run_plot_data.drawings(answered.result, answered.study.table) + answered.front.drawings()
+    return run_page.drawings(answered.result, answered.study.table) + answered.front.drawings()

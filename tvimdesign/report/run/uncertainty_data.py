@@ -25,8 +25,7 @@ from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel
-from tvimdesign.solve.uncertainty.intervals import Interval, Swing
-from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
+from tvimdesign.solve.uncertainty.uncertain_inputs import Interval, Swing, UnmeasuredInput
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
 from tvimdesign.study.text.values import difference_unit

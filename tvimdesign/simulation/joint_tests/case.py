@@ -12,8 +12,8 @@ from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.link_motion.course import Plant
 from tvimdesign.simulation.link_motion.sampled_motion import OneSided, with_loss
 from tvimdesign.simulation.trial import Column, CurveTable, Finding
+from tvimdesign.simulation.working_cycle.curves import fractions_at, left_at
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
-from tvimdesign.simulation.working_cycle.melt_history import fractions_at, left_at
 from tvimdesign.study.study import STANDARD_POINTS
 
 LINEAR = (

@@ -20,8 +20,8 @@ from tvimdesign.simulation.rheometer.specimen import (
     specimens,
 )
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.working_cycle.curves import frozen_on_cooling
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
-from tvimdesign.simulation.working_cycle.melt_history import frozen_on_cooling
 
 SMALL_STRAIN = 1e-4
 """Strain of the frequency and temperature sweeps: the paper's 0.01 %."""

@@ -20,8 +20,8 @@ from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
 from tvimdesign.physics.polymers.viscoelasticity import Body, KelvinVoigt, Maxwell, StandardLinearSolid
 from tvimdesign.physics.solids.structure import shear_yield
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, PlottedLine
+from tvimdesign.simulation.working_cycle.curves import HISTORIES, fractions_at, melting_range
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
-from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, melting_range
 from tvimdesign.study.study import STANDARD_POINTS
 
 ROOM = 23.0 + ZERO_CELSIUS

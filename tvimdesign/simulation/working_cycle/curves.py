@@ -1,15 +1,161 @@
-"""Curves to draw: the layer's temperatures over each phase, and stiffness and damping against temperature."""
+"""Curves to draw: the layer's temperatures over each phase, and stiffness and damping against temperature.
+
+Solid fraction of the layer at a temperature: one number outside melting, an interval inside it.
+
+Inside the melting range the solid fraction of a polymer depends on what came before. Cooled from the melt the layer is
+still liquid; heated it follows the equilibrium curve, which the record knows to some kelvin only. A metal, a wax or a
+glass follows that curve both ways.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.working_cycle.cycle import Trajectory
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.cycle import Simulator, Trajectory
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
-from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, left_at
 from tvimdesign.simulation.working_cycle.phase_functions import SHOWN, PhaseFunctions
 
 Array = NDArray[np.float64]
+MEMORY = "melt_memory"
+HISTORIES = 5
+"""Solid fractions, equally spaced from the least to the largest, of which the extremes are taken."""
+
+
+class Fractions(NamedTuple):
+    """Solid fractions [1] at one temperature."""
+
+    low: float
+    """Cooled from the melt, still liquid; of what freezes as it melts, melting as early as the record allows."""
+    nominal: float
+    """Heated, on the equilibrium curve."""
+    high: float
+    """Heated, melting as late as the record allows."""
+
+
+def melting_range(resolved: ResolvedModule) -> tuple[float, float]:
+    """Return temperatures [K] between which the solid fraction depends on history: earliest start and latest end."""
+    melting: polymer.Melting = resolved.quantity("pcl_melting")
+    return melting.start + _off(resolved, "melting_start")[0], melting.end + _off(resolved, "melting_end")[1]
+
+
+def fractions_at(resolved: ResolvedModule, temperature: float) -> Fractions:
+    """Return least, nominal and largest solid fraction at a temperature [K]; the same outside the melting range."""
+    melting: polymer.Melting = resolved.quantity("pcl_melting")
+    nominal = _on_heating(temperature, melting)
+    first, last = melting_range(resolved)
+    if not first <= temperature <= last:
+        return Fractions(nominal, nominal, nominal)
+    (start, end), (last_start, last_end) = (
+        (_off(resolved, "melting_start")[i], _off(resolved, "melting_end")[i]) for i in (0, 1)
+    )
+    late = melting._replace(start=melting.start + last_start, end=melting.end + last_end)
+    low = 0.0
+    if resolved.quantity("pcl_kinetics") is None:
+        early = melting._replace(start=melting.start + start, end=melting.end + end)
+        low = min(nominal, _on_heating(temperature, early))
+    return Fractions(low, nominal, max(nominal, _on_heating(temperature, late)))
+
+
+def frozen_on_cooling(resolved: ResolvedModule, rate: float) -> Callable[[float], float]:
+    """Return a melt's solid fraction [1] by temperature [K], cooled at a rate [K/s]: Nakamura's integral.
+
+    What has no kinetics freezes as it melts, at any rate.
+    """
+    kinetics: transitions.Kinetics | None = resolved.quantity("pcl_kinetics")
+    if kinetics is None:
+        melting: polymer.Melting = resolved.quantity("pcl_melting")
+        return lambda temperature: _on_heating(temperature, melting)
+    temperatures = np.linspace(kinetics.equilibrium_melting + 20.0, 240.0, 4001)
+    slowness = transitions.rate_constant(temperatures, kinetics) / rate
+    steps = 0.5 * (slowness[1:] + slowness[:-1]) * -np.diff(temperatures)
+    extended = np.concatenate([[0.0], np.cumsum(steps)])
+
+    def fraction(temperature: float) -> float:
+        psi = np.interp(temperature, temperatures[::-1], extended[::-1])
+        return float(transitions.solid_fraction(psi, kinetics))
+
+    return fraction
+
+
+def intervals(
+    resolved: ResolvedModule,
+    model: DeviceFunctions,
+    inputs: Array,
+    cycle: Mapping[str, float],
+    current_profiles: Mapping[str, CurrentProfile] | None = None,
+) -> dict[str, tuple[float, float]]:
+    """Return every output's least and largest value (SI) that a point in the melting range leaves open, by name.
+
+    Damping peaks between the least and the largest solid fraction, so fractions between are tried too. Where the point
+    says what soft or stiff means, the cycle is simulated for each of them.
+    """
+    found: dict[str, tuple[float, float]] = {}
+    for point in resolved.points:
+        low, nominal, high = fractions_at(resolved, float(inputs[model.index[f"temperature@{point}"]]))
+        if low == high:
+            continue
+        runs, here = [], np.array([name.endswith(f"@{point}") for name in model.output_names])
+        sets_a_target = any(f"joint_impedance@{point}" in row.needs for row in model.table.outputs)
+        for share in (nominal, *np.linspace(low, high, HISTORIES)):
+            seen = (
+                _as_left(resolved, model, left_at(resolved.values, point, float(share), nominal), current_profiles)
+                if sets_a_target
+                else cycle
+            )
+            outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
+            supplied = [seen[name] for name in model.switch_names]
+            values = np.asarray(outputs(inputs, supplied)).ravel()
+            if share < nominal and MEMORY in model.index:  # other points are heated still
+                without = inputs.copy()
+                without[model.index[MEMORY]] = 1.0
+                values = np.where(here, np.asarray(outputs(without, supplied)).ravel(), values)
+            runs.append(values)
+        least, most = np.min(runs, axis=0), np.max(runs, axis=0)
+        for name, a, b in zip(model.output_names, least, most, strict=True):
+            if not (np.isnan(a) or np.isclose(a, b, rtol=1e-9, atol=0.0)):
+                other = found.get(name, (a, b))
+                found[name] = (float(min(a, other[0])), float(max(b, other[1])))
+        found[f"solid_fraction@{point}"] = (low, high)
+    return found
+
+
+def left_at(values: Mapping[str, Any], point: str, share: Any, nominal: Any) -> dict[str, Any]:
+    """Return a module's values as a history leaves its layer at a point.
+
+    With a solid fraction below the `nominal` one on heating it was cooled, and its melt has no memory of its crystals.
+    """
+    left = {**values, f"solid_fraction@{point}": share}
+    return left | ({MEMORY: np.where(share < nominal, 1.0, values[MEMORY])} if MEMORY in values else {})
+
+
+def _as_left(
+    resolved: ResolvedModule,
+    model: DeviceFunctions,
+    left: Mapping[str, Any],
+    current_profiles: Mapping[str, CurrentProfile] | None,
+) -> Mapping[str, float]:
+    """Return the cycle's values of a module as a history leaves it."""
+    other = DeviceFunctions(resolved.table, left, resolved.points, model.cells)
+    return Simulator(other).run(other.start, current_profiles).values
+
+
+def _on_heating(temperature: float, melting: polymer.Melting) -> float:
+    return float(polymer.solid_fraction(polymer.enthalpy(temperature, melting), melting))
+
+
+def _off(resolved: ResolvedModule, field: str) -> tuple[float, float]:
+    """Return the record's range [K] below and above its value; a study's own value is taken to be as sure."""
+    entry = resolved.values["pcl_grade"].entry(field)
+    low = entry.value if entry.low is None else entry.low
+    high = entry.value if entry.high is None else entry.high
+    return low - entry.value, high - entry.value
+
+
 Curves = dict[str, list[float]]
 SAMPLES = 161
 LOOP_SAMPLES = 73

@@ -15,12 +15,15 @@ from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of
-from tvimdesign.solve.uncertainty.intervals import Interval, covered, draw, intervals
 from tvimdesign.solve.uncertainty.output_sensitivity import behind_profiles
 from tvimdesign.solve.uncertainty.uncertain_inputs import (
+    Interval,
     UnmeasuredInput,
     before_measuring,
     contributors_of,
+    covered,
+    draw,
+    intervals,
     judges_modules,
     unmeasured_inputs,
 )

@@ -10,7 +10,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.device.core.heat.heater_form import HeaterFuse, heater_fuse
+from tvimdesign.device.core.heater_form import HeaterFuse, heater_fuse
 from tvimdesign.device.table.quantity import SOFTENING
 from tvimdesign.physics.heat_flow import heat, shape_factors
 from tvimdesign.physics.layers import layer

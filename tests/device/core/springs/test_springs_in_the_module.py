@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.physics.springs import spring
+from tvimdesign.physics import spring
 from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import brought_along, read_study_text

@@ -21,7 +21,7 @@ from tvimdesign.physics.motions.contacts import (
     sliding_torque,
     worn_volume,
 )
-from tvimdesign.physics.springs.spring import pin_slip
+from tvimdesign.physics.spring import pin_slip
 
 quantities = QuantityGroup("Lost motion")
 

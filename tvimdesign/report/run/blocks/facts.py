@@ -27,7 +27,7 @@ from tvimdesign.report.run.blocks.verdict import most_in_doubt
 from tvimdesign.report.run.reasons import NO_ROOM, active
 from tvimdesign.report.run.uncertainty_data import changes, lever, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
-from tvimdesign.solve.control import LATE, OVERSHOOT, SHARE
+from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3

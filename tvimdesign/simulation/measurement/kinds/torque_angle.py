@@ -2,7 +2,7 @@
 
 theta = theta_0 + (T - s T_f)/K + b/2 sgn(T - s T_f): a linear spring behind Coulomb friction T_f, which always opposes
 the motion (s = +1 while the torque rises, -1 while it falls), with a play b that is crossed where the load changes its
-sign. The modulus of the wire follows from the rate of a spring, k = E d^4/(64 D n) (physics/springs/spring.py).
+sign. The modulus of the wire follows from the rate of a spring, k = E d^4/(64 D n) (physics/spring.py).
 """
 
 from collections.abc import Callable, Sequence
@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.physics.springs import spring
+from tvimdesign.physics import spring
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values, from_zero
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, rows_of

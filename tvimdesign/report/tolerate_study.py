@@ -25,14 +25,7 @@ from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.tables import soft_of_module
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.tolerate.tolerance_data import (
-    contributor_rows,
-    figure_data,
-    limit_rows,
-    output_rows,
-    reported,
-    spreads,
-)
+from tvimdesign.report.tolerance_data import contributor_rows, figure_data, limit_rows, output_rows, reported, spreads
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import power_of_two

@@ -8,9 +8,9 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics import spring
 from tvimdesign.physics.solids import structure
-from tvimdesign.physics.springs import spring
-from tvimdesign.physics.springs.spring import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
+from tvimdesign.physics.spring import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
 
 quantities = QuantityGroup("Springs", sprung=True)
 

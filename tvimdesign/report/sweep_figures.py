@@ -6,8 +6,8 @@ from typing import Any
 
 from tvimdesign.page.blocks import Drawn
 from tvimdesign.report.output.numbers import axis_label, name_in_words
-from tvimdesign.sweep.gather import Column, Value, columns
 from tvimdesign.sweep.plan import SweepPlan
+from tvimdesign.sweep.shards import Column, Value, columns
 from tvimdesign.sweep.swept_cells import CellTable, SweptCells
 
 MOST_LINES = 6

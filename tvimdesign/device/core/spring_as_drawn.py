@@ -23,9 +23,9 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics import spring
+from tvimdesign.physics import spring as drawn
 from tvimdesign.physics.polymers import plastics
-from tvimdesign.physics.springs import spring
-from tvimdesign.physics.springs import spring as drawn
 
 quantities = QuantityGroup("Springs", sprung=True)
 

@@ -28,12 +28,11 @@ from tvimdesign.report.output.numbers import head, number
 from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import Progress, duration, progress_output, wide_console
-from tvimdesign.report.sweep.sweep_figures import figure_data, figures
+from tvimdesign.report.sweep_figures import figure_data, figures
 from tvimdesign.study.tree import study_file, study_text, tree_of_file
-from tvimdesign.sweep.gather import Column, Value, columns, rows, write_tables
 from tvimdesign.sweep.plan import SweepPlan, plan_of, written
 from tvimdesign.sweep.run_sweep import Executor, SweepDone, run_sweep
-from tvimdesign.sweep.shards import SHARDS, Shards
+from tvimdesign.sweep.shards import SHARDS, Column, Shards, Value, columns, rows, write_tables
 from tvimdesign.sweep.swept_cells import CellTable
 
 MOST_OUTPUTS = 12

@@ -1,1 +1,0 @@
-"""The thermal stack, and the two phases of a switch."""

@@ -1,1 +1,0 @@
-"""The torsion springs: their rate as drawn and held, what they bear, what is bought from stock."""

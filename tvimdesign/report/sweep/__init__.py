@@ -1,1 +1,0 @@
-"""The command `sweep`: the folder, the tables, the figure and the screen of a sweep."""

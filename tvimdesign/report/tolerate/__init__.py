@@ -1,1 +1,0 @@
-"""Effect of tolerances of parts and materials on a module: `tvimdesign tolerate`."""
