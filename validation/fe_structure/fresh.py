@@ -21,7 +21,7 @@ from run import alone, solved_by
 
 from tvimdesign.cad.fe import model_comparison as comparison
 from tvimdesign.cad.fe.run_solvers import export_parts
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.study import given, read_study
 
 RESULTS = Path(__file__).with_name("fresh.csv")
