@@ -49,7 +49,8 @@ def size(
     torque : str
         Torque that the frozen joint holds, such as ``"8 N.m"``.
     stiffness : str
-        Stiffness of the soft joint: ``"1.5 N.m/rad"`` means 20 % to either side, ``"1 to 2 N.m/rad"`` a range.
+        Stiffness of the soft joint, without its damping: ``"1.5 N.m/rad"`` means 20 % to either side,
+        ``"1 to 2 N.m/rad"`` a range.
     diameter : str
         Largest outer diameter, 20 to 200 mm.
     time : str

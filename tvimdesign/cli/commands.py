@@ -128,7 +128,8 @@ def size(
     stiffness: Annotated[
         str,
         typer.Option(
-            "--stiffness", help="Of the soft joint: '1.5 N.m/rad' (20 % to either side), or '1 to 2 N.m/rad'."
+            "--stiffness",
+            help="Of the soft joint, without its damping: '1.5 N.m/rad' (20 % to either side), or '1 to 2 N.m/rad'.",
         ),
     ] = "",
     diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")] = "",

@@ -177,7 +177,9 @@ def study_text(
     """
     entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
     low, high = task.stiffness
-    heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
+    heater = (
+        f"peltier_module: {_heater(task)}   # made to the layer's outline; its driver sets its volts; the air cools\n"
+    )
     band = min(max(high / low, _BANDS[0]), _CAUTIOUS_BAND if task.cautious else _BANDS[1])
     caution = shared["cautious"] if task.cautious and entry["springs"] == "adjusted" else ""
     soft = f"softening_band: {band:.3g}   # soft within the stiffness that is asked, not only near it\n"
@@ -209,7 +211,7 @@ module:
 vary:                                  # ranges that follow the diameter
 {_vary(task, widen, entry)}
 require:
-  joint_stiffness@hot: [">= {low:.4g} N.m/rad", "<= {high:.4g} N.m/rad"]   # as heating stops, too
+  joint_stiffness@hot: [">= {low:.4g} N.m/rad", "<= {high:.4g} N.m/rad"]   # without damping; as heating stops, too
   holding_torque: ">= {task.torque:.4g} N.m"
   envelope_diameter: "<= {_mm(task.diameter)}"
   response_time: "<= {task.time:.4g} s"
@@ -247,7 +249,7 @@ def _caution(task: JointTask, values: str) -> str:
 
 _ROOMY = 0.93
 """Share of the diameter that hardware suits from which the longer cut-out, of a fitting temperature, has room."""
-_CUT_OUT = "heater_fuse: microtemp_g4a         # a cut-out of 104 degC, below what the structure bears\n"
+_CUT_OUT = "heater_fuse: microtemp_g4a         # a thermal fuse of 104 degC, below what the structure bears\n"
 
 
 def _inputs() -> dict[str, Input]:

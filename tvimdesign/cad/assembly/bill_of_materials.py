@@ -356,6 +356,7 @@ def _supply(design: Design) -> list[Item]:
     wired = _WIRED[design.choices.get("heater_wiring", "series")]
     asks = bears = (volts, amperes)
     asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
+    ways += f", its limit set to {amperes:.3g} A"
     driver, supply = f"H-bridge, current controlled {ways}, {asked}", f"DC supply, {asked}"
     if (given := design.supply_voltage) is not None:
         bears = given, volts * amperes / given / _EFFICIENCY  # power is what stays

@@ -274,7 +274,10 @@ def heater_order(design: Design) -> list[str]:
         dense = 1e-4 * watts * count / area
         works = f"{amperes * ohms:.3g} V and {amperes:.3g} A"
         works += f", which the driver makes from {design.supply_voltage:.4g} V" if design.supply_voltage else ""
-        order.append(f"at most {watts:.3g} W each, at {works}, {dense:.2g} W/cm²")
+        order += [
+            f"at most {watts:.3g} W each, at {works}, {dense:.2g} W/cm²",
+            "only behind the driver, which limits the current",
+        ]
         leads += f" of {wire.gauge} or thicker" if (wire := _wire(amperes)) else f" for {up(amperes)} A"
     long, ledge = (1e3 * design.value(name) for name in ("envelope_diameter", "window_ledge"))
     exits = f"at least {long:.0f} mm long, off one face, {ledge:.3g} mm or more inside the outline"

@@ -138,13 +138,13 @@ def _coldest(value: _Values) -> str:
 
 
 def _stroke(value: _Values) -> Fact:
-    """Return the stroke with what of it is lost motion, and friction over spring torque; the note names what adds most.
+    """Return the stroke, what of it is lost to play, and friction over spring torque; the note names what adds most.
 
     A lock has no spring torque.
     """
     names = [name for name in _LOSES if name in value.values]
     lost, *others = (value.in_percent(name, value.values[name]) for name in names)
-    stroke = f"±{from_si(value.values['stroke'], 'deg'):.3g}°, {lost} of it lost motion"
+    stroke = f"±{from_si(value.values['stroke'], 'deg'):.3g}°, {lost} of it lost to play"
     most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in names]
     note = f"most by {' and '.join(dict.fromkeys(most))}"
     return Fact("Stroke", [stroke, *(f"friction {share} of spring torque" for share in others)], note)
@@ -157,7 +157,7 @@ _LOSES = {
 
 
 def _impedance(value: _Values) -> list[Fact]:
-    """Return the stiffness when frozen, stiffness and damping when heating stops; none if heating never stops."""
+    """Return the stiffness frozen, as heating stops, and with its damping there; none if heating never stops."""
     if math.isinf(value.values["softened_stiffness"]):
         return []
     unit = value.table.unit("softened_stiffness")
@@ -165,8 +165,10 @@ def _impedance(value: _Values) -> list[Fact]:
         f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
         for name in ("joint_stiffness@cold", "softened_stiffness")
     )
-    damping = with_unit(value.values["softened_damping"], value.table.unit("softened_damping"), _DIGITS)
-    return [Fact("Stiffness", [f"frozen {frozen}, soft {soft} {pretty(unit)}", f"damping {damping}"])]
+    damped, frequency = number(value.values["softened_impedance"], _DIGITS), value("frequency@hot")
+    return [
+        Fact("Stiffness", [f"frozen {frozen}, soft {soft} {pretty(unit)}", f"with damping {damped} at {frequency}"])
+    ]
 
 
 def _drag(value: _Values) -> list[Fact]:
@@ -265,7 +267,7 @@ _SELDOM = 0.95
 
 
 def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fact]:
-    """Return the limit most in doubt, and the share of cases asked of each; none without ranges."""
+    """Return the share of cases that meet all limits, and the limit most in doubt with its own; none without ranges."""
     if not uncertainty or uncertainty["ranges_hold"] is None:
         return []
     name, share = most_in_doubt(uncertainty)
@@ -273,11 +275,15 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     target = (study.get("robust") or {}).get("plausible")
     count = sum(met < (_SELDOM if target is None else target) for met in uncertainty["held"].values())
+    every, least = percent(uncertainty["ranges_hold"]["share"], 2), f"{label(name)} ({percent(share, 2)})"
     if target is not None and not count:
-        least = f"{label(name)} in {percent(share, 2)}"
-        return [Fact("Model", [f"each limit is met in the {percent(target)} of cases asked, {least}"])]
-    needs = f" needs {uncertainty['needs']}," if uncertainty.get("needs") else " is"
-    text = f"{label(name)}{needs} met in {percent(share, 2)} of cases"
+        return [
+            Fact(
+                "Model", [f"each limit is met in the {percent(target)} of cases asked, all in {every}; least: {least}"]
+            )
+        ]
+    needs = f" needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
+    text = f"{every} of cases meet all; {'' if needs else 'least: '}{least}{needs}"
     more = f"{count - 1} more in under {percent(target or _SELDOM)}" if count > 1 else ""
     return [Fact("Model", [text], more)]
 
