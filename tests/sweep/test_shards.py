@@ -167,20 +167,29 @@ def test_a_key_changes_with_study_and_record_not_with_other_cells(tmp_path: Path
         found = plan_over(tmp_path, sweep, study)
         return CellKeys(found).key(found.points.texts(0))
 
-    own = "mode: shear\ncatalog: records\nmodule: {pcl_grade: own}\n"
-    records = tmp_path / "records/polymers"
-    records.mkdir(parents=True)
-
-    def with_record(title: str) -> str:
-        (records / "own.yaml").write_text(f"title: {title}\nbased_on: pcl_80k\n")
-        return key(study=own)
-
     assert key() == key() == key("{over: {current: [1 A, 3 A, 4 A]}}")
     assert key() == key("{over: {current: {from: 1000 mA, to: 2 A, count: 4}}}")
     assert key() != key(study="mode: shear\nmodule: {wire_diameter: 2.3 mm}\n")
     assert key() != key(study="mode: shear\nsolver: {cells: 20}\n")
     assert key() == key(study="mode: shear\nname: other\nwrite: {cad: false}\n")
-    assert with_record("a") == with_record("a") != with_record("b")
+
+
+def test_a_key_changes_with_what_the_table_reads_of_a_record(tmp_path: Path) -> None:
+    records = tmp_path / "records/structure_materials"
+    records.mkdir(parents=True)
+
+    def key(value: str, text: str = "") -> str:
+        (records / "own.yaml").write_text(
+            f"title: own {text}\nbased_on: polycarbonate_bambu\nvalues:\n  {value}, status: datasheet, source: s {text}}}\n"
+        )
+        study = "mode: shear\ncatalog: records\nmodule: {structure_material: own}\n"
+        swept = plan_over(tmp_path, "{over: {current: [1 A, 2 A]}}", study)
+        return CellKeys(swept).key(swept.points.texts(0))
+
+    printed = key("nozzle_temperature: {value: 250, unit: degC")
+    assert printed == key("nozzle_temperature: {value: 260, unit: degC", "again")
+    assert printed != key("density: {value: 1210, unit: kg/m^3")
+    assert key("density: {value: 1210, unit: kg/m^3") != key("density: {value: 1220, unit: kg/m^3")
 
 
 def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswer]:

@@ -7,7 +7,7 @@ import hashlib
 import json
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import astuple, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
 
@@ -130,11 +130,12 @@ def key_of(content: Any) -> str:
 
 
 def records_hash(study: Study) -> str:
-    """Hash of what the records say that a study chooses, or may choose."""
+    """Hash of what the table reads of the records that a study chooses, or may choose."""
     records: dict[tuple[str, str], Record] = {}
     for single in _one_by_one(study):
-        records |= {(r.category, r.name): r for r in given(single).values() if isinstance(r, Record)}
-    return key_of([_record_content(records[key]) for key in sorted(records)])
+        records |= {(name, r.name): r for name, r in given(single).items() if isinstance(r, Record)}
+    fields = {choice: study.table.fields_of(choice) for choice, _ in records}
+    return key_of([[choice, _read(records[choice, name], fields[choice])] for choice, name in sorted(records)])
 
 
 def _one_by_one(study: Study) -> Iterator[Study]:
@@ -147,10 +148,17 @@ def _one_by_one(study: Study) -> Iterator[Study]:
                 yield study.model_copy(update={"vary": vary})
 
 
-def _record_content(record: Record) -> Any:
-    """Return all of a record but its file's path, which differs from machine to machine."""
-    entries = {name: astuple(entry) for name, entry in record.entries.items()}
-    tables = {name: [dict(table.columns), table.rows, table.source, table.status, table.range]
-              for name, table in record.tables.items()}  # fmt: skip
-    base = _record_content(record.based_on) if record.based_on else None
-    return [record.category, record.name, record.title, entries, tables, dict(record.words), base]
+def _read(record: Record, fields: frozenset[str] | None) -> Any:
+    """Return the numbers of these fields of a record, and of the one it is based on; all of them without fields."""
+    entries = {
+        name: [entry.value, entry.low, entry.high, entry.status]
+        for name, entry in record.entries.items()
+        if fields is None or name in fields
+    }
+    words = {name: word for name, word in record.words.items() if fields is None or name in fields}
+    tables = {
+        name: [dict(table.columns), table.rows, table.status, table.range]
+        for name, table in record.tables.items()
+        if fields is None
+    }
+    return [record.name, entries, words, tables, record.based_on and _read(record.based_on, fields)]

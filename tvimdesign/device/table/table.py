@@ -195,6 +195,15 @@ class Table:
         per_point = not isinstance(quantity, Choice) and quantity.per_point
         return f"{need}@{point}" if per_point and point else need
 
+    def fields_of(self, choice: str) -> frozenset[str] | None:
+        """Return the values and words that are taken of a choice's record; None if an output reads the record."""
+        if any(choice in self._parents(quantity) for quantity in self.outputs):
+            return None
+        given: tuple[Input | Choice, ...] = (*self.inputs, *self.choices)
+        sources = [source for row in given for source in (row.record, row.stock_record)]
+        sources += [row.range_of for row in self.inputs]
+        return frozenset(source[1] for source in sources if source and source[0] == choice)
+
     @cached_property
     def _ancestors(self) -> dict[str, frozenset[str]]:
         """Return those that were asked for."""
