@@ -1,6 +1,7 @@
 """IPOPT as every problem here wants it: its settings, and what warm starts take other ones."""
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Protocol, TypeAlias
 
@@ -126,7 +127,7 @@ class Solver:
 
     def __call__(self, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
         """Run it with nlpsol's arguments, until the deadline at most."""
-        self._stop.deadline, self._stop.points, self._stop.status = deadline, 0, ""
+        self._stop.deadline, self._stop.points, self._stop.status = deadline, Counter(), ""
         answer: dict[str, Any] = self._nlp(**arguments)
         return answer
 
@@ -136,9 +137,9 @@ class Solver:
         status = self._stop.status
         return {**statistics, "return_status": status, "success": False} if status else statistics
 
-    def count_point(self) -> None:
-        """Count an evaluation of the problem at a point."""
-        self._stop.points += 1
+    def count_point(self, part: str) -> None:
+        """Count an evaluation of the objective or of the rows at a point."""
+        self._stop.points[part] += 1
 
 
 class ProgrammeSolver:
@@ -181,7 +182,7 @@ class _Held:
 
     programme: Programme
     error: BaseException | None = None
-    count_point: Callable[[], None]
+    count_point: Callable[[str], None]
 
 
 class _Part(ca.Callback):
@@ -215,11 +216,9 @@ class _Part(ca.Callback):
             self._held.error = error
             return 1
         of_objective = self._part == "objective"
-        computed: tuple[Any, Any] = (point.rows, point.jacobian)
-        if of_objective:
-            computed = (point.objective, point.gradient)
-            if not self._sloped:
-                self._held.count_point()
+        computed = (point.objective, point.gradient) if of_objective else (point.rows, point.jacobian)
+        if not self._sloped:
+            self._held.count_point(self._part)
         for result, values in zip(results, computed, strict=False):
             if result is not None:
                 np.frombuffer(result)[:] = np.ravel(values, order="F")
@@ -233,7 +232,9 @@ class _Stop(ca.Callback):
         super().__init__()
         unknowns, rows, parameters = sizes
         self._sizes = {"x": unknowns, "f": 1, "g": rows, "lam_x": unknowns, "lam_g": rows, "lam_p": parameters}
-        self.deadline, self.points, self._most_points = NEVER, 0, most_points
+        self.deadline, self._most_points = NEVER, most_points
+        self.points = Counter[str]()
+        """Evaluations of objective and rows; the search for a feasible point evaluates rows alone."""
         self.status = ""
         """Status of a run that was ended here."""
         self.construct("stop", {})
@@ -257,7 +258,7 @@ class _Stop(ca.Callback):
         """Write whether to end."""
         if not self.status and self.deadline.passed:
             self.status = TIME_OVER
-        elif not self.status and self.points > self._most_points:
+        elif not self.status and max(self.points["objective"], 0.5 * self.points["rows"]) > self._most_points:
             self.status = _ITERATIONS_OVER
         np.frombuffer(results[0])[:] = bool(self.status)
         return 0
