@@ -29,7 +29,7 @@ _SIDE = 1e-3
 FASTEST = 0.0
 """Cycle in place of which the shortest is sought."""
 _STEP = 0.03
-"""Least step, a logarithm of torque or time."""
+"""Half the longest step, a logarithm of torque or time, whose failure is a cell's answer."""
 _NAMED = 3
 """Limits that are named where a cell is empty."""
 
@@ -176,33 +176,39 @@ class _Walk:
         return self._designs.get(ask)
 
     def _walked(self, near: Point, here: _Ask, there: _Ask) -> tuple[Point, str]:
-        """Walk from the design of one cell to another's; return the last design on the way, and the cell's status."""
+        """Walk from the design of one cell to another's; return the last design on the way, and the cell's status.
+
+        A long step that fails is halved at once; a short one is sought from all sides, and its failure is the answer.
+        """
         step, end = there, None
         while True:
-            answer = self._lightest(near, step)
+            short = here.apart(step) < 2.0 * _STEP
+            answer = self._lightest(near, step, thorough=short)
             if isinstance(answer, Point):
-                near, here = answer, step
+                near, here, end = answer, step, None if short else end
                 if step == there:
                     return near, OPTIMAL
-                if end is None:
-                    step = there
-                    continue
-                step = here.halfway(end)
+                step = here.halfway(end) if end else there
+            elif short:
+                return near, EMPTY if answer.infeasible else UNANSWERED
             else:
                 end = step if answer.infeasible else end
                 step = here.halfway(step)
-            if here.apart(step) < _STEP:
-                return near, EMPTY if end else UNANSWERED
 
-    def _lightest(self, near: Point, ask: _Ask) -> Point | Failure:
-        """Seek the lightest design from one nearby, then from the design of any cell that comes nearest."""
+    def _lightest(self, near: Point, ask: _Ask, *, thorough: bool) -> Point | Failure:
+        """Seek the lightest design from one nearby, then from the design of any cell that comes nearest.
+
+        Where a `thorough` search fails, any of its runs that ends at limits says that the cell is empty.
+        """
         nearest = min(self._trade.found, key=lambda point: self._miss(point, ask))
         begins = [near, nearest] if self._miss(nearest, ask) < self._miss(near, ask) else [near]
-        for begin, warm in itertools.product(begins, (True, False)):
+        failures = []
+        for begin, warm in itertools.product(begins, (True, False) if thorough else (True,)):
             answer = self._sought(begin, ask, warm=warm)
             if isinstance(answer, Point):
-                break
-        return answer
+                return answer
+            failures.append(answer)
+        return max(failures, key=lambda failure: failure.infeasible)
 
     def _sought(self, near: Point, ask: _Ask, *, warm: bool) -> Point | Failure:
         where, weights = f"{ask.torque:.3g} N*m in {ask.cycle:.3g} s", {MASS: 1.0, CYCLE: _SIDE, ENERGY: _SIDE}
