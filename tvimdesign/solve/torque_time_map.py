@@ -1,9 +1,9 @@
 """The lightest designs of one study over the torque that is held and the time of a full cycle, cell by cell.
 
 Every cell is a pair of bounds on one problem that is built once. The walk begins at the study's own optimum, goes up
-and down the torques, and from the lightest design of each torque to shorter cycles. Cells shorter than the fastest
-design's cycle are empty. Where a search has no design, steps are halved; a cell is empty, too, where the search next to
-it, from a design that is next to it, ends at limits.
+and down the torques, and from the lightest design of each torque to shorter cycles, down to those of the fastest. Where
+a search has no design, steps are halved. A cell is empty where the search next to it, from a design that is next to it,
+ends at limits.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ EMPTY, UNANSWERED = "empty", "unanswered"
 _SIDE = 1e-3
 """Weight of what is not asked for: of two designs alike in mass the faster, and the one of less energy."""
 FASTEST = 0.0
-"""Cycle in place of which the shortest is sought."""
+"""Stands for the shortest cycle there is."""
 _STEP = 0.03
 """Half the longest step, a logarithm of torque or time, whose failure is a cell's answer."""
 _NAMED = 3
@@ -138,27 +138,29 @@ class _Walk:
         return cells
 
     def _within(self, near: Point, ask: _Ask) -> tuple[Point, str]:
-        """Seek the lightest design of a cell from those beside it; where the fastest is too slow, return that one.
-
-        A fastest design that was sought from that of the torque beside is enough where that torque has no such cell.
-        """
+        """Seek the lightest design of a cell from those beside it; where there is none, return the nearest."""
         beside, known = self._beside(ask), self._designs.get(_Ask(ask.torque, FASTEST))
-        if known and self._slower(known, ask):
-            if not beside:
-                return known, EMPTY
-            known = None
+        if known and not beside and self._ends(known, ask):
+            return known, EMPTY
         for begin, warm in ((beside, True), (near, True), (known, False), (near, False)):
             if begin and isinstance(answer := self._sought(begin, ask, warm=warm), Point):
                 return answer, OPTIMAL
         fastest = self._seek_fastest(ask.torque, near, warm=False)
-        if fastest and self._slower(fastest, ask):
-            return fastest, EMPTY
-        if fastest and isinstance(answer := self._sought(fastest, ask, warm=False), Point):
-            return answer, OPTIMAL
+        if fastest and fastest is not known:
+            if self._ends(fastest, ask):
+                return fastest, EMPTY
+            if isinstance(answer := self._sought(fastest, ask, warm=False), Point):
+                return answer, OPTIMAL
         return self._walked(near, replace(ask, cycle=near.values[CYCLE]), ask)
 
-    def _slower(self, point: Point, ask: _Ask) -> bool:
-        return point.values[CYCLE] > ask.cycle * (1.0 + ONE_POINT)
+    def _ends(self, fastest: Point, ask: _Ask) -> bool:
+        """Return whether a fastest design is too slow, and a search from it for one a little faster ends at limits."""
+        cycle = fastest.values[CYCLE]
+        if cycle <= ask.cycle * (1.0 + ONE_POINT):
+            return False
+        faster = replace(ask, cycle=max(ask.cycle, cycle * math.exp(-1.5 * _STEP)))
+        answer = self._lightest(fastest, faster, thorough=True)
+        return isinstance(answer, Failure) and answer.infeasible
 
     def _beside(self, ask: _Ask) -> Point | None:
         """Return the design of the same cycle and the nearest torque."""

@@ -132,7 +132,7 @@ class Tradeoff:
     def beside(self, point: Point, objective: Objective, where: str, *, warm: bool) -> Point | Failure:
         """Return the best design for an objective, sought from one point alone, `warm` with its multipliers."""
         self.progress(where)
-        run = self._warm(point.trace, objective) if warm and point.trace else self._near(point, objective)
+        run = self._warm(point.trace, objective) if warm and point.trace else self._beside(point, objective)
         answer = self._checked([run], objective, where)
         if isinstance(answer, Point):
             self.found.append(answer)
@@ -228,9 +228,11 @@ class Tradeoff:
     def _warm(self, trace: Trace, objective: Objective) -> Run:
         return self.optimizer.solve(self._fixed, warm=trace, objective=objective)
 
-    def _near(self, point: Point, objective: Objective) -> Run:
+    def _beside(self, point: Point, objective: Objective) -> Run:
         unknowns, begin = point.trace.unknowns if point.trace else None, self._inputs(point)
-        return self.optimizer.solve(self._fixed, begin=begin, unknowns=unknowns, objective=objective, beginning="near")
+        return self.optimizer.solve(
+            self._fixed, begin=begin, unknowns=unknowns, objective=objective, beginning="beside"
+        )
 
     def _cold(self, begin: Array, objective: Objective) -> Run:
         return self.optimizer.solve(self._fixed, begin=begin, objective=objective)
