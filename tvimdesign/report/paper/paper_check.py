@@ -20,7 +20,7 @@ from tvimdesign.physics.layers import layer
 from tvimdesign.report.output.numbers import label, listed
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import print_grid, wide_console
-from tvimdesign.report.paper import paper_case, spring_rows
+from tvimdesign.report.paper import paper_case, paper_rows
 from tvimdesign.report.paper.paper_case import (
     claims,
     cycle_values,
@@ -181,7 +181,7 @@ class PaperFinding:
 
 def computed(row: str) -> str:
     """Return the sentence of a row, by the function of its name."""
-    functions = {**vars(paper_case), **vars(spring_rows), **vars(spring_rows), **globals()}
+    functions = {**vars(paper_case), **vars(paper_rows), **globals()}
     return str(functions[f"_{row}"]())
 
 
