@@ -23,6 +23,7 @@ from tvimdesign.cad.fe import model_comparison as comparison
 from tvimdesign.cad.fe.run_solvers import export_parts
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.study import given, read_study
+from tvimdesign.study.design import Design
 
 RESULTS = Path(__file__).with_name("fresh.csv")
 HEADER = ("study", "draw", "quantity", "model", "fe", "ratio")
@@ -33,13 +34,20 @@ NAMES = ("hub", "link", "core", "plate", "floor", "rotor_vanes_and_plate", "hous
          "plate_stress", "edge_traction", "seat_traction")  # fmt: skip
 
 
-def rows_of(study: str, work: Path, fe_python: Path) -> Iterator[list[str]]:
-    """Solve the random designs of a study; a design without a mesh gives a row without values."""
+def modules(study: str) -> Iterator[tuple[Design, ResolvedModule]]:
+    """Return the random designs of a study, with what FE needs, each as a module too."""
     read = read_study(study_file(study))
-    for place, design in enumerate(Draws(read, FRESH_SEED).keeping_rules(FRESH[study], Tally())):
+    for design in Draws(read, FRESH_SEED).keeping_rules(FRESH[study], Tally()):
         varied = {name: design.values[name] for name in read.vary if name in design.values}
         module = ResolvedModule(read, {**given(read), **varied})
-        design.values.update({k: float(v) for k, v in module.table.evaluate(module.values, AT_POINTS).items()})
+        at_points = module.table.evaluate(module.values, AT_POINTS)
+        design.values.update({name: float(value) for name, value in at_points.items()})
+        yield design, module
+
+
+def rows_of(study: str, work: Path, fe_python: Path) -> Iterator[list[str]]:
+    """Solve the random designs of a study; a design without a mesh gives a row without values."""
+    for place, (design, module) in enumerate(modules(study)):
         folder = work / f"{study}_{place}"
         if not (folder / "inputs.json").exists():
             export_parts(design, folder)
@@ -55,8 +63,23 @@ def rows_of(study: str, work: Path, fe_python: Path) -> Iterator[list[str]]:
         model, fe = comparison.model_values(module), {**comparison.joint_rows(joint), "link": link["link"]}
         for name in NAMES:
             if name in fe and name in model:
-                ratio = model[name] / fe[name]
-                yield [study, str(place), name, f"{model[name]:.4g}", f"{fe[name]:.4g}", f"{ratio:.3f}"]
+                yield [study, str(place), name, *compared(model[name], fe[name])]
+
+
+def compared(model: float, fe: float) -> tuple[str, str, str]:
+    """Return cells of the model's value, that of FE, and their ratio."""
+    return f"{model:.4g}", f"{fe:.4g}", f"{model / fe:.3f}"
+
+
+def with_model(study: str, rows: list[list[str]]) -> list[list[str]]:
+    """Return rows of a study with today's model beside the same FE."""
+    models = [comparison.model_values(module) for _, module in modules(study)]
+    return [
+        [study, place, name, *compared(models[int(place)][name], float(fe))]
+        if fe
+        else [study, place, name, model, fe, ratio]
+        for _, place, name, model, fe, ratio in rows
+    ]
 
 
 def main() -> None:
@@ -65,14 +88,17 @@ def main() -> None:
     parser.add_argument("studies", nargs="*", metavar="STUDY", default=list(FRESH))
     parser.add_argument("--fe-python", type=Path, default=Path(sys.executable))
     parser.add_argument("--work", type=Path, default=Path("fe_work"))
+    parser.add_argument("--model", action="store_true", help="put today's model beside the same FE, and solve nothing")
     requested = parser.parse_args()
     for study in requested.studies:
         fresh = []
-        for row in rows_of(study, requested.work.resolve(), requested.fe_python):
+        for row in () if requested.model else rows_of(study, requested.work.resolve(), requested.fe_python):
             print(*row, flush=True)
             fresh.append(row)
         with alone():
-            rows = list(csv.reader(RESULTS.open(newline="")))[1:] if RESULTS.exists() else []
+            rows = list(csv.reader(RESULTS.open(newline="")))[1:]
+            if requested.model:
+                fresh = with_model(study, [row for row in rows if row[0] == study])
             with RESULTS.open("w", newline="") as file:
                 others = [row for row in rows if row[0] != study]
                 csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*others, *fresh])])

@@ -140,15 +140,18 @@ def test_a_plate_let_into_a_sector_covers_what_points_count(thickness: float) ->
 
 
 def test_a_root_s_moment_turns_the_plate_as_a_beam() -> None:
-    # Slope and no deflection at each vane, the ends of the beam joined: slope-deflection equations, 2 E I/L (2 a + b).
+    # Slope and no deflection at the middle of each vane, the ends of the beam joined: slope-deflection equations with
+    # rigid ends e = x L, 4 E I/L (1 + 3 x + 3 x^2) and 2 E I/L (1 + 6 x + 6 x^2).
     count, radius, height, thickness = 6, 18.5e-3, 4e-3, 4e-3
     inertia, span = WIDTH * height**3 / 12.0, 2.0 * np.pi * radius / count - thickness
+    x = 0.5 * thickness / span
+    near, far = 1.0 + 3.0 * x + 3.0 * x**2, 1.0 + 6.0 * x + 6.0 * x**2
     beam = (
         2.0
         * YOUNGS
         * inertia
         / span
-        * (4.0 * np.eye(count) + np.roll(np.eye(count), 1, 0) + np.roll(np.eye(count), -1, 0))
+        * (4.0 * near * np.eye(count) + far * (np.roll(np.eye(count), 1, 0) + np.roll(np.eye(count), -1, 0)))
     )
     slope = np.linalg.solve(beam, np.ones(count))[0]
     footing = vane.Footing(height, vane.strip_beside(radius, count, thickness), 0.0, 0.0, 2.0)

@@ -228,7 +228,8 @@ def layer_stiffness_now(m: Module) -> tuple[Scalar, Scalar]:
 @quantities.helper(instant=True)
 def branch_now(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
-    return layer.series_stiffness(*m.layer_stiffness_now, *m.support_now)
+    real, imaginary = layer.series_stiffness(*m.layer_stiffness_now, *m.support_now)
+    return m.branch_factor * real, m.branch_factor * imaginary
 
 
 @quantities.output("N*m/rad", instant=True)

@@ -23,7 +23,7 @@ class Footing(NamedTuple):
     give: float
     """Sideways compliance of the root, times E w and over the vane's thickness by the plate's."""
     bend: float
-    """Turn of the root as both strips bend, over what strips as wide as vane and rim would: 2 where all are so."""
+    """Turn of the root as both strips bend, over half of what strips as wide as vane and rim would."""
     rim: Any = 0.0
     """Reach of plate or floor beyond the vane's outer end, and bends with its strips [m]."""
 
@@ -33,15 +33,15 @@ ROTOR_SPREAD = 0.787
 
 
 def on_plate(thickness: Any, strip: Any, rim: Any) -> Footing:
-    """Return a vane that hangs from the rotor's plate, its rim beyond it; with the plate and `wedge`, FE of 14 modules
-    within 4 %."""
-    return Footing(thickness, strip, ROTOR_SPREAD, 1.11, 2.26, rim)
+    """Return a vane that hangs from the rotor's plate, its rim beyond it; with the plate and `wedge`, FE of 25 random
+    modules 0.73 to 1.31."""
+    return Footing(thickness, strip, ROTOR_SPREAD, 2.6, 2.31, rim)
 
 
 def on_floor(thickness: Any, strip: Any) -> Footing:
-    """Return a vane that stands on the floor, slotted, its pad beside it; with the floor, FE of 14 modules within 5
-    %."""
-    return Footing(thickness, strip, 1.25, 0.217, 2.14)
+    """Return a vane that stands on the floor, slotted, its pad beside it; with the floor, FE of 25 random modules
+    0.72 to 1.15."""
+    return Footing(thickness, strip, 1.31, 0.409, 2.94)
 
 
 def strip_beside(radius: Any, count: Any, thickness: Any) -> Any:
@@ -50,7 +50,7 @@ def strip_beside(radius: Any, count: Any, thickness: Any) -> Any:
     return np.pi * radius / count - 0.5 * thickness
 
 
-SHEARED, TILTED = 0.0818, 3.16
+SHEARED, TILTED = 0.0655, 6.43
 """Share of a block that resists as its vanes shear it, whose upper and lower faces are free, and as they squeeze it
 more at one end than at the other, over a row of free bars, whose sides are not; calibrated likewise."""
 
@@ -117,15 +117,18 @@ def stiffness(youngs_modulus: Any, shear_modulus: Any, width: Any, thickness: An
 
 
 def on_footing(moduli: tuple[Any, Any], section: tuple[Any, Any], block: BlockBetween, footing: Footing) -> Vane:
-    """Return how a vane on a plate of the thickness h gives: leaning c C + q a^2 l/(E (w + m) h^3), aside r t/(h E w).
+    """Return how a vane on a plate of the thickness h gives: leaning c C + q a^2 l/(E (w + m) h^3 (1 + t/2l)^2), aside
+    r t/(h E w).
 
     C is that of `stiffness`, `moduli` are E and G [Pa], `section` is its width w and thickness t [m]; c, r, q, l and
     the rim m are those of its `Footing`. The moment at its root bends the plate to both sides, out to where it does not
-    bend, halfway to the next vane: strips of the width w + m turn by M l/(6 E (w + m) h^3/12) [T].
+    bend, halfway to the next vane: strips of the width w + m turn by M l/(6 E (w + m) h^3/12) [T]. As the vane turns,
+    it lifts the ends of both by its half thickness too, which makes them (1 + t/2l)^2 times as stiff.
     """
     (youngs, shear), (width, thickness) = moduli, section
     evenly = 1.0 / stiffness(youngs, shear, width, thickness, block.face[1], block.free)
-    turning = footing.bend * block.arm**2 * footing.strip / footing.thickness**3 / (youngs * (width + footing.rim))
+    strips = youngs * (width + footing.rim) * footing.thickness**3 / footing.strip
+    turning = footing.bend * block.arm**2 / strips / (1.0 + 0.5 * thickness / footing.strip) ** 2
     aside = footing.give * thickness / footing.thickness / (youngs * width)
     return Vane(footing.spread * evenly + turning, aside, thickness)
 

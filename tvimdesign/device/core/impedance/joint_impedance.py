@@ -181,7 +181,8 @@ def pcl_mean_radius(m: Module) -> Scalar:
 def branch_stiffness(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
     loss = layer.loss_stiffness(m.pcl_damping, m.frequency)
-    return layer.series_stiffness(m.pcl_stiffness, loss, *m.warm_structure)
+    real, imaginary = layer.series_stiffness(m.pcl_stiffness, loss, *m.warm_structure)
+    return m.branch_factor * real, m.branch_factor * imaginary
 
 
 @quantities.output("N*m/rad", per_point=True, at_end="softened_impedance")
