@@ -168,11 +168,12 @@ def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.geometry.kinds import is_of_structure
     from tvimdesign.cad.inspection.inspect import module_checks, part_checks, solid_check
-    from tvimdesign.cad.inspection.size_checks import all_checks
+    from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 
     dims = dimensions(design)
     drawn = drawn_parts(dims)
-    checks = [*all_checks(design, dims, drawn), *(solid_check(kind, solid) for kind, solid in drawn.items())]
+    checks = [*rest_checks(design, dims, drawn), *(solid_check(kind, solid) for kind, solid in drawn.items())]
+    checks += [check for share in POSITIONS for check in clearance_checks(dims, drawn, share, lambda _: None)]
     for kind, solid in drawn.items():
         closed(kind, solid_mesh(solid))
         if inspect and is_of_structure(kind):

@@ -142,7 +142,7 @@ def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(
     shards = Shards(tmp_path, asked.columns)
     found = [kept.answer for kept in shards.kept(cell.key for cell in cells)]
     assert [one.status for one in found] == ["evaluated", "evaluated", "crashed"]
-    assert found[2].reason == "its process ended with code -9"
+    assert found[2].reason.startswith("its process ended with code -9")
     assert (spent.cells, spent.died) == (3, 2)
 
 

@@ -42,9 +42,12 @@ def main(studies_named: list[str]) -> None:
     for study in studies_named or FRESH:
         fresh = []
         for name, model in designs(study, FRESH[study]):
-            for row in rows_of(study, name, model):
-                print(*row, flush=True)
-                fresh.append(list(map(str, row)))
+            try:
+                for row in rows_of(study, name, model):
+                    print(*row, flush=True)
+                    fresh.append(row)
+            except RuntimeError as trouble:  # the plane's own steps
+                print(f"{study}, {name}: {trouble}", file=sys.stderr, flush=True)
         with RESULTS.open(newline="") as file:
             others = [row for row in list(csv.reader(file))[1:] if row[0] != study]
         with RESULTS.open("w", newline="") as file:

@@ -275,7 +275,7 @@ def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     assert supply.offer is not None
     assert supply.offer.number == "B0D2XZCGL5"
     assert driver.title.startswith(
-        "Step-down driver, current controlled both ways round, from 24 V, at least 4.1 V and 1.5 A"
+        "Step-down driver, current controlled both ways round, its limit set to 1.5 A, from 24 V, at least 4.1 V"
     )
     assert driver.offer is not None
     assert driver.offer.number == "TEC-1091"

@@ -16,7 +16,7 @@ from tvimdesign.cad.fe.model_comparison import model_values
 from tvimdesign.device import table_for
 from tvimdesign.physics.layers import shear_lag
 from tvimdesign.physics.solids import plates, structure
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.study import given, read_study
 
 FOLDER = ROOT / "validation"
