@@ -267,7 +267,7 @@ _SELDOM = 0.95
 
 
 def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fact]:
-    """Return the share of cases that meet all limits, and the limit most in doubt with its own; none without ranges."""
+    """Return the limit most in doubt, and the share of cases asked of each; none without ranges."""
     if not uncertainty or uncertainty["ranges_hold"] is None:
         return []
     name, share = most_in_doubt(uncertainty)
@@ -275,15 +275,11 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     target = (study.get("robust") or {}).get("plausible")
     count = sum(met < (_SELDOM if target is None else target) for met in uncertainty["held"].values())
-    every, least = percent(uncertainty["ranges_hold"]["share"], 2), f"{label(name)} ({percent(share, 2)})"
     if target is not None and not count:
-        return [
-            Fact(
-                "Model", [f"each limit is met in the {percent(target)} of cases asked, all in {every}; least: {least}"]
-            )
-        ]
-    needs = f" needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
-    text = f"{every} of cases meet all; {'' if needs else 'least: '}{least}{needs}"
+        least = f"{label(name)} in {percent(share, 2)}"
+        return [Fact("Model", [f"each limit is met in the {percent(target)} of cases asked, {least}"])]
+    needs = f" needs {uncertainty['needs']}," if uncertainty.get("needs") else " is"
+    text = f"{label(name)}{needs} met in {percent(share, 2)} of cases"
     more = f"{count - 1} more in under {percent(target or _SELDOM)}" if count > 1 else ""
     return [Fact("Model", [text], more)]
 
