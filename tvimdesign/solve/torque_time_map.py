@@ -1,23 +1,21 @@
 """The lightest designs of one study over the torque that is held and the time of a full cycle, cell by cell.
 
 Every cell is a pair of bounds on one problem that is built once. The walk begins at the study's own optimum, goes up
-and down the torques, and from the lightest design of each torque to shorter cycles, down to those of the fastest. Where
-a search has no design, steps are halved. A cell is empty where the search next to it, from a design that is next to it,
-ends at limits.
+and down the torques, and from the lightest design of each torque to shorter cycles. Where a search has no design, steps
+are halved. A cell is empty where the search next to it, from a design that is next to it, ends at limits.
 """
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.nlp.problem_parts import Bound, Objective
 from tvimdesign.solve.nlp.solver_run import OPTIMAL, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.pareto.tradeoff import ONE_POINT, Failure, Point, Tradeoff
+from tvimdesign.solve.pareto.tradeoff import Failure, Point, Tradeoff
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, given
 
@@ -26,10 +24,8 @@ TRADED = (TORQUE, CYCLE, MASS, ENERGY, HOT)
 EMPTY, UNANSWERED = "empty", "unanswered"
 _SIDE = 1e-3
 """Weight of what is not asked for: of two designs alike in mass the faster, and the one of less energy."""
-FASTEST = 0.0
-"""Stands for the shortest cycle there is."""
 _STEP = 0.03
-"""Half the longest step, a logarithm of torque or time, whose failure is a cell's answer."""
+"""Least step, a logarithm of torque or time."""
 _NAMED = 3
 """Limits that are named where a cell is empty."""
 
@@ -101,8 +97,6 @@ class _Walk:
     def __init__(self, trade: Tradeoff, softness: float, cycles: Sequence[float]) -> None:
         self._trade, self._softness, self._cycles = trade, softness, cycles
         self._parts = [name for name in trade.reference if name not in TRADED]
-        self._designs: dict[_Ask, Point] = {}
-        """Lightest design of each cell, and the fastest of each torque."""
 
     def over(self, torques: Sequence[float]) -> list[MapCell]:
         """Walk down from the torque that the lightest design holds, then up."""
@@ -126,98 +120,46 @@ class _Walk:
     def _faster(self, torque: float, near: Point) -> list[MapCell]:
         """Return the cells of a torque, from the longest cycle to the shortest, started at the lightest design."""
         cells: list[MapCell] = []
-        if beside := self._beside(_Ask(torque, FASTEST)):
-            self._seek_fastest(torque, beside, warm=True)
         for place, cycle in enumerate(self._cycles):
             if near.values[CYCLE] > cycle:
-                near, status = self._within(near, _Ask(torque, cycle))
+                near, status = self._walked(near, _Ask(torque, near.values[CYCLE]), _Ask(torque, cycle))
                 if status != OPTIMAL:
                     return [*cells, *(self._cell(torque, c, status, near) for c in self._cycles[place:])]
-                self._designs[_Ask(torque, cycle)] = near
             cells.append(self._cell(torque, cycle, OPTIMAL, near))
         return cells
 
-    def _within(self, near: Point, ask: _Ask) -> tuple[Point, str]:
-        """Seek the lightest design of a cell from those beside it; where there is none, return the nearest."""
-        beside, known = self._beside(ask), self._designs.get(_Ask(ask.torque, FASTEST))
-        if known and not beside and self._ends(known, ask):
-            return known, EMPTY
-        for begin, warm in ((beside, True), (near, True), (known, False), (near, False)):
-            if begin and isinstance(answer := self._sought(begin, ask, warm=warm), Point):
-                return answer, OPTIMAL
-        fastest = self._seek_fastest(ask.torque, near, warm=False)
-        if fastest and fastest is not known:
-            if self._ends(fastest, ask):
-                return fastest, EMPTY
-            if isinstance(answer := self._sought(fastest, ask, warm=False), Point):
-                return answer, OPTIMAL
-        return self._walked(near, replace(ask, cycle=near.values[CYCLE]), ask)
-
-    def _ends(self, fastest: Point, ask: _Ask) -> bool:
-        """Return whether a fastest design is too slow, and a search from it for one a little faster ends at limits."""
-        cycle = fastest.values[CYCLE]
-        if cycle <= ask.cycle * (1.0 + ONE_POINT):
-            return False
-        faster = replace(ask, cycle=max(ask.cycle, cycle * math.exp(-1.5 * _STEP)))
-        answer = self._lightest(fastest, faster, thorough=True)
-        return isinstance(answer, Failure) and answer.infeasible
-
-    def _beside(self, ask: _Ask) -> Point | None:
-        """Return the design of the same cycle and the nearest torque."""
-        alike = [other for other in self._designs if other.cycle == ask.cycle]
-        nearest = min(alike, key=lambda other: abs(math.log(other.torque / ask.torque)), default=None)
-        return self._designs[nearest] if nearest else None
-
-    def _seek_fastest(self, torque: float, begin: Point, *, warm: bool) -> Point | None:
-        """Seek the fastest design of a torque from another design; return the fastest so far."""
-        ask = _Ask(torque, FASTEST)
-        goal, known = self._goal({CYCLE: 1.0, MASS: _SIDE}, _Ask(torque)), self._designs.get(ask)
-        answer = self._trade.beside(begin, goal, f"{torque:.3g} N*m, the fastest", warm=warm)
-        if isinstance(answer, Point) and not (known and known.values[CYCLE] <= answer.values[CYCLE]):
-            self._designs[ask] = answer
-        return self._designs.get(ask)
-
     def _walked(self, near: Point, here: _Ask, there: _Ask) -> tuple[Point, str]:
-        """Walk from the design of one cell to another's; return the last design on the way, and the cell's status.
-
-        A long step that fails is halved at once; a short one is sought from all sides, and its failure is the answer.
-        """
+        """Walk from the design of one cell to another's; return the last design on the way, and the cell's status."""
         step, end = there, None
         while True:
-            short = here.apart(step) < 2.0 * _STEP
-            answer = self._lightest(near, step, thorough=short)
+            answer = self._lightest(near, step)
             if isinstance(answer, Point):
-                near, here, end = answer, step, None if short else end
+                near, here = answer, step
                 if step == there:
                     return near, OPTIMAL
-                step = here.halfway(end) if end else there
-            elif short:
-                return near, EMPTY if answer.infeasible else UNANSWERED
+                if end is None:
+                    step = there
+                    continue
+                step = here.halfway(end)
             else:
                 end = step if answer.infeasible else end
                 step = here.halfway(step)
+            if here.apart(step) < _STEP:
+                return near, EMPTY if end else UNANSWERED
 
-    def _lightest(self, near: Point, ask: _Ask, *, thorough: bool) -> Point | Failure:
-        """Seek the lightest design from one nearby, then from the design of any cell that comes nearest.
-
-        Where a `thorough` search fails, any of its runs that ends at limits says that the cell is empty.
-        """
+    def _lightest(self, near: Point, ask: _Ask) -> Point | Failure:
+        """Seek the lightest design from one nearby, then from the design of any cell that comes nearest."""
+        answer = self._sought(near, ask)
         nearest = min(self._trade.found, key=lambda point: self._miss(point, ask))
-        begins = [near, nearest] if self._miss(nearest, ask) < self._miss(near, ask) else [near]
-        failures = []
-        for begin, warm in itertools.product(begins, (True, False) if thorough else (True,)):
-            answer = self._sought(begin, ask, warm=warm)
-            if isinstance(answer, Point):
-                return answer
-            failures.append(answer)
-        return max(failures, key=lambda failure: failure.infeasible)
+        if isinstance(answer, Failure) and self._miss(nearest, ask) < self._miss(near, ask):
+            return self._sought(nearest, ask)
+        return answer
 
-    def _sought(self, near: Point, ask: _Ask, *, warm: bool) -> Point | Failure:
-        where, weights = f"{ask.torque:.3g} N*m in {ask.cycle:.3g} s", {MASS: 1.0, CYCLE: _SIDE, ENERGY: _SIDE}
-        return self._trade.beside(near, self._goal(weights, ask), where, warm=warm)
-
-    def _goal(self, weights: dict[str, float], ask: _Ask) -> Objective:
-        return Objective(self._trade.weights(weights), self._bounds(ask))
+    def _sought(self, near: Point, ask: _Ask) -> Point | Failure:
+        where = f"{ask.torque:.3g} N*m in {ask.cycle:.3g} s"
+        self._trade.progress(where)
+        weights = {MASS: 1.0, CYCLE: _SIDE, ENERGY: _SIDE}
+        return self._trade.beside(near, Objective(self._trade.weights(weights), self._bounds(ask)), where)
 
     def _miss(self, point: Point, ask: _Ask) -> float:
         """Return the logarithm by which a design misses what is asked, at most zero where it meets that."""

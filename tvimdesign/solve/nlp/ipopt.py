@@ -1,6 +1,6 @@
 """IPOPT as every problem here wants it: its settings, and what warm starts take other ones."""
 
-from collections import Counter
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Protocol, TypeAlias
 
@@ -57,27 +57,21 @@ _FEASIBLE = {
     "acceptable_constr_viol_tol": 1e-8,
     "acceptable_obj_change_tol": 1e20,
 }
-Beginning: TypeAlias = Literal["cold", "feasible", "beside", "near", "warm", "sharp"]
-"""Where a run begins: anywhere; anywhere, to end where all limits are met; beside another optimum, where there may be
-no design; near another optimum, none of whose multipliers hold; at an optimum, with them; at the optimum
+Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
+"""Where a run begins: anywhere; anywhere, to end where all limits are met; near another optimum, none of whose
+multipliers hold; at an optimum, with them; at the optimum
 itself, which is sought more exactly."""
-_SETTINGS: dict[Beginning, dict[str, Any]] = {
-    "cold": _ANYWHERE, "feasible": _FEASIBLE, "beside": _ANYWHERE, "warm": _WARM, "sharp": _WARM,
-}  # fmt: skip
+_SETTINGS: dict[Beginning, dict[str, Any]] = {"cold": _ANYWHERE, "feasible": _FEASIBLE, "warm": _WARM, "sharp": _WARM}
 _SHARP = 1e-11
 """Tolerance that separates a limit which hardly presses from one which does not."""
-_MOST_ITERATIONS = {"cold": 120, "beside": 120, "near": 60, "warm": 25, "sharp": 60}
+_MOST_ITERATIONS = {"cold": 120, "near": 60, "warm": 25, "sharp": 60}
 """A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back. A near one
 takes 13 to 45, measured on six studies, or seldom comes to anything new."""
 
 
-_MOST_POINTS = {
-    "beside": {"objective": 140, "rows": 280}, "warm": {"objective": 50}, "near": {"objective": 70},
-}  # fmt: skip
-"""A start that leads somewhere evaluates up to 49 points warm and 63 near; any other searches along steps in vain. A
-search for a feasible point evaluates rows alone."""
+_MOST_POINTS = {"warm": 50, "near": 70}
+"""A start that leads somewhere evaluates up to 49 points warm and 63 near; any other searches along steps in vain."""
 
-_ANY_COUNT: Mapping[str, int] = {}
 TIME_OVER = "Maximum_WallTime_Exceeded"
 """Status of a run that a deadline ended, whatever its clock."""
 _ITERATIONS_OVER = "Maximum_Iterations_Exceeded"
@@ -123,7 +117,7 @@ class Solver:
 
     def __init__(
         self, name: str, problem: Any, settings: Mapping[str, Any], sizes: tuple[int, int], plugin: str = "ipopt",
-        most_points: Mapping[str, int] = _ANY_COUNT,
+        most_points: float = math.inf,
     ) -> None:  # fmt: skip
         """Build it from what nlpsol takes; `sizes` are the counts of unknowns and rows."""
         self._stop = _Stop((*sizes, 0), most_points)
@@ -132,7 +126,7 @@ class Solver:
 
     def __call__(self, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
         """Run it with nlpsol's arguments, until the deadline at most."""
-        self._stop.deadline, self._stop.points, self._stop.status = deadline, Counter(), ""
+        self._stop.deadline, self._stop.points, self._stop.status = deadline, 0, ""
         answer: dict[str, Any] = self._nlp(**arguments)
         return answer
 
@@ -142,9 +136,9 @@ class Solver:
         status = self._stop.status
         return {**statistics, "return_status": status, "success": False} if status else statistics
 
-    def count_point(self, part: str) -> None:
-        """Count an evaluation of the objective or of the rows at a point."""
-        self._stop.points[part] += 1
+    def count_point(self) -> None:
+        """Count an evaluation of the problem at a point."""
+        self._stop.points += 1
 
 
 class ProgrammeSolver:
@@ -152,7 +146,7 @@ class ProgrammeSolver:
 
     def __init__(
         self, unknowns: int, rows: int, settings: Mapping[str, Any], plugin: str = "ipopt",
-        most_points: Mapping[str, int] = _ANY_COUNT,
+        most_points: float = math.inf,
     ) -> None:  # fmt: skip
         self._held = _Held()
         x, p = ca.MX.sym("x", unknowns), ca.MX.sym("p", 0)
@@ -187,7 +181,7 @@ class _Held:
 
     programme: Programme
     error: BaseException | None = None
-    count_point: Callable[[str], None]
+    count_point: Callable[[], None]
 
 
 class _Part(ca.Callback):
@@ -224,8 +218,8 @@ class _Part(ca.Callback):
         computed: tuple[Any, Any] = (point.rows, point.jacobian)
         if of_objective:
             computed = (point.objective, point.gradient)
-        if not self._sloped:
-            self._held.count_point(self._part)
+            if not self._sloped:
+                self._held.count_point()
         for result, values in zip(results, computed, strict=False):
             if result is not None:
                 np.frombuffer(result)[:] = np.ravel(values, order="F")
@@ -235,13 +229,11 @@ class _Part(ca.Callback):
 class _Stop(ca.Callback):
     """Called by IPOPT before each iteration: anything but zero ends the run."""
 
-    def __init__(self, sizes: tuple[int, int, int], most_points: Mapping[str, int]) -> None:
+    def __init__(self, sizes: tuple[int, int, int], most_points: float) -> None:
         super().__init__()
         unknowns, rows, parameters = sizes
         self._sizes = {"x": unknowns, "f": 1, "g": rows, "lam_x": unknowns, "lam_g": rows, "lam_p": parameters}
-        self.deadline, self._most_points = NEVER, most_points
-        self.points = Counter[str]()
-        """Evaluations of objective and rows; the search for a feasible point evaluates rows alone."""
+        self.deadline, self.points, self._most_points = NEVER, 0, most_points
         self.status = ""
         """Status of a run that was ended here."""
         self.construct("stop", {})
@@ -265,7 +257,7 @@ class _Stop(ca.Callback):
         """Write whether to end."""
         if not self.status and self.deadline.passed:
             self.status = TIME_OVER
-        elif not self.status and any(self.points[part] > most for part, most in self._most_points.items()):
+        elif not self.status and self.points > self._most_points:
             self.status = _ITERATIONS_OVER
         np.frombuffer(results[0])[:] = bool(self.status)
         return 0
@@ -282,4 +274,4 @@ def solver_of(unknowns: int, rows: int, options: SolverOptions, beginning: Begin
         "tol": min(options.tolerance, _SHARP) if beginning == "sharp" else options.tolerance,
     }
     settings: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False}
-    return ProgrammeSolver(unknowns, rows, settings, most_points=_MOST_POINTS.get(beginning, _ANY_COUNT))
+    return ProgrammeSolver(unknowns, rows, settings, most_points=_MOST_POINTS.get(beginning, math.inf))

@@ -129,11 +129,11 @@ class Tradeoff:
             self._leave_time()
         return answer
 
-    def beside(self, point: Point, objective: Objective, where: str, *, warm: bool) -> Point | Failure:
-        """Return the best design for an objective, sought from one point alone, `warm` with its multipliers."""
-        self.progress(where)
-        run = self._warm(point.trace, objective) if warm and point.trace else self._beside(point, objective)
-        answer = self._checked([run], objective, where)
+    def beside(self, point: Point, objective: Objective, where: str) -> Point | Failure:
+        """Return the best design for an objective, sought from one point alone: warm, then cold."""
+        answer = self._from(point, objective, where, math.inf)
+        if isinstance(answer, Failure) and point.trace is not None:
+            answer = self._from(replace(point, trace=None), objective, where, math.inf)
         if isinstance(answer, Point):
             self.found.append(answer)
         return answer
@@ -227,12 +227,6 @@ class Tradeoff:
 
     def _warm(self, trace: Trace, objective: Objective) -> Run:
         return self.optimizer.solve(self._fixed, warm=trace, objective=objective)
-
-    def _beside(self, point: Point, objective: Objective) -> Run:
-        unknowns, begin = point.trace.unknowns if point.trace else None, self._inputs(point)
-        return self.optimizer.solve(
-            self._fixed, begin=begin, unknowns=unknowns, objective=objective, beginning="beside"
-        )
 
     def _cold(self, begin: Array, objective: Objective) -> Run:
         return self.optimizer.solve(self._fixed, begin=begin, objective=objective)
