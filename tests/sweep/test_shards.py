@@ -180,7 +180,8 @@ def test_a_key_changes_with_what_the_table_reads_of_a_record(tmp_path: Path) -> 
 
     def key(value: str, text: str = "") -> str:
         (records / "own.yaml").write_text(
-            f"title: own {text}\nbased_on: polycarbonate_bambu\nvalues:\n  {value}, status: datasheet, source: s {text}}}\n"
+            f"title: own {text}\nbased_on: polycarbonate_bambu\nvalues:\n"
+            f"  {value}, status: datasheet, source: s {text}}}\n"
         )
         study = "mode: shear\ncatalog: records\nmodule: {structure_material: own}\n"
         swept = plan_over(tmp_path, "{over: {current: [1 A, 2 A]}}", study)

@@ -126,7 +126,7 @@ def test_the_stack_has_the_spreader_between_modules_and_layer() -> None:
 
 
 @pytest.mark.parametrize("study", ["elbow_printed", "ankle"])
-def test_spreading_below_random_arcs_is_that_of_a_thin_plate_in_two_dimensions(study: str) -> None:
+def test_spreading_below_random_arcs_is_that_of_a_thin_plate(study: str) -> None:
     read = read_study(study_path(study))
     for design in Draws(read, FRESH_SEED).keeping_rules(8, Tally()):
         # What goes around the tiles' corners into the plate's thickness has a test of its own: thin, it is little.
