@@ -99,7 +99,7 @@ def _wait_for_end(pipe: int) -> None:
 def main() -> None:
     """Follow the parent, then be the module."""
     follow_parent()
-    warnings.simplefilter("ignore", FolderWarning)  # the parent tells of it
+    warnings.simplefilter("ignore", FolderWarning)  # the parent reports it
     del sys.argv[0]
     runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
 

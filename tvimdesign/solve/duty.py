@@ -238,7 +238,7 @@ LAG_RANGE = 2.5
 that 0.1 to 0.5 mm of adhesive (0.2 W/(m K)) holds over 20 mm^2 has 8 to 40 mW/K, 0.9 to 4.5 s. Test: step of current,
 reading against the joint's own rise."""
 OVERSHOOT, LATE = 3.0, 1.1
-"""What counts as controlled: hot face above its highest set-point [K], time to soft over that without controller."""
+"""Limits of a controlled switch: hot face above its highest set-point [K], time to soft over that uncontrolled."""
 SHARE = 0.95
 """Share of modules that reported values cover."""
 WATCHED = 2.0

@@ -29,7 +29,7 @@ RESULTS = Path(__file__).with_name("fresh.csv")
 HEADER = ("study", "draw", "quantity", "model", "fe", "ratio")
 COARSER = 1.6
 AT_POINTS = ("storage_modulus@cold", "pcl_stiffness@cold", "spring_stiffness", "moving_inertia", "rotor_inertia")
-"""What FE needs beside the quantities that follow from the inputs alone."""
+"""Quantities that FE needs beside the quantities that follow from the inputs alone."""
 NAMES = ("hub", "link", "core", "plate", "floor", "rotor_vanes_and_plate", "housing_vanes_and_floor", "core_stress",
          "plate_stress", "edge_traction", "seat_traction")  # fmt: skip
 

@@ -95,7 +95,11 @@ def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
     # The highest mean over a millimetre along the core's surface, above a sharp corner the first; per newton metre.
     radius, rise = quantities(name, "core_radius", "core_foot_rise")
     mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), radius, rise)
-    assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=0.08)
+    assert mises == pytest.approx(
+    # Meshes of drawn modules are coarse.
+    within = 0.05 if name in BLOCKS and not name.endswith(", drawn") else 0.08
+    assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=within)
+    )  # drawn: coarse meshes
 
 
 @pytest.mark.parametrize("name", JOINTS)
@@ -172,8 +176,10 @@ def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     # A vane that leans shears its block, and FE shares that out otherwise; the whole joint is closer (below).
     fe, rows = SHIPPED[name]["found"], ("plate_stiffness", "rotor_vane_stiffness", "floor_stiffness")
     plate, rotor, floor, housing = quantities(name, *rows, "housing_vane_stiffness")
-    assert 0.73 < structure.series(plate, rotor) / structure.series(fe["plate"], fe["rotor_vanes"]) < 1.31
-    assert 0.72 < structure.series(floor, housing) / structure.series(fe["housing"], fe["housing_vanes"]) < 1.25
+    within = 0.08 if name.endswith(", shipped") else 0.25
+    assert structure.series(plate, rotor) == pytest.approx(structure.series(fe["plate"], fe["rotor_vanes"]), rel=within)
+    by_fe = structure.series(fe["housing"], fe["housing_vanes"])
+    assert structure.series(floor, housing) == pytest.approx(by_fe, rel=within)
 
 
 BY_FE = list(csv.DictReader((FOLDER / "fe_structure/fresh.csv").read_text().splitlines()))

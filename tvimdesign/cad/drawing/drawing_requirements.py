@@ -22,7 +22,7 @@ _DATA = "iso_286.yaml"
 standard_data = partial(own_data, __file__, _DATA)
 _MICRON = 1e-3
 _HAIR = 1e-5
-"""What [mm] a size may be off the end of a range for rounding."""
+"""Length [mm] by which a size may be off the end of a range for rounding."""
 
 
 class Limits(NamedTuple):

@@ -23,7 +23,7 @@ from tvimdesign.simulation.working_cycle.phase_functions import SHOWN, PhaseFunc
 Array = NDArray[np.float64]
 MEMORY = "melt_memory"
 HISTORIES = 5
-"""Solid fractions, equally spaced from the least to the largest, of which the extremes are taken."""
+"""Solid fractions, equally spaced from the least to the largest, whose extremes are taken."""
 
 
 class Fractions(NamedTuple):

@@ -33,12 +33,12 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Range, Study
 
 Place: TypeAlias = tuple[Literal["row", "upper", "lower"], int]
-"""What moves: a row of the problem's constraints, or an end of the range of one of its unknowns."""
+"""Thing that moves: a row of the problem's constraints, or an end of the range of one of its unknowns."""
 
 _FAINT = 1e-6
 """Multiplier below which a limit presses on nothing, however near it is."""
 _CLEAR = 100.0
-"""Times the one of multiplier and room must be the other for a limit to be told as active, or as slack: their product
+"""Times the one of multiplier and room must be the other for a limit to count as active, or as slack: their product
 is the barrier where IPOPT ended."""
 _DEPENDENT = 1e-10
 """Singular value, as a share of the greatest, below which rows depend on each other."""
