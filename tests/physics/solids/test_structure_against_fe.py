@@ -95,11 +95,9 @@ def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
     # The highest mean over a millimetre along the core's surface, above a sharp corner the first; per newton metre.
     radius, rise = quantities(name, "core_radius", "core_foot_rise")
     mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), radius, rise)
-    assert mises == pytest.approx(
     # Meshes of drawn modules are coarse.
     within = 0.05 if name in BLOCKS and not name.endswith(", drawn") else 0.08
     assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=within)
-    )  # drawn: coarse meshes
 
 
 @pytest.mark.parametrize("name", JOINTS)
