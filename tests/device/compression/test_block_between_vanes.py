@@ -267,7 +267,7 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     assert stack.plate_surface.coefficient == 0.0
     vanes = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
-    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, *ABOVE_WALLS, ABOVE_PADS))
+    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, *ABOVE_WALLS, *ABOVE_PADS))
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
 
 

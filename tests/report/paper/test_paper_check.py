@@ -140,11 +140,11 @@ def test_the_housing_is_hotter_than_its_material_may_be() -> None:
     assert rotor > service + 15.0  # above the glass transition, 75 degC and more
 
 
-def test_one_sensor_does_not_measure_a_frozen_and_a_soft_release() -> None:
+def test_one_sensor_measures_a_frozen_and_a_soft_release_badly() -> None:
     text, values = computed("torque_sensor"), published_values()
     frozen, springs = 0.1 * values["joint_stiffness@cold"], 0.1 * values["spring_stiffness"]
     assert f"{frozen:.0f} N·m frozen, for {springs:.2f} N·m" in text
-    assert f"off by {0.5 * frozen / springs:.0f} % " in text
+    assert f"off by {0.2 * frozen / springs:.0f} % " in text
 
 
 def test_a_module_shrunk_to_a_finger_s_width_loses_the_cube_of_its_torque() -> None:
@@ -170,7 +170,7 @@ def test_what_is_assumed_of_the_instrument_has_a_range_and_a_reason() -> None:
     for name in claims()["instrument"]:
         one = paper_case.instrument(name)
         assert one.low < one.value < one.high
-        assert one.source.startswith("assumed: ")
+        assert one.source.startswith("assumed: ") == (one.status == "assumed")
 
 
 def test_the_numbers_follow_the_stated_inputs(monkeypatch: pytest.MonkeyPatch) -> None:

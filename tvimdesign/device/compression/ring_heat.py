@@ -1,9 +1,9 @@
 """Bodies of one temperature around the blocks of the compression module, and the links that pass heat to them.
 
 Blocks, pads and rotor vanes face floor and rotor plate through the still air of the running clearances, and the housing
-through the chamber within and without. The pads lean against the housing's vanes. The floor below blocks and pads is
-three bodies from its upper face on, as is the rotor plate above them; the floor below the rotor's vanes is one. Floor
-and plate at the housing's vanes are three in a row from the pads on, as these are.
+through the chamber within and without. The pads lean against the housing's vanes. Floor and rotor plate are alike:
+three bodies in depth at the blocks and three at the pads, from the face in the ring on, one at the rotor's vanes, and
+at the housing's three in a row from the pads on, as these are.
 
 Path of the heat in the compression module: along the blocks into half of a rotor vane, and up into the plate.
 
@@ -12,6 +12,8 @@ free sides of blocks, pads and vanes are the bodies around them.
 """
 
 import itertools
+from collections.abc import Iterable
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -32,12 +34,12 @@ WALLS = (3, 4, 5)
 """The housing's vanes, from the pads on."""
 RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS = 6, 7, 8, (9, 10, 11), (12, 13, 14)
 """The last two below and above the housing's vanes, from the pads on."""
-BELOW_PADS, ABOVE_PADS, HOUSING = (15, 16, 17), 18, 19
-"""The floor's bodies below the pads, from its upper face on; beside the plate's lower one, which is above the
-blocks."""
+BELOW_PADS, ABOVE_PADS, HOUSING = (15, 16, 17), (18, 19, 20), 21
+"""Bodies of floor and rotor plate at the pads, from the face in the ring on."""
 ABOVE_VANES, ABOVE = 0, (1, 2, 3)
-"""Places beside the vanes: the rotor plate above them; above blocks and pads, from its lower face on."""
+"""Places beside the vanes: the rotor plate above them; above the blocks, from its lower face on."""
 LEGS = ("legs", 0)
+Row: TypeAlias = tuple[Place, ...]
 
 
 @quantities.helper(instant=True)
@@ -103,37 +105,74 @@ def heated_length(m: Module) -> Scalar:
     return m.faced_area / m.ring_width - m.plate_depth
 
 
-@quantities.helper()
-def ways_along(m: Module) -> tuple[Scalar, ...]:
-    """Ways along the ring in floor and rotor plate [1/m]: from below or above a block and its pad to a rotor vane and
-    to a housing vane.
+class Along(NamedTuple):
+    """Conductances [W/K] along the ring in floor or rotor plate, of rows of bodies at blocks and pads."""
 
-    A strip that is heated evenly has its mean temperature a sixth of its length away from either end where both take
-    as much, and a third where one takes all: a quarter. What is heated at its end has it a third of its length away.
+    to_vanes: Scalar
+    """From the blocks to the rotor's vanes."""
+    to_pads: Scalar
+    across: Scalar
+    """From the pads to the rotor's vanes."""
+    to_walls: Scalar
+    """From the pads to the housing's vanes."""
+    uneven: tuple[Scalar, Scalar]
+    """More than those to either vanes, for what bodies differ from the mean of their row."""
+
+
+class Depths(NamedTuple):
+    """Lengths along the ring [m], all of a kind together."""
+
+    blocks: Scalar
+    pads: Scalar
+    vanes: Scalar
+    walls: Scalar
+
+
+@quantities.helper()
+def ring_depths(m: Module) -> Depths:
+    """Lengths along the ring at half a rotor vane, a block, a pad and half a housing vane [m]."""
+    pads = m.pads_share * m.heated_length
+    return Depths(m.heated_length - pads, pads, m.plate_depth, m.wall_depth)
+
+
+def along_ring(conductivity: Scalar, thickness: Scalar, depths: Depths) -> Along:
+    """Return the ways along the ring in floor or rotor plate, from its conductivity times the ring's width [W m/K].
+
+    Heat goes from the pads through what is at the blocks, which loses or takes heat evenly on the way. What is at the
+    pads has its mean temperature a quarter of its length from either end (a sixth where both ends take as much, a third
+    where one takes all), what is heated at its end a third of its length away. What a body of a row differs from its
+    row's mean takes the way of a cosine over the depth (`shape_factors.uneven_way`).
     """
-    return tuple(1.0 / (0.25 * m.heated_length + end / 3.0) for end in (m.plate_depth, m.wall_depth))
+    sheet = conductivity * thickness
+    across, at_pads = sheet / depths.blocks, 4.0 * sheet / depths.pads
+    to_walls = sheet / (0.25 * depths.pads + WAYS[0] * depths.walls)
+    ways = lumps.heated_between(across, 3.0 * sheet / depths.vanes, at_pads)
+    turned = [shape_factors.uneven_way(depth / thickness) * thickness for depth in (depths.vanes, depths.walls)]
+    uneven_vanes = lumps.heated_between(across, sheet / turned[0], at_pads)[0]
+    return Along(*ways, to_walls, (uneven_vanes - ways[0], sheet / (0.25 * depths.pads + turned[1]) - to_walls))
 
 
 @quantities.helper()
 def rotor_beside(m: Module) -> tuple[lumps.Lump, ...]:
-    """Rotor plate above the vanes, heated by their roots; beside that above blocks and pads, three bodies in depth."""
+    """Rotor plate above the vanes, heated by their roots; beside that above the blocks, three bodies in depth."""
     k, capacity = m.structure_conductivity, m.rotor_thickness * m.structure_density * m.structure_specific_heat
-    above_vanes, heated = m.ring_width * m.plate_depth, m.ring_width * m.heated_length
-    outside = lumps.Surface(1.0, m.rotor_coefficient, m.surface_emissivity, m.rotor_thickness / 3.0 / k)
+    above_vanes, blocks = m.ring_width * m.plate_depth, m.ring_width * m.ring_depths.blocks
+    outside = lumps.Surface(1.0, m.rotor_coefficient, m.surface_emissivity)
     # What of a vane stands beside the clearance above the blocks counts as plate.
     upper = (
         (m.rotor_vanes.area * m.vane_height - m.pcl_area * m.plate_depth)
         * m.structure_density
         * m.structure_specific_heat
     )
-    vanes = lumps.Lump(m.vane_ways[0], above_vanes * capacity + upper, outside._replace(area=above_vanes))
-    first, *others = lumps.strip_bodies(heated, capacity, k * heated / m.rotor_thickness, lumps.Surface(1.0, 0.0))
-    along = k * m.rotor_thickness * m.ring_width * m.ways_along[0]
-    others[-1] = others[-1]._replace(surface=outside._replace(area=heated, behind=lumps.BEYOND * m.rotor_thickness / k))
-    # The lower tenth is divided in what is above blocks and above pads.
-    blocks = 1.0 - m.pads_share
-    first = first._replace(conductance=lumps.STRIP[0] * along, capacity=blocks * first.capacity)
-    others[0] = others[0]._replace(conductance=blocks * others[0].conductance)
+    vanes = lumps.Lump(
+        m.vane_ways[0],
+        above_vanes * capacity + upper,
+        outside._replace(area=above_vanes, behind=m.rotor_thickness / 3.0 / k),
+    )
+    first, *others = lumps.strip_bodies(blocks, capacity, k * blocks / m.rotor_thickness, lumps.Surface(1.0, 0.0))
+    others[-1] = others[-1]._replace(surface=outside._replace(area=blocks, behind=BEYOND * m.rotor_thickness / k))
+    along = along_ring(k * m.ring_width, m.rotor_thickness, m.ring_depths)
+    first = first._replace(conductance=STRIP[0] * along.to_vanes)
     return (vanes, first, *others)
 
 
@@ -158,7 +197,7 @@ def ring_width(m: Module) -> Scalar:
 @quantities.helper()
 def ring_places(_: Module) -> tuple[Place, Place, Place, Place]:
     """Places that pads face: floor, rotor plate and housing's vanes; and the housing."""
-    return ("around", BELOW_PADS[0]), ("around", ABOVE_PADS), ("around", WALLS[0]), ("around", HOUSING)
+    return ("around", BELOW_PADS[0]), ("around", ABOVE_PADS[0]), ("around", WALLS[0]), ("around", HOUSING)
 
 
 @quantities.helper()
@@ -192,11 +231,16 @@ def around_pads(m: Module) -> tuple[Body, ...]:
     )
     walls = [Body(share * wall, lumps.NOWHERE) for share in STRIP]
     below_walls = _divided(below[3])
-    above_pads = Body(STRIP[0] * pads * m.ring_width * m.rotor_thickness * m.structure_heat_capacity, lumps.NOWHERE)
+    plate = pads * m.ring_width * m.rotor_thickness * m.structure_heat_capacity
+    above_pads = [Body(share * plate, lumps.NOWHERE) for share in STRIP]
+    in_air = lumps.Surface(pads * m.ring_width, m.rotor_coefficient, m.surface_emissivity)
+    above_pads[-1] = above_pads[-1]._replace(
+        surface=in_air._replace(behind=BEYOND * m.rotor_thickness / m.structure_conductivity)
+    )
     parts = (*blocks, *walls, below[2], *below_walls, *below_pads)
     rest = lumps.less(m.housing_rest, parts, np.pi * m.housing_inner_radius**2 - m.ring_width * sum(depths))
     rim, within, *above_walls = m.plate_around
-    return (*blocks, *walls, rim, within, below[2], *below_walls, *above_walls, *below_pads, above_pads, rest)
+    return (*blocks, *walls, rim, within, below[2], *below_walls, *above_walls, *below_pads, *above_pads, rest)
 
 
 def _divided(whole: Body) -> list[Body]:
@@ -226,62 +270,63 @@ def plate_around(m: Module) -> tuple[Body, ...]:
     return (without, inside, *_divided(above))
 
 
+def sheet_links(
+    conductivity: Scalar, thickness: Scalar, depths: Depths, *, blocks: Row, pads: Row, walls: Row, vanes: Place
+) -> list[Link]:
+    """Return the links along the ring within floor or rotor plate, between its bodies at blocks, pads and vanes.
+
+    The conductivity is times the ring's width [W m/K].
+    """
+    along = along_ring(conductivity, thickness, depths)
+    links = [*_evened(blocks, along.uneven[0]), *_evened(pads, along.uneven[1])]
+    rows = ((blocks, depths.blocks / thickness), (pads, depths.pads / thickness), (walls, thickness / depths.walls))
+    for row, across in rows:
+        pairs = zip(itertools.pairwise(row), WAYS[1:], strict=True)
+        links += [Link(*pair, conductivity * across / way) for pair, way in pairs]
+    for at_block, at_pad, share in zip(blocks, pads, STRIP, strict=True):
+        ways = ((vanes, at_block, along.to_vanes), (at_block, at_pad, along.to_pads), (at_pad, vanes, along.across),
+                (at_pad, walls[0], along.to_walls))  # fmt: skip
+        links += [Link(first, second, share * way) for first, second, way in ways]
+    return links
+
+
 @quantities.helper()
 def floor_links(m: Module) -> tuple[Link, ...]:
-    """Within the floor, along the ring and out to the housing's wall; and within the housing's vanes.
-
-    Heat goes along the ring from below the pads through what is below the blocks, which loses or takes heat evenly on
-    the way. What is below pads has its mean temperature a quarter of its length from either end (a sixth where both
-    ends take as much, a third where one takes all), what is heated at its end a third of its length away. What a body
-    of a row differs from its row's mean takes the way of a cosine over the depth (`shape_factors.uneven_way`).
-    """
-    pads = m.pads_share * m.heated_length
-    blocks, sheet = m.heated_length - pads, m.structure_conductivity * m.floor_thickness * m.ring_width
+    """Within the floor, along the ring and out to the housing's wall; and within the housing's vanes."""
     out = (
         2.0 * np.pi * m.structure_conductivity * m.floor_thickness / np.log(m.housing_inner_radius / m.pcl_outer_radius)
     )
-    out = out / (m.heated_length + m.plate_depth + m.wall_depth)
-    to_walls = sheet / (0.25 * pads + WAYS[0] * m.wall_depth)
-    to_vanes, to_pads, across = lumps.heated_between(sheet / blocks, 3.0 * sheet / m.plate_depth, 4.0 * sheet / pads)
-    turned = shape_factors.uneven_way(m.wall_depth / m.floor_thickness) * m.floor_thickness
-    uneven_walls = sheet / (0.25 * pads + turned)
-    turned = shape_factors.uneven_way(m.plate_depth / m.floor_thickness) * m.floor_thickness
-    uneven_vanes = lumps.heated_between(sheet / blocks, sheet / turned, 4.0 * sheet / pads)[0]
-    links = []
-    links += [*_evened(FLOOR, uneven_vanes - to_vanes), *_evened(BELOW_PADS, uneven_walls - to_walls)]
-    first = BELOW_WALLS[0]
-    for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, first, to_walls)):
-        down = m.structure_conductivity * depth * m.ring_width / m.floor_thickness
-        links += [_link(row[i - 1], row[i], down / way) for i, way in enumerate(WAYS[1:], 1)]
-        for place, share in zip(row, STRIP, strict=True):
-            links += [_link(place, HOUSING, share * out * depth), _link(place, end, share * along)]
-    for floor, pad, share in zip(FLOOR, BELOW_PADS, STRIP, strict=True):
-        links += [_link(floor, pad, share * to_pads), _link(pad, BELOW_VANES, share * across)]
-    links.append(_link(BELOW_VANES, HOUSING, out * m.plate_depth))
-    links += [_link(i, HOUSING, share * out * m.wall_depth) for i, share in zip(BELOW_WALLS, STRIP, strict=True)]
+    out = out / sum(m.ring_depths)
+    housing, vanes = ("around", HOUSING), ("around", BELOW_VANES)
+    rows = {"blocks": around(FLOOR), "pads": around(BELOW_PADS), "walls": around(BELOW_WALLS)}
+    along = m.structure_conductivity * m.ring_width
+    links = sheet_links(along, m.floor_thickness, m.ring_depths, **rows, vanes=vanes)
+    for name, row in rows.items():
+        depth = getattr(m.ring_depths, name)
+        links += [Link(place, housing, share * out * depth) for place, share in zip(row, STRIP, strict=True)]
+    links.append(Link(vanes, housing, out * m.plate_depth))
     inwards = m.structure_conductivity * (m.pcl_area - m.cold_area) / m.wall_depth
-    for strip, across in ((WALLS, inwards), (BELOW_WALLS, sheet / m.wall_depth)):
-        links += [_link(i - 1, i, across / way) for i, way in zip(strip[1:], WAYS[1:], strict=True)]
-    return tuple(links)
+    pairs = zip(itertools.pairwise(around(WALLS)), WAYS[1:], strict=True)
+    return (*links, *(Link(*pair, inwards / way) for pair, way in pairs))
 
 
-def _evened(row: tuple[int, ...], conductance: Scalar) -> list[Link]:
+def around(row: Iterable[int]) -> Row:
+    """Return the places of bodies around the pads."""
+    return tuple(("around", i) for i in row)
+
+
+def _evened(row: Row, conductance: Scalar) -> list[Link]:
     """Return the links among bodies of a row that leave what it gives by its mean, and take a conductance from what
     each gives by its difference from that: c (T_mean - T_i) to each for its share."""
-    shares = dict(zip(row, STRIP, strict=True))
-    pairs = itertools.combinations(row, 2)
-    return [_link(one, other, shares[one] * shares[other] * conductance) for one, other in pairs]
-
-
-def _link(first: int, second: int, conductance: Scalar) -> Link:
-    return Link(("around", first), ("around", second), conductance)
+    pairs = itertools.combinations(zip(row, STRIP, strict=True), 2)
+    return [Link(one, other, share * beside * conductance) for (one, share), (other, beside) in pairs]
 
 
 @quantities.helper()
 def slope_share(m: Module) -> Scalar:
-    """Share that lies below a block of the way from the floor below a pad to that below a vane [1].
+    """Share that lies at a block of the way in floor or rotor plate from a pad to a vane [1].
 
-    Ways to their mean temperatures as in `floor_links`.
+    Ways to their mean temperatures as in `along_ring`.
     """
     return m.block_depth / (m.block_depth + m.plate_depth / 3.0 + 0.25 * m.pads_share * m.heated_length)
 
@@ -309,10 +354,13 @@ def stack_links(m: Module) -> tuple[Link, ...]:
     what is at T_c: 1/12 of the difference more. A clearance between a wall of one temperature and one that changes
     along it conducts along as well, like a strip of a third of its width. Above tiles there is more air.
     """
-    blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS[0]), ("around", ABOVE_PADS))
+    blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS[0]), ("around", ABOVE_PADS[0]))
     to_faces = shape_factors.way_to_faces(2.0 * m.block_depth / m.block_height)
-    below_pads = tuple((("around", i), share) for i, share in zip(BELOW_PADS, STRIP, strict=True))
-    sloping = {blocks[0]: lumps.Slope(below_pads, ("around", BELOW_VANES), m.slope_share)}
+    vanes = ("around", BELOW_VANES), ("beside", ABOVE_VANES)
+    sloping = {
+        face: lumps.Slope(tuple(zip(around(row), STRIP, strict=True)), vane, m.slope_share)
+        for face, row, vane in zip(blocks, (BELOW_PADS, ABOVE_PADS), vanes, strict=True)
+    }
     links = []
     above = m.running_clearance + m.block_height - m.pad_height
     of_pads = (LEGS, m.pad_rows * m.peltier_thickness, pads, (m.running_clearance, above))

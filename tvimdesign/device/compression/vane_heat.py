@@ -4,6 +4,8 @@ Vanes give heat to floor and rotor plate through their roots, and through the cl
 meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`ledge_ways`).
 """
 
+import itertools
+
 import numpy as np
 
 from tvimdesign.device.compression.ring_heat import (
@@ -16,6 +18,9 @@ from tvimdesign.device.compression.ring_heat import (
     RIM,
     WALLS,
     WITHIN,
+    along_ring,
+    around,
+    sheet_links,
 )
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
@@ -28,32 +33,28 @@ from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Body, Link, Place
 quantities = QuantityGroup("Switch")
 
 
+BLOCKS, PADS, OUTER = tuple(("beside", i) for i in ABOVE), around(ABOVE_PADS), around(ABOVE_WALLS)
+"""Rows of the rotor plate's bodies: above blocks, pads and the housing's vanes."""
+
+
 @quantities.helper()
 def shares_above(m: Module) -> tuple[tuple[Place, Scalar], ...]:
     """Bodies of the rotor plate above the ring, and each one's share of it."""
-    ring = m.heated_length + m.plate_depth + m.wall_depth
-    heated = [(("beside", i), share * m.heated_length / ring) for i, share in zip(ABOVE, STRIP, strict=True)]
-    walls = [(("around", i), share * m.wall_depth / ring) for i, share in zip(ABOVE_WALLS, STRIP, strict=True)]
-    return (("beside", ABOVE_VANES), m.plate_depth / ring), *heated, *walls
+    ring, depths = sum(m.ring_depths), m.ring_depths
+    rows = ((BLOCKS, depths.blocks), (PADS, depths.pads), (OUTER, depths.walls))
+    shares = [(place, share * depth / ring) for row, depth in rows for place, share in zip(row, STRIP, strict=True)]
+    return (("beside", ABOVE_VANES), m.plate_depth / ring), *shares
 
 
 @quantities.helper()
 def plate_links(m: Module) -> tuple[Link, ...]:
-    """Links from the rotor plate above the rotor's vanes to what is beside it, and from the plate to the core."""
-    to_heated = m.structure_conductivity * m.rotor_thickness * m.ring_width * m.ways_along[0]
+    """Links along the ring within the rotor plate, and to the core, but those of the chain from the vanes."""
     vanes, core = ("beside", ABOVE_VANES), ("beside", ABOVE[-1] + 1)
-    along = [Link(vanes, ("beside", i), share * to_heated) for i, share in zip(ABOVE[1:], STRIP[1:], strict=True)]
-    inwards = [
-        Link(place, core, share * m.core_and_link.conductance)
-        for place, share in m.shares_above
-        if place != ("beside", ABOVE[-1])
-    ]
-    upwards = m.structure_conductivity * m.ring_width * m.pads_share * m.heated_length / (WAYS[1] * m.rotor_thickness)
-    beyond = m.structure_conductivity * m.rotor_thickness * m.ring_width / m.wall_depth
-    walls = [
-        Link(("around", i - 1), ("around", i), beyond / way) for i, way in zip(ABOVE_WALLS[1:], WAYS[1:], strict=True)
-    ]
-    return (*along, *inwards, *walls, Link(("around", ABOVE_PADS), ("beside", ABOVE[1]), upwards))
+    chain = set(itertools.pairwise((vanes, *BLOCKS, core)))
+    along = m.structure_conductivity * m.ring_width
+    links = sheet_links(along, m.rotor_thickness, m.ring_depths, blocks=BLOCKS, pads=PADS, walls=OUTER, vanes=vanes)
+    links += [Link(place, core, share * m.core_and_link.conductance) for place, share in m.shares_above]
+    return tuple(link for link in links if (link.first, link.second) not in chain)
 
 
 @quantities.helper()
@@ -64,21 +65,24 @@ def core_share(m: Module) -> Scalar:
 
 @quantities.helper()
 def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
-    """Losses of the rotor plate above blocks and pads to the housing's vanes, and of all of it above the ring to the
-    air.
+    """Losses of the rotor plate to what is beyond the ring, and of what is above the blocks to what is above the pads
+    and on to the housing's vanes.
 
     What ends free has its mean temperature a third of the way to its end.
     """
     sheet = m.structure_conductivity * m.rotor_thickness * m.ring_width
-    along = sheet / (0.25 * m.heated_length + WAYS[0] * m.wall_depth)
-    walls = [m.around_pads[i].surface for i in ABOVE_WALLS]
-    air = sum(
-        wall.area * lumps.surface_coefficient(wall, m.ambient_temperature, m.ambient_temperature) for wall in walls
+    pads, *walls = (
+        sum(
+            surface.area * lumps.surface_coefficient(surface, m.ambient_temperature, m.ambient_temperature)
+            for surface in (m.around_pads[i].surface for i in row)
+        )
+        for row in (ABOVE_PADS[-1:], ABOVE_WALLS)
     )
-    onward = lumps.in_series(sheet / ((1.0 / 3.0 - WAYS[0]) * m.wall_depth), air)
+    along = along_ring(m.structure_conductivity * m.ring_width, m.rotor_thickness, m.ring_depths)
+    onward = pads + lumps.in_series(along.to_walls, sheet / ((1.0 / 3.0 - WAYS[0]) * m.wall_depth), *walls)
     losses = [
-        lumps.Loss(Link(("beside", i), ("around", ABOVE_WALLS[0]), share * along), share * onward)
-        for i, share in zip(ABOVE, STRIP, strict=True)
+        lumps.Loss(Link(block, pad, share * along.to_pads), share * onward)
+        for block, pad, share in zip(BLOCKS, PADS, STRIP, strict=True)
     ]
     around = 2.0 * np.pi * m.structure_conductivity * m.rotor_thickness
     without = around / np.log(1.0 + (m.rotor_radius - m.pcl_outer_radius) / (3.0 * m.pcl_outer_radius))
@@ -92,8 +96,8 @@ def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
 
 @quantities.helper()
 def loss_links(m: Module) -> tuple[Link, ...]:
-    """Links from the plate to bodies around it."""
-    return tuple(loss.link for loss in m.plate_losses)
+    """Links from the plate to bodies beyond the ring."""
+    return tuple(loss.link for loss in m.plate_losses if loss.link.second[1] in (RIM, WITHIN))
 
 
 @quantities.helper()

@@ -288,17 +288,22 @@ def _adapted_moduli() -> str:
     )
 
 
+_MINUTE = 60.0
+
+
 def _sweep_time() -> str:
     lowest, at = from_paper("lowest_frequency"), from_paper("premelt")
     low, _, high = fractions_at(published_module(), at)
     period = 2.0 * math.pi / lowest
     decades = math.log10(from_paper("highest_frequency") / lowest)
     points = np.geomspace(lowest, from_paper("highest_frequency"), round(_EACH_DECADE * decades) + 1)
-    whole = float(np.sum(2.0 * math.pi / points))
+    taken = np.cumsum(2.0 * math.pi / points[::-1])
+    in_time = points[::-1][taken < _MINUTE][-1]
     return (
         f"one period at {lowest:g} rad/s takes {period:.0f} s, and {len(points)} points of one period each "
-        f"{whole / 60.0:.1f} min. At 60 °C the solid share lies between {low:.0%} and {high:.0%} by history, and "
-        "crystals melt and form meanwhile"
+        f"{taken[-1] / 60.0:.1f} min; from above, a minute comes down to {in_time:.1g} rad/s. An amplitude sweep of as "
+        f"many periods takes a minute from {2.0 * math.pi * len(points) / _MINUTE:.0f} rad/s on. At 60 °C the solid "
+        f"share lies between {low:.0%} and {high:.0%} by history, and crystals melt and form meanwhile"
     )
 
 
