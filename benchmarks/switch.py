@@ -62,7 +62,7 @@ SETTLED = (
     "stack", "pcl_rheology", "structure_compliances", "structure_softening", "clamped_loss_factor",
     "lossless_compliance", "spring_stiffness", "pcl_depth", "heater_form", "pad_wall", "heater_along", "plate_to_edge",
     "uneven_sideways", "cold_end", "edge_length", "air_beside", "plate_slenderness", "pcl_area", "column_shares",
-    "branch_factor",
+    "branch_scale",
 )  # fmt: skip
 """What the joint's impedance at an instant needs to know of the module."""
 AT_AN_INSTANT = (

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from random_designs import FRESH
 from support import ROOT, study_path
 
 from tvimdesign.solve.result import answer
@@ -20,8 +21,9 @@ from tvimdesign.study import read_study
 
 sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
 
-from compare import Judge, model_of, plane_of, studies
+from compare import Judge, model_of, plane_of, product_times, studies
 from fe_drawings import DRAWINGS, SHEET, Drawing, graded
+from fresh import designs, intervals
 from outside_judge import CASES, PADS, case_of
 from warm_joint import WarmJoint
 
@@ -50,6 +52,31 @@ def test_the_plane_that_was_judged_is_today_s(case: str) -> None:
     switch = judge.heated(CASES[case].seconds, 100)
     judged = {row["time"]: float(row["plane [s]"]) for row in ROWS if row["case"] == case}
     assert {name: judge.time(name, switch) for name in judged} == pytest.approx(judged, rel=2e-3)
+
+
+FRESH_ROWS = list(csv.DictReader((ROOT / "validation/heat_sector/fresh.csv").read_text().splitlines()))
+"""Random modules that nobody optimized, by the product and by the plane, with the interval that the product states."""
+
+
+def test_random_modules_switch_as_in_the_plane_within_a_twentieth() -> None:
+    assert len({(row["study"], row["design"]) for row in FRESH_ROWS}) == sum(FRESH.values()) == 50
+    for judged in (("softening_time", "mean_time"), ("far_face_time",)):
+        errors = [abs(float(row["difference [%]"])) for row in FRESH_ROWS if row["time"] in judged]
+        assert np.mean(np.array(errors) < 5.0) >= 0.9
+    for row in FRESH_ROWS:
+        assert float(row["least [s]"]) <= float(row["plane [s]"]) <= float(row["greatest [s]"])
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize("study", ["wrist_joint", "wrist_compression"])
+def test_random_modules_that_were_judged_are_today_s(study: str) -> None:
+    name, model, module = list(designs(study, FRESH[study]))[-1]
+    rows = {row["time"]: row for row in FRESH_ROWS if (row["study"], row["design"]) == (study, name)}
+    times, bounds = product_times(model), intervals(study, module)
+    assert rows
+    for time, row in rows.items():
+        assert float(row["product [s]"]) == pytest.approx(times[time], rel=2e-3)
+        assert (float(row["least [s]"]), float(row["greatest [s]"])) == pytest.approx(bounds[time], rel=1e-2)
 
 
 @pytest.mark.slow

@@ -234,9 +234,9 @@ def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunction
     yield "optimum", optimum_of(folder)
 
 
-def rows_of(study: str, design: str, model: DeviceFunctions) -> Iterator[list[str]]:
+def rows_of(study: str, design: str, model: DeviceFunctions, steps: int = STEPS) -> Iterator[list[str]]:
     """Return a module's rows of the table."""
-    for name, one in compared(model).items():
+    for name, one in compared(model, steps=steps).items():
         yield [
             study, design, name, f"{one.product:.2f}", f"{one.plane:.2f}", f"{one.difference:+.2f}",
             f"{one.warmer:+.2f}", f"{one.over_rise:.2f}",

@@ -18,6 +18,7 @@ from tvimdesign.physics.layers import shear_lag
 from tvimdesign.physics.solids import plates, structure
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.study import given, read_study
+from tvimdesign.study.design import Design
 
 FOLDER = ROOT / "validation"
 JOINTS = yaml.safe_load((FOLDER / "fe_structure/results.yaml").read_text())
@@ -190,8 +191,40 @@ def test_random_modules_are_as_stiff_as_in_fe_within_a_tenth() -> None:
     for name, found in ratios.items():
         assert len(found) >= 48
         assert np.mean(np.abs(found - 1.0) < 0.1) >= 0.9, name
-    factor = next(row for row in table_for("shear").inputs if row.name == "branch_factor")
-    assert factor.low <= np.min(1.0 / ratios["hub"]) < np.max(1.0 / ratios["hub"]) <= factor.high
+        factor = next(row for row in table_for("shear").inputs if row.name == "branch_factor")
+        assert factor.low <= np.min(1.0 / found) < np.max(1.0 / found) <= factor.high
+
+
+def fresh_designs(study: str) -> dict[str, Design]:
+    """Return the random designs of a study that FE solved, by their draw."""
+    solved = {row["draw"] for row in BY_FE if row["study"] == study}
+    drawn = enumerate(Draws(read_study(study_path(study)), FRESH_SEED).keeping_rules(FRESH[study], Tally()))
+    return {str(place): design for place, design in drawn if str(place) in solved}
+
+
+@pytest.mark.gate
+def test_proportions_that_fe_solved_are_stated() -> None:
+    stated = yaml.safe_load((ROOT / "tvimdesign/device/core/impedance/fe_range.yaml").read_text())
+    sizes = [case["mm"] for case in SHIPPED.values()]
+    sizes += [design.values for study in FRESH for design in fresh_designs(study).values()]
+    assert len(sizes) == 148
+    for name, (low, high) in stated.items():
+        above, below = name.split("/")
+        ratios = [each[above] / each[below] for each in sizes if above in each and below in each]
+        assert (low, high) == pytest.approx((min(ratios), max(ratios)), rel=5e-3), name
+
+
+def test_beyond_proportions_that_fe_solved_the_range_of_stiffness_widens() -> None:
+    name = "ankle, shipped"
+    known, table = module(name), table_for("shear")
+
+    def evaluated(**changes: float) -> tuple[float, float]:
+        return tuple(table.evaluate({**known, **changes}, ("structure_extrapolation", "branch_scale")).values())
+
+    assert evaluated(branch_factor=0.94) == pytest.approx((0.0, 0.94))
+    thick = 1.5 * 0.75 * known["rotor_thickness"]
+    assert evaluated(branch_factor=0.94, pcl_thickness=thick) == pytest.approx((0.5, 0.91))
+    assert evaluated(branch_factor=1.0, pcl_thickness=thick)[1] == 1.0
 
 
 @pytest.mark.parametrize("study", ["wrist_joint", "wrist_compression"])
@@ -200,11 +233,11 @@ def test_their_model_is_that_of_today(study: str) -> None:
         (row["draw"], row["quantity"]): float(row["model"]) for row in BY_FE if row["study"] == study and row["model"]
     }
     read = read_study(study_path(study))
-    for place, design in enumerate(Draws(read, FRESH_SEED).keeping_rules(FRESH[study], Tally())):
+    for place, design in fresh_designs(study).items():
         varied = {name: design.values[name] for name in read.vary if name in design.values}
         today = model_values(ResolvedModule(read, {**given(read), **varied}))
         for (draw, quantity), value in known.items():
-            if draw == str(place):
+            if draw == place:
                 assert today[quantity] == pytest.approx(value, rel=1e-3), (draw, quantity)
 
 

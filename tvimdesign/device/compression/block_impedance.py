@@ -318,3 +318,15 @@ def liner_compliance(m: Module) -> Scalar:
 def liner_web(m: Module) -> Scalar:
     """Rotor vane between its two liners at the inner end, where it is thinnest; zero without."""
     return m.vane_root - 2.0 * m.liner_depth
+
+
+@quantities.helper()
+def layer_proportions(m: Module) -> dict[str, Scalar]:
+    """Ratios of the vanes' and blocks' sizes that the vanes' stiffness hangs on [1]."""
+    return {
+        "vane_thickness/block_height": m.vane_thickness / m.block_height,
+        "vane_thickness/rotor_thickness": m.vane_thickness / m.rotor_thickness,
+        "housing_vane_thickness/floor_thickness": m.housing_vane_thickness / m.floor_thickness,
+        "block_depth/block_height": m.block_depth / m.block_height,
+        "block_width/block_height": m.block_width / m.block_height,
+    }

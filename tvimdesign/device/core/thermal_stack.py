@@ -229,7 +229,7 @@ def layer_stiffness_now(m: Module) -> tuple[Scalar, Scalar]:
 def branch_now(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
     real, imaginary = layer.series_stiffness(*m.layer_stiffness_now, *m.support_now)
-    return m.branch_factor * real, m.branch_factor * imaginary
+    return m.branch_scale * real, m.branch_scale * imaginary
 
 
 @quantities.output("N*m/rad", instant=True)

@@ -316,3 +316,9 @@ def expansion_travel(m: Module) -> Scalar:
 def layer_play(m: Module) -> Scalar:
     """Way of the rotor off the layer, by its play and by expansion, over the layer's thickness: so much more melt."""
     return (m.axial_play + m.expansion_travel) / m.pcl_thickness
+
+
+@quantities.helper()
+def layer_proportions(m: Module) -> dict[str, Scalar]:
+    """Ratios of the arcs' sizes that the stiffness of plate and floor hangs on [1]."""
+    return {"pcl_thickness/rotor_thickness": m.pcl_thickness / m.rotor_thickness}

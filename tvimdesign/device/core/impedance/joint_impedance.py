@@ -182,7 +182,7 @@ def branch_stiffness(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
     loss = layer.loss_stiffness(m.pcl_damping, m.frequency)
     real, imaginary = layer.series_stiffness(m.pcl_stiffness, loss, *m.warm_structure)
-    return m.branch_factor * real, m.branch_factor * imaginary
+    return m.branch_scale * real, m.branch_scale * imaginary
 
 
 @quantities.output("N*m/rad", per_point=True, at_end="softened_impedance")

@@ -6,9 +6,10 @@ that at the hub, and `joint_stiffness_at_link` that at the link's tool hole.
 
 import numpy as np
 
+from tvimdesign.base.record import own_data
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity import Scalar, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers.layer import series_stiffness
 from tvimdesign.physics.polymers import plastics
@@ -148,3 +149,38 @@ def core_holding_torque(m: Module) -> Scalar:
 def structure_stiffness(m: Module) -> Scalar:
     """Stiffness in series with the PCL, at 23 degC: core, plate, vanes, pads, and floor up to its feet."""
     return 1.0 / sum(m.structure_compliances)
+
+
+@quantities.helper()
+def proportions(m: Module) -> dict[str, Scalar]:
+    """Ratios of sizes that the stiffness of core, plate and floor hangs on [1], beside those of the mode's layer."""
+    ratios = {
+        "core_radius/rotor_thickness": m.core_radius / m.rotor_thickness,
+        "pcl_inner_radius/core_radius": m.pcl_inner_radius / m.core_radius,
+        "floor_thickness/rotor_thickness": m.floor_thickness / m.rotor_thickness,
+        "pcl_outer_radius/rotor_thickness": m.pcl_outer_radius / m.rotor_thickness,
+        "pcl_outer_radius/floor_thickness": m.pcl_outer_radius / m.floor_thickness,
+    }
+    return {**ratios, **m.layer_proportions}
+
+
+@quantities.output(
+    "1", advice=(at_most(0.0, "no module of such proportions was solved by FE: its stiffness may be off"),)
+)
+def structure_extrapolation(m: Module) -> Scalar:
+    """How far proportions behind the structure's stiffness lie beyond those that FE solved (`fe_range.yaml`).
+
+    Zero within their range; else how many times its limit a ratio is, less one, of the ratio that is farthest out.
+    """
+    ranges = own_data(__file__, "fe_range.yaml")
+    beyond: Scalar = 1.0
+    for name, ratio in m.proportions.items():
+        low, high = ranges[name]
+        beyond = np.fmax(beyond, np.fmax(low / ratio, ratio / high))
+    return beyond - 1.0
+
+
+@quantities.helper()
+def branch_scale(m: Module) -> Scalar:
+    """Stiffness of layer and structure over that of the model [1]; its range widens where the model extrapolates."""
+    return 1.0 + (m.branch_factor - 1.0) * (1.0 + m.structure_extrapolation)
