@@ -40,7 +40,8 @@ _LEAST = 5e-3
 """Change of an output, as a share of it, below which it does not depend on an unmeasured input."""
 FIRST_SCREEN = (
     "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
-    "softened_stiffness", "softened_damping", "softened_temperature", "joint_stiffness@cold", "frozen_time",
+    "softened_stiffness", "softened_damping", "softened_impedance", "softened_temperature",
+    "joint_stiffness@cold", "frozen_time",
     "lost_motion", "lost_motion_share", "friction_torque", "friction_share", "drag_torque",
     "peak_voltage", "stiffening_peak_voltage", "peak_current", "stiffening_peak_current", "peak_power",
     "switch_energy", "cycle_energy",

@@ -168,7 +168,7 @@ def proportions(m: Module) -> dict[str, Scalar]:
     "1", advice=(at_most(0.0, "no module of such proportions was solved by FE: its stiffness may be off"),)
 )
 def structure_extrapolation(m: Module) -> Scalar:
-    """How far proportions behind the structure's stiffness lie beyond those that FE solved (`fe_range.yaml`).
+    """Distance of proportions behind the structure's stiffness beyond those that FE solved (`fe_range.yaml`).
 
     Zero within their range; else how many times its limit a ratio is, less one, of the ratio that is farthest out.
     """

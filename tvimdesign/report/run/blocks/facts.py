@@ -161,14 +161,11 @@ def _impedance(value: _Values) -> list[Fact]:
     if math.isinf(value.values["softened_stiffness"]):
         return []
     unit = value.table.unit("softened_stiffness")
-    frozen, soft = (
+    frozen, soft, damped = (
         f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
-        for name in ("joint_stiffness@cold", "softened_stiffness")
+        for name in ("joint_stiffness@cold", "softened_stiffness", "softened_impedance")
     )
-    damped, frequency = number(value.values["softened_impedance"], _DIGITS), value("frequency@hot")
-    return [
-        Fact("Stiffness", [f"frozen {frozen}, soft {soft} {pretty(unit)}", f"with damping {damped} at {frequency}"])
-    ]
+    return [Fact("Stiffness", [f"frozen {frozen}, soft {soft}, damped {damped} {pretty(unit)}"])]
 
 
 def _drag(value: _Values) -> list[Fact]:
