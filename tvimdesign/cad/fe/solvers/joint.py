@@ -75,7 +75,14 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
         frequency = turning_frequency(mesh, values, held.solved, found, torque)
         across = held.across(mm["link_bottom_level"])
         feet = joint_samples.at_feet(held.space, tensor, torque, round(mm["spring_count"]))
-    result = {"elements": mesh.ne, "unknowns": found.space.ndof, "hub": torque * 1e-3, "across": across, "frequency": frequency, **feet}
+    result = {
+        "elements": mesh.ne,
+        "unknowns": found.space.ndof,
+        "hub": torque * 1e-3,
+        "across": across,
+        "frequency": frequency,
+        **feet,
+    }
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
     result |= joint_samples.in_bodies(mesh, tensor, mm, torque) | joint_samples.at_foot(mesh, tensor, mm, torque)
     result |= joint_samples.at_plate(mesh, tensor, mm, torque)
