@@ -92,20 +92,20 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
          "Build it"),
         (answer(), SURE, [],
-         "Build it: one first, and measure the structure layer strength before more"),
+         "Build it, one module first: measure the structure layer strength before more"),
         (answer(), SURE, [RunWarning("cutout margin is -8 K", but="no listed cut-out fits")],
-         "Build it, but no listed cut-out fits: one first, and measure the structure layer strength before more"),
+         "Build it, one module first: measure the structure layer strength before more; no listed cut-out fits"),
         (answer(), SURE, [RunWarning("-8 K", but="no cut-out fits"), RunWarning("14.1", but="friction holds it")],
-         "Build it, but no cut-out fits and friction holds it: one first, and measure the structure layer strength "
-         "before more"),
-        (answer(), SURE | {"intervals": {}}, [], "Build it: one first, and check the retainer thread before more"),
+         "Build it, one module first: measure the structure layer strength before more; no cut-out fits and friction "
+         "holds it"),
+        (answer(), SURE | {"intervals": {}}, [], "Build it, one module first: check the retainer thread before more"),
         (answer(), SURE | BOTH, [],
-         "Build it: one first, and measure the structure layer strength and the pin friction before more"),
+         "Build it, one module first: measure the structure layer strength and the pin friction before more"),
         (answer(), SURE | THREE, [],
-         "Build it: one first, and measure the structure layer strength, the pin friction and the bond strength "
+         "Build it, one module first: measure the structure layer strength, the pin friction and the bond strength "
          "before more"),
         (answer(), SURE | FOUR, [],
-         "Build it: one first, and measure the structure layer strength, the pin friction and 2 others before more "
+         "Build it, one module first: measure the structure layer strength, the pin friction and 2 others before more "
          "(summary.txt: Measure first)"),
         (answer(), {}, [], "Optimum found"),
     ],

@@ -67,10 +67,9 @@ class Row:
 
 def common_rows(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> list[Row]:
     """Return every output that all designs have, in the order of the first one's table."""
-    first = next(iter(designs))
-    names = [name for name in _outputs(designs[first], tables[first])
-             if all(name in _outputs(designs[label], tables[label]) for label in designs)]  # fmt: skip
-    return [_row(name, designs, tables[first]) for name in names]
+    names, *others = (_outputs(design, tables[label]) for label, design in designs.items())
+    common = set(names).intersection(*others)
+    return [_row(name, designs, tables[next(iter(designs))]) for name in names if name in common]
 
 
 def _outputs(design: Design, table: Table) -> list[str]:

@@ -168,22 +168,22 @@ class Held:
         """
         up = z - level
         motions = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -up, y), (up, 0, -x), (-y, x, 0))
-        found = [self.moved(CF(motion)).vec for motion in motions]
-        pulled = found[0].CreateVector()
-        stiffness = np.empty((len(found), len(found)))
-        for row, motion in enumerate(found):
-            pulled.data = self.form.mat * motion
-            stiffness[row] = [InnerProduct(pulled, other) for other in found]
+        vectors = [self.moved(CF(motion)).vec for motion in motions]
+        force = vectors[0].CreateVector()
+        stiffness = np.empty((len(vectors), len(vectors)))
+        for row, vector in enumerate(vectors):
+            force.data = self.form.mat * vector
+            stiffness[row] = [InnerProduct(force, other) for other in vectors]
         return float(np.mean(np.diag(np.linalg.inv(stiffness))[:2]))
 
     def moved(self, motion: Any) -> Any:
         """Return displacement where the core's top moves as one."""
-        found = GridFunction(self.space)
-        found.Set(motion, definedon=self.space.mesh.Boundaries("turned"))
-        right = found.vec.CreateVector()
-        right.data = -self.form.mat * found.vec
-        found.vec.data += self.solved(right)
-        return found
+        displacement = GridFunction(self.space)
+        displacement.Set(motion, definedon=self.space.mesh.Boundaries("turned"))
+        right = displacement.vec.CreateVector()
+        right.data = -self.form.mat * displacement.vec
+        displacement.vec.data += self.solved(right)
+        return displacement
 
 
 def _energies(mesh: Any, density: Any, mm: elastic.Found, torque: float) -> elastic.Found:

@@ -10,7 +10,7 @@
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
-9. Limits are met in less than `DOUBTFUL` of the cases, or the share that the study asks: *Build it: one first, and
+9. Limits are met in less than `DOUBTFUL` of the cases, or the share that the study asks: *Build it, one module first:
    measure X and Y before more*.
 10. *Build it*; here and in 9 with a bought part that is not to be had.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
@@ -214,7 +214,7 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
         return Verdict("build", f"Build it{but}")
     first = _to_measure(uncertainty, least)
     what = f"measure {first}" if first else f"check the {label(name)} before more"
-    return Verdict("build_one", f"Build it{but}: one first, and {what}")
+    return Verdict("build_one", f"Build it, one module first: {what}{f'; {what_else}' if what_else else ''}")
 
 
 def _to_measure(uncertainty: Mapping[str, Any], least: float) -> str:
