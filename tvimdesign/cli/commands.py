@@ -129,7 +129,8 @@ def size(
         str,
         typer.Option(
             "--stiffness",
-            help="Of the soft joint, without its damping: '1.5 N.m/rad' (20 % to either side), or '1 to 2 N.m/rad'.",
+            help="Of the soft joint, without its damping: '1.5 N.m/rad' (20 % to either side), or '1 to 2 N.m/rad'. "
+            "An eighth of the torque a radian is usual.",
         ),
     ] = "",
     diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")] = "",

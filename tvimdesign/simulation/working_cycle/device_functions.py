@@ -56,9 +56,7 @@ def built_once(build: Callable[[Any], Any]) -> Any:
     """Make a property of a method: built when first asked for, for all devices of one structure."""
 
     def value(device: DeviceFunctions) -> Any:
-        if build.__qualname__ not in device._built:
-            device._built[build.__qualname__] = build(device)
-        return device._built[build.__qualname__]
+        return device.built(build.__qualname__, lambda: build(device))
 
     return property(value, doc=build.__doc__)
 
@@ -170,10 +168,13 @@ class DeviceFunctions:
         """Return the wanted outputs in SI: quicker than all of them on a first call."""
         if not wanted:
             return {}
-        key = " ".join(wanted)
+        return self._evaluated(self.built(" ".join(wanted), lambda: self.outputs(wanted)), wanted, inputs, cycle)
+
+    def built(self, key: str, build: Callable[[], Any]) -> Any:
+        """Return what a key stands for, built when first asked for, for all devices of one structure."""
         if key not in self._built:
-            self._built[key] = self.outputs(wanted)
-        return self._evaluated(self._built[key], wanted, inputs, cycle)
+            self._built[key] = build()
+        return self._built[key]
 
     def _evaluated(
         self, function: Any, names: Sequence[str], inputs: NDArray[np.float64], cycle: Mapping[str, float]

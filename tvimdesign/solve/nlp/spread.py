@@ -296,5 +296,6 @@ def moments_at(
     inputs: Any,
 ) -> tuple[Any, Any]:  # fmt: skip
     """Return the shifts of the means and the standard deviations of outputs at a design's inputs."""
-    shift, deviation = moments(model, tolerances, outputs, sizes)(inputs)
+    key = f"moments of {list(outputs)} over {list(sizes)} by {dict(tolerances)}"
+    shift, deviation = model.built(key, lambda: moments(model, tolerances, outputs, sizes))(inputs)
     return np.asarray(shift).ravel(), np.asarray(deviation).ravel()

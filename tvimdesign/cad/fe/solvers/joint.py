@@ -13,7 +13,6 @@ from typing import Any, Protocol
 import elastic
 import joint_samples
 import joint_solids
-import numpy as np
 from netgen.occ import Glue, OCCGeometry
 from ngsolve import (
     CF,
@@ -73,16 +72,8 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
         torque = held.work(found)
         shares = _energies(mesh, InnerProduct(tensor, strain), mm, torque)
         frequency = turning_frequency(mesh, values, held.solved, found, torque)
-        across = held.across(mm["link_bottom_level"])
         feet = joint_samples.at_feet(held.space, tensor, torque, round(mm["spring_count"]))
-    result = {
-        "elements": mesh.ne,
-        "unknowns": found.space.ndof,
-        "hub": torque * 1e-3,
-        "across": across,
-        "frequency": frequency,
-        **feet,
-    }
+    result = {"elements": mesh.ne, "unknowns": found.space.ndof, "hub": torque * 1e-3, "frequency": frequency, **feet}
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
     result |= joint_samples.in_bodies(mesh, tensor, mm, torque) | joint_samples.at_foot(mesh, tensor, mm, torque)
     result |= joint_samples.at_plate(mesh, tensor, mm, torque)
@@ -159,31 +150,12 @@ class Held:
 
     def turned(self) -> Any:
         """Return displacement where the core's top is turned by one radian."""
-        return self.moved(CF((-y, x, 0)))
-
-    def across(self, level: float) -> float:
-        """Return how far a force across the axis moves the core's top [mm/N], which is free to tilt.
-
-        A mean of both directions; the top is at a `level` [mm], and moves as one.
-        """
-        up = z - level
-        motions = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -up, y), (up, 0, -x), (-y, x, 0))
-        vectors = [self.moved(CF(motion)).vec for motion in motions]
-        force = vectors[0].CreateVector()
-        stiffness = np.empty((len(vectors), len(vectors)))
-        for row, vector in enumerate(vectors):
-            force.data = self.form.mat * vector
-            stiffness[row] = [InnerProduct(force, other) for other in vectors]
-        return float(np.mean(np.diag(np.linalg.inv(stiffness))[:2]))
-
-    def moved(self, motion: Any) -> Any:
-        """Return displacement where the core's top moves as one."""
-        displacement = GridFunction(self.space)
-        displacement.Set(motion, definedon=self.space.mesh.Boundaries("turned"))
-        right = displacement.vec.CreateVector()
-        right.data = -self.form.mat * displacement.vec
-        displacement.vec.data += self.solved(right)
-        return displacement
+        found = GridFunction(self.space)
+        found.Set(CF((-y, x, 0)), definedon=self.space.mesh.Boundaries("turned"))
+        right = found.vec.CreateVector()
+        right.data = -self.form.mat * found.vec
+        found.vec.data += self.solved(right)
+        return found
 
 
 def _energies(mesh: Any, density: Any, mm: elastic.Found, torque: float) -> elastic.Found:
