@@ -224,7 +224,8 @@ def below_yield(answer: StudyResult) -> str:
     ]
     lines += [f"  {lost_in_words(loss)}" for loss in reached.lost_to]
     lines += [f"At these sizes {words}." for words in lever(reached, table_for(answer.design.mode))]
-    lines.append("Ease these limits, widen a range under `vary`, tighten these tolerances, or ask `robust` for less.")
+    less = f"robust: {{yield: {math.floor(100.0 * reached.together)} %}}"
+    lines.append(f"Ease these limits, widen a range under `vary`, tighten these tolerances, or write {less}.")
     return "\n".join(lines)
 
 
