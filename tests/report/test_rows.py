@@ -77,6 +77,12 @@ def test_an_input_of_records_has_its_value_by_each(printed: Any) -> None:
     assert "print_pc_bambu 1.2 (0.8 to 1.6), print_peek 1.2" in text
 
 
+def test_a_choice_says_what_its_records_are(printed: Any) -> None:
+    text = " ".join(printed("heater_fuse", 160).split())
+    assert "sefuse_sm_b Thermal cut-out SEFUSE" in text
+    assert "functioning temperature 92 to 146 °C; holding temperature 62 to 116 °C" in text
+
+
 def test_a_word_that_finds_nothing_is_told_with_the_nearest() -> None:
     with pytest.raises(InputError, match="did you mean 'weight'"):
         rows.print_rows("shear", "wieght", as_json=False)

@@ -10,11 +10,12 @@ from rich.padding import Padding
 from rich.text import Text
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.record import Record
 from tvimdesign.base.units import pretty
 from tvimdesign.catalog.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
-from tvimdesign.report.output.numbers import in_unit
+from tvimdesign.report.output.numbers import in_unit, label
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import print_grid, wide_console
 from tvimdesign.study.resolve import words_of
@@ -110,6 +111,9 @@ def _print_found(rows: Sequence[Quantity], word: str, mode: str, console: Consol
         console.print(Padding(Text(plain["description"] + allowed), (0, 0, 0, 4)))
         if isinstance(row, Input) and len(rows) == 1 and row.record:
             console.print(Padding(Text(_by_record(row, mode)), (0, 0, 0, 4)))
+        if isinstance(row, Choice) and len(rows) == 1 and row.category:
+            cells = [(name, _what(Catalog().record(row.category, name))) for name in Catalog().names(row.category)]
+            print_grid(grid("", ("record", "what it is"), cells, code=(0,)), console)
 
 
 def _by_record(row: Input, mode: str) -> str:
@@ -125,6 +129,18 @@ def _by_record(row: Input, mode: str) -> str:
             ends = [in_unit(end, row.unit) for end in (entry.low, entry.high) if end is not None]
             values.append(f"{name} {in_unit(entry.value, row.unit)}" + (f" ({' to '.join(ends)})" if ends else ""))
     return ", ".join(values)
+
+
+def _what(record: Record) -> str:
+    """Return a record's title, with the ends of the columns of its types."""
+    types = record.tables.get("types")
+    columns = types.columns.items() if types else ()
+    ends = [
+        f"{label(name)} {in_unit(min(values), unit)} to {in_unit(max(values), unit)} {pretty(unit)}"
+        for (name, unit), values in zip(columns, zip(*types.rows, strict=True) if types else (), strict=True)
+        if unit != "1"
+    ]
+    return "; ".join([record.title, *ends])
 
 
 def _facts(plain: dict[str, Any]) -> str:

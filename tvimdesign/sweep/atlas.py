@@ -142,7 +142,7 @@ def _answered(plan: Atlas, folder: Path, kind: str, hardware: str) -> float:
     rows = [
         {**asdict(cell), "values": {name: cell.values[name] for name in names if name in cell.values}} for cell in cells
     ]
-    front = {place: _intervals(_started(plan, kind, hardware, cells[place])) for place in _front(cells)}
+    front = _intervals({place: _started(plan, kind, hardware, cells[place]) for place in _front(cells)})
     family = {"key": _key(plan, study), "cells": rows, "intervals": front, "seconds": time.process_time() - began}
     text = json.dumps(family, indent=1)
     atomic_write(folder / FAMILIES / f"{kind}-{hardware}.json", text.encode())
@@ -162,13 +162,18 @@ def _front(cells: Sequence[MapCell]) -> list[int]:
     ]  # fmt: skip
 
 
-def _intervals(study: Study) -> dict[str, tuple[float, float]]:
-    """Return the intervals of torque and cycle time of a study's start."""
+def _intervals(studies: Mapping[int, Study]) -> dict[int, dict[str, tuple[float, float]]]:
+    """Return the intervals of torque and cycle time of the starts of a family's studies."""
     from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel  # it loads the compiler
 
-    resolved = resolve_study(study)
-    ranges = UncertaintyModel(resolved, (TORQUE, CYCLE)).at(resolved, 0, _DRAWS).intervals
-    return {name: (ranges[name].low, ranges[name].high) for name in (TORQUE, CYCLE) if name in ranges}
+    model, intervals = None, {}
+    for place, study in studies.items():
+        resolved = resolve_study(study)
+        if model is None or not model.fits(resolved):
+            model = UncertaintyModel(resolved, (TORQUE, CYCLE), tuple(study.vary))
+        ranges = model.at(resolved, 0, _DRAWS).intervals
+        intervals[place] = {name: (ranges[name].low, ranges[name].high) for name in (TORQUE, CYCLE) if name in ranges}
+    return intervals
 
 
 def _started(plan: Atlas, kind: str, hardware: str, cell: MapCell | AtlasCell) -> Study:

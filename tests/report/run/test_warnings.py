@@ -135,8 +135,9 @@ def test_the_gravest_warning_comes_first() -> None:
     found = warnings_of(_published(), ["a sheet contradicts itself."])
     ranks = [("grave", "serious", "").index(warning.level) for warning in found]
     assert ranks == sorted(ranks)
-    found = _published("  cooling_current: 1 A\n")
+    found = _published("  cooling_current: 1 A\n  heater_fuse: none\n")
     said = warnings_of(found, ["a sheet contradicts itself."])
+    assert "no thermal fuse guards the heaters" in [warning.but for warning in said]
     assert "never gets stiff again" in said[0][0]
     assert said[0][1] == "untried: module: {cooling_current: 0.2 A, cold_side: sink}"
     assert said[-1][:2] == ("a sheet contradicts itself", "untried: catalog: my_records")

@@ -77,10 +77,12 @@ def filled(text: str, places: Mapping[str, str]) -> str:
 def _other(kind: str, **places: str) -> RunWarning:
     entry = hints()["others"][kind]
     text, cure = filled(entry["say"], places).rstrip("."), f"untried: {filled(entry['mend'], places)}"
-    return RunWarning(text, cure, entry.get("level", ""))
+    return RunWarning(text, cure, entry.get("level", ""), entry.get("but", ""))
 
 
 def _of_the_switch(answer: StudyResult) -> Iterator[RunWarning]:
+    if answer.design.choices.get("heater_fuse") == "none":
+        yield _other("unguarded")
     if math.isinf(answer.design.value("response_time")):
         yield _other("never_soft")
     elif math.isinf(answer.design.value("stiffening_time")):
