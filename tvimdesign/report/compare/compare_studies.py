@@ -48,6 +48,8 @@ def compare_studies(
     began = time.perf_counter()
     if len(paths) < 2:
         raise InputError("compare takes two studies or more, or two results; `tvimdesign run` answers one study")
+    if missing := [path for path in paths if not path.exists()]:
+        raise InputError(f"{missing[0]}: no such file or folder")
     finished = [path.suffix == ".json" or path.is_dir() for path in paths]
     if any(finished) and (points or settings or not all(finished)):
         raise InputError("compare takes results of finished runs alone, without studies, --points and --set")
