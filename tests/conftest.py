@@ -10,7 +10,7 @@ import pytest
 from browsers import said_of_no_browser
 from hypothesis import settings
 from shell_signals import follow_signals
-from support import ROOT, Command, called, environment, run_process
+from support import ROOT, Command, called, environment, run_process, store_equations
 
 from tvimdesign.base.processes import LIMIT
 
@@ -20,6 +20,7 @@ pytest_plugins = ["shared_models", "shear_designs"]
 gc.set_threshold(200_000, 20, 20)
 
 follow_signals()  # tests send some
+store_equations()
 
 # A test that is right is right on a machine that is busy, too.
 settings.register_profile("any machine", deadline=None)
@@ -33,6 +34,7 @@ LONGEST = (
     "tests/report/paper/",
     "tests/api/",
     "tests/report/run/",
+    "tests/page/",
     "tests/simulation/working_cycle/",
     "tests/solve/pareto/test_front.py",
     "tests/test_docs_commands.py",

@@ -130,13 +130,12 @@ def test_the_command_line_gives_the_same_and_writes_the_same(
     assert tvim.read_design(str(saved / "design.json")) == result.design
 
 
-def test_results_in_use_and_changed_studies_are_saved_rightly(result: tvim.Result[tvim.Study], tmp_path: Path) -> None:
-    result.save(tmp_path / "x", plots=False)
+def test_results_in_use_and_changed_studies_are_saved_rightly(study: tvim.Study, tmp_path: Path) -> None:
+    changed = study.set(pcl_thickness="1.3 mm").evaluate(progress=False)
+    folder = changed.save(tmp_path / "x", plots=False)
     with pytest.raises(tvim.InputError, match="holds results already"):
-        result.save(tmp_path / "x")
-    assert result.save(tmp_path / "x", overwrite=True, plots=False) == tmp_path / "x"
-    changed = tvim.example("paper_reconstructed").set(pcl_thickness="1.3 mm").evaluate(progress=False)
-    folder = changed.save(tmp_path / "y", plots=False)
+        changed.save(tmp_path / "x")
+    assert changed.save(tmp_path / "x", overwrite=True, plots=False) == folder
     assert tvim.load(folder / "study.yaml").resolved.module["pcl_thickness"] == pytest.approx(1.3e-3)
     assert not list(tmp_path.glob("*.json"))
 

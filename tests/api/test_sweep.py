@@ -155,13 +155,13 @@ def notebook(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return said
 
 
-def test_a_notebook_s_line_is_empty_in_the_end_and_after_an_error(notebook: list[str]) -> None:
+def test_a_notebook_s_line_is_empty_in_the_end_and_after_an_error(study: tvim.Study, notebook: list[str]) -> None:
     assert in_notebook()
-    tvim.example("paper_reconstructed").evaluate()
+    study.evaluate()
     assert "... simulating one working cycle" in notebook
     assert notebook[-1] == ""
     notebook.clear()
-    tvim.example("paper_reconstructed").evaluate(progress=False)
+    study.evaluate(progress=False)
     assert notebook == []
 
     def work() -> None:
@@ -174,8 +174,7 @@ def test_a_notebook_s_line_is_empty_in_the_end_and_after_an_error(notebook: list
     assert notebook == ["...", "... working", ""]
 
 
-def test_a_pipe_sees_lines_and_a_thread_nothing(capfd: pytest.CaptureFixture[str]) -> None:
-    study = tvim.example("paper_reconstructed")
+def test_a_pipe_sees_lines_and_a_thread_nothing(study: tvim.Study, capfd: pytest.CaptureFixture[str]) -> None:
     with shown_progress(True) as say:
         say("working")
     assert capfd.readouterr() == ("", "... working\n")

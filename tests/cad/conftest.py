@@ -1,7 +1,7 @@
 """The designs as fixtures, and their parts as the child process makes them."""
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -9,7 +9,6 @@ import quick_parts
 from cad_designs import BLOCKS, CASES, Made, design_of, whole
 from shared_solids import _shared_solids
 
-from tvimdesign.base.user_cache import FOLDER_VARIABLE
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.make import JOB, LIMIT
 from tvimdesign.study.design import Design, write_design
@@ -18,14 +17,6 @@ __all__ = ["_shared_solids"]
 
 QUICK = {"paper", "blocks"}
 """Cases that the fast tests take; every case is one of the slow tests."""
-
-
-@pytest.fixture(scope="session", autouse=True)
-def _nothing_kept() -> Iterator[None]:
-    """Keep no results from one making of parts to the next, but where a test asks for it."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(FOLDER_VARIABLE, "")
-        yield
 
 
 @pytest.fixture(

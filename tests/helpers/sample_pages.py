@@ -4,6 +4,7 @@ import csv
 import io
 import json
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,7 @@ _BOXES = {
 _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1.0]])
 
 
+@cache
 def answered_study() -> AnsweredStudy:
     """The study answered with requirements, and a front whose numbers are easy to follow."""
     answered = answer_study(tree_of_file(STUDY, [f"require.{limit}" for limit in REQUIREMENTS]), lambda _: None)

@@ -18,6 +18,7 @@ import psutil
 import yaml
 from cvodes_cycle import CvodesSimulator
 
+from tvimdesign.base import user_cache
 from tvimdesign.base.processes import LIMIT, communicate, end_process_tree
 from tvimdesign.cli.main import main
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -101,16 +102,21 @@ def tight(model: DeviceFunctions) -> Simulator:
     return Simulator(model, tolerance=1e-5)
 
 
+def store_equations(home: Path = ROOT / "build/cache") -> None:
+    """Store recorded equations below `home`, for all workers and later runs.
+
+    Parts are made anew, as a file has the name of their folder: stored ones must not hide what a test would make.
+    """
+    (home / "tvimdesign").mkdir(parents=True, exist_ok=True)
+    (home / "tvimdesign/cad").touch()
+    os.environ.pop(user_cache.FOLDER_VARIABLE, None)
+    os.environ["XDG_CACHE_HOME"] = str(home)
+    user_cache._MOST = 2000  # a study has ten tapes, and these are of hundreds
+
+
 def environment(spread: str = "off") -> dict[str, str]:
     """What the command line finds around it in a test."""
-    # Parts are made anew: what an earlier run has kept must not hide what this one would make.
-    return {
-        **os.environ,
-        "PYTHONPATH": str(ROOT),
-        "COLUMNS": "120",
-        "TVIMDESIGN_CACHE": "",
-        "TVIMDESIGN_SPREAD": spread,
-    }
+    return {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "120", "TVIMDESIGN_SPREAD": spread}
 
 
 def called(*arguments: object, cwd: Path = ROOT, spread: str = "off", **more: str) -> CompletedProcess[str]:

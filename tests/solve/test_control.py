@@ -1,4 +1,4 @@
-"""The controller on drawn modules, as a study asks for it, and in the exported FMU."""
+"""The controller on drawn modules, and in the exported FMU."""
 
 import json
 from dataclasses import replace
@@ -9,18 +9,13 @@ import numpy as np
 import pytest
 from support import study_path
 
-from tvimdesign.report.output.tables import control_entry
-from tvimdesign.report.run.blocks.facts import main_facts
 from tvimdesign.robot.fmu_file import write_fmu
 from tvimdesign.simulation.control.controller import ControlledModule, Lags
 from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_study
 from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE, WATCHED, control_of, drawn_modules
-from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
-from tvimdesign.study.reader import read_study_text
-from tvimdesign.study.sections import written
 
 FROZEN = Path(__file__).parents[2] / "campaigns/frozen/studies"
 
@@ -32,21 +27,6 @@ def _optimum(name: str, draws: int) -> ResolvedModule:
     control = study.control.model_copy(update={"draws": draws})
     changed = {"vary": {}, "robust": None, "module": {**study.module, **chosen}, "control": control}
     return resolve_study(study.model_copy(update=changed))
-
-
-def test_a_study_reports_its_controller() -> None:
-    text = study_path("paper_reconstructed").read_text()
-    study = read_study_text(f"{text}\ncontrol: {{draws: 2, thermistor_lag: 1 s}}\n")
-    assert written(study)["control"]["thermistor_lag"] == "1 s"
-    asked = answer(study)
-    assert asked.control is not None
-    entry = control_entry(asked.control)
-    assert entry["controller"]["sensor_lag"] == 1.0
-    assert entry["overshoot"]["unit"] == "K"
-    assert "overshoot" in next(fact for fact in main_facts(asked, {}) if fact.label == "Control").text
-    without = answer(read_study_text(text))
-    assert without.control is None
-    assert without.design.values == asked.design.values
 
 
 @pytest.mark.gate

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from answers import shipped_answer
 from numpy.typing import NDArray
 from robot_models import module_of
 from scipy.integrate import solve_ivp
@@ -13,12 +14,13 @@ from support import study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.heat_flow import heat, lumps
-from tvimdesign.report.output.tables import duty_entry
+from tvimdesign.report.output.tables import control_entry, duty_entry
 from tvimdesign.report.run.blocks.facts import main_facts, more_facts
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
-from tvimdesign.solve.duty import HOUR, Duty, DutyCycle
-from tvimdesign.solve.result import answer
+from tvimdesign.solve.duty import HOUR, Duty, DutyCycle, duty_of
+from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.study import Study, read_study
 from tvimdesign.study.reader import read_study_text
 from tvimdesign.study.sections import written
 from tvimdesign.study.study import Requirement
@@ -116,42 +118,16 @@ def test_the_first_cycle_is_the_one_of_a_run() -> None:
         assert cycle.values[name] == pytest.approx(duty.cold.values[name], rel=0.01)
 
 
-def test_the_highest_duty_is_the_last_that_keeps_the_ratings() -> None:
+def test_a_duty_too_quick_for_a_cycle_has_its_limit_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     duty = _duty("shear")
-    alone = duty.above({}, ())
-    most, by = duty.most(alone, 3.0)
-    assert most > 0.0
-    assert by
-    assert duty.limit(HOUR / most, alone, None)[0] == ""
-    assert duty.limit(HOUR / (1.05 * most), alone, None)[0] == by
-    if alone:
-        assert duty.most((), 3.0) == (0.0, alone[0])
-
-
-@pytest.mark.gate
-def test_a_study_reports_its_duty() -> None:
-    text = study_path("paper_reconstructed").read_text()
-    study = read_study_text(f"{text}\nduty: {{switches_per_hour: 2, soft: 1 min}}\n")
-    assert (study.duty.switches_per_hour, study.duty.soft) == (2.0, SOFT)
-    assert written(study)["duty"] == {"switches_per_hour": 2.0, "soft": "60 s"}
-    asked = answer(study)
-    assert asked.duty is not None
-    reported = duty_entry(asked.duty, study.table)
-    assert reported["energy_a_day"]["si"]["value"] > 48.0 * asked.design.values["switch_energy"] * 0.8
-    assert reported["values"]["response_time"]["value"] > 0.0
-    settling = reported["settling_time"]
-    assert (settling["unit"], settling["si"]["unit"], settling["si"]["value"]) == ("min", "s", asked.duty.settling)
-    assert "2 switches an hour" in next(fact for fact in main_facts(asked, {}) if fact.label == "Duty").text
-    peaks = next(fact for fact in more_facts(asked, {}, None) if fact.label == "Duty").text
-    assert "heater" in peaks
-    assert "mean power" in peaks
+    above = duty.above({}, ())
+    assert duty.most((), 3.0) == (0.0, above[0])  # one switch is beyond it
+    monkeypatch.setattr(Duty, "most", lambda *_: (7.0, "time"))
+    study = read_study(study_path("paper_reconstructed"))
     hurried = study.model_copy(update={"duty": study.duty.model_copy(update={"switches_per_hour": 60.0})})
-    too_often = answer(hurried).duty
+    too_often = duty_of(hurried, duty.model, duty.inputs, {})
     assert too_often is not None
-    assert too_often.values == {}
-    without = answer(read_study_text(text))
-    assert without.duty is None
-    assert without.design.values == asked.design.values
+    assert (too_often.values, too_often.most, too_often.limited_by) == ({}, 7.0, "time")
 
 
 @pytest.mark.parametrize(
@@ -169,23 +145,68 @@ def test_a_limit_on_what_is_not_simulated_is_refused(sections: str, words: str) 
         read_study_text(f"mode: shear\n{sections}")
 
 
-def test_limits_of_both_are_read_written_and_checked() -> None:
+@pytest.fixture(scope="module")
+def study() -> Study:
+    """Read a study with a duty, a controller and limits on both."""
     text = study_path("paper_reconstructed").read_text()
     limits = (
         "{return_time@duty: '<= 3000 s', response_time@control: '<= 1 s', "
         "highest_switch_rate@duty: '>= 30 1/h', overshoot@control: '<= 20 K', slowdown@control: '<= 0.5'}"
     )
-    study = read_study_text(f"{text}\nduty: {{switches_per_hour: 2}}\ncontrol: {{draws: 2}}\nrequire: {limits}\n")
+    sections = "duty: {switches_per_hour: 2, soft: 1 min}\ncontrol: {draws: 2, thermistor_lag: 1 s}"
+    return read_study_text(f"{text}\n{sections}\nrequire: {limits}\n")
+
+
+@pytest.fixture(scope="module")
+def limited(study: Study) -> StudyResult:
+    return answer(study)
+
+
+def test_limits_of_both_are_read_written_and_checked(study: Study, limited: StudyResult) -> None:
     assert (len(study.require), len(study.simulated)) == (0, 5)
     names = ["return_time@duty", "response_time@control", "highest_switch_rate@duty", "overshoot@control",
              "slowdown@control"]  # fmt: skip
     assert list(written(study)["require"]) == names
-    result = answer(study)
-    satisfied = {check.output: check.kept for check in result.checks if check.origin == "require"}
+    satisfied = {check.output: check.kept for check in limited.checks if check.origin == "require"}
     assert satisfied == dict(zip(names, (True, False, False, True, False), strict=True))
-    assert result.duty is not None
-    assert result.design.values["highest_switch_rate@duty"] == pytest.approx(result.duty.most / HOUR)
-    assert not result.feasible
+    assert limited.duty is not None
+    assert limited.design.values["highest_switch_rate@duty"] == pytest.approx(limited.duty.most / HOUR)
+    assert not limited.feasible
+
+
+def test_a_study_reports_its_duty(study: Study, limited: StudyResult) -> None:
+    duty = limited.duty
+    assert (study.duty.switches_per_hour, study.duty.soft) == (2.0, SOFT)
+    assert written(study)["duty"] == {"switches_per_hour": 2.0, "soft": "60 s"}
+    assert duty is not None
+    reported = duty_entry(duty, study.table)
+    assert reported["energy_a_day"]["si"]["value"] > 48.0 * limited.design.values["switch_energy"] * 0.8
+    assert reported["values"]["response_time"]["value"] > 0.0
+    settling = reported["settling_time"]
+    assert (settling["unit"], settling["si"]["unit"], settling["si"]["value"]) == ("min", "s", duty.settling)
+    assert "2 switches an hour" in next(fact for fact in main_facts(limited, {}) if fact.label == "Duty").text
+    peaks = next(fact for fact in more_facts(limited, {}, None) if fact.label == "Duty").text
+    assert "heater" in peaks
+    assert "mean power" in peaks
+    # The highest duty is the last that keeps the ratings.
+    assert duty.most > 0.0
+    assert _duty("shear").limit(HOUR / duty.most, study.accept, None)[0] == ""
+    assert _duty("shear").limit(HOUR / (1.05 * duty.most), study.accept, None)[0] == duty.limited_by != ""
+
+
+def test_a_study_reports_its_controller(study: Study, limited: StudyResult) -> None:
+    assert written(study)["control"]["thermistor_lag"] == "1 s"
+    assert limited.control is not None
+    entry = control_entry(limited.control)
+    assert entry["controller"]["sensor_lag"] == 1.0
+    assert entry["overshoot"]["unit"] == "K"
+    assert "overshoot" in next(fact for fact in main_facts(limited, {}) if fact.label == "Control").text
+
+
+def test_a_study_without_them_has_the_same_values(limited: StudyResult) -> None:
+    without = shipped_answer("paper_reconstructed")
+    assert (without.duty, without.control) == (None, None)
+    assert without.design.values.items() <= limited.design.values.items()
 
 
 @pytest.mark.gate
