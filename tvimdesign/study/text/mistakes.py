@@ -96,10 +96,15 @@ class Mistakes:
         one_line = "; ".join(message.splitlines())
         self.items.append(Mistake(place.file or self.file, place.line, place.column, path, one_line, expected, hint))
 
+    @property
+    def full(self) -> bool:
+        """True where there are as many as are shown."""
+        return len(self.items) >= MOST_SHOWN
+
     def unknown(self, place: Place, path: str, what: str, word: str, known: Iterable[str], hint: str = "") -> None:
         """Note a word that is none of the known ones, with the nearest of them, or with those that are used most."""
         names = list(known)
-        hint = hint or (did_you_mean(word, names) if len(self.items) < MOST_SHOWN else "")
+        hint = hint or ("" if self.full else did_you_mean(word, names))
         many = len(names) > _MOST_NAMES
         shown = f"one of {len(names)} names" if many and hint else one_of(often_first(names) if many else names)
         self.add(place, path, f"no such {what}", shown, hint)

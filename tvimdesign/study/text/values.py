@@ -67,6 +67,9 @@ class Reading:
 
         A quantity that is meant instead is named with its operating point, `point` or else the hot one.
         """
+        if self.problems.full:
+            self.problems.add(place, path, f"no such {what}")
+            return
         others = [mode for mode in MODES if mode != self.mode and _has(mode, name)]
         if others and not _has(self.mode, name):
             self.problems.add(place, path, f"{name} is of {others[0]} mode, this study is {self.mode} mode")
