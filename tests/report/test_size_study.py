@@ -110,7 +110,7 @@ def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers: dict[st
     refuse_what_cannot_be(sized(**numbers | {"diameter": f"{enough[1]} mm"}))
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_a_small_joint_that_is_too_small_names_the_least_diameter() -> None:
     small = {"diameter": "20 mm", "torque": "0.2 N.m", "stiffness": "0.08 N.m/rad"}
     with pytest.raises(InfeasibleError, match=r"2\d(\.\d)? mm is the least that .* allow") as refusal:

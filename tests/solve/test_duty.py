@@ -50,7 +50,7 @@ def _returning(mode: str) -> tuple[Duty, DutyCycle, float, tuple[NDArray[np.floa
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize("mode", ["shear", "compression"])
+@pytest.mark.parametrize("mode", ["shear", pytest.param("compression", marks=pytest.mark.slow)])
 def test_fifty_cycles_end_in_the_periodic_state(mode: str) -> None:
     duty, first, period, (state, cycle) = _returning(mode)
     now, last = duty.ambient, first

@@ -205,7 +205,7 @@ def test_twice_the_depth_by_flux_and_by_diffusion(
     assert low < times[1] / times[0] < high
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_twice_the_depth_takes_two_to_four_times_as_long(squeezed: dict[str, Any]) -> None:
     ratios = []
     for current in (0.5, 1.5, 4.0, 12.0):
