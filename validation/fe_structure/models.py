@@ -86,6 +86,8 @@ def designed(cell: str, unit: str) -> float | str:
 def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], results: Any) -> dict[str, Any]:
     """Return a case of shipped.yaml: lengths of the drawn parts, moduli of their materials, and results of FE."""
     mm, values = inputs["mm"], inputs["values"]
+    if not mm.get("spreader_depth"):
+        mm = {**mm, "spreader_gap": 0.0}
     case = {
         "mode": inputs["mode"],
         "youngs_modulus": values["structure_youngs_modulus"] * 1e-9,
