@@ -17,6 +17,8 @@ from tvimdesign.device.table.module import Module, names_read
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
+NAME = "x"
+
 
 def helper(m: Module) -> Any:
     return m.from_helper
@@ -50,7 +52,7 @@ def renamed(m: Module) -> Any:
 @pytest.mark.parametrize(
     "function",
     [
-        lambda m: getattr(m, "x"),  # noqa: B009 - the call is what is refused
+        lambda m: getattr(m, NAME),
         lambda m: helper(m.x) + max(m, m.x),
         lambda m: max(m) + 1,
         lambda m: [helper for helper in m.x if helper(m)],
