@@ -13,8 +13,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.study import Study, StudyError, read_study
-from tvimdesign.study.text import yaml_text
+from tvimdesign.study import Study, StudyError, read_study, read_study_text
+from tvimdesign.study.text import mistakes, yaml_text
 
 LIMIT = 1.0
 """Seconds; the slowest of these takes a tenth."""
@@ -65,6 +65,14 @@ TEXTS = {
     "tab": ("mode: shear\nmodule:\n\tcoil_count: 3\n", "x.yaml:3:1: a tab at the start of a line; expected spaces"),
     "too long": ("#" * 1_000_001, "a study at most 1 MB"),
 }
+
+
+def test_hints_are_sought_for_as_many_names_as_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    sought: list[str] = []
+    monkeypatch.setattr(mistakes, "get_close_matches", lambda word, *_, **__: sought.append(word) or [])
+    with pytest.raises(StudyError):
+        read_study_text(TEXTS["many keys"][0])
+    assert 0 < len(set(sought)) <= mistakes.MOST_SHOWN
 
 
 @pytest.mark.parametrize("case", TEXTS)

@@ -43,7 +43,6 @@ def _files() -> dict[str, tuple[ModuleType, ...]]:
     )
     from tvimdesign.device.core import (
         clearances,
-        duty_and_control,
         heater_form,
         layout,
         mass_properties,
@@ -81,7 +80,6 @@ def _files() -> dict[str, tuple[ModuleType, ...]]:
         warm_structure, large_motion, thermal_stack, softening, mass_properties, clearances, axial_preload,
         process, heater_form, screws, tang, dowels, hard_stops, liner_and_adhesive, bearing, preload_adjuster, cover,
         motor_choice, motor_layout, motor_mass_properties, task, motor_load, cost,
-        duty_and_control,
     )  # fmt: skip
     of_mode = {
         "shear": (

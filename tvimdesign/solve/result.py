@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tvimdesign import __version__
 from tvimdesign.device import Input, Table
-from tvimdesign.device.core.duty_and_control import CONTROL, DUTY
+from tvimdesign.device.core.softening import CONTROL, DUTY
 from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, intervals, phase_history
 from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator

@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from tvimdesign.physics.heat_flow import heat, lumps, peltier, shape_factors
+from tvimdesign.physics.heat_flow import heat, lumps, peltier, ring_sheet, shape_factors
 from tvimdesign.physics.polymers import polymer
 
 
@@ -126,3 +126,33 @@ def test_electrodes_of_a_comb_by_hand() -> None:
     by_hand = 0.1 * (10e-3 + 2.0 * foot) / (1e-3 * 0.1)
     assert shape_factors.comb_resistance(0.1, 1e-3, 1200e-6, 10e-3, 2e-3) == pytest.approx(by_hand)
     assert by_hand == pytest.approx(10.94, abs=0.01)
+
+
+def above_vanes(fed: str, depths: ring_sheet.Depths, sheet: float) -> float:
+    """Return by the bodies' links how much warmer what is fed one watt is than the vanes, which take it [K]."""
+    rows = {name: tuple((name, k) for k in range(3)) for name in ("blocks", "pads", "walls")}
+    places = [place for row in rows.values() for place in row]
+    links = ring_sheet.sheet_links(sheet / 4e-3, 4e-3, depths, **rows, vanes=("vanes", 0))
+    matrix = np.zeros((len(places), len(places)))
+    for link in links:
+        ends = [places.index(end) for end in (link.first, link.second) if end in places]
+        for i in ends:
+            matrix[i, i] += link.conductance
+            for j in ends:
+                matrix[i, j] -= link.conductance * (i != j)
+    watts = [share if place[0] == fed else 0.0 for place, share in zip(places, 3 * lumps.STRIP, strict=True)]
+    return float(np.dot(np.linalg.solve(matrix, watts), watts))
+
+
+@pytest.mark.parametrize(("fed", "within"), [("blocks", 1e-4), ("pads", 0.05)])
+def test_heat_along_the_ring_is_that_of_an_evenly_fed_rod(fed: str, within: float) -> None:
+    # Heat that comes evenly into one stretch of an insulated rod and leaves evenly from the vanes', in 3,000 volumes.
+    depths, sheet, count = ring_sheet.Depths(blocks=6e-3, pads=3e-3, vanes=2e-3, walls=5e-3), 0.2 * 4e-3, 1000
+    stretches = np.repeat(["vanes", "blocks", "pads"], count)
+    lengths = np.repeat([depths.vanes, depths.blocks, depths.pads], count) / count
+    sources = (stretches == fed) * lengths / getattr(depths, fed) - (stretches == "vanes") * lengths / depths.vanes
+    passed = np.cumsum(sources)[:-1]  # watts from each volume to the next
+    drops = passed * 0.5 * (lengths[1:] + lengths[:-1]) / sheet
+    temperatures = np.concatenate([[0.0], -np.cumsum(drops)])
+    means = {name: np.mean(temperatures[stretches == name]) for name in ("vanes", fed)}
+    assert above_vanes(fed, depths, sheet) == pytest.approx(means[fed] - means["vanes"], rel=within)

@@ -143,7 +143,7 @@ def test_study_without_a_design_leaves_the_other(tvimdesign: Command, tmp_path: 
     assert reported["studies"]["compression"]["troubles"][0]["step"] == "optimised"
     assert "optimised" in reported["studies"]["shear"]
     assert (tmp_path / "out/shear/optimised.json").exists()
-    assert "no design was found for compression" in reported["sentence"]
+    assert "no feasible design was found for compression" in reported["sentence"]
     assert "compression, optimised" in done.stderr
     assert reported["comparisons"].keys() == {"drawn"}
     assert {front["study"] for front in reported["fronts"]["fronts"]} == {"shear"}

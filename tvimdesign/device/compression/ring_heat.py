@@ -13,7 +13,6 @@ free sides of blocks, pads and vanes are the bodies around them.
 
 import itertools
 from collections.abc import Iterable
-from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import columns, lumps, shape_factors
 from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link, Place
+from tvimdesign.physics.heat_flow.ring_sheet import Depths, Row, sheet_links
 from tvimdesign.physics.layers import block
 
 quantities = QuantityGroup("Switch")
@@ -39,7 +39,17 @@ BELOW_PADS, ABOVE_PADS, HOUSING = (15, 16, 17), (18, 19, 20), 21
 ABOVE_VANES, ABOVE = 0, (1, 2, 3)
 """Places beside the vanes: the rotor plate above them; above the blocks, from its lower face on."""
 LEGS = ("legs", 0)
-Row: TypeAlias = tuple[Place, ...]
+
+
+def around(row: Iterable[int]) -> Row:
+    """Return the places of bodies around the pads."""
+    return tuple(("around", i) for i in row)
+
+
+BLOCKS, PADS, OUTER = tuple(("beside", i) for i in ABOVE), around(ABOVE_PADS), around(ABOVE_WALLS)
+"""Rows of the rotor plate's bodies: above blocks, pads and the housing's vanes."""
+CHAIN = tuple(itertools.pairwise((("beside", ABOVE_VANES), *BLOCKS)))
+"""Pairs of the plate's bodies that pass heat from one to the next by `rotor_beside`, the first in the vanes' way."""
 
 
 @quantities.helper(instant=True)
@@ -105,51 +115,11 @@ def heated_length(m: Module) -> Scalar:
     return m.faced_area / m.ring_width - m.plate_depth
 
 
-class Along(NamedTuple):
-    """Conductances [W/K] along the ring in floor or rotor plate, of rows of bodies at blocks and pads."""
-
-    to_vanes: Scalar
-    """From the blocks to the rotor's vanes."""
-    to_pads: Scalar
-    across: Scalar
-    """From the pads to the rotor's vanes."""
-    to_walls: Scalar
-    """From the pads to the housing's vanes."""
-    uneven: tuple[Scalar, Scalar]
-    """More than those to either vanes, for what bodies differ from the mean of their row."""
-
-
-class Depths(NamedTuple):
-    """Lengths along the ring [m], all of a kind together."""
-
-    blocks: Scalar
-    pads: Scalar
-    vanes: Scalar
-    walls: Scalar
-
-
 @quantities.helper()
 def ring_depths(m: Module) -> Depths:
     """Lengths along the ring at half a rotor vane, a block, a pad and half a housing vane [m]."""
     pads = m.pads_share * m.heated_length
     return Depths(m.heated_length - pads, pads, m.plate_depth, m.wall_depth)
-
-
-def along_ring(conductivity: Scalar, thickness: Scalar, depths: Depths) -> Along:
-    """Return the ways along the ring in floor or rotor plate, from its conductivity times the ring's width [W m/K].
-
-    Heat goes from the pads through what is at the blocks, which loses or takes heat evenly on the way. What is at the
-    pads has its mean temperature a quarter of its length from either end (a sixth where both ends take as much, a third
-    where one takes all), what is heated at its end a third of its length away. What a body of a row differs from its
-    row's mean takes the way of a cosine over the depth (`shape_factors.uneven_way`).
-    """
-    sheet = conductivity * thickness
-    across, at_pads = sheet / depths.blocks, 4.0 * sheet / depths.pads
-    to_walls = sheet / (0.25 * depths.pads + WAYS[0] * depths.walls)
-    ways = lumps.heated_between(across, 3.0 * sheet / depths.vanes, at_pads)
-    turned = [shape_factors.uneven_way(depth / thickness) * thickness for depth in (depths.vanes, depths.walls)]
-    uneven_vanes = lumps.heated_between(across, sheet / turned[0], at_pads)[0]
-    return Along(*ways, to_walls, (uneven_vanes - ways[0], sheet / (0.25 * depths.pads + turned[1]) - to_walls))
 
 
 @quantities.helper()
@@ -169,11 +139,22 @@ def rotor_beside(m: Module) -> tuple[lumps.Lump, ...]:
         above_vanes * capacity + upper,
         outside._replace(area=above_vanes, behind=m.rotor_thickness / 3.0 / k),
     )
-    first, *others = lumps.strip_bodies(blocks, capacity, k * blocks / m.rotor_thickness, lumps.Surface(1.0, 0.0))
-    others[-1] = others[-1]._replace(surface=outside._replace(area=blocks, behind=BEYOND * m.rotor_thickness / k))
-    along = along_ring(k * m.ring_width, m.rotor_thickness, m.ring_depths)
-    first = first._replace(conductance=STRIP[0] * along.to_vanes)
-    return (vanes, first, *others)
+    bodies = [
+        lumps.Lump(sum(link.conductance for link in m.plate_sheet if (link.first, link.second) == pair),
+                   share * blocks * capacity, lumps.Surface(share * blocks, 0.0))
+        for pair, share in zip(CHAIN, STRIP, strict=True)
+    ]  # fmt: skip
+    bodies[-1] = bodies[-1]._replace(surface=outside._replace(area=blocks, behind=BEYOND * m.rotor_thickness / k))
+    return (vanes, *bodies)
+
+
+@quantities.helper()
+def plate_sheet(m: Module) -> tuple[Link, ...]:
+    """Links along the ring within the rotor plate."""
+    along, vanes = m.structure_conductivity * m.ring_width, ("beside", ABOVE_VANES)
+    return tuple(
+        sheet_links(along, m.rotor_thickness, m.ring_depths, blocks=BLOCKS, pads=PADS, walls=OUTER, vanes=vanes)
+    )
 
 
 @quantities.helper()
@@ -270,26 +251,6 @@ def plate_around(m: Module) -> tuple[Body, ...]:
     return (without, inside, *_divided(above))
 
 
-def sheet_links(
-    conductivity: Scalar, thickness: Scalar, depths: Depths, *, blocks: Row, pads: Row, walls: Row, vanes: Place
-) -> list[Link]:
-    """Return the links along the ring within floor or rotor plate, between its bodies at blocks, pads and vanes.
-
-    The conductivity is times the ring's width [W m/K].
-    """
-    along = along_ring(conductivity, thickness, depths)
-    links = [*_evened(blocks, along.uneven[0]), *_evened(pads, along.uneven[1])]
-    rows = ((blocks, depths.blocks / thickness), (pads, depths.pads / thickness), (walls, thickness / depths.walls))
-    for row, across in rows:
-        pairs = zip(itertools.pairwise(row), WAYS[1:], strict=True)
-        links += [Link(*pair, conductivity * across / way) for pair, way in pairs]
-    for at_block, at_pad, share in zip(blocks, pads, STRIP, strict=True):
-        ways = ((vanes, at_block, along.to_vanes), (at_block, at_pad, along.to_pads), (at_pad, vanes, along.across),
-                (at_pad, walls[0], along.to_walls))  # fmt: skip
-        links += [Link(first, second, share * way) for first, second, way in ways]
-    return links
-
-
 @quantities.helper()
 def floor_links(m: Module) -> tuple[Link, ...]:
     """Within the floor, along the ring and out to the housing's wall; and within the housing's vanes."""
@@ -308,18 +269,6 @@ def floor_links(m: Module) -> tuple[Link, ...]:
     inwards = m.structure_conductivity * (m.pcl_area - m.cold_area) / m.wall_depth
     pairs = zip(itertools.pairwise(around(WALLS)), WAYS[1:], strict=True)
     return (*links, *(Link(*pair, inwards / way) for pair, way in pairs))
-
-
-def around(row: Iterable[int]) -> Row:
-    """Return the places of bodies around the pads."""
-    return tuple(("around", i) for i in row)
-
-
-def _evened(row: Row, conductance: Scalar) -> list[Link]:
-    """Return the links among bodies of a row that leave what it gives by its mean, and take a conductance from what
-    each gives by its difference from that: c (T_mean - T_i) to each for its share."""
-    pairs = itertools.combinations(zip(row, STRIP, strict=True), 2)
-    return [Link(one, other, share * beside * conductance) for (one, share), (other, beside) in pairs]
 
 
 @quantities.helper()

@@ -4,8 +4,6 @@ Vanes give heat to floor and rotor plate through their roots, and through the cl
 meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`ledge_ways`).
 """
 
-import itertools
-
 import numpy as np
 
 from tvimdesign.device.compression.ring_heat import (
@@ -15,12 +13,13 @@ from tvimdesign.device.compression.ring_heat import (
     ABOVE_WALLS,
     BELOW_VANES,
     BELOW_WALLS,
+    BLOCKS,
+    CHAIN,
+    OUTER,
+    PADS,
     RIM,
     WALLS,
     WITHIN,
-    along_ring,
-    around,
-    sheet_links,
 )
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
@@ -29,12 +28,9 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
 from tvimdesign.physics.heat_flow.layer_end import Lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Body, Link, Place
+from tvimdesign.physics.heat_flow.ring_sheet import along_ring
 
 quantities = QuantityGroup("Switch")
-
-
-BLOCKS, PADS, OUTER = tuple(("beside", i) for i in ABOVE), around(ABOVE_PADS), around(ABOVE_WALLS)
-"""Rows of the rotor plate's bodies: above blocks, pads and the housing's vanes."""
 
 
 @quantities.helper()
@@ -49,12 +45,12 @@ def shares_above(m: Module) -> tuple[tuple[Place, Scalar], ...]:
 @quantities.helper()
 def plate_links(m: Module) -> tuple[Link, ...]:
     """Links along the ring within the rotor plate, and to the core, but those of the chain from the vanes."""
-    vanes, core = ("beside", ABOVE_VANES), ("beside", ABOVE[-1] + 1)
-    chain = set(itertools.pairwise((vanes, *BLOCKS, core)))
-    along = m.structure_conductivity * m.ring_width
-    links = sheet_links(along, m.rotor_thickness, m.ring_depths, blocks=BLOCKS, pads=PADS, walls=OUTER, vanes=vanes)
-    links += [Link(place, core, share * m.core_and_link.conductance) for place, share in m.shares_above]
-    return tuple(link for link in links if (link.first, link.second) not in chain)
+    last, core = BLOCKS[-1], ("beside", ABOVE[-1] + 1)
+    along = [link for link in m.plate_sheet if (link.first, link.second) not in CHAIN]
+    inwards = [
+        Link(place, core, share * m.core_and_link.conductance) for place, share in m.shares_above if place != last
+    ]
+    return (*along, *inwards)
 
 
 @quantities.helper()

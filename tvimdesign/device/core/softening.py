@@ -362,3 +362,22 @@ def cycle_time(m: Module) -> Scalar:
 def cycle_energy(m: Module) -> Scalar:
     """Electrical energy to soften and to stiffen again."""
     return m.switch_energy + m.stiffening_energy
+
+
+# --- in repeated use and under its controller, which a study may require by `name@state` ---
+
+
+DUTY, CONTROL = "duty", "control"
+quantities.simulated(
+    "highest_switch_rate", "1/h", DUTY, "Most switches an hour, each to soft and back, that exceed no rating"
+)
+quantities.simulated(
+    "overshoot", "K", CONTROL, "Hot face of the layer above its controller's highest set-point, in 95 % of modules"
+)
+quantities.simulated(
+    "slowdown", "1", CONTROL, "Time until soft, controlled, over that by the switch's current, in 95 % of modules"
+)
+quantities.simulated(
+    "controlled_share", "1", CONTROL, "Share of modules that overshoot by less than 3 K and are soft within 1.1 of "
+    "their own time"
+)  # fmt: skip

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.device import Output, Simulated, Table
-from tvimdesign.device.core.duty_and_control import CONTROL, DUTY
+from tvimdesign.device.core.softening import CONTROL, DUTY
 from tvimdesign.study.sections.section import (
     LIMIT,
     NUMBER_VALUE,
