@@ -78,4 +78,4 @@ def _evened(row: Row, conductance: Any) -> list[Link]:
     """Return the links among bodies of a row that leave what it gives by its mean, and take a conductance from what
     each gives by its difference from that: c (T_mean - T_i) to each for its share."""
     pairs = itertools.combinations(zip(row, STRIP, strict=True), 2)
-    return [Link(one, other, share * beside * conductance) for (one, share), (other, beside) in pairs]
+    return [Link(near, far, share * beside * conductance) for (near, share), (far, beside) in pairs]
