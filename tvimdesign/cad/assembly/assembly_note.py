@@ -315,6 +315,12 @@ def _ledge_pull(design: Design, _: Dimensions) -> str:
     return f", by {1e-6 * tension:.2g} MPa there at most" if math.isfinite(tension) else ""
 
 
+def _proof_torque(design: Design, _: Dimensions) -> str:
+    """Return the torque that the frozen joint holds, by its name where the study was not evaluated."""
+    torque = design.values.get("holding_torque", math.nan)
+    return f"{torque:.2g} N·m" if math.isfinite(torque) else "the study's `holding_torque`"
+
+
 def _greased(place: str, design: Design, _: Dimensions) -> str:
     """Return a place, if it is greased."""
     return place if place in greased(design) else ""
@@ -326,6 +332,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "sorting": _sorting,
     "bonding_heat": _bonding_heat,
     "most_current": _most_current,
+    "proof_torque": _proof_torque,
     "set_points": lambda design, _: set_points_in_words(design),
     "cutout_place": _cutout_place,
     "heated_parts": lambda _, dims: "spreaders" if dims.spreader_depth else "heaters",

@@ -277,8 +277,9 @@ def first_blocks(outcome: Outcome) -> list[Block]:
 
 
 def title_of(outcome: Outcome) -> str:
-    """Return the names of the studies."""
-    return " against ".join(entrant.study.name for entrant in outcome.entrants.values())
+    """Return the names of the studies, their labels if two have one name."""
+    names = [entrant.study.name for entrant in outcome.entrants.values()]
+    return " against ".join(names if len(set(names)) == len(names) else outcome.entrants)
 
 
 def summary_text(outcome: Outcome) -> str:

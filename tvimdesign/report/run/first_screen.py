@@ -40,8 +40,8 @@ def verdict_of(answered: AnsweredStudy) -> Verdict:
     return verdict(answered.result, answered.uncertainty, answered.warnings)
 
 
-def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = None, after: int = 1) -> list[str]:
-    """Return the screen's lines, none wider than `width` unless a name is.
+def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = None) -> list[str]:
+    """Return the screen's lines but the last, `look_first`; none is wider than `width` unless a name is.
 
     Parameters
     ----------
@@ -51,15 +51,13 @@ def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = No
         Columns.
     seconds : float, optional
         How long the run took; a file is the same every time without it.
-    after : int, optional
-        Lines left for what the run prints next, such as where the files are.
     """
     answer = answered.result
     parts = [verdict_of(answered).text, f"{answer.design.name} ({answer.design.mode})"]
     more = [*starts_in_words(answer), *([] if seconds is None else [f"{seconds:.{1 if seconds < 10.0 else 0}f} s"])]
     head, first = _as_fit(joined(parts, width), more, width), warning_lines(answered.warnings, width, 1)
     facts: list[list[str]] = []
-    room = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - after
+    room = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - 1
     if answer.found:
         extra = [*front_fact(answered.front.front, answered.study.table), *chosen_fact(answer)]
         facts = [_fact_lines(fact, width) for fact in (*main_facts(answer, answered.uncertainty), *extra)]
@@ -152,9 +150,9 @@ def _warning(warning: RunWarning, width: int) -> list[str]:
     ]
 
 
-def print_first_screen(answered: AnsweredStudy, console: Console, seconds: float | None = None, after: int = 1) -> None:
+def print_first_screen(answered: AnsweredStudy, console: Console, seconds: float | None = None) -> None:
     """Print the first screen."""
-    lines = first_screen(answered, console.width, seconds, after)
+    lines = first_screen(answered, console.width, seconds)
     first = {_OF_TONE[verdict_of(answered).tone]: r"^.*?(?= · |$)"}
     print_lines(lines[:1], console, first)
     print_lines(lines[1:], console, _COLOURS)
@@ -178,6 +176,6 @@ def write_summary(answered: AnsweredStudy, folder: ResultsFolder) -> None:
     folder.write(FILE, plain_text(lambda console: print_everything(answered, console), _FILE_WIDTH))
 
 
-def look_first(folder: str, width: int) -> list[str]:
-    """Return where to look first: the page of the folder, and the tables."""
-    return joined([f"Look first: {folder}/{PAGE}", f"tables and warnings: {FILE}"], width)
+def look_first(folder: str, width: int, parts: str = "") -> list[str]:
+    """Return where to look first: the page of the folder, the tables, and what the `parts` passed."""
+    return joined([f"Look first: {folder}/{PAGE}", f"tables: {FILE}", *([f"parts: {parts}"] if parts else [])], width)

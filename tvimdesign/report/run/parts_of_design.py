@@ -109,7 +109,8 @@ def refuse_failed(report: CadReport) -> None:
 def in_short(checks: Sequence[SolidCheck]) -> str:
     """Return how many checks passed, how many did not, and the worst of those."""
     worst = worst_first(checks)
-    clauses = [f"{sum(check.level == 'pass' for check in checks)} of {len(checks)} checks on the solids passed"]
+    passed = sum(check.level == "pass" for check in checks)
+    clauses = [f"{'all' if passed == len(checks) else f'{passed} of'} {len(checks)} checks passed"]
     for level in ("failure", "warning"):
         missed = [check.text for check in worst if check.level == level]
         if missed:

@@ -31,7 +31,7 @@ from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import format_quantity
 from tvimdesign.page.blocks import Section, Words
 from tvimdesign.report.output.command import Command, done_in_part, noting
-from tvimdesign.report.output.terminal import Progress, print_lines, print_section, progress_output, wide_console
+from tvimdesign.report.output.terminal import Progress, print_lines, progress_output, wide_console
 from tvimdesign.report.run.parts_of_design import BackgroundPartsJob, in_short, plain_report, refuse_failed
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.search import SearchInterrupted
@@ -109,9 +109,10 @@ def run_study(
         write_summary(answered, folder)
         progress("")
         if not as_json:
-            _print_result(answered, time.perf_counter() - began, with_parts=making is not None, full=full)
+            _print_result(answered, time.perf_counter() - began, full=full)
+        parts = ""
         if making and result.found:
-            _add_parts(making, answered, command)
+            parts = _add_parts(making, answered, command)
         elif making:
             making.stop()
         command.add_plot(lambda: summary_sheet(folder, answered), study.name, "pdf")
@@ -120,7 +121,7 @@ def run_study(
         write_run_page(folder, answered)
         finish(folder, answered)
 
-    show = partial(_print_last, command)
+    show = partial(_print_last, command, parts)
     command.report(answered.reported, "", show, lambda failures: _ending(answered) or done_in_part(failures))
     if ending := _ending(answered):
         raise ending
@@ -172,33 +173,30 @@ def _add_uncertainty(answered: AnsweredStudy, progress: Progress) -> None:
         note_no_uncertainty(answered, TvimError(message))
 
 
-def _print_result(answered: AnsweredStudy, seconds: float, *, with_parts: bool, full: bool) -> None:
-    """Print everything, or the first screen with room for what follows it: the parts of a design, and the folder."""
+def _print_result(answered: AnsweredStudy, seconds: float, *, full: bool) -> None:
+    """Print everything, or the first screen, whose last line follows when all is written."""
     from tvimdesign.report.run.first_screen import print_everything, print_first_screen
 
-    if full:
-        print_everything(answered, wide_console(), seconds)
-    else:
-        print_first_screen(answered, wide_console(), seconds, 2 if with_parts and answered.result.found else 1)
+    (print_everything if full else print_first_screen)(answered, wide_console(), seconds)
 
 
-def _add_parts(making: BackgroundPartsJob, answered: AnsweredStudy, command: Command) -> None:
-    """Wait for the parts, report and print their checks; a failure is noted."""
+def _add_parts(making: BackgroundPartsJob, answered: AnsweredStudy, command: Command) -> str:
+    """Wait for the parts, report their checks, and return those in short; a failure is noted."""
+    checked = ""
     with noting(command.failures):
         report = making.finish(command.progress)
-        answered.reported["cad"] = plain_report(report)
-        if not command.as_json:
-            print_section(parts_section(report), wide_console())
+        answered.reported["cad"], checked = plain_report(report), in_short(report.checks)
         refuse_failed(report)
+    return checked
 
 
-def _print_last(command: Command, console: Console) -> None:
-    """Print what is not installed, and where to look first."""
+def _print_last(command: Command, parts: str, console: Console) -> None:
+    """Print what is not installed, where to look first, and what the `parts` passed."""
     from tvimdesign.report.run.first_screen import look_first
 
     for text in command.missing:
         console.print(f"No {text}", markup=False, soft_wrap=True)
-    print_lines(look_first(str(command.out), console.width), console)
+    print_lines(look_first(str(command.out), console.width, parts), console)
 
 
 def _ending(answered: AnsweredStudy) -> TvimError | None:

@@ -291,7 +291,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Accepts", list(_accepts(answer))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table),
-        *_yield(answer, uncertainty, table), *_together(uncertainty),
+        *_yield(answer, uncertainty, table),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
 
@@ -428,16 +428,6 @@ def _yield(answer: StudyResult, uncertainty: Mapping[str, Any], table: Table) ->
         raise_it = f"to raise it: {standard}`robust: {{yield: 95 %}}`"
         parts.append(raise_it if answer.solution else "which limit loses most: `tvimdesign tolerate`")
     return [Fact("Yield", parts)]
-
-
-def _together(uncertainty: Mapping[str, Any]) -> list[Fact]:
-    """Return the share of the plausible cases that meet every limit; none if they were not looked at."""
-    share = uncertainty.get("ranges_hold")
-    if share is None:
-        return []
-    cases = f"in {percent(share['share'])} of {uncertainty['draws']} cases"
-    chance = "not the chance of success: within a range no value is known to be likelier"
-    return [Fact("Assumed", [f"every limit is met {cases}, each assumed value anywhere in its range", chance])]
 
 
 def _tolerances(uncertainty: Mapping[str, Any]) -> str:
