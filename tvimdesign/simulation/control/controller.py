@@ -16,7 +16,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.engine.integrator import adapted
@@ -156,6 +155,8 @@ class ReactionCurve:
 
 def reaction_curve(a: Array, b: Array, c: Array, lags: tuple[float, ...], period: float, until: float) -> ReactionCurve:
     """Return the reaction curve of dx/dt = a x + b u, y = c x behind some lags [s], half a period of delay counted."""
+    from scipy.linalg import expm  # a third of a second, for studies with a controller alone
+
     size = len(a)
     matrix = np.zeros((size + len(lags) + 1, size + len(lags) + 1))
     matrix[:size, :size], matrix[:size, -1] = a, b

@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
@@ -142,6 +141,8 @@ def _behind(seen: Any, cycle: Cycle, inputs: Array, ambient: float) -> tuple[flo
     Resistance and capacity by least squares over the switch, without loss; the loss where the joint stays soft for
     good.
     """
+    from scipy.optimize import nnls  # half a second, for studies with a controller alone
+
     course = cycle.trajectories["softening"]
     columns = np.repeat(inputs[:, None], len(course.times), axis=1)
     _, far, flow = np.asarray(seen.map(len(course.times))(course.states, course.currents[None, :], columns))
