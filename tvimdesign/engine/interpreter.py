@@ -1,7 +1,7 @@
 """Run a tape of operations: values alone, or values with tangents along directions.
 
-A tape is what `tape.Tape` makes of a CasADi function: operations in groups of one kind, none of which needs another of
-its group. Registers `w` hold its arguments, then constants, then results. So the program below is compiled once,
+A tape is what `tape.Tape` makes of a CasADi function: operations in groups of one kind, which do not need one
+another. Registers `w` hold its arguments, then constants, then results. So the program below is compiled once,
 whatever the function is, and takes about two nanoseconds for an operation.
 """
 

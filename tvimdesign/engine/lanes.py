@@ -252,7 +252,7 @@ def march(
     m: System, w: Array, places: Integers, given: Array, states: Array, lengths: Array, scales: Array, first: int,
     last: int, busy: NDArray[np.bool_],
 ) -> None:  # fmt: skip
-    """Fill the states after the steps from `first` to before `last`; columns of which none is `busy` are left out."""
+    """Fill the states after the steps from `first` to before `last`; columns without a `busy` lane are left out."""
     size, count = states.shape[1], states.shape[2]
     own = np.arange(size)
     for start in range(0, count, LANES):

@@ -37,7 +37,7 @@ def registers(rows: int, columns: int = LANES) -> Array:
 
 
 def tangent_registers(rows: int, directions: int) -> Array:
-    """Return registers for the tangents along some directions: whole blocks, of which the rest stay zero."""
+    """Return registers for the tangents along some directions: whole blocks; those beyond stay zero."""
     return registers(rows, max(math.ceil(directions / BLOCK), 1) * BLOCK)
 
 

@@ -1,7 +1,7 @@
 """Drawing aids: upright cylinders, rings, sectors and slots between two levels. Lengths in mm, angles in rad.
 
-What draws them is a kernel: CadQuery's, unless another one is chosen for a while (`drawn_by`). So the parts are said
-once, for exact solids and for drafts.
+What draws them is a kernel: CadQuery's, unless another one is chosen for a while (`drawn_by`). So exact solids
+and drafts share one description of the parts.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

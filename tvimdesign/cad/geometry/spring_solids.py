@@ -1,7 +1,7 @@
 """The torsion springs: their shape free and on the rotor's pin, and one swept solid of it.
 
-All is said of the right-hand spring in its own frame: its axis is z, the floor's upper face z = 0, the x axis points
-away from the rotor's axis. The left-hand spring is its mirror image in the plane of both axes.
+Everything describes the right-hand spring in its own frame: its axis is z, the floor's upper face z = 0, the x axis
+points away from the rotor's axis. The left-hand spring is its mirror image in the plane of both axes.
 """
 
 from dataclasses import dataclass

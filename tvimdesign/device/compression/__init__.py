@@ -6,7 +6,7 @@ below the rotor plate, lies the chamber. It is `block_height` high, and a `runni
 that no block and no vane rubs; the hub, as high, carries the plate.
 
 Seen from above, the chamber is divided by radial lines into annular sectors. Counter-clockwise stand in turn a housing
-vane, a block, a rotor vane, a block, `vane_count` times around: 2 N blocks, of which N push against either sense of
+vane, a block, a rotor vane, a block, `vane_count` times around: 2 N blocks, N against either sense of
 rotation. Angles are lengths at the mean radius over the mean radius: `block_depth` and `vane_thickness` (of the rotor
 vanes) are given, the housing vanes take what is left of the circle. A sector's stroke and its depth both grow with the
 radius, so a block is strained alike from its inner to its outer end and K = n E A r^2/L is exact with the mean radius.
@@ -30,7 +30,7 @@ covers the vane, and a block that is keyed to the rotor's vane would pull as wel
 
 Turned by an angle, the solids stand like this: each block stays on its pad. The one ahead of a rotor vane is drawn as
 the sector that the vane leaves of it, so block and vane touch in one radial face; the one behind keeps its shape, and
-between it and the vane is air. What is squeezed gives way to its free sides, and that bulge is not drawn: it has the
+between it and the vane is air. A squeezed block bulges at its free sides, which is not drawn: it has the
 running clearances, the gap to the hub, and outside all the room up to the springs, which `squeezed_block_gap` tells.
 
 It goes together from above: pads into their pockets, which are open upwards, the wires down through the slots; blocks

@@ -159,7 +159,7 @@ def plate_sheet(m: Module) -> tuple[Link, ...]:
 
 @quantities.helper()
 def uneven_sideways(_: Module) -> None:
-    """A vane's cells give heat to the plate above by one conductance, their mean and what they differ from it."""
+    """Let a vane's cells give heat to the plate above by one conductance, their mean and what they differ from it."""
 
 
 @quantities.helper()

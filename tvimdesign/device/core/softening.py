@@ -278,7 +278,7 @@ def return_time(m: Module) -> Scalar:
     "1",
     advice=(
         at_least(1.0, "the joint counts as stiff while a slice of its layer is mostly liquid: "
-             "it resists at its frequency, and gives way under a lasting load"),
+             "it resists at its frequency, and creeps under a lasting load"),
     ),
 )  # fmt: skip
 def stiffening_over_freezing(m: Module) -> Scalar:

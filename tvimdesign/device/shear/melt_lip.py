@@ -91,7 +91,7 @@ def melt_lip_hub_gap(m: Module) -> Scalar:
 
 retention = QuantityGroup("Axial play")
 DRAWN = 1.1
-"""Thickness over that at the start up to which the time is told."""
+"""Thickness over that at the start up to which the time is given."""
 
 
 @retention.output("Pa")

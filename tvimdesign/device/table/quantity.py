@@ -191,7 +191,7 @@ class Output:
 
     @cached_property
     def reads(self) -> tuple[str, ...]:
-        """Return the attributes of the module that the function reads; raises ValueError if that cannot be told."""
+        """Return the attributes of the module that the function reads; raises ValueError if they cannot be found."""
         try:
             return names_read(self.function)
         except ValueError as error:

@@ -127,7 +127,7 @@ def cooled_end(free: Any, away: Any, height: Any) -> Any:
 
     With u = cos(a + i b) the free end is 0 < a < pi at b = 0, near face and wall are a = 0 and pi: heat that leaves as
     sin a makes it colder by half of sin a exp(-b). The near face gives half of that heat, the wall misses the rest;
-    the whole is told over what the near face gives.
+    the whole is over what the near face gives.
     """
     along, off = _along_and_off(free, away, height)
     return np.sqrt(1.0 - along**2) * (off - np.sqrt(off**2 - 1.0))

@@ -80,7 +80,7 @@ def equivalent_shear_strain(squeeze: Any, shape: Any) -> Any:
 
 
 def squeezed_outer_radius(inner_radius: Any, outer_radius: Any, span: Any, squeeze: Any) -> Any:
-    """Return the outer radius [m] of a sector of the angle `span` [rad] squeezed by an angle, were it to give way
+    """Return the outer radius [m] of a sector of the angle `span` [rad] squeezed by an angle, if it bulged
     outwards alone.
 
     Its volume stays, h a (r_o^2 - r_i^2)/2, as that of any incompressible body; textbook.

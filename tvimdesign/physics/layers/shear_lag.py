@@ -14,7 +14,7 @@ tau(x)/tau(far) = 1 + h sum_n c_n exp(-q_n x),  c_n = 2 (1 + h)/(q_n^2 + h^2 + h
 Source: Carslaw and Jaeger, Conduction of Heat in Solids, 2nd edition, 1959, sections 3.9 and 5.3 (a strip with one face
 that radiates, and its roots).
 
-A bonded ring between sheets, of which a torque enters one at the inner edge: a lap joint in the round.
+A bonded ring between sheets; a torque enters one at the inner edge: a lap joint in the round.
 
 With F the share of the torque T that a layer of the stiffness k has handed over from one sheet to the next, up to r,
 and the compliances a of its sheets, F'' - 3 F'/r = k (a_below M_below - a_above M_above)/T; F is 0 at the inner edge

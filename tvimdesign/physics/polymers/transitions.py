@@ -215,7 +215,7 @@ def growth(density_melt: Any, density_solid: Any) -> Any:
 
 
 def confined_modulus(youngs_modulus: Any, poissons_ratio: Any) -> Any:
-    """Return the modulus [Pa] of a body that can give way in one direction only, M = E (1 - nu)/((1 + nu)(1 - 2
+    """Return the modulus [Pa] of a body that can strain in one direction only, M = E (1 - nu)/((1 + nu)(1 - 2
     nu))."""
     return youngs_modulus * (1.0 - poissons_ratio) / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
 

@@ -22,7 +22,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.yields import Drawn, Yields, yields_of
 
 ROUNDS, MOST_ROUNDS, PREDICTIONS = 4, 8, 5
-"""Designs of which modules are drawn, how many at most while each of them keeps more than those before, and at most how
+"""Designs whose modules are drawn, how many at most while each of them keeps more than those before, and at most how
 many between two of them are predicted from the last one's."""
 _SETTLED, _SHORT = 0.02, 0.005
 """Change of a margin, in standard deviations of what it is for, below which it is settled: where the yield is reached,

@@ -84,7 +84,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
             if abs(before / radius - 1.0) < SETTLED:
                 break
         else:
-            raise ValueError(f"link and core do not come to rest on one another in {CHANGES} tries")
+            raise ValueError(f"contact of link and core does not settle in {CHANGES} tries")
     if field:
         moved = mesh.MaterialCF({"link": found.components[0], "core": found.components[1]})
         strain = elastic.strain_of(found.components[0]), elastic.strain_of(found.components[1])

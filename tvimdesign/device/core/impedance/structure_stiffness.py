@@ -135,7 +135,7 @@ def core_dowels_holding_torque(m: Module) -> Scalar:
 
 
 CORE_PARTS = ("core_foot_holding_torque", "core_screws_holding_torque", "core_dowels_holding_torque")
-"""Quantities of which `core_holding_torque` is the least. A limit on it is one on each: where the least changes from
+"""`core_holding_torque` is the least of them. A limit on it is one on each: where the least changes from
 one to another it has a kink, and IPOPT goes from side to side of it until its iterations are over."""
 
 
