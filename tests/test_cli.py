@@ -95,6 +95,7 @@ def test_every_command_explains_itself(tvimdesign: Command, command: list[str]) 
     assert "..." not in done.stdout.partition("Commands:")[2]  # no summary of a command is cut
 
 
+@pytest.mark.gate
 def test_a_new_study_is_valid_and_never_replaces_a_file(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
     assert tvimdesign("new", file).returncode == 0

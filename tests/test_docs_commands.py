@@ -85,6 +85,7 @@ def test_measurements_of_the_page_become_records(tvimdesign: Command, tmp_path: 
     assert written == {"my_wire", "my_pad", "my_melt", "my_module"}
 
 
+@pytest.mark.gate
 def test_check_accepts_the_tutorial_s_study(tvimdesign: Command, tmp_path: Path) -> None:
     _do("tutorial.md", tvimdesign, tmp_path, [], LONG | {"run"})
 

@@ -92,6 +92,7 @@ def test_the_lock_of_all_defaults_keeps_every_rule() -> None:
                 assert value <= rule.value if rule.sense == "<=" else value >= rule.value - 1e-15, row.name
 
 
+@pytest.mark.gate
 def test_the_page_s_lock_is_optimal_as_the_page_says() -> None:
     assert LISTING is not None
     optimum = answer(read_study_text(LISTING[1]))
@@ -111,7 +112,7 @@ def test_the_page_s_lock_is_optimal_as_the_page_says() -> None:
     assert list(written.groups()) == shown
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_the_page_s_lock_becomes_parts_without_springs(tvimdesign: Command, tmp_path: Path) -> None:
     assert LISTING is not None
     (tmp_path / "gripper_lock.yaml").write_text(LISTING[1])

@@ -102,6 +102,7 @@ def test_a_study_leaves_a_whole_folder(runs: Runs, study: Path) -> None:
     assert manifest["libraries"]["casadi"]
 
 
+@pytest.mark.gate
 @names
 def test_a_study_s_results_keep_limits_ratings_and_the_schema(runs: Runs, study: Path) -> None:
     reported = _results(runs[study.stem])

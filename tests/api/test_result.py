@@ -140,6 +140,7 @@ def test_results_in_use_and_changed_studies_are_saved_rightly(study: tvim.Study,
     assert not list(tmp_path.glob("*.json"))
 
 
+@pytest.mark.gate
 def test_a_study_is_evaluated_as_it_is_drawn_within_two_lines(study: tvim.Study) -> None:
     drawn = study.evaluate(progress=False)
     assert drawn.status == "evaluated"
@@ -149,6 +150,7 @@ def test_a_study_is_evaluated_as_it_is_drawn_within_two_lines(study: tvim.Study)
     assert result["spring_stiffness"].to("N*m/rad").magnitude == pytest.approx(5.6, rel=0.02)  # the paper's Table I
 
 
+@pytest.mark.gate
 def test_no_design_is_an_error_that_has_the_closest_one() -> None:
     study = tvim.Study(
         mode="shear",

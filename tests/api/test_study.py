@@ -96,6 +96,7 @@ def test_a_copy_may_be_incomplete_until_it_is_used() -> None:
     assert study.minimize("module_mass").resolved.task == "optimize"
 
 
+@pytest.mark.gate
 def test_check_refuses_what_bounds_prove_impossible(study: tvim.Study) -> None:
     (advice,) = study.check()  # its start is beyond a rating that its optimum keeps
     assert "stiffening_structure_margin" in advice

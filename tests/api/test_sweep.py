@@ -68,7 +68,7 @@ def test_cells_are_single_evaluations_with_units_beside_the_table(grid: tvim.Swe
     assert "wire_diameter [mm]" in grid._repr_html_()
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_a_table_has_the_verdicts_of_its_cells() -> None:
     study = tvim.example("paper_reconstructed").set({"tolerances": {"pcl_thickness": "0.1 mm"}})
     table = study.sweep(coil_count=[3.0], progress=False).table("module_mass", verdicts=True)

@@ -108,6 +108,7 @@ def test_the_slopes_written_by_hand_are_those_of_its_values(reference: Reference
         assert np.delete(found, 2) == pytest.approx(np.delete(expected, 2), rel=1e-4, abs=1e-7)
 
 
+@pytest.mark.gate
 def test_a_generation_is_given_the_same_problem(reference: Reference) -> None:
     designs = others(reference)
     many = ManyDesigns(reference, ("response_time", "module_mass"), pace=100.0)

@@ -56,7 +56,7 @@ def test_no_byte_of_the_user_s_is_changed_or_removed(tmp_path: Path) -> None:
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize("broken", ["digest", "rename", "links"])
+@pytest.mark.parametrize("broken", ["digest", "rename", pytest.param("links", marks=pytest.mark.slow)])
 def test_the_campaign_sees_what_is_lost(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, broken: str) -> None:
     if broken == "digest":  # as if a file's name were enough to make it ours
         monkeypatch.setattr(manifest, "is_as_written", lambda folder, name, _: (folder / name).is_file())
@@ -209,6 +209,7 @@ def test_the_campaign_sees_what_an_explorer_has_lost(tmp_path: Path) -> None:
 USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "column_maps"]
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("kind", "inputs"),
     [

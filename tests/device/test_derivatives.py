@@ -36,6 +36,7 @@ def compare_with_differences(model: DeviceFunctions, numbers: Mapping[str, float
     assert np.all(np.isfinite(exact))
 
 
+@pytest.mark.gate
 def test_every_output_has_the_derivatives_of_differences(model: DeviceFunctions, numbers: dict[str, float]) -> None:
     compare_with_differences(model, numbers)
 

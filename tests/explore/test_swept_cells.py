@@ -100,6 +100,7 @@ def test_what_is_no_cell_or_no_finished_sweep_is_refused_in_words(swept: Path, t
         open_source(tmp_path)
 
 
+@pytest.mark.gate
 def test_a_sweep_of_words_with_records_of_its_own_is_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     study = "mode: shear\ncatalog: records\nsolver: {cells: 6}\nsweep: {over: {spring_material: [music_wire, own]}}\n"
     records = tmp_path / "records/spring_materials"

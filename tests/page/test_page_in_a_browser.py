@@ -20,6 +20,7 @@ from tvimdesign.report.sweep_study import sweep_page
 from tvimdesign.sweep.shards import columns
 from tvimdesign.sweep.swept_cells import CellTable
 
+pytestmark = pytest.mark.gate
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")
 SERIOUS = {"serious", "critical"}
 Open = Callable[..., Opened]
@@ -28,7 +29,6 @@ Open = Callable[..., Opened]
 FIGURES = ("cycle", "front", "solids")
 
 
-@pytest.mark.gate
 def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path) -> None:
     found = screen
     for name in FIGURES:
@@ -63,7 +63,6 @@ def test_axe_finds_no_serious_fault(opened: Open, report: Path, colours: str, ru
     assert [(one["id"], [node["html"][:120] for node in one["nodes"][:3]]) for one in serious] == []
 
 
-@pytest.mark.gate
 def test_a_page_is_dark_where_the_reader_is_without_white_slabs(opened: Open, report: Path) -> None:
     def brightness(colours: str) -> int:
         page = opened(report, color_scheme=colours).page
@@ -117,7 +116,6 @@ def test_a_page_is_read_in_minutes_and_links_unfold_the_rest(screen: Opened) -> 
     screen.page.evaluate("history.replaceState(null, '', location.pathname)")
 
 
-@pytest.mark.gate
 @pytest.mark.parametrize("wide", [1400, 390])
 def test_no_table_is_cut_and_hidden_columns_are_named(opened: Open, report: Path, wide: int) -> None:
     page = opened(report, viewport={"width": wide, "height": 844}).page
@@ -211,7 +209,6 @@ def test_a_brush_keeps_the_designs_within(screen: Opened) -> None:
     assert rows.count() == 2
 
 
-@pytest.mark.gate
 def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: Open, tmp_path: Path) -> None:
     data = b"ISO-10303-21;\r\n" + bytes(range(256))
     links = Cell("STEP 3MF", links=[("STEP", "cad/step/housing.step"), ("3MF", "cad/print/housing.3mf")])
@@ -231,7 +228,6 @@ def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: 
     assert found.page.url == alone.as_uri()
 
 
-@pytest.mark.gate
 def test_the_page_of_a_run_carries_the_files_of_its_parts(report: Path) -> None:
     carried = re.findall(r'data-file="([^"]+)"', report.read_text("utf-8"))
     assert carried[0] == "cad/step/housing.step"

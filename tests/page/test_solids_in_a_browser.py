@@ -11,6 +11,7 @@ from PIL import Image
 from sample_pages import LEG_MOVED, RING
 from support import wait_until
 
+pytestmark = pytest.mark.gate
 VIEWER = "document.getElementById('figure-solids').viewer"
 
 
@@ -45,7 +46,6 @@ def solids(screen: Opened) -> Iterator[Solids]:
     found.figure.get_by_role("combobox", name="View").select_option("corner")
 
 
-@pytest.mark.gate
 def test_parts_are_hidden_taken_apart_and_turned(solids: Solids) -> None:
     before = solids.picture()
     box = solids.figure.get_by_role("checkbox", name="housing", exact=True)

@@ -144,6 +144,7 @@ def test_sheets_figures_and_findings_have_numbers_in_their_units() -> None:
     json.dumps(findings(TRIAL), allow_nan=False)
 
 
+@pytest.mark.gate
 def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Command, tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequency", "--out", out)

@@ -26,6 +26,7 @@ def sized(**numbers: str) -> Study:
     return read_study_text(sized_text(JointTask.read(**WRIST | numbers), "joint"), "joint.yaml")
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("diameter", "torque", "stiffness"),
     [
@@ -65,6 +66,7 @@ def test_a_study_names_what_gives_room_for_the_assumed_values() -> None:
     assert study_text(task, "middle").splitlines()[1].startswith("# No room for assumed values")
 
 
+@pytest.mark.gate
 def test_a_range_of_stiffness_and_the_supply_are_taken_as_written() -> None:
     study = sized(stiffness="1 to 1.5 N.m/rad", supply="12 V, 2 A", diameter="76 mm")
     limits = {(limit.output, limit.sense): limit.limit for limit in study.require}
@@ -94,13 +96,8 @@ def test_the_time_to_stiffen_is_required_where_it_is_asked() -> None:
     assert "stiffening_time" not in {limit.output for limit in usual.require}
 
 
-@pytest.mark.parametrize(
-    "numbers",
-    [
-        pytest.param({"diameter": "66 mm"}, marks=pytest.mark.gate),
-        pytest.param({"torque": "10 N.m"}, marks=pytest.mark.slow),  # 74 mm with another wave spring, 77 mm without
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("numbers", [{"diameter": "66 mm"}, {"torque": "10 N.m"}])
 def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers: dict[str, str]) -> None:
     with pytest.raises(InfeasibleError, match="fit at nominal sizes, with margins by estimate only") as refusal:
         sized(**numbers)
@@ -156,7 +153,7 @@ def test_options_that_are_missing_or_no_number_are_named_at_once(tvimdesign: Com
     assert "diameter: missing; write for instance '70 mm'" in done.stderr
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_a_set_of_hardware_with_another_record_is_tried() -> None:
     study = sized(torque="9 N.m")  # the set's screws leave a core that bears 8.7 N.m
     assert study.module["link_screw"] == "iso_4762_m2_5"

@@ -28,6 +28,7 @@ from tvimdesign.study.text.mistakes import StudyError
 from tvimdesign.study.tree import tree_of_text
 from tvimdesign.sweep.plan import plan_of
 
+pytestmark = pytest.mark.gate
 SOFT = 60.0
 
 
@@ -49,7 +50,6 @@ def _returning(mode: str) -> tuple[Duty, DutyCycle, float, tuple[NDArray[np.floa
     return duty, first, period, returning
 
 
-@pytest.mark.gate
 @pytest.mark.parametrize("mode", ["shear", pytest.param("compression", marks=pytest.mark.slow)])
 def test_fifty_cycles_end_in_the_periodic_state(mode: str) -> None:
     duty, first, period, (state, cycle) = _returning(mode)
@@ -209,7 +209,7 @@ def test_a_study_without_them_has_the_same_values(limited: StudyResult) -> None:
     assert without.design.values.items() <= limited.design.values.items()
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_a_limit_in_the_duty_is_kept_by_another_search() -> None:
     text = study_path("paper_shear").read_text()
     asked = read_study_text(f"{text}\nduty: {{switches_per_hour: 4}}\n")

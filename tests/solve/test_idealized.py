@@ -61,6 +61,7 @@ def test_every_idealization_is_no_default_and_names_its_omission() -> None:
         assert all(word in row.options and about for word, about in row.idealized.items())
 
 
+@pytest.mark.gate
 def test_a_layer_that_freezes_where_it_melts_changes_times_alone() -> None:
     study = read_study_text("mode: shear\nmodule: {phase_model: equilibrium}\n")
     (one,) = answer(study).idealizations
@@ -81,6 +82,7 @@ def stiff(of: StudyResult) -> str:
     return next(fact.text for fact in more_facts(of, {}, None) if fact.label == "Stiff")
 
 
+@pytest.mark.gate
 def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
     cooled, air = module(SINK), module(SINK.replace("0.8 A", "0 A"))
     assert cooled.design.values["frozen_time"] < 0.8 * air.design.values["frozen_time"]
@@ -93,6 +95,7 @@ def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
     assert reported["unpowered"]["frozen_time"]["value"] == cooled.cooling.unpowered["frozen_time"]
 
 
+@pytest.mark.gate
 def test_a_foil_heater_heats_with_either_sign_of_its_current() -> None:
     alone, heated = module(FOIL), module(f"{FOIL}, peltier_seebeck: 1e-9 V/K, cooling_current: 0.1 A")
     assert alone.design.values["cooling_current"] == 0.0

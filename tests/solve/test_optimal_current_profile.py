@@ -51,6 +51,7 @@ def test_more_pieces_are_never_slower_and_beat_a_constant_current() -> None:
     assert times[2] < 0.95 * times[0]  # the pads' power first, then their temperature is at its limit
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("pieces", [4, pytest.param(8, marks=pytest.mark.slow)])
 def test_the_limits_hold_all_along_the_simulated_heating(pieces: int) -> None:
     solution = solve(with_pieces(pieces))

@@ -35,6 +35,7 @@ def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None
     assert found["spring_stiffness"] < found["softened_stiffness"] < found["softened_impedance"]
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("name", ENDS)
 def test_it_is_the_last_of_the_simulated_history(name: str) -> None:
     found = _answer()
@@ -133,6 +134,7 @@ def test_the_last_slice_of_a_layer_is_half_frozen_at_the_frozen_time() -> None:
     assert 57.5 <= then <= 57.5 + 0.03 * 15.0
 
 
+@pytest.mark.gate
 def test_the_way_back_ends_by_the_criterion_that_was_chosen() -> None:
     frozen = answered("stiffening_criterion: frozen").design
     assert frozen.value("return_time") == pytest.approx(frozen.value("frozen_time"), rel=1e-6)

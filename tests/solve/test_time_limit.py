@@ -113,6 +113,7 @@ def test_the_search_for_the_conflict_ends_with_the_time() -> None:
 ROBUST = ALGEBRAIC.replace("{starts: 1}", "{starts: 1, time_limit: 5 min}") + "robust: {yield: 95 %}\n"
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("word", "then"),
     [("preparing the equations", FOLLOWING), ("adding tolerance margins", 1e6)],
@@ -190,6 +191,7 @@ def _interrupted(study: Study, at: str) -> Study | None:
     return interrupted.value.best
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("text", [TWO_STARTS, LISTED_WIRES])
 def test_the_study_begins_at_a_design_that_keeps_all_limits(text: str, tmp_path: Path) -> None:
     best = _interrupted(read_study_text(text), "so far")

@@ -115,6 +115,7 @@ def _paths(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
         yield from _paths(value, (*path, key))
 
 
+@pytest.mark.gate
 def test_no_edit_of_a_design_ends_in_a_traceback(tmp_path: Path) -> None:
     plain = _plain()
     places = [path for path in _paths(plain) if path and path[0] not in ("values", "solution")]

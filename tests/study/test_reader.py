@@ -267,6 +267,7 @@ def test_a_wrong_study_does_not(validator: Any, read: Callable[..., Study], text
         read(text)
 
 
+@pytest.mark.gate
 def test_the_command_prints_the_schema_of_all_modes() -> None:
     done = subprocess.run([sys.executable, "-m", "tvimdesign", "schema"], capture_output=True, text=True, check=True)
     printed = json.loads(done.stdout)

@@ -96,6 +96,7 @@ def study(currents: str) -> Study:
     return read_study_text(f"{MODULE}currents: {currents}", "given", Path())
 
 
+@pytest.mark.gate
 def test_a_given_current_is_followed_and_a_constant_one_is_the_same() -> None:
     """Compare with constant currents, which are inputs of their own: the two ways share only the integrator."""
     flat = "{softening: {moments: [0 s, 5 s], currents: [1.5 A, 1500 mA]},"
@@ -112,6 +113,7 @@ def test_a_given_current_is_followed_and_a_constant_one_is_the_same() -> None:
     assert never.current_profiles == {"softening": {"moments": [0.0, 1.0], "currents": [0.0, 0.0]}}
 
 
+@pytest.mark.gate
 def test_tolerate_leaves_out_the_constant_current_that_a_profile_replaces(tvimdesign: Command, tmp_path: Path) -> None:
     (tmp_path / "given.yaml").write_text(
         MODULE + "require: {holding_torque: '>= 1 N.m'}\n"

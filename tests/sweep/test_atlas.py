@@ -55,7 +55,7 @@ def test_more_torque_and_less_time_cost_mass(cells):
                 assert less <= mass * (1.0 + 2e-3)
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_a_cell_is_what_its_own_study_comes_to(plan, cells):
     cell = cells[7.0, 120.0]
     solution = optimize(study_of(plan, cell))

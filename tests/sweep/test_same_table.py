@@ -131,6 +131,7 @@ def test_a_folder_of_results_is_not_written_over(tvimdesign: Command, study_file
     assert "--resume goes on with a front or a sweep" in done.stderr
 
 
+@pytest.mark.gate
 def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(
     study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

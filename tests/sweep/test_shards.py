@@ -84,6 +84,7 @@ with ShardWriter(Path(sys.argv[1]), ("a", "b", "c")) as shard:
 """
 
 
+@pytest.mark.gate
 def test_full_disks_and_folders_in_the_way_keep_the_cells_before(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-c", FILLS_ITS_DISK, str(tmp_path)], capture_output=True, text=True, check=True,

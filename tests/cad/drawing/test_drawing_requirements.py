@@ -98,6 +98,7 @@ def test_seats_and_threads_have_fits_where_milled() -> None:
     assert {*reported["seats"], *reported["threads"]} <= {kind for kind, making in PRODUCTION.items() if making.drawn}
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("kind", "about", "size"),
     [("housing", "bearings' outer rings", "⌀21.1 H8"), ("rotor", "bearings' inner rings", "⌀14.9 h8")],

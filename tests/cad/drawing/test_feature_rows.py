@@ -236,6 +236,7 @@ def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:
     no_leader_crosses_another(kind, document)
 
 
+@pytest.mark.gate
 def test_a_housing_with_vanes_is_cut_through_the_middle_of_a_vane() -> None:
     design = design_of("vanes", BEARING_BLOCKS, "compression")
     dims = dimensions(design)

@@ -74,6 +74,7 @@ def test_pockets_that_leave_too_little_floor_break_a_rule(rule: str, changes: di
     assert rule in broken_rules(design_of("near", changes))
 
 
+@pytest.mark.gate
 def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported() -> None:
     dims = dimensions(design_of("tiles", TILES))
     kinds = ("housing", "heater", "heater_lead", "spreader", "pcl_arc", "thermal_cutout")

@@ -229,6 +229,7 @@ def drawn(dims: Dimensions) -> dict[str, cq.Solid]:
     return drawn_parts(dims)
 
 
+@pytest.mark.gate
 def test_the_printed_rotor_needs_support_under_its_plate(
     paper: Design, dims: Dimensions, drawn: dict[str, cq.Solid]
 ) -> None:
@@ -351,6 +352,7 @@ def test_the_reference_modules_have_nothing_that_cannot_be_made(mode: str, proce
         assert warned - {"housing: edge"} == set()  # support is planned
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("bearing", ["none", "ball_6803"])
 def test_a_printed_housing_stands_on_support_where_its_note_says(bearing: str) -> None:
     # A hub with seats from both ends has a lip between them, whose lower face hangs in the lower seat.

@@ -188,6 +188,7 @@ def test_a_damaged_result_is_told(tmp_path: Path) -> None:
     assert store.damaged == ["plate"]
 
 
+@pytest.mark.gate
 def test_stuck_crashed_and_refused_work_is_named(run: Run, tmp_path: Path) -> None:
     stuck = Work(name="bore", do=never_ends)
     needing = Work(name="assembly", do=stack, needs=("bore", "plate"))
@@ -259,6 +260,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.gate
 def test_a_spawned_child_is_gone_with_its_parent_though_it_is_at_work(tmp_path: Path) -> None:
     """Linux alone signals a parent's end; here a child watches its parent, as elsewhere."""
     (tmp_path / "spawning.py").write_text(SPAWNING)

@@ -105,6 +105,7 @@ def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(
     assert parts["heater_2"].distance(parts["pcl_block_1"]) == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.gate
 def test_blocks_that_do_not_fit_are_found_and_named(rest: dict[str, cq.Solid], blocks: Design) -> None:
     moved = rest | {"rotor": turned(rest["rotor"], 0.01)}
     assert {f"rotor | pcl_block_{index} here" for index in range(1, 12, 2)} <= failed(moved, "rotor pcl_block")
@@ -200,6 +201,7 @@ def tiled(name: str) -> Tiled:
     return Tiled(design, dims, placed_solids(dims, counts))
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("name", ["over windows", "in vanes", TWO])
 def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(name: str) -> None:
     design, _, placed = tiled(name)
@@ -235,6 +237,7 @@ def test_tiles_stand_over_windows_with_their_plates_on_ledges() -> None:
     assert seat == pytest.approx(180.0 - (18.0 - 4.0) * 6.0 + (4.0 - pi) * dims.corner_radius**2, rel=1e-6)
 
 
+@pytest.mark.gate
 def test_bent_leads_go_down_through_their_slots_in_drafts_too() -> None:
     _, dims, placed = tiled("over windows")
     leads = [solid for name, solid in placed.items() if kind_of(name) == "heater_lead"]
@@ -283,6 +286,7 @@ def behind(tile: cq.Solid, housing: cq.Solid, depth: float = 0.01) -> float:
     return found
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("mode", "changes"),
     [("shear", TILES | {"arc_span": 1.4}), ("compression", VANE_TILE_ROWS | {"pcl_outer_radius": 38e-3})],

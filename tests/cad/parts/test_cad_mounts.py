@@ -183,6 +183,7 @@ def _legs_touch_their_pins(design: Design) -> None:
             assert parts["rotor"].distance(parts[name]) == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.gate
 def test_solid_leg_touches_the_pin(paper: Design) -> None:
     _legs_touch_their_pins(paper)
 

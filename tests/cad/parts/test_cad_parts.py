@@ -61,6 +61,7 @@ WITHIN = {"spring_right_volume": 1e-5, "spring_left_volume": 1e-5, "module_mass"
           "motor_hub_inertia": 1e-6}  # fmt: skip
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("name", SIZED)
 def test_volumes_and_inertias_are_those_of_the_kernel(name: str) -> None:
     mode, changes = SIZED[name]
@@ -99,6 +100,7 @@ def with_rotor(one: str, other: str) -> bool:
     return "rotor" in (one, other)
 
 
+@pytest.mark.gate
 def test_legs_pins_and_cores_in_the_way_are_found(paper: Design) -> None:
     parts = build(paper)
     ahead = build(paper, -0.02)["rotor"]  # the rotor winds the right-hand springs, which stay behind
@@ -126,6 +128,7 @@ def test_what_cannot_be_drawn_names_the_part(paper: Design, row: str, value: flo
         build(design)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     "overrides",
     [
@@ -188,6 +191,7 @@ def test_a_milled_core_has_drill_points_below_its_blind_holes(process: str) -> N
     assert lowest == pytest.approx(min(link_tip, dims.core_bottom_level + dims.retainer_screw_depth), abs=1e-6)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("changes", [BEARING_BLOCKS, DRIVEN_BLOCKS], ids=["bearings", "driven"])
 def test_volumes_and_inertias_of_milled_parts_count_their_points(changes: dict[str, float | str]) -> None:
     design = design_of("milled", changes, "compression")

@@ -187,6 +187,7 @@ def conducting(factor: float) -> dict[str, Any]:
     return {"pcl_conductivity_solid": 0.225 * factor, "pcl_conductivity_melt": 0.18 * factor}
 
 
+@pytest.mark.gate
 def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed: dict[str, Any]) -> None:
     # Half of I^2 R goes to the hot side; 231 kJ/kg take polycaprolactone from 22 to 100 degC, a third of it latent.
     area = 12 * 14e-3 * 3.5e-3
@@ -195,6 +196,7 @@ def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed: dict[
     assert time == pytest.approx(1145.0 * area * 7e-3 * 231e3 / power, rel=0.02)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(("factor", "current", "low", "high"), [(100.0, 1.5, 1.98, 2.05), (1.0, 40.0, 3.3, 4.0)])
 def test_twice_the_depth_by_flux_and_by_diffusion(
     factor: float, current: float, low: float, high: float, squeezed: dict[str, Any]

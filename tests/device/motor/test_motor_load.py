@@ -39,6 +39,7 @@ def _values(motor: str, more: str = "") -> dict[str, float]:
     return answer(read_study_text(text)).design.values
 
 
+@pytest.mark.gate
 def test_its_torque_is_that_of_an_arm_on_a_spring() -> None:
     values = _values("frameless_70x10")
     spline = CubicSpline(MOMENTS, ANGLES, bc_type="clamped")
@@ -76,6 +77,7 @@ def test_a_sine_adds_its_amplitudes() -> None:
     )
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(("motor", "bears"), [("frameless_50x08", False), ("frameless_85x13", True)])
 def test_a_small_motor_does_not_bear_the_task(motor: str, *, bears: bool) -> None:
     values = _values(motor, SINE.replace("0.1 rad", "1 rad"))

@@ -242,6 +242,7 @@ def power_for_70_seconds(thickness: float, behind: str) -> float:
     return float(brentq(lambda power: far_time(power, thickness, behind) - 70.0, 5.0, 18.0, xtol=1e-2))
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("thickness", "behind", "watts"), [(1e-3, "insulated", 5.9), (2e-3, "insulated", 13.0), (1e-3, "aluminium", 15.9)]
 )

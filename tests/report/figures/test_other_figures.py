@@ -345,6 +345,7 @@ def _draws_by(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(plot_process, "PROCESSOR_LIMIT", 0.2)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.gate] if name in {"run", "sweep"} else []) for name in COMMANDS]
 )
@@ -382,6 +383,7 @@ def test_a_drawing_process_that_fails_says_why(
     assert "could not be drawn: RuntimeError: no fonts" in " ".join(done.stderr.split())
 
 
+@pytest.mark.gate
 def test_a_result_that_is_saved_without_plots_warns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     _draws_by(BURNS, tmp_path, monkeypatch)
     result = tvim.example("paper_reconstructed").evaluate(progress=False)

@@ -149,6 +149,7 @@ def read_on(capsys: pytest.CaptureFixture[str], lines: list[str]) -> list[str]:
     return lines
 
 
+@pytest.mark.gate
 def test_plain_lines_come_every_few_seconds(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -177,6 +178,7 @@ def test_what_goes_on_is_shown_again_without_its_figures(
     assert {line.partition(" · ")[0] for line in lines[1:]} == {"... still adding margins"}
 
 
+@pytest.mark.gate
 def test_silence_never_lasts_three_seconds(capsys: pytest.CaptureFixture[str]) -> None:
     lines, times = list[str](), [time.monotonic()]
     with terminal.progress_output() as say:

@@ -143,6 +143,7 @@ def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path: Path) -
 STATED = "impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance: 300 N.m/rad"
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("module", "soft", "stiff"),
     [

@@ -32,6 +32,7 @@ RATE = 210e9 * 2.413e-3**4 / (64 * 24.4094e-3 * 3.25)
 MOMENT = 4 * math.radians(48.962) / 4 * (40e-3**4 - 26e-3**4)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("row", "numbers"),
     [

@@ -21,6 +21,7 @@ double impedance(void) { return c.impedance; }
 """
 
 
+@pytest.mark.gate
 def test_it_steps_as_the_simulated_one(mode: str, tmp_path: Path) -> None:
     constants = controller_of(module_of(mode))
     assert constants is not None

@@ -90,6 +90,7 @@ def test_a_screen_is_that_of_the_snapshot(width: int) -> None:
     assert screen == path.read_text(encoding="utf-8")
 
 
+@pytest.mark.gate
 @widths
 @each
 def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width: int) -> None:

@@ -165,6 +165,7 @@ def _run(path: Path, out: Path, *, as_json: bool = False) -> None:
     module.run_study(path, out, overwrite=False, cad=False, plots=False, as_json=as_json)
 
 
+@pytest.mark.gate
 def test_what_check_refuses_ends_a_run_before_its_folder_is_touched(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -65,6 +65,7 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
     assert [one for one in warnings if one not in summary.replace("`", "")] == []
 
 
+@pytest.mark.gate
 def test_a_run_shows_its_parts_or_says_how_to_make_them(tmp_path: Path) -> None:
     page = tree(sample_pages.run_page(tmp_path / "run", parts=False))
     assert "`" not in words(section(page, "assembly"))

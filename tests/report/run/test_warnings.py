@@ -131,6 +131,7 @@ def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask() -> Non
     assert any(cure.startswith("vary the current or a size, and try require: {") for cure in warned)
 
 
+@pytest.mark.gate
 def test_the_gravest_warning_comes_first() -> None:
     found = warnings_of(_published(), ["a sheet contradicts itself."])
     ranks = [("grave", "serious", "").index(warning.level) for warning in found]
@@ -276,6 +277,7 @@ def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(
     assert met(1.03) is (sense == ">=")
 
 
+@pytest.mark.gate
 def test_limits_on_what_follows_a_profile_are_left_out_and_named(found: StudyResult) -> None:
     profiled = STUDY.model_copy(update={"profile": STUDY.profile.model_copy(update={"softening": 2})})
     study = profiled.model_copy(update={"tolerances": standard_tolerances(TABLE)})
@@ -313,6 +315,7 @@ def test_an_uncertainty_that_is_not_computed_is_a_warning(
     assert (tmp_path / "out/design.json").exists()
 
 
+@pytest.mark.gate
 def test_steps_left_out_are_on_the_screen_and_in_the_results(tvimdesign: Command, tmp_path: Path) -> None:
     (tmp_path / "arm.yaml").write_text(ARM)
     done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", "--time-limit", "1 ms", cwd=tmp_path,

@@ -63,6 +63,7 @@ def test_the_folder_has_tables_in_si_and_a_manifest(results: tuple[Path, dict[st
     assert "with the preload adjusted to within ±1°, 100 % do" in said
 
 
+@pytest.mark.gate
 def test_a_design_and_its_tables_are_printed_and_bad_input_is_told(tvimdesign: Command, tmp_path: Path) -> None:
     (tmp_path / "arm.yaml").write_text(STUDY)
     done = tvimdesign("tolerate", "arm.yaml", "--samples", 300, "--out", "again", cwd=tmp_path)

@@ -44,6 +44,7 @@ def test_the_gains_have_the_margin_of_simc() -> None:
     assert 1.0 / abs(loop[crossing]) == pytest.approx(3.0, rel=0.05)
 
 
+@pytest.mark.gate
 def test_the_law_is_a_pi_law_with_an_observer_in_continuous_time() -> None:
     period, lag, heating, leak, delay, balance, most = 0.005, 2.0, 0.5, 0.02, 0.3, 1.0, 3.0
     gain, integral_time = ReactionCurve(heating, lag + delay).gains()
@@ -92,6 +93,7 @@ def test_the_law_is_a_pi_law_with_an_observer_in_continuous_time() -> None:
     assert max(nears) < 353.0
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 def test_its_estimate_is_the_impedance_of_the_module(mode: str) -> None:
     resolved, controller = module_of(mode), _controller(mode)

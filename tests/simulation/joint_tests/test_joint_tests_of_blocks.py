@@ -76,6 +76,7 @@ def test_every_test_runs_on_a_compression_module(test: str, trial: Callable[[str
     assert any(note.startswith("Blocks push and never pull") for note in found.notes) == (test in {"release", "sine"})
 
 
+@pytest.mark.gate
 def test_energy_never_rises_and_a_link_that_rattles_on_is_said_to(
     trial: Callable[[str], Trial], resolved: ResolvedModule
 ) -> None:

@@ -96,6 +96,7 @@ def radau(blocks: Blocks, angle: float, hold: float, times: Array) -> tuple[Arra
     return found, events
 
 
+@pytest.mark.gate
 @NAMED
 @pytest.mark.parametrize("hold", [0.02, pytest.param(10.0, marks=pytest.mark.slow)])
 def test_release_and_its_events_are_those_of_radau(pair: str, hold: float) -> None:

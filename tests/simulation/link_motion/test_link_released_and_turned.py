@@ -89,6 +89,7 @@ def test_kelvin_voigt_is_the_dashpot_beside_the_spring(damping: float) -> None:
     assert torque[later] == pytest.approx(moved.torque[later], abs=1e-3)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(("layer", "hold"), [("melt", 10.0), ("half frozen", 10.0), ("solid", 10.0), ("solid", 0.0)])
 def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer: str, hold: float) -> None:
     # Other unknowns: torque of each mode, with the layer's angle from d/dt of the series' balance.

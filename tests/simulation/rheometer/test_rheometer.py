@@ -134,6 +134,7 @@ def test_creep_of_the_mix_is_what_its_internal_equations_integrate_to(resolved: 
     assert named(done("creep"), "creep_strain@60_degC").value == pytest.approx(found.y[-1, -1], rel=1e-5)
 
 
+@pytest.mark.gate
 def test_stress_after_the_ramp_is_what_its_internal_equations_integrate_to(
     resolved: ResolvedModule, done: Done
 ) -> None:

@@ -58,6 +58,7 @@ def compare(model: DeviceFunctions, value_at: Callable[[Array, Array], Supplied]
         assert np.max(gap) < 1e-5, (j, np.array(model.switch_names)[known][np.argmax(gap)], np.max(gap))
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("design", ["as it is", "sink"])
 def test_derivatives_of_all_values_are_those_of_the_values(design: str, build: Callable[..., DeviceFunctions]) -> None:
     model = build(design, melt_memory=1.0)  # with one that fades within 3 K the soft time ripples by 1.2e-5
@@ -169,6 +170,7 @@ def test_a_phase_takes_no_more_steps_than_it_did(build: Callable[..., DeviceFunc
         assert 2 < len(grids[name].shares) <= most, name
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("study", ["elbow_printed", "paper_shear"])
 def test_a_steady_state_that_changes_steeply_is_found(study: str) -> None:
     # Newton's method alone goes to and fro between currents that melt a part of the elbow's layer and that do not.

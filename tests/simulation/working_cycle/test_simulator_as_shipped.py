@@ -31,6 +31,7 @@ def agree(one: Cycle, other: Cycle) -> None:
     assert one.balances.keys() == other.balances.keys()
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     "path",
     [

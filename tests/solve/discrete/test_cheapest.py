@@ -37,6 +37,7 @@ def _study(folder: Path, text: str = STUDY, **prices: float) -> Study:
     return read_study(folder / "study.yaml")
 
 
+@pytest.mark.gate
 def test_the_cheaper_of_two_equal_heaters_is_chosen(tmp_path: Path) -> None:
     study = _study(tmp_path, dear=25.0, cheap=15.0)
     solution = optimize(study)
@@ -47,6 +48,7 @@ def test_the_cheaper_of_two_equal_heaters_is_chosen(tmp_path: Path) -> None:
     assert dear.objective / cheap.objective == pytest.approx(of_dear / float(solution.values["cost"]), rel=1e-6)
 
 
+@pytest.mark.gate
 def test_a_limit_on_the_cost_rules_out_the_dear_heater(tmp_path: Path) -> None:
     text = STUDY.replace('rad"}', 'rad", cost: "<= 200 USD"}').replace("minimize: cost", "minimize: springs_mass")
     solution = optimize(_study(tmp_path, text, dear=25.0, cheap=15.0))
@@ -55,6 +57,7 @@ def test_a_limit_on_the_cost_rules_out_the_dear_heater(tmp_path: Path) -> None:
     assert len(solution.choosing.best) == 1
 
 
+@pytest.mark.gate
 def test_a_limit_below_every_cost_names_the_least_one(tmp_path: Path) -> None:
     one = STUDY.replace("{choose: [dear, cheap]}", "{choose: [cheap]}")
     least = float(optimize(_study(tmp_path, one, cheap=15.0)).values["cost"])

@@ -70,6 +70,7 @@ def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(
     assert work.warm_iterations <= 8 * work.warm  # a re-solve takes a few iterations
 
 
+@pytest.mark.gate
 def test_the_bounds_save_most_of_the_work() -> None:
     # One design is asked for; the solver runs for half of the combinations at most, though some have no design.
     alone = listed(LISTED.replace("solver: {", "solver: {alternatives: 1, "))
@@ -148,6 +149,7 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
     assert f"objective {share:+.1%} (both before margins)." in price_in_words(choosing, TABLE, second.choices)
 
 
+@pytest.mark.gate
 def test_records_that_differ_in_numbers_share_a_problem_and_optimum() -> None:
     text = POWERFUL.replace("vary:", "module: {structure_material: STUFF}\nvary:")
     petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))

@@ -57,6 +57,7 @@ def _refusal(text: str) -> str:
     return str(caught.value)
 
 
+@pytest.mark.gate
 def test_a_limit_that_cannot_hold_is_named_with_what_the_ranges_allow() -> None:
     said = _refusal(HEAVY)
     assert "module_mass <= 60 g cannot hold" in said
@@ -151,6 +152,7 @@ def test_every_limit_that_the_fixed_inputs_break_is_told_at_once() -> None:
     assert len(lines) >= 3
 
 
+@pytest.mark.gate
 def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> None:
     listed = HEAVY.replace("vary: {", "vary: {structure_material: {choose: [petg, aluminum_6061_t6]}, ")
     assert "every listed structure_material" in _refusal(listed)

@@ -182,6 +182,7 @@ def test_a_study_with_nothing_free_is_evaluated_and_its_limits_checked(most: str
     assert run.times["response_time"] == pytest.approx(optimizer.multistart.cycle["response_time"], rel=1e-3)
 
 
+@pytest.mark.gate
 def test_a_peak_of_a_profile_is_an_unknown_that_no_sample_exceeds() -> None:
     optimizer = Optimizer(read_study_text(PROFILE, "a test"))
     problem = optimizer.problem

@@ -119,6 +119,7 @@ solver: {cells: 6, starts: 1}
 """
 
 
+@pytest.mark.gate
 def test_a_switch_that_nothing_limits_ends_within_the_horizon() -> None:
     # The least peak of power heats as slowly as it may: the layer barely gets as hot as it must.
     found = optimize(read_study_text(LATE, "test"))

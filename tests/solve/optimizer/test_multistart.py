@@ -291,6 +291,7 @@ def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch: pytest
     assert all(abs(one - 3.5) <= 0.9 for one in tried)
 
 
+@pytest.mark.gate
 def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> None:
     # One start was kept from the better springs, the other from the better layer; no turn lies beside either.
     fixed = {name: vary for name, vary in study.vary.items() if name not in {"coil_count", "pin_radius_ratio"}}

@@ -102,6 +102,7 @@ def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output: str) ->
     assert inside >= 0.875
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("place", [0, 1, 2])
 def test_one_at_a_time_is_what_a_simulation_says_at_both_ends(place: int) -> None:
     swing = found().intervals["softening_time"].swings[place]

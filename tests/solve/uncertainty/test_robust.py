@@ -129,6 +129,7 @@ def test_what_a_yield_costs_is_told() -> None:
     assert line.endswith(f"({share:+.2g} %)")
 
 
+@pytest.mark.gate
 def test_an_unreachable_yield_names_the_limit_and_the_tolerance() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{yield: 95 %}}\n", "a test")

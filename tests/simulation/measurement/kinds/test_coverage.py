@@ -39,6 +39,7 @@ def test_every_kind_has_data_made_for_it() -> None:
     assert set(MADE) == set(kind_sheets())
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("kind", kinds(*QUICK))
 def test_intervals_are_as_wide_as_the_errors(kind: str) -> None:
     """Mean squares of each parameter's pulls against chi-squared: intervals of half or twice the width are outside."""
