@@ -19,7 +19,14 @@ from tvimdesign.report.output.numbers import at_its_least, ends_text, label, per
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.facts import _model
 from tvimdesign.report.run.blocks.requirements import Requirement, requirements
-from tvimdesign.report.run.first_screen import LINES, NARROW_LINES, first_screen, requirement_lines, verdict_of
+from tvimdesign.report.run.first_screen import (
+    LINES,
+    NARROW_LINES,
+    first_screen,
+    look_first,
+    requirement_lines,
+    verdict_of,
+)
 from tvimdesign.report.run.reasons import active
 from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.solve.result import answer
@@ -130,6 +137,18 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
         others = "others" if shown else "requirements"
         said = f"{missed} of {len(hidden)} {others} not met: {label(hidden[0].name)}" if missed else tightest
         assert said in " ".join(text.split())
+
+
+@pytest.mark.parametrize("name", ["elbow", "wrist_compression_of_a_long_name"])
+def test_the_last_line_has_the_parts_checks_and_the_tables_where_they_fit(name: str) -> None:
+    (line,) = look_first(f"results/{name}", 100, "all 774 checks passed")
+    assert line.startswith(f"Look first: results/{name}/report.html · parts: all 774 checks passed")
+    assert line.endswith("tables: summary.txt") == (name == "elbow")
+    missed = f"773 of 774 checks passed; 1 warning, the worst: {'wall ' * 20}"
+    first, *more = look_first("results/elbow", 100, missed)
+    assert "parts" not in first
+    assert " ".join(text.strip() for text in more) == f"Parts: {missed.strip()}"
+    assert max(map(len, (line, first, *more))) <= 100
 
 
 def test_requirements_without_a_line_are_counted_or_named() -> None:

@@ -318,7 +318,7 @@ def _ledge_pull(design: Design, _: Dimensions) -> str:
 def _proof_torque(design: Design, _: Dimensions) -> str:
     """Return the torque that the frozen joint holds, by its name where the study was not evaluated."""
     torque = design.values.get("holding_torque", math.nan)
-    return f"{torque:.2g} N·m" if math.isfinite(torque) else "the study's `holding_torque`"
+    return f"{torque:.3g} N·m" if math.isfinite(torque) else "the study's `holding_torque`"
 
 
 def _greased(place: str, design: Design, _: Dimensions) -> str:

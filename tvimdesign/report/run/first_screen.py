@@ -177,5 +177,7 @@ def write_summary(answered: AnsweredStudy, folder: ResultsFolder) -> None:
 
 
 def look_first(folder: str, width: int, parts: str = "") -> list[str]:
-    """Return where to look first: the page of the folder, the tables, and what the `parts` passed."""
-    return joined([f"Look first: {folder}/{PAGE}", f"tables: {FILE}", *([f"parts: {parts}"] if parts else [])], width)
+    """Return where to look first: the page of the folder, what the `parts` passed, and the tables if they fit."""
+    passed = [f"parts: {parts}"] if parts else []
+    lines = _as_fit([f"Look first: {folder}/{PAGE}"], [*passed, f"tables: {FILE}"], width)
+    return lines if parts in lines[0] else [*lines, *wrapped(f"Parts: {parts}", width, indent="  ")]
