@@ -1,8 +1,9 @@
 """The lightest designs of one study over the torque that is held and the time of a full cycle, cell by cell.
 
 Every cell is a pair of bounds on one problem that is built once. The walk begins at the study's own optimum, goes up
-and down the torques, and from the lightest design of each torque to shorter cycles. Where a search has no design, steps
-are halved. A cell is empty where the search next to it, from a design that is next to it, ends at limits.
+and down the torques, and from the lightest design of each to shorter cycles and to the torques beside. Where a search
+has no design, steps are halved. A cell is empty where the fastest or softest design of its torque misses it, or a
+search beside it ends at limits.
 """
 
 from __future__ import annotations
@@ -10,12 +11,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import NamedTuple
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.nlp.problem_parts import Bound, Objective
 from tvimdesign.solve.nlp.solver_run import OPTIMAL, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.pareto.tradeoff import Failure, Point, Tradeoff
+from tvimdesign.solve.pareto.tradeoff import ONE_POINT, Failure, Point, Tradeoff
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, given
 
@@ -28,6 +31,8 @@ _STEP = 0.03
 """Least step, a logarithm of torque or time."""
 _NAMED = 3
 """Limits that are named where a cell is empty."""
+_MOST_MISS = 1e3
+"""Miss of a search that ends at limits: larger than a design's, less than that of one which does not end."""
 
 
 @dataclass(frozen=True)
@@ -91,90 +96,189 @@ class _Ask:
         return max(abs(math.log(self.torque / other.torque)), abs(cycles))
 
 
+@dataclass
+class _Row:
+    """Designs of a torque [N*m]: one for each cycle that is reached, the longest first."""
+
+    torque: float
+    near: Point
+    """Design that comes nearest to the next cycle."""
+    designs: list[Point] = field(default_factory=list)
+    status: str = OPTIMAL
+    """Status of the cells without a design, once they are answered."""
+    at_limits: bool = False
+    """Whether a search for the next cycle ended at limits."""
+
+
+class _Way(NamedTuple):
+    """Way by short steps: its last design, what no design reached, if anything, and whether that ended at limits."""
+
+    near: Point
+    end: _Ask | None = None
+    at_limits: bool = False
+
+
 class _Walk:
     """The walk over one problem."""
 
     def __init__(self, trade: Tradeoff, softness: float, cycles: Sequence[float]) -> None:
         self._trade, self._softness, self._cycles = trade, softness, cycles
         self._parts = [name for name in trade.reference if name not in TRADED]
+        self._followed: set[tuple[float, float, int]] = set()
 
     def over(self, torques: Sequence[float]) -> list[MapCell]:
-        """Walk down from the torque that the lightest design holds, then up."""
+        """Walk to every torque, to shorter cycles, across from the torques beside, and from the fastest designs."""
         held = self._trade.optimum.values[TORQUE]
-        down = sorted((torque for torque in torques if torque <= held), reverse=True)
-        return [*self._along(down), *self._along(sorted(torque for torque in torques if torque > held))]
+        down = self._along(sorted((torque for torque in torques if torque <= held), reverse=True))
+        rows = [*reversed(down), *self._along(sorted(torque for torque in torques if torque > held))]
+        reached = [row for row in rows if row.status == OPTIMAL]
+        for row in reached:
+            self._shorten(row)
+        beside = [*pairwise(reached), *pairwise(reached[::-1])]
+        while any(self._follow(*rows) for rows in beside) or any(self._hurry(row) for row in reached):
+            pass
+        return [self._cell(row, place) for row in rows for place in range(len(self._cycles))]
 
-    def _along(self, torques: Sequence[float]) -> list[MapCell]:
-        """Return the cells of torques; those beyond a torque without a design are as that one is."""
-        cells: list[MapCell] = []
+    def _along(self, torques: Sequence[float]) -> list[_Row]:
+        """Return a row for each torque; those beyond a torque without a design are as that one is."""
+        rows: list[_Row] = []
         near = self._trade.optimum
         here = _Ask(near.values[TORQUE])
         for place, torque in enumerate(torques):
-            near, status = self._walked(near, here, _Ask(torque))
+            near, status = self._at_torque(near, here, _Ask(torque))
             if status != OPTIMAL:
-                return [*cells, *(self._cell(t, c, status, near) for t in torques[place:] for c in self._cycles)]
+                return [*rows, *(_Row(beyond, near, status=status) for beyond in torques[place:])]
             here = _Ask(torque)
-            cells += self._faster(torque, near)
-        return cells
+            rows.append(_Row(torque, near))
+            self._take(rows[-1], near)
+        return rows
 
-    def _faster(self, torque: float, near: Point) -> list[MapCell]:
-        """Return the cells of a torque, from the longest cycle to the shortest, started at the lightest design."""
-        cells: list[MapCell] = []
-        for place, cycle in enumerate(self._cycles):
-            if near.values[CYCLE] > cycle:
-                near, status = self._walked(near, _Ask(torque, near.values[CYCLE]), _Ask(torque, cycle))
-                if status != OPTIMAL:
-                    return [*cells, *(self._cell(torque, c, status, near) for c in self._cycles[place:])]
-            cells.append(self._cell(torque, cycle, OPTIMAL, near))
-        return cells
+    def _at_torque(self, near: Point, here: _Ask, there: _Ask) -> tuple[Point, str]:
+        """Walk to the lightest design of a torque; return the last design on the way, and the torque's status.
 
-    def _walked(self, near: Point, here: _Ask, there: _Ask) -> tuple[Point, str]:
-        """Walk from the design of one cell to another's; return the last design on the way, and the cell's status."""
-        step, end = there, None
-        while True:
-            answer = self._lightest(near, step)
-            if isinstance(answer, Point):
-                near, here = answer, step
-                if step == there:
-                    return near, OPTIMAL
-                if end is None:
-                    step = there
-                    continue
-                step = here.halfway(end)
+        Torques below are ended by the least soft stiffness. Its search begins within all limits, and so ends more
+        surely than one for a design that there is not.
+        """
+        way = self._steps(near, here, there)
+        if way.end is None:
+            return way.near, OPTIMAL
+        near, begin, end = way.near, way.near, way.end
+        if there.torque < here.torque:
+            softest = self._sought(near, there, HOT, cold=True)
+            if isinstance(softest, Point):
+                if self._miss(softest, there) > ONE_POINT:
+                    return near, EMPTY
+                begin, end = softest, there
+        answer = self._sought(begin, end, MASS, cold=True)
+        if isinstance(answer, Failure):
+            return near, EMPTY if way.at_limits or answer.infeasible else UNANSWERED
+        return (answer, OPTIMAL) if end == there else self._at_torque(answer, end, there)
+
+    def _shorten(self, row: _Row) -> None:
+        """Walk from the last design of a row to shorter cycles."""
+        while (there := self._next(row)) is not None:
+            way = self._steps(row.near, _Ask(row.torque, row.near.values[CYCLE]), there)
+            if way.end is not None:
+                row.near, row.at_limits = way.near, way.at_limits
+                return
+            self._take(row, way.near)
+
+    def _follow(self, row: _Row, other: _Row) -> bool:
+        """Walk to the next cycle of a row from the row beside, if that reaches it; return whether this does."""
+        there, question = self._next(row), (row.torque, other.torque, len(row.designs))
+        if there is None or len(other.designs) <= len(row.designs) or question in self._followed:
+            return False
+        self._followed.add(question)
+        way = self._steps(other.designs[len(row.designs)], _Ask(other.torque, there.cycle), there)
+        if way.end is not None:
+            row.at_limits |= way.at_limits
+            return False
+        self._take(row, way.near)
+        self._shorten(row)
+        return True
+
+    def _hurry(self, row: _Row) -> bool:
+        """Answer the next cycle of a row by the fastest design of its torque; return whether that reaches it."""
+        there = self._next(row)
+        if there is None or row.status != OPTIMAL:
+            return False
+        fastest = self._sought(row.near, there, CYCLE, cold=not row.at_limits)
+        if isinstance(fastest, Failure):
+            row.status = EMPTY if row.at_limits or fastest.infeasible else UNANSWERED
+            return False
+        if self._miss(fastest, there) > ONE_POINT:
+            row.status, row.near = EMPTY, min(row.near, fastest, key=lambda point: self._miss(point, there))
+            return False
+        lightest = self._sought(fastest, there, MASS, cold=True)
+        self._take(row, lightest if isinstance(lightest, Point) else fastest)
+        self._shorten(row)
+        return True
+
+    def _next(self, row: _Row) -> _Ask | None:
+        """Return what the first cell without a design asks for."""
+        return _Ask(row.torque, self._cycles[len(row.designs)]) if len(row.designs) < len(self._cycles) else None
+
+    def _take(self, row: _Row, point: Point) -> None:
+        """Put a design into the cells that it is the first to reach."""
+        row.near, row.status, row.at_limits = point, OPTIMAL, False
+        while (there := self._next(row)) is not None and self._miss(point, there) <= ONE_POINT:
+            row.designs.append(point)
+
+    def _steps(self, near: Point, here: _Ask, there: _Ask) -> _Way:
+        """Walk from the design of one cell to another's by warm searches, and halve steps that lead to no design."""
+        began, step, end, at_limits = here, there, there, False
+        while step == there or here.apart(step) >= _STEP:
+            answer = self._sought(near, step, MASS)
+            if isinstance(answer, Failure):
+                end, at_limits = step, at_limits or answer.infeasible
+            elif step == there:
+                return _Way(answer)
             else:
-                end = step if answer.infeasible else end
-                step = here.halfway(step)
-            if here.apart(step) < _STEP:
-                return near, EMPTY if end else UNANSWERED
+                near, here = answer, step
+            step = here.halfway(end)
+        if here != began and not at_limits:  # the first steps were too long
+            return self._steps(near, here, there)
+        return _Way(near, end, at_limits)
 
-    def _lightest(self, near: Point, ask: _Ask) -> Point | Failure:
-        """Seek the lightest design from one nearby, then from the design of any cell that comes nearest."""
-        answer = self._sought(near, ask)
+    def _sought(self, near: Point, ask: _Ask, least: str, *, cold: bool = False) -> Point | Failure:
+        """Seek the design with the least of an output from one nearby, then from the nearest of any cell."""
         nearest = min(self._trade.found, key=lambda point: self._miss(point, ask))
-        if isinstance(answer, Failure) and self._miss(nearest, ask) < self._miss(near, ask):
-            return self._sought(nearest, ask)
-        return answer
+        answer = self._from(near, ask, least, cold=cold)
+        reached = isinstance(answer, Point) and self._miss(answer, ask) <= ONE_POINT
+        if reached or self._miss(nearest, ask) >= self._miss(near, ask):
+            return answer
+        other = self._from(nearest, ask, least, cold=cold)
+        return min(answer, other, key=lambda found: self._miss(found, ask))
 
-    def _sought(self, near: Point, ask: _Ask) -> Point | Failure:
+    def _from(self, point: Point, ask: _Ask, least: str, *, cold: bool) -> Point | Failure:
+        """Seek the lightest design that is asked for, or the fastest or softest of its torque, from one point."""
         where = f"{ask.torque:.3g} N*m in {ask.cycle:.3g} s"
         self._trade.progress(where)
-        weights = {MASS: 1.0, CYCLE: _SIDE, ENERGY: _SIDE}
-        return self._trade.beside(near, Objective(self._trade.weights(weights), self._bounds(ask)), where)
+        weights = {**dict.fromkeys((MASS, CYCLE, ENERGY), _SIDE), least: 1.0}
+        objective = Objective(self._trade.weights(weights), self._bounds(ask, least))
+        return self._trade.beside(point, objective, where, cold=cold)
 
-    def _miss(self, point: Point, ask: _Ask) -> float:
-        """Return the logarithm by which a design misses what is asked, at most zero where it meets that."""
-        torque, hot, cycle = (point.values[name] for name in (TORQUE, HOT, CYCLE))
+    def _miss(self, answer: Point | Failure, ask: _Ask) -> float:
+        """Return the logarithm by which a design misses what is asked; without a design, what is larger than any."""
+        if isinstance(answer, Failure):
+            return _MOST_MISS if answer.infeasible else math.inf
+        torque, hot, cycle = (answer.values[name] for name in (TORQUE, HOT, CYCLE))
         return math.log(max(ask.torque / torque, hot / (self._softness * ask.torque), cycle / ask.cycle))
 
-    def _bounds(self, ask: _Ask) -> tuple[Bound, ...]:
+    def _bounds(self, ask: _Ask, least: str) -> list[Bound]:
+        """Return the bounds on each part of the torque, and on the soft stiffness and the cycle but for the `least`."""
+        most = {HOT: self._softness * ask.torque, CYCLE: ask.cycle}
         held = [self._bound(part, -1.0, -ask.torque) for part in self._parts]
-        within = [self._bound(CYCLE, 1.0, ask.cycle)] if math.isfinite(ask.cycle) else []
-        return *held, self._bound(HOT, 1.0, self._softness * ask.torque), *within
+        within = [name for name in most if name != least and math.isfinite(most[name])]
+        return [*held, *(self._bound(name, 1.0, most[name]) for name in within)]
 
     def _bound(self, name: str, factor: float, limit: float) -> Bound:
         size = self._trade.reference[name]
         return Bound({name: factor / size}, limit / size)
 
-    def _cell(self, torque: float, cycle: float, status: str, point: Point) -> MapCell:
+    def _cell(self, row: _Row, place: int) -> MapCell:
+        """Return the answer of a cell, by the place of its cycle."""
+        reached = place < len(row.designs)
+        point = row.designs[place] if reached else row.near
         limits = tuple(text for text, price in self._trade.prices(point).items() if price > 0.0)[:_NAMED]
-        return MapCell(torque, cycle, status, point.values, limits)
+        return MapCell(row.torque, self._cycles[place], OPTIMAL if reached else row.status, point.values, limits)

@@ -129,10 +129,10 @@ class Tradeoff:
             self._leave_time()
         return answer
 
-    def beside(self, point: Point, objective: Objective, where: str) -> Point | Failure:
-        """Return the best design for an objective, sought from one point alone: warm, then cold."""
+    def beside(self, point: Point, objective: Objective, where: str, *, cold: bool) -> Point | Failure:
+        """Return the best design for an objective, sought from one point alone: warm, then `cold` if asked."""
         answer = self._from(point, objective, where, math.inf)
-        if isinstance(answer, Failure) and point.trace is not None:
+        if cold and isinstance(answer, Failure) and point.trace is not None:
             answer = self._from(replace(point, trace=None), objective, where, math.inf)
         if isinstance(answer, Point):
             self.found.append(answer)
