@@ -248,7 +248,7 @@ class _Walk:
         if reached or self._miss(nearest, ask) >= self._miss(near, ask):
             return answer
         other = self._from(nearest, ask, least, cold=cold)
-        return min(answer, other, key=lambda found: self._miss(found, ask))
+        return min(answer, other, key=lambda end: self._miss(end, ask))
 
     def _from(self, point: Point, ask: _Ask, least: str, *, cold: bool) -> Point | Failure:
         """Seek the lightest design that is asked for, or the fastest or softest of its torque, from one point."""

@@ -78,9 +78,8 @@ def compute(
     waiting = [family for family in plan.families if _known(plan, folder, *family) is None]
     seconds, failures = 0.0, list[TvimError]()
     with _pool(workers or os.cpu_count() or 1) as pool:
-        jobs = {
-            pool.submit(_answered, plan, folder, *family): family for family in reversed(waiting)
-        }  # the largest hardware takes longest
+        # The largest hardware takes longest, and comes last in a plan.
+        jobs = {pool.submit(_answered, plan, folder, *family): family for family in reversed(waiting)}
         say(f"{len(plan.families) - len(waiting)} of {len(plan.families)} families are there")
         for done, job in enumerate(as_completed(jobs), start=1):
             kind, hardware = jobs[job]
