@@ -21,7 +21,7 @@ class Trade:
         self.reference = dict.fromkeys((*TRADED, PART), 1.0)
         self.reach, self.infeasible, self.closed = reach, infeasible, closed
         self.optimum = self.point(2.0, math.inf)
-        self.found, self.warm, self.cold = [self.optimum], 0, 0
+        self.points, self.warm, self.cold = [self.optimum], 0, 0
 
     def point(self, torque, cycle):
         values = {TORQUE: torque, CYCLE: min(cycle, 200.0), HOT: 0.1 * torque}
@@ -48,8 +48,8 @@ class Trade:
         far = abs(math.log(torque / point.values[TORQUE])) > self.reach
         if far or torque > 8.0 or cycle < fastest * (1.0 - 1e-9):
             return Failure(where, "", infeasible=self.infeasible and not far)
-        self.found.append(self.point(torque, cycle))
-        return self.found[-1]
+        self.points.append(self.point(torque, cycle))
+        return self.points[-1]
 
 
 def statuses(trade):

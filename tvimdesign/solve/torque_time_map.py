@@ -242,7 +242,7 @@ class _Walk:
 
     def _sought(self, near: Point, ask: _Ask, least: str, *, cold: bool = False) -> Point | Failure:
         """Seek the design with the least of an output from one nearby, then from the nearest of any cell."""
-        nearest = min(self._trade.found, key=lambda point: self._miss(point, ask))
+        nearest = min(self._trade.points, key=lambda point: self._miss(point, ask))
         answer = self._from(near, ask, least, cold=cold)
         reached = isinstance(answer, Point) and self._miss(answer, ask) <= ONE_POINT
         if reached or self._miss(nearest, ask) >= self._miss(near, ask):

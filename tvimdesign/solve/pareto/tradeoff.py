@@ -94,7 +94,7 @@ class Tradeoff:
         self.optimum = Point("the optimum", {**inputs, **solution.values}, current_profiles)
         if self._optima:
             self.optimum = replace(self.optimum, trace=self._optima[0].trace)
-        self.found: list[Point] = [self.optimum]
+        self.points: list[Point] = [self.optimum]
         self.ends: dict[str, Point] = {}
         """Where the least of an output was found before, by output."""
         self.asked = 0
@@ -125,7 +125,7 @@ class Tradeoff:
             if self._memory:
                 self._memory.keep(number, objective, answer)
         if isinstance(answer, Point):
-            self.found.append(answer)
+            self.points.append(answer)
             self._leave_time()
         return answer
 
@@ -135,7 +135,7 @@ class Tradeoff:
         if cold and isinstance(answer, Failure) and point.trace is not None:
             answer = self._from(replace(point, trace=None), objective, where, math.inf)
         if isinstance(answer, Point):
-            self.found.append(answer)
+            self.points.append(answer)
         return answer
 
     def prices(self, point: Point) -> dict[str, float]:
@@ -152,7 +152,7 @@ class Tradeoff:
 
     def _leave_time(self) -> None:
         """Leave time for the whole cycle of every point to be simulated, which takes about as long as setting up."""
-        self.optimizer.deadline.leave(self.optimizer.seconds["set_up"] * (2 + len(self.found)))
+        self.optimizer.deadline.leave(self.optimizer.seconds["set_up"] * (2 + len(self.points)))
 
     def again(self, point: Point, other: Point) -> Point | None:
         """Return a point solved again from another one; None if no better one results."""
@@ -170,7 +170,7 @@ class Tradeoff:
                 self._memory.keep(number, point.objective, answer)
         if isinstance(answer, Failure):
             return None
-        self.found.append(answer)
+        self.points.append(answer)
         return replace(answer, where=point.where, root=other.root)
 
     def completed(self, point: Point) -> Point | Failure:
@@ -199,7 +199,7 @@ class Tradeoff:
         if near is not None and isinstance(answer, Point):
             answer = replace(answer, root=near.root)
         keeping = [
-            point for point in self.found if all(bound.residual(point.values) <= 0.0 for bound in objective.bounds)
+            point for point in self.points if all(bound.residual(point.values) <= 0.0 for bound in objective.bounds)
         ]
         best = min(keeping, key=lambda point: self._value(point, objective), default=None)
         if best and (isinstance(answer, Failure) or self._better(best, answer, objective)):
