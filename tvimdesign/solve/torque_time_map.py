@@ -3,7 +3,7 @@
 Every cell is a pair of bounds on one problem that is built once. The walk begins at the study's own optimum, goes up
 and down the torques, and from the lightest design of each to shorter cycles and to the torques beside. Where a search
 has no design, steps are halved. A cell is empty where the fastest or softest design of its torque misses it, or a
-search beside it ends at limits.
+search for it, or for less, ends at limits.
 """
 
 from __future__ import annotations
