@@ -228,7 +228,7 @@ def test_a_process_that_reports_no_progress_is_an_error(
         job(limit=0.05)
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_a_child_that_reports_progress_gets_more_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
     burn = "    end = time.process_time() + 0.4\n    while time.process_time() < end: pass\n"

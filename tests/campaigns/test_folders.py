@@ -115,7 +115,7 @@ def test_what_is_no_optimum_is_bettered() -> None:
     assert attack.improved(values, answered.solution.reference) > random_studies.BETTER
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "number", "after"),
     [

@@ -57,7 +57,7 @@ def test_what_holds_no_module_of_its_mode_is_refused(folder: Path) -> None:
         open_source(folder)
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_a_clicked_module_is_seen_in_3_d(browser: Browser, folder: Path, tmp_path: Path) -> None:
     served = Served(folder, tmp_path / "out")
     served.begin()

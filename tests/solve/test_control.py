@@ -29,7 +29,7 @@ def _optimum(name: str, draws: int) -> ResolvedModule:
     return resolve_study(study.model_copy(update=changed))
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_drawn_modules_are_soft_in_their_own_time_and_do_not_overshoot() -> None:
     control = control_of(_optimum("elbow_printed", 16))
     assert control is not None

@@ -84,7 +84,7 @@ def test_a_sweep_whose_workers_were_killed_in_a_line_is_resumed(
     assert tables(out) == tables(one_process)
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_parts_of_an_array_share_a_folder_and_the_last_gathers(
     tvimdesign: Command, study_file: Path, one_process: Path, tmp_path: Path
 ) -> None:

@@ -100,7 +100,7 @@ def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
     assert told_of_vanes == ["2× vane R12 to R20, 85.94° between ends, middle every 180° from 0°, h 1 to 5 (4)"]
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 @pytest.mark.parametrize(("mode", "changes"), DESIGNS)
 def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Mapping[str, float | str]) -> None:
     design = design_of("dimensioned", changes, mode)

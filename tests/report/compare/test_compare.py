@@ -149,7 +149,7 @@ def test_study_without_a_design_leaves_the_other(tvimdesign: Command, tmp_path: 
     assert {front["study"] for front in reported["fronts"]["fronts"]} == {"shear"}
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_process_that_dies_leaves_the_other(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     evaluated = SHEAR[: SHEAR.index("vary:")] + SHEAR[SHEAR.index("operating_points:") :]
     (path,) = written(tmp_path, there=evaluated)

@@ -113,7 +113,7 @@ def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
     )
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_drawn_modules_are_compared_where_one_has_no_optimum(outcome: Outcome) -> None:
     assert "optimised" in outcome.found["s"]
     assert "optimised" not in outcome.found["c"]

@@ -345,7 +345,7 @@ def _draws_by(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(plot_process, "PROCESSOR_LIMIT", 0.2)
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.gate] if name in {"run", "sweep"} else []) for name in COMMANDS]
 )

@@ -50,7 +50,7 @@ def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out"
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_table_designs_and_figure_of_a_front_agree(run: Path) -> None:
     with (run / "front.csv").open(encoding="utf-8-sig") as stream:
         points = list(csv.DictReader(stream))

@@ -101,7 +101,7 @@ def _proposed() -> dict[str, str]:
     return {check.output: remedies.of(check, lines_of(check.output, found)).line for check in found.warnings}
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "output",
     [
@@ -144,7 +144,7 @@ def test_the_gravest_warning_comes_first() -> None:
     assert said[-1][:2] == ("a sheet contradicts itself", "untried: catalog: my_records")
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 @pytest.mark.parametrize("extra", ["", "  response_criterion: softening\n  softening_band: 2\n"])
 def test_a_run_has_each_warning_that_compare_has(extra: str) -> None:
     found, table = _published(extra), table_for("shear")
@@ -163,7 +163,7 @@ def _said(text: str, **module: float) -> str:
     return " ".join(warning.text for warning in warnings_of(answer(drawn(study)), []))
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_a_run_says_where_the_pcl_loses_contact() -> None:
     # In a hold of 10 s a printed structure creeps as its loss says: frozen blocks are left as well.
     said = _said(COMPRESSION)

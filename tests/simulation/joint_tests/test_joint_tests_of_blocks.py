@@ -165,7 +165,7 @@ def test_rows_say_what_the_release_says(resolved: ResolvedModule, trial: Callabl
     assert 0.7 < seen["contact_lost@hot"][0] < 1.0
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) -> None:
     found = answer(resolved.study)
     seen, reported = contact_seen(resolved), results(found, resolved.table)["values"]

@@ -116,7 +116,7 @@ def changes_by_cells(
     return np.abs(np.diff(found, axis=0)), np.array(found[-1])
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("design", "cooling"),
     [("sink", 0.2), *(pytest.param(*case, marks=pytest.mark.gate) for case in (("as it is", 0.2), ("sink", 0.8)))],

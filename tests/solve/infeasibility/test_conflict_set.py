@@ -82,7 +82,7 @@ def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps() -> None:
     assert "moves it more" not in _refusal(little)
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_records_are_named_with_which_conflicting_limits_hold() -> None:
     # The wave spring of this hardware must go around a core that bears the torque, and so must the pins in it.
     task = JointTask.read("9 N.m", "1.5 N.m/rad", "74 mm", "60 s", "24 V, 3 A")

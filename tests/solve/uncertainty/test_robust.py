@@ -104,7 +104,7 @@ def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
     assert asked.design.values["springs_mass"] < 0.97 * sigma.design.values["springs_mass"]
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_each_limit_is_met_in_as_many_plausible_cases_as_asked() -> None:
     held = []
     for asked in ("yield: 95 %", "yield: 95 %, plausible: 90 %"):

@@ -246,7 +246,7 @@ def few_readings(seed: int) -> Fit:
     return fitted(mean_of([TRUTH + noise.normal(0.0, 0.1, 5), TRUTH + noise.normal(0.0, 0.3, 8)]), profiles=False)
 
 
-@pytest.mark.gate
+@pytest.mark.slow
 def test_intervals_of_few_readings_hold_the_truth() -> None:
     # 600 seeds: 570 with the corrections, 551 without them; 95 % less three deviations are 554.
     found = [few_readings(seed)["mean"] for seed in range(600)]
