@@ -82,6 +82,15 @@ def test_a_cell_is_open_while_a_family_is_missing(plan, folder):
 
 
 @pytest.mark.gate
+def test_designs_that_no_other_beats_have_intervals(cells):
+    optima = [cell for cell in cells.values() if cell.status == "optimal"]
+    best = max(optima, key=lambda cell: (cell.density, -cell.cycle))
+    least, most = best.intervals["holding_torque"]
+    assert least < best.values["holding_torque"] < most
+    assert any(not cell.intervals for cell in optima)
+
+
+@pytest.mark.gate
 def test_a_family_is_computed_again_only_after_a_change(plan, folder):
     assert compute(plan, folder, 1, lambda _: None)[0]["computed"] == 0
     study = plan.study("foil", "middle")

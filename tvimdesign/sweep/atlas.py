@@ -27,7 +27,7 @@ from tvimdesign.base.processes import end_process_tree
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.pareto.tradeoff import ONE_POINT
-from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, HOT, MASS, TORQUE, UNANSWERED, MapCell, map_of
+from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, HOT, MASS, TORQUE, UNANSWERED, map_of
 from tvimdesign.study import Study
 from tvimdesign.study.atlas_studies import Atlas
 from tvimdesign.study.study import Requirement
@@ -76,20 +76,35 @@ def compute(
     _copy_families(plan, others, folder)
     ask_for_one_thread()
     waiting = [family for family in plan.families if _known(plan, folder, *family) is None]
-    seconds, failures = 0.0, list[TvimError]()
+    say(f"{len(plan.families) - len(waiting)} of {len(plan.families)} families are there")
     with _pool(workers or os.cpu_count() or 1) as pool:
         # The largest hardware takes longest, and comes last in a plan.
-        jobs = {pool.submit(_answered, plan, folder, *family): family for family in reversed(waiting)}
-        say(f"{len(plan.families) - len(waiting)} of {len(plan.families)} families are there")
-        for done, job in enumerate(as_completed(jobs), start=1):
-            kind, hardware = jobs[job]
-            try:
-                seconds += job.result()
-            except Exception as error:  # of one family; the others go on
-                failures.append(TvimError(f"{kind} on {hardware} hardware: {type(error).__name__}: {error}"))
-            say(f"family {done} of {len(waiting)}: {kind} on {hardware} hardware")
-    counts = {"families": len(plan.families), "computed": len(waiting) - len(failures), "cpu_s": seconds}
-    return counts, failures
+        jobs = {family: (_answered, plan, folder, *family) for family in reversed(waiting)}
+        seconds, failures = _run_jobs(pool, jobs, "family", say)
+        bounds = {
+            family: (_add_intervals, plan, folder, *family, places)
+            for kind in plan.kinds
+            for family, places in _without_intervals(plan, folder, kind).items()
+        }
+        more, others_failed = _run_jobs(pool, bounds, "intervals", say)
+    counts = {"families": len(plan.families), "computed": len(waiting) - len(failures), "cpu_s": seconds + more}
+    return counts, failures + others_failed
+
+
+def _run_jobs(
+    pool: ProcessPoolExecutor, calls: Mapping[tuple[str, str], tuple[Any, ...]], what: str, say: Say
+) -> tuple[float, list[TvimError]]:
+    """Call functions that return seconds, one of each family; return their sum, and the failures."""
+    jobs = {pool.submit(*call): family for family, call in calls.items()}
+    seconds, failures = 0.0, list[TvimError]()
+    for done, job in enumerate(as_completed(jobs), start=1):
+        kind, hardware = jobs[job]
+        try:
+            seconds += job.result()
+        except Exception as error:  # of one family; the others go on
+            failures.append(TvimError(f"{kind} on {hardware} hardware: {type(error).__name__}: {error}"))
+        say(f"{what} {done} of {len(jobs)}: {kind} on {hardware} hardware")
+    return seconds, failures
 
 
 def _copy_families(plan: Atlas, others: Sequence[Path], folder: Path) -> None:
@@ -143,47 +158,55 @@ def _answered(plan: Atlas, folder: Path, kind: str, hardware: str) -> float:
     rows = [
         {**asdict(cell), "values": {name: cell.values[name] for name in names if name in cell.values}} for cell in cells
     ]
-    front = _intervals({place: _started(plan, kind, hardware, cells[place]) for place in _front(cells)})
-    family = {"key": _key(plan, study), "cells": rows, "intervals": front, "seconds": time.process_time() - began}
-    text = json.dumps(family, indent=1)
-    atomic_write(folder / FAMILIES / f"{kind}-{hardware}.json", text.encode())
+    family = {"key": _key(plan, study), "cells": rows, "intervals": {}, "seconds": time.process_time() - began}
+    _write(folder, kind, hardware, family)
     return time.process_time() - began
 
 
-def _front(cells: Sequence[MapCell]) -> list[int]:
-    """Return the places of the designs that no other of the family holds more for its mass in less time than."""
+def _write(folder: Path, kind: str, hardware: str, family: Mapping[str, Any]) -> None:
+    atomic_write(folder / FAMILIES / f"{kind}-{hardware}.json", json.dumps(family, indent=1).encode())
+
+
+def _without_intervals(plan: Atlas, folder: Path, kind: str) -> dict[tuple[str, str], list[int]]:
+    """Return by family the places of designs on the kind's front of torque over mass and cycle that lack intervals."""
+    families = {hardware: _known(plan, folder, kind, hardware) for hardware in plan.hardware}
     optima = [
-        (cell.torque / cell.values[MASS], -cell.cycle, place)
-        for place, cell in enumerate(cells)
-        if cell.status == OPTIMAL
+        (row["torque"] / row["values"][MASS], -row["cycle"], hardware, place)
+        for hardware, family in families.items()
+        for place, row in enumerate(family["cells"] if family else ())
+        if row["status"] == OPTIMAL
     ]
-    return [
-        place for density, speed, place in optima
-        if not any(d >= density and s >= speed and (d, s) != (density, speed) for d, s, _ in optima)
-    ]  # fmt: skip
+    lacking: dict[tuple[str, str], list[int]] = {}
+    for density, speed, hardware, place in optima:
+        beaten = any(d >= density and s >= speed and (d, s) != (density, speed) for d, s, *_ in optima)
+        family = families[hardware]
+        if not beaten and family and str(place) not in family["intervals"]:
+            lacking.setdefault((kind, hardware), []).append(place)
+    return lacking
 
 
-def _intervals(studies: Mapping[int, Study]) -> dict[int, dict[str, tuple[float, float]]]:
-    """Return the intervals of torque and cycle time of the starts of a family's studies."""
+def _add_intervals(plan: Atlas, folder: Path, kind: str, hardware: str, places: Sequence[int]) -> float:
+    """Add the intervals of torque and cycle time of designs to their family's file; return processor seconds."""
     from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel  # it loads the compiler
 
-    model, intervals = None, {}
-    for place, study in studies.items():
+    began, model, family = time.process_time(), None, _known(plan, folder, kind, hardware)
+    assert family
+    for place in places:
+        study = started_at(plan.study(kind, hardware), family["cells"][place]["values"], {})
         resolved = resolve_study(study)
         if model is None or not model.fits(resolved):
             model = UncertaintyModel(resolved, (TORQUE, CYCLE), tuple(study.vary))
         ranges = model.at(resolved, 0, _DRAWS).intervals
-        intervals[place] = {name: (ranges[name].low, ranges[name].high) for name in (TORQUE, CYCLE) if name in ranges}
-    return intervals
-
-
-def _started(plan: Atlas, kind: str, hardware: str, cell: MapCell | AtlasCell) -> Study:
-    return started_at(plan.study(kind, hardware), cell.values, {})
+        family["intervals"][str(place)] = {
+            name: (ranges[name].low, ranges[name].high) for name in (TORQUE, CYCLE) if name in ranges
+        }
+    _write(folder, kind, hardware, family)
+    return time.process_time() - began
 
 
 def study_of(plan: Atlas, cell: AtlasCell) -> Study:
     """Return the study of a cell with a design, started at that design."""
-    study, soft = _started(plan, cell.kind, cell.hardware, cell), plan.softness * cell.torque
+    study, soft = started_at(plan.study(cell.kind, cell.hardware), cell.values, {}), plan.softness * cell.torque
     limits = [
         Requirement(output=TORQUE, sense=">=", limit=cell.torque, text=f">= {cell.torque:g} N.m"),
         Requirement(output=HOT, sense="<=", limit=soft, text=f"<= {soft:g} N.m/rad"),
