@@ -169,26 +169,26 @@ class DrawingRequirements:
     def clearance_hole(self, hole: Cylinder) -> ClearanceHole | None:
         """Return the row of a hole for a screw; None if it is for none."""
         wide, deep = 2.0 * hole.radius, hole.top - hole.bottom
-        for one in self.clearance_holes:
-            if hole.concave and abs(one.diameter - wide) < _SAME and (not one.depth or abs(one.depth - deep) < _SAME):
-                return one
+        for row in self.clearance_holes:
+            if hole.concave and abs(row.diameter - wide) < _SAME and (not row.depth or abs(row.depth - deep) < _SAME):
+                return row
         return None
 
     def seat(self, face: Cylinder) -> Seat | None:
         """Return the seat that a round face is, if any: of its diameter, at its distance from the axis, a bore or a
         journal."""
         away = hypot(face.x, face.y)
-        for one in self.seats:
-            same_size = abs(one.drawn - 2.0 * face.radius) < _SAME
-            if same_size and abs(one.from_axis - away) < _SAME and one.concave == face.concave:
-                return one
+        for seat in self.seats:
+            same_size = abs(seat.drawn - 2.0 * face.radius) < _SAME
+            if same_size and abs(seat.from_axis - away) < _SAME and seat.concave == face.concave:
+                return seat
         return None
 
     def thread(self, hole: Cylinder) -> ThreadCallout | None:
         """Return the thread cut in a hole, if any: other holes of its diameter have another depth."""
         deep = hole.top - hole.bottom
         from_template = [
-            one for one in self.threads if abs(one.hole - 2.0 * hole.radius) < _SAME and abs(one.depth - deep) < _SAME
+            row for row in self.threads if abs(row.hole - 2.0 * hole.radius) < _SAME and abs(row.depth - deep) < _SAME
         ]
         return from_template[0] if from_template and hole.concave else None
 
@@ -197,11 +197,11 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
     """Return what the drawing of a kind of part asks for, by the module's process."""
     reported, method = requirements_data(), choices["making_method"]
     seats = [
-        one for one in reported["seats"].get(kind, ())
-        if _is_there(one, dims) and (method == "milled" or one.get("printed"))
+        seat for seat in reported["seats"].get(kind, ())
+        if _is_there(seat, dims) and (method == "milled" or seat.get("printed"))
     ]  # fmt: skip
-    threads = [one for one in reported["threads"].get(kind, ()) if _is_there(one, dims)]
-    holes = [one for one in reported["clearance_holes"].get(kind, ()) if _is_there(one, dims)]
+    threads = [thread for thread in reported["threads"].get(kind, ()) if _is_there(thread, dims)]
+    holes = [hole for hole in reported["clearance_holes"].get(kind, ()) if _is_there(hole, dims)]
     general = _of_kind(kind, dims) or reported["general"][method]
     is_milled = method == "milled" and kind not in reported["of_kind"]
     return DrawingRequirements(
@@ -209,18 +209,18 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         surface=general["surface"],
         notes=[
             general["edges"],
-            *([_BEARINGS] if is_milled and any("bearing" in one for one in seats) else []),
+            *([_BEARINGS] if is_milled and any("bearing" in seat for seat in seats) else []),
             *([_POINTS.format(angle=degrees(dims.drill_point_angle))] if is_milled and threads else []),
             *([_FEET.format(radius=figure(dims.foot_fillet))] if kind == "rotor" else []),
             *_remarks(kind, dims, choices),
         ],
         printed=method == "printed" and kind not in reported["of_kind"],
         seats=[
-            _seat(one if is_milled else _as_printed(one), dims, DATUM if index == 0 and "radius" in one else "")
-            for index, one in enumerate(seats)
+            _seat(seat if is_milled else _as_printed(seat), dims, DATUM if index == 0 and "radius" in seat else "")
+            for index, seat in enumerate(seats)
         ],
-        threads=[_thread(one, dims, is_milled) for one in threads],
-        clearance_holes=[_clearance_hole(one, dims, is_milled) for one in holes],
+        threads=[_thread(thread, dims, is_milled) for thread in threads],
+        clearance_holes=[_clearance_hole(hole, dims, is_milled) for hole in holes],
         general=(Frame("profile", general["profile"], GROUND + DATUM),) if is_milled else (),
         placed=general.get("placed", True),
     )
@@ -258,8 +258,8 @@ def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[st
     written = requirements_data()["remarks"].get(kind, ())
     sizes = _remarked_sizes(dims) if written else {}
     return [
-        one["text"].format_map(sizes) for one in written
-        if all(choices.get(name) == word for name, word in one.get("choices", {}).items())
+        remark["text"].format_map(sizes) for remark in written
+        if all(choices.get(name) == word for name, word in remark.get("choices", {}).items())
     ]  # fmt: skip
 
 

@@ -59,7 +59,7 @@ def around(azimuths: Sequence[float]) -> str:
         if len(steps) % few == 0 and all(_even(steps[start::few]) for start in range(few))
     )
     # The pattern begins behind the widest step.
-    start = (max(range(few), key=lambda one: steps[one]) + 1) % few
+    start = (max(range(few), key=lambda index: steps[index]) + 1) % few
     first = azimuths[start : start + few] if start + few <= len(azimuths) else azimuths
     again = f", {len(steps) // few} times around" if few < len(steps) else ""
     if few > _LISTED and _even([later - earlier for earlier, later in pairwise(first)]):
@@ -73,20 +73,20 @@ def _even(steps: Sequence[float]) -> bool:
 
 
 REVISION = "A"
-"""Of every sheet: what is drawn anew in another shape has another number, and no later revision of this one."""
+"""Of every sheet: what is drawn again in another shape has another number, and no later revision of this one."""
 _DIGITS = 8
 _RELEASED = "of approval"
 """A sheet has no date of its own: the same design gives the same bytes on any day."""
 
 
-def sheet_number(kind: str, told: Iterable[str]) -> str:
-    """Return the kind of part, and a mark of all that its sheet tells."""
-    mark = sha256("\n".join(told).encode()).hexdigest()[:_DIGITS]
+def sheet_number(kind: str, contents: Iterable[str]) -> str:
+    """Return the kind of part, and a mark of all that its sheet shows."""
+    mark = sha256("\n".join(contents).encode()).hexdigest()[:_DIGITS]
     return f"{kind.replace('_', '-')}-{mark}"
 
 
 def issue_fields(signed: str, number: str) -> "list[Field]":
-    """Return the row of the title block that tells which sheet this is.
+    """Return the row of the title block that identifies the sheet.
 
     `signed` is the label of the field left for a name.
     """
@@ -189,12 +189,12 @@ class DrawingSheet:
             level = bottom + TITLE_ROW * (index + 1)
             self.lines([(left, level), (left + TITLE_WIDTH, level)], "FINE")
             x = left
-            for one in row:
+            for field in row:
                 if x > left:
                     self.lines([(x, level - TITLE_ROW), (x, level)], "FINE")
-                self.text(one.label, (x + 1.5, level - 0.8), 1.6, "TOP_LEFT")
-                self.text(one.text, (x + 1.5, level - TITLE_ROW + 1.4), room=one.share * TITLE_WIDTH - 3.0)
-                x += one.share * TITLE_WIDTH
+                self.text(field.label, (x + 1.5, level - 0.8), 1.6, "TOP_LEFT")
+                self.text(field.text, (x + 1.5, level - TITLE_ROW + 1.4), room=field.share * TITLE_WIDTH - 3.0)
+                x += field.share * TITLE_WIDTH
         self.text(title, (left + 3.0, top - 1.0 * TITLE_ROW), 5.0)
         self._first_angle((left + TITLE_WIDTH - 28.0, top - 0.75 * TITLE_ROW))
 

@@ -52,37 +52,39 @@ _WALLS = "Walls: distance of their plane from the axis, azimuth of the way they 
 
 
 def part_sheet(
-    kind: str, solid: cq.Solid, what: Product, module: str, asked: DrawingRequirements, material: str = ""
+    kind: str, solid: cq.Solid, what: Product, module: str, requirements: DrawingRequirements, material: str = ""
 ) -> DrawingSheet:
     """Draw a part: section A-A above, plan below it, first angle, beside it a half section D-D where A-A meets not all.
 
     `material` is what the catalogue calls it, by default the record's name.
     """
     plan, front = from_above(solid), section(solid)
-    found = upright_cylinders(solid)
-    about_axis = [one for one in found if one.is_central and one.is_round]
+    cylinders = upright_cylinders(solid)
+    about_axis = [face for face in cylinders if face.is_central and face.is_round]
     # Of two with one diameter that which is a seat is dimensioned.
-    central = {2.0 * one.radius: one for one in sorted(about_axis, key=lambda one: asked.seat(one) is not None)}
-    rows = feature_rows(solid, asked)
-    rows = with_datum(rows) if asked.general and not central else rows
+    central = {
+        2.0 * face.radius: face for face in sorted(about_axis, key=lambda face: requirements.seat(face) is not None)
+    }
+    rows = feature_rows(solid, requirements)
+    rows = with_datum(rows) if requirements.general and not central else rows
     beside = _beside(rows)
     half = half_section(solid, beside) if beside else None
-    heights, table = levels(solid), table_height(rows, asked)
+    heights, table = levels(solid), table_height(rows, requirements)
     place = layout(plan, front, half, len(central), table)
     sheet = DrawingSheet(place.scale, place.form)
     placed_plan, placed_front = PlacedView(sheet, plan, place.plan), PlacedView(sheet, front, place.front)
-    marks = _draw_plan(placed_plan, found, asked, half, beside)
-    _draw_section(placed_front, "A – A", solid, found, asked, 0.0)
+    marks = _draw_plan(placed_plan, cylinders, requirements, half, beside)
+    _draw_section(placed_front, "A – A", solid, cylinders, requirements, 0.0)
     if half:
-        _draw_section(PlacedView(sheet, half, place.half), "D – D", solid, found, asked, beside)
-    if asked.general:
+        _draw_section(PlacedView(sheet, half, place.half), "D – D", solid, cylinders, requirements, beside)
+    if requirements.general:
         placed_front.ground(GROUND)
-    _dimension_diameters(placed_front, [central[diameter] for diameter in sorted(central)], asked)
+    _dimension_diameters(placed_front, [central[diameter] for diameter in sorted(central)], requirements)
     _dimension_extent(placed_front, sorted(central))
     _dimension_levels(placed_front, heights)
-    draw_tables(sheet, rows, asked)
+    draw_tables(sheet, rows, requirements)
     draw_balloons(placed_plan, rows, place.room, marks)
-    _words(sheet, kind, solid, what, module, asked, material or what.material, rows)
+    _words(sheet, kind, solid, what, module, requirements, material or what.material, rows)
     return sheet
 
 
@@ -96,60 +98,62 @@ def _beside(rows: Sequence[FeatureRow]) -> float:
 
 
 def _draw_plan(
-    plan: PlacedView, found: Sequence[Cylinder], asked: DrawingRequirements, half: View | None, beside: float
+    plan: PlacedView, cylinders: Sequence[Cylinder], requirements: DrawingRequirements, half: View | None, beside: float
 ) -> list[CuttingMark]:
     """Draw the view from above with axes, threads, and where the sections are taken; return the marks of these."""
     plan.draw()
-    plan.centre_lines([one for one in found if one.is_round])
-    plan.threads([(one.x, one.y, _screw(one, asked)) for one in found if one.is_round and asked.thread(one)])
+    plan.centre_lines([face for face in cylinders if face.is_round])
+    threaded = [face for face in cylinders if face.is_round and requirements.thread(face)]
+    plan.threads([(face.x, face.y, _screw(face, requirements)) for face in threaded])
     left, right = plan.view.bounds[:2]
     marks = [plan.cutting_mark("A", 0.0, right), plan.cutting_mark("A", radians(180.0), -left)]
     return [*marks, plan.cutting_mark("D", beside, half.bounds[1], marks)] if half else marks
 
 
-def _screw(one: Cylinder, asked: DrawingRequirements) -> float:
+def _screw(hole: Cylinder, requirements: DrawingRequirements) -> float:
     """Return the diameter of the screw of a threaded hole [mm]."""
-    thread = asked.thread(one)
+    thread = requirements.thread(hole)
     return float(thread.screw.removeprefix("M")) if thread else 0.0
 
 
 def _draw_section(
-    view: PlacedView, name: str, solid: cq.Solid, found: Sequence[Cylinder], asked: DrawingRequirements, azimuth: float
-) -> None:
+    view: PlacedView, name: str, solid: cq.Solid, cylinders: Sequence[Cylinder], requirements: DrawingRequirements,
+    azimuth: float,
+) -> None:  # fmt: skip
     """Draw a section with its name, the module's axis, and the threads that it cuts."""
     view.draw()
     view.axis()
     scale, (x, y) = view.sheet.scale, view.origin
     left, right, bottom, _ = view.view.bounds
     view.sheet.text(name, (x + 0.5 * (left + right) * scale, y + bottom * scale - 6.0), 3.5, "MIDDLE_CENTER")
-    for one in found:
-        thread = asked.thread(one) if one.is_round else None
+    for face in cylinders:
+        thread = requirements.thread(face) if face.is_round else None
         # Where the hole stands in the plane of the section: before it, and to its right.
-        along = one.x * cos(azimuth) + one.y * sin(azimuth)
-        aside = one.y * cos(azimuth) - one.x * sin(azimuth)
+        along = face.x * cos(azimuth) + face.y * sin(azimuth)
+        aside = face.y * cos(azimuth) - face.x * sin(azimuth)
         if thread and abs(aside) < 1e-3 and (not azimuth or along > 1e-3):
-            is_open_below = not solid.isInside(cq.Vector(one.x, one.y, one.bottom - 1e-2))
-            mouth, way = (one.bottom, 1.0) if is_open_below else (one.top, -1.0)
-            view.cut_thread(along, _screw(one, asked), mouth, mouth + way * thread.length)
+            is_open_below = not solid.isInside(cq.Vector(face.x, face.y, face.bottom - 1e-2))
+            mouth, way = (face.bottom, 1.0) if is_open_below else (face.top, -1.0)
+            view.cut_thread(along, _screw(face, requirements), mouth, mouth + way * thread.length)
 
 
-def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], asked: DrawingRequirements) -> None:
+def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], requirements: DrawingRequirements) -> None:
     """Dimension diameters about the axis with their fits, the smallest nearest, above the section.
 
     The datum beside its own.
     """
     top, left = front.view.bounds[3], front.view.bounds[0]
-    seats = [asked.seat(one) for one in round_faces]
+    seats = [requirements.seat(face) for face in round_faces]
     has_seat = any(seat and seat.letter for seat in seats)
-    for index, (one, seat) in enumerate(zip(round_faces, seats, strict=True)):
+    for index, (face, seat) in enumerate(zip(round_faces, seats, strict=True)):
         level = top + front.paper(FIRST + index * NEXT)
-        ends = (front.at(-one.radius, top), front.at(one.radius, top))
+        size, ends = sized(face, requirements), (front.at(-face.radius, top), front.at(face.radius, top))
         front.sheet.space.add_linear_dim(
-            front.at(0.0, level), *ends, text=sized(one, asked), dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}
+            front.at(0.0, level), *ends, text=size, dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}
         ).render()
         # Without a seat the largest round face is what the part is held by, and measured from.
-        if (seat and seat.letter) or (asked.general and not has_seat and one is round_faces[-1]):
-            front.datum(DATUM, (-one.radius, level), left - front.paper(12.0))
+        if (seat and seat.letter) or (requirements.general and not has_seat and face is round_faces[-1]):
+            front.datum(DATUM, (-face.radius, level), left - front.paper(12.0))
 
 
 def _dimension_extent(front: PlacedView, diameters: Sequence[float]) -> None:
@@ -186,7 +190,7 @@ def _dimension_levels(front: PlacedView, heights: Sequence[float]) -> None:
 
 
 def _words(
-    sheet: DrawingSheet, kind: str, solid: cq.Solid, what: Product, module: str, asked: DrawingRequirements,
+    sheet: DrawingSheet, kind: str, solid: cq.Solid, what: Product, module: str, requirements: DrawingRequirements,
     material: str, rows: Sequence[FeatureRow],
 ) -> None:  # fmt: skip
     """Write notes and title block."""
@@ -198,30 +202,31 @@ def _words(
         *([_AZIMUTHS] if any("°" in row.place for row in rows) else []),
         *([_WALLS] if any(row.what == "wall" for row in rows) else []),
         f"Exact shape: {cad_report.step(kind)}.",
-        *asked.notes,
-        *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),
+        *requirements.notes,
+        *([f"Printing: {lying}; print/ has it so, with wider holes."] if requirements.printed else []),
     ]
     # What decides whether a part is another one, to the figures that are printed.
-    told = [
-        material, asked.tolerances, asked.surface, f"{volume:.1f}", *notes, *(row.text + row.asks for row in rows),
-        *map(repr, asked.seats),
+    contents = [
+        material, requirements.tolerances, requirements.surface, f"{volume:.1f}", *notes,
+        *(row.text + row.asks for row in rows), *map(repr, requirements.seats),
     ]  # fmt: skip
     left = sheet.size[0] - MARGIN - TITLE_WIDTH
     sheet.column(notes, (left, sheet.size[1] - MARGIN - 2.0))
     sheet.title_block(
         kind.replace("_", " "),
         [
-            issue_fields("Approved", sheet_number(kind, told)),
+            issue_fields("Approved", sheet_number(kind, contents)),
             [Field("Made by", f"tvimdesign {__version__}", 0.5),
              Field("Size, projection", f"{sheet.form}, first angle", 0.3), Field("Sheet", "1 of 1", 0.2)],
-            [Field("General tolerances", asked.tolerances, 0.65), Field("Surface, Ra in µm", asked.surface, 0.35)],
+            [Field("General tolerances", requirements.tolerances, 0.65),
+             Field("Surface, Ra in µm", requirements.surface, 0.35)],
             [Field("Mass", f"{volume * what.density * 1e-6:.2f} g", 0.25),
              Field("Volume", f"{volume * 1e-3:.3f} cm³", 0.25),
              Field("Density", f"{what.density:g} kg/m³", 0.3), Field("Scale", ratio(sheet.scale), 0.2)],
             [Field("Material", material, 0.5), Field("Module", module, 0.5)],
         ],
     )  # fmt: skip
-    draw_frames(sheet, asked.general, (left + 66.0, MARGIN + 2.0 * TITLE_ROW + 1.0))
+    draw_frames(sheet, requirements.general, (left + 66.0, MARGIN + 2.0 * TITLE_ROW + 1.0))
 
 
 def plate_outline(solid: cq.Solid) -> bytes | None:

@@ -59,25 +59,25 @@ class FeatureRow:
         return f"h {figure(self.bottom)} to {figure(self.top)} ({figure(self.top - self.bottom)})"
 
 
-def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow]:
+def feature_rows(solid: cq.Solid, requirements: DrawingRequirements) -> list[FeatureRow]:
     """Return rows for all upright faces but the round ones about the axis without a thread: the section has these."""
     box = tight_box(solid)
     cylinders, walls = upright_cylinders(solid), upright_walls(solid)
     bounded, arcs, ends = sectors(cylinders, walls)
     beside, alone = pairs(ends)
-    if not asked.placed:
+    if not requirements.placed:
         # Without an axis, walls of different heights are dimensioned from each other, step by step.
         steps, alone = pairs(_between_levels(alone))
         beside = [*beside, *steps]
     rows = [
-        *_like(_told_of_hole(asked), _holes(cylinders, asked), _hole_key),
-        *_like(_told_of_sector, bounded, _sector_key),
-        *_like(_told_of_pair, beside, _pair_key),
-        *_like(_told_of_wall, alone, _wall_key),
-        *_like(_told_of_arc(asked), [one for one in arcs if not is_corner(one)], _arc_key),
-        *_like(_told_of_corners, [one for one in arcs if is_corner(one)], lambda one: round(one.radius, 4)),
+        *_like(_hole_row_for(requirements), _holes(cylinders, requirements), _hole_key),
+        *_like(_sector_row, bounded, _sector_key),
+        *_like(_pair_row, beside, _pair_key),
+        *_like(_wall_row, alone, _wall_key),
+        *_like(_arc_row_for(requirements), [arc for arc in arcs if not is_corner(arc)], _arc_key),
+        *_like(_corners_row, [arc for arc in arcs if is_corner(arc)], lambda arc: round(arc.radius, 4)),
     ]
-    rows = [row if asked.placed or row.what not in _BODY else replace(row, place="") for row in rows]
+    rows = [row if requirements.placed or row.what not in _BODY else replace(row, place="") for row in rows]
     return _unlike([_over(row, box.zmin, box.zmax) for row in rows])
 
 
@@ -92,17 +92,17 @@ def _between_levels(walls: Sequence[Wall]) -> list[Wall]:
     ]
 
 
-def is_corner(one: Cylinder) -> bool:
+def is_corner(face: Cylinder) -> bool:
     """Return whether it is the rounded corner of a pocket."""
-    return one.concave and not one.is_round and one.radius <= CORNER
+    return face.concave and not face.is_round and face.radius <= CORNER
 
 
-def _like(told: Callable[[list[T]], FeatureRow], found: Iterable[T], key: Callable[[T], Hashable]) -> list[FeatureRow]:
+def _like(row: Callable[[list[T]], FeatureRow], faces: Iterable[T], key: Callable[[T], Hashable]) -> list[FeatureRow]:
     """Return a row for each group of features that are alike."""
     groups: dict[Hashable, list[T]] = {}
-    for one in found:
-        groups.setdefault(key(one), []).append(one)
-    return [replace(told(group), count=len(group)) for group in groups.values()]
+    for face in faces:
+        groups.setdefault(key(face), []).append(face)
+    return [replace(row(group), count=len(group)) for group in groups.values()]
 
 
 def _over(row: FeatureRow, lowest: float, highest: float) -> FeatureRow:
@@ -114,87 +114,88 @@ def _over(row: FeatureRow, lowest: float, highest: float) -> FeatureRow:
 # --- round holes and bosses ------------------------------------------------------------------------------------------
 
 
-def _holes(found: Sequence[Cylinder], asked: DrawingRequirements) -> list[Cylinder]:
-    return [one for one in found if one.is_round and (not one.is_central or asked.thread(one))]
+def _holes(cylinders: Sequence[Cylinder], requirements: DrawingRequirements) -> list[Cylinder]:
+    return [face for face in cylinders if face.is_round and (not face.is_central or requirements.thread(face))]
 
 
-def _hole_key(one: Cylinder) -> Hashable:
-    return round(one.radius, 5), round(hypot(one.x, one.y), 4), one.bottom, one.top, one.concave
+def _hole_key(hole: Cylinder) -> Hashable:
+    return round(hole.radius, 5), round(hypot(hole.x, hole.y), 4), hole.bottom, hole.top, hole.concave
 
 
-def _told_of_hole(asked: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
-    def told(group: list[Cylinder]) -> FeatureRow:
-        one = group[0]
-        thread, seat, screw = asked.thread(one), asked.seat(one), asked.clearance_hole(one)
-        about = next((reported.about for reported in (thread, seat, screw) if reported), "")
+def _hole_row_for(requirements: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
+    def hole_row(group: list[Cylinder]) -> FeatureRow:
+        hole = group[0]
+        thread, seat, screw = requirements.thread(hole), requirements.seat(hole), requirements.clearance_hole(hole)
+        about = next((called_out.about for called_out in (thread, seat, screw) if called_out), "")
         frames = thread.frames if thread else screw.frames if screw else ()
-        size = thread.designation if thread else sized(one, asked)
-        place = "on the axis" if one.is_central else _circle(_centres(group))
-        what = ("thread" if thread else "hole") if one.concave else "boss"
+        size = thread.designation if thread else sized(hole, requirements)
+        place = "on the axis" if hole.is_central else _circle(_centres(group))
+        what = ("thread" if thread else "hole") if hole.concave else "boss"
         points = tuple(
             (other.x + other.radius * cos(0.25 * pi), other.y + other.radius * sin(0.25 * pi)) for other in group
         )
-        return FeatureRow(what, size, place, one.bottom, one.top, about, tuple(frames), points, of=tuple(group),
-                          azimuths=() if one.is_central else tuple(_directions(_centres(group))))  # fmt: skip
+        return FeatureRow(what, size, place, hole.bottom, hole.top, about, tuple(frames), points, of=tuple(group),
+                          azimuths=() if hole.is_central else tuple(_directions(_centres(group))))  # fmt: skip
 
-    return told
+    return hole_row
 
 
-def sized(one: Cylinder, asked: DrawingRequirements) -> str:
+def sized(face: Cylinder, requirements: DrawingRequirements) -> str:
     """Return a diameter with its fit."""
-    seat = asked.seat(one)
-    return f"⌀{figure(seat.size)} {seat.fit}" if seat and seat.fit else f"⌀{figure(2.0 * one.radius)}"
+    seat = requirements.seat(face)
+    return f"⌀{figure(seat.size)} {seat.fit}" if seat and seat.fit else f"⌀{figure(2.0 * face.radius)}"
 
 
 def _centres(group: Sequence[Cylinder]) -> list[Point]:
-    return [(one.x, one.y) for one in group]
+    return [(face.x, face.y) for face in group]
 
 
 # --- sectors between end walls through the axis ----------------------------------------------------------------------
 
 
-def _sector_key(one: Sector) -> Hashable:
-    return one.is_pocket, round(one.span, 4), one.radii, one.levels
+def _sector_key(sector: Sector) -> Hashable:
+    return sector.is_pocket, round(sector.span, 4), sector.radii, sector.levels
 
 
-def _told_of_sector(group: list[Sector]) -> FeatureRow:
-    one = group[0]
-    size = f"{' to '.join(f'R{figure(radius)}' for radius in one.radii)}, {figure(degrees(one.span))}° between ends"
+def _sector_row(group: list[Sector]) -> FeatureRow:
+    sector = group[0]
+    radii = " to ".join(f"R{figure(radius)}" for radius in sector.radii)
+    size = f"{radii}, {figure(degrees(sector.span))}° between ends"
     place = f"middle {around(_azimuths([other.middle for other in group]))}"
     faces = tuple(face for other in group for face in other.faces)
     points = tuple(other.point for other in group)
     # A single one is no vane of a part with an axis, but the part: an arc, a block, a spreader.
     body = "vane" if len(group) > 1 else "sector"
-    return FeatureRow("pocket" if one.is_pocket else body, size, place, *one.levels, points=points, of=faces,
+    return FeatureRow("pocket" if sector.is_pocket else body, size, place, *sector.levels, points=points, of=faces,
                       azimuths=tuple(_azimuths([other.middle for other in group])))  # fmt: skip
 
 
 # --- slots, ribs and single walls ------------------------------------------------------------------------------------
 
 
-def _pair_key(one: Pair) -> Hashable:
-    wall = one.walls[0]
-    along = round(abs(sum(one.ends)), 3)
-    return one.is_slot, round(one.width, 4), round(abs(one.mid_plane[1]), 3), along, wall.bottom, wall.top
+def _pair_key(pair: Pair) -> Hashable:
+    wall = pair.walls[0]
+    along = round(abs(sum(pair.ends)), 3)
+    return pair.is_slot, round(pair.width, 4), round(abs(pair.mid_plane[1]), 3), along, wall.bottom, wall.top
 
 
-def _told_of_pair(group: list[Pair]) -> FeatureRow:
-    one = group[0]
-    wall, (normal, away) = one.walls[0], one.mid_plane
+def _pair_row(group: list[Pair]) -> FeatureRow:
+    pair = group[0]
+    wall, (normal, away) = pair.walls[0], pair.mid_plane
     middles = [other.middle for other in group]
     if abs(away) < _SAME:
         at = around(_directions(middles)) if hypot(*middles[0]) > _SAME else f"along {figure(_along(normal))}°"
         place = f"mid-plane through the axis, {at}"
-    elif abs(sum(one.ends)) < _SAME:
+    elif abs(sum(pair.ends)) < _SAME:
         place = f"mid-plane {figure(abs(away))} from the axis, square to it {around(_directions(middles))}"
     else:
         square = around(_azimuths([other.mid_plane[0] for other in group]))
         place = f"mid-plane {figure(away)} from the axis, square to azimuths {square}"
     faces = tuple(face for other in group for face in other.walls)
-    what = "slot" if one.is_slot else "flats"
+    what = "slot" if pair.is_slot else "flats"
     # Pointed at on a wall: the middle of a slot at the axis is the middle of everything.
     points = tuple(other.walls[0].middle for other in group)
-    return FeatureRow(what, f"{figure(one.width)} wide", place, wall.bottom, wall.top, points=points, of=faces)
+    return FeatureRow(what, f"{figure(pair.width)} wide", place, wall.bottom, wall.top, points=points, of=faces)
 
 
 def _along(normal: float) -> float:
@@ -202,65 +203,65 @@ def _along(normal: float) -> float:
     return round(degrees(normal + 0.5 * pi), 3) % 180.0
 
 
-def _wall_key(one: Wall) -> Hashable:
-    reach = sorted((round(abs(one.start), 3), round(abs(one.end), 3)))
-    return round(one.offset, 3), *reach, one.bottom, one.top, one.is_radial and _faces_onwards(one)
+def _wall_key(wall: Wall) -> Hashable:
+    reach = sorted((round(abs(wall.start), 3), round(abs(wall.end), 3)))
+    return round(wall.offset, 3), *reach, wall.bottom, wall.top, wall.is_radial and _faces_onwards(wall)
 
 
-def _faces_onwards(one: Wall) -> bool:
+def _faces_onwards(wall: Wall) -> bool:
     """Return whether a wall through the axis faces counter-clockwise."""
-    x, y = one.middle
-    return sin(one.outwards - atan2(y, x)) > 0.0
+    x, y = wall.middle
+    return sin(wall.outwards - atan2(y, x)) > 0.0
 
 
-def _told_of_wall(group: list[Wall]) -> FeatureRow:
+def _wall_row(group: list[Wall]) -> FeatureRow:
     """Return where its plane is and which way it faces: along that way the plane is before or behind the axis."""
-    one = group[0]
-    size = "through the axis" if abs(one.offset) < _SAME else f"{figure(abs(one.offset))} from the axis"
+    wall = group[0]
+    size = "through the axis" if abs(wall.offset) < _SAME else f"{figure(abs(wall.offset))} from the axis"
     faced = _azimuths([other.outwards for other in group])
     middles = [other.middle for other in group]
-    if one.is_radial:
-        way = "counter-clockwise" if _faces_onwards(one) else "clockwise"
-        place = f"{_reach(one)} {around(_directions(middles))}, faces {way}"
+    if wall.is_radial:
+        way = "counter-clockwise" if _faces_onwards(wall) else "clockwise"
+        place = f"{_reach(wall)} {around(_directions(middles))}, faces {way}"
     else:
-        way = "" if abs(one.offset) < _SAME else " outwards" if one.offset > 0.0 else " inwards"
+        way = "" if abs(wall.offset) < _SAME else " outwards" if wall.offset > 0.0 else " inwards"
         # Two that face one way stand beside each other, as far to the left as to the right.
         both = "" if len(set(faced)) == len(faced) else ", two beside each other"
         place = f"faces{way} {around(sorted(set(faced)))}{both}"
-    return FeatureRow("wall", size, place, one.bottom, one.top, points=tuple(middles), of=tuple(group))
+    return FeatureRow("wall", size, place, wall.bottom, wall.top, points=tuple(middles), of=tuple(group))
 
 
-def _reach(one: Wall) -> str:
-    near, far = one.radii
+def _reach(wall: Wall) -> str:
+    near, far = wall.radii
     return f"R{figure(near)} to R{figure(far)}"
 
 
 def _unlike(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
-    """Return the rows, with the ends of walls told where nothing else tells these from those of another row."""
+    """Return the rows, with the ends of walls where rows would read the same without."""
     alike = Counter(row.text for row in rows)
-    told = []
+    distinct = []
     for row in rows:
         wall = row.of[0] if row.what in ("slot", "flats", "wall") else None
         if alike[row.text] > 1 and isinstance(wall, Wall):
-            told.append(replace(row, place=f"{row.place}, {_reach(wall)}"))
+            distinct.append(replace(row, place=f"{row.place}, {_reach(wall)}"))
         else:
-            told.append(row)
-    return told
+            distinct.append(row)
+    return distinct
 
 
 # --- arcs ------------------------------------------------------------------------------------------------------------
 
 
-def _arc_key(one: Cylinder) -> Hashable:
-    return round(one.radius, 5), round(hypot(one.x, one.y), 3), one.bottom, one.top, one.concave, round(one.span, 4)
+def _arc_key(arc: Cylinder) -> Hashable:
+    return round(arc.radius, 5), round(hypot(arc.x, arc.y), 3), arc.bottom, arc.top, arc.concave, round(arc.span, 4)
 
 
-def _told_of_arc(asked: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
-    def told(group: list[Cylinder]) -> FeatureRow:
-        one = group[0]
-        size = sized(one, asked) if asked.seat(one) else f"R{figure(one.radius)}"
-        over = f"{figure(degrees(one.span))}°"
-        if one.is_central:
+def _arc_row_for(requirements: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
+    def arc_row(group: list[Cylinder]) -> FeatureRow:
+        arc = group[0]
+        size = sized(arc, requirements) if requirements.seat(arc) else f"R{figure(arc.radius)}"
+        over = f"{figure(degrees(arc.span))}°"
+        if arc.is_central:
             place = f"about the axis over {over}, middle {around(_azimuths([other.middle for other in group]))}"
         else:
             place = f"over {over}, {_circle(_centres(group))}"
@@ -268,20 +269,20 @@ def _told_of_arc(asked: DrawingRequirements) -> Callable[[list[Cylinder]], Featu
             (other.x + other.radius * cos(way), other.y + other.radius * sin(way))
             for other in group for way in (other.middle + share * other.span for share in (0.0, 0.3, -0.3))
         )  # fmt: skip
-        what = "arc inside" if one.concave else "arc outside"
-        return FeatureRow(what, size, place, one.bottom, one.top, points=points, of=tuple(group))
+        what = "arc inside" if arc.concave else "arc outside"
+        return FeatureRow(what, size, place, arc.bottom, arc.top, points=points, of=tuple(group))
 
-    return told
+    return arc_row
 
 
-def _told_of_corners(group: list[Cylinder]) -> FeatureRow:
-    one = group[0]
+def _corners_row(group: list[Cylinder]) -> FeatureRow:
+    corner = group[0]
     bottom, top = min(other.bottom for other in group), max(other.top for other in group)
     points = tuple(
         (other.x + other.radius * cos(other.middle), other.y + other.radius * sin(other.middle)) for other in group
     )
     return FeatureRow(
-        "corners", f"R{figure(one.radius)}", "where walls meet", bottom, top, points=points, of=tuple(group)
+        "corners", f"R{figure(corner.radius)}", "where walls meet", bottom, top, points=points, of=tuple(group)
     )
 
 

@@ -26,7 +26,7 @@ class CuttingMark:
 
     def lies_on(self, other: "CuttingMark") -> bool:
         """Return whether it is so near to another that letters or strokes touch."""
-        return any(dist(one, far) < _CLEAR for one in self._points for far in other._points)
+        return any(dist(near, far) < _CLEAR for near in self._points for far in other._points)
 
     @property
     def _points(self) -> tuple[tuple[float, float], ...]:
@@ -67,8 +67,8 @@ class PlacedView:
         for outlines in self.view.cut:
             hatch = space.add_hatch(dxfattribs={"layer": "HATCH"})
             hatch.set_pattern_fill("ANSI31", scale=0.8 / self.sheet.scale)
-            for index, one in enumerate(outlines):
-                points = [self.at(*point) for point in one.points]
+            for index, outline in enumerate(outlines):
+                points = [self.at(*point) for point in outline.points]
                 hatch.paths.add_polyline_path(points, is_closed=True, flags=1 if index == 0 else 16)
 
     def _curve(self, curve: Arc | Chain, layer: str) -> None:
@@ -106,18 +106,18 @@ class PlacedView:
         self.line((left - over, 0.0), (right + over, 0.0))
         if self.has_axis:
             self.line((0.0, bottom - over), (0.0, top + over))
-        beside = [one for one in rounds if not one.is_central]
-        pitches = [round(hypot(one.x, one.y), 4) for one in beside]
+        beside = [hole for hole in rounds if not hole.is_central]
+        pitches = [round(hypot(hole.x, hole.y), 4) for hole in beside]
         for pitch in sorted({pitch for pitch in pitches if pitches.count(pitch) > 1}):
             if self.has_axis:
                 self.sheet.space.add_circle(self.at(0.0, 0.0), pitch, dxfattribs={"layer": "CENTRE"})
                 continue
-            there = [degrees(atan2(one.y, one.x)) for one in beside if abs(hypot(one.x, one.y) - pitch) < 1e-3]
+            there = [degrees(atan2(hole.y, hole.x)) for hole in beside if abs(hypot(hole.x, hole.y) - pitch) < 1e-3]
             more = degrees(over / pitch)
             self.sheet.space.add_arc(
                 self.at(0.0, 0.0), pitch, min(there) - more, max(there) + more, dxfattribs={"layer": "CENTRE"}
             )
-        for x, y, radius in sorted({(one.x, one.y, one.radius) for one in beside}):
+        for x, y, radius in sorted({(hole.x, hole.y, hole.radius) for hole in beside}):
             arm = radius + self.paper(1.5)
             self.line((x - arm, y), (x + arm, y))
             self.line((x, y - arm), (x, y + arm))
@@ -206,6 +206,6 @@ def apart(wanted: Sequence[float], least: float) -> list[float]:
     for place in wanted:
         groups.append((place, 1))
         while len(groups) > 1 and groups[-1][0] - groups[-2][0] < 0.5 * least * (groups[-1][1] + groups[-2][1]):
-            (one, few), (other, more) = groups[-2:]
-            groups[-2:] = [((one * few + other * more) / (few + more), few + more)]
+            (lower, few), (upper, more) = groups[-2:]
+            groups[-2:] = [((lower * few + upper * more) / (few + more), few + more)]
     return [middle + (index - 0.5 * (count - 1)) * least for middle, count in groups for index in range(count)]

@@ -77,7 +77,7 @@ def from_above(solid: cq.Solid) -> View:
     hidden_arcs, hidden_chains = _curves(hidden)
     behind: tuple[Arc | Chain, ...] = (*hidden_arcs, *hidden_chains)
     in_front: set[Arc | Chain] = {*arcs, *chains}
-    return View(arcs, chains, tuple(one for one in behind if one not in in_front))
+    return View(arcs, chains, tuple(curve for curve in behind if curve not in in_front))
 
 
 def section(solid: cq.Solid) -> View:
@@ -135,12 +135,12 @@ def _edges(solid: cq.Solid, towards_viewer: tuple[float, float, float]) -> tuple
     return visible, [edge for which in _HIDDEN for edge in _drawn(getattr(shapes, which)())]
 
 
-def _drawn(found: TopoDS_Shape | None) -> list[cq.Edge]:
+def _drawn(shape: TopoDS_Shape | None) -> list[cq.Edge]:
     """Return edges of one kind, none where the view has none of it."""
-    if found is None or found.IsNull():
+    if shape is None or shape.IsNull():
         return []
-    BRepLib.BuildCurves3d_s(found)
-    return list(cq.Shape.cast(found).Edges())
+    BRepLib.BuildCurves3d_s(shape)
+    return list(cq.Shape.cast(shape).Edges())
 
 
 def _curves(edges: Iterable[cq.Edge]) -> tuple[tuple[Arc, ...], tuple[Chain, ...]]:
@@ -199,7 +199,7 @@ def _outline(wire: cq.Wire) -> Chain:
     points = pieces.pop(0)
     while pieces:
         here = points[-1]
-        piece = min(pieces, key=lambda one: min(dist(one[0], here), dist(one[-1], here)))
+        piece = min(pieces, key=lambda candidate: min(dist(candidate[0], here), dist(candidate[-1], here)))
         pieces.remove(piece)
         points += piece[1:] if dist(piece[0], here) <= dist(piece[-1], here) else piece[-2::-1]
     return Chain(tuple(points))

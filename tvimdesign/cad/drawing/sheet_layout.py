@@ -33,20 +33,20 @@ _ABOUT = 42.0
 """Where the frames of a feature begin, behind what it is for [mm]."""
 
 
-def table_height(rows: Sequence[FeatureRow], asked: DrawingRequirements) -> float:
+def table_height(rows: Sequence[FeatureRow], requirements: DrawingRequirements) -> float:
     """Return the height on paper that both tables take [mm]."""
     features = sum(_LINE + (_FRAME + 2.0 * _OVER if _asks(row) else 0.0) for row in rows)
-    return features + 2.0 * _LINE + (len(asked.seats) * (_FRAME + 0.8) + _LINE if asked.seats else 0.0)
+    return features + 2.0 * _LINE + (len(requirements.seats) * (_FRAME + 0.8) + _LINE if requirements.seats else 0.0)
 
 
-def draw_tables(sheet: DrawingSheet, rows: Sequence[FeatureRow], asked: DrawingRequirements) -> None:
+def draw_tables(sheet: DrawingSheet, rows: Sequence[FeatureRow], requirements: DrawingRequirements) -> None:
     """Draw seats over the title block and features over them, the first number on top."""
     left = sheet.size[0] - MARGIN - TITLE_WIDTH
     level = _OVER_TITLE
-    for seat in reversed(asked.seats):
+    for seat in reversed(requirements.seats):
         _draw_seat(sheet, seat, (left, level))
         level += _FRAME + 0.8
-    if asked.seats:
+    if requirements.seats:
         _cells(sheet, _SEATS, (left, level), _SMALL)
         level += _LINE + 2.0
     for index, row in reversed(list(enumerate(rows, start=1))):
@@ -67,15 +67,15 @@ def _asks(row: FeatureRow) -> bool:
     return bool(row.asks or row.frames)
 
 
-def _draw_seat(sheet: DrawingSheet, one: Seat, at: tuple[float, float]) -> None:
+def _draw_seat(sheet: DrawingSheet, seat: Seat, at: tuple[float, float]) -> None:
     """Write the table's line of a seat."""
     left, level = at
-    lower, upper = (f"{1e3 * limit:+.4g}" if limit else "0" for limit in one.limits)
-    within = f"{one.size + one.limits.lower:.3f} to {one.size + one.limits.upper:.3f}"
-    fitted = (f"⌀{figure(one.size)} {one.fit}", f"{upper} / {lower}", within)
-    cells = fitted if one.fit else (f"⌀{figure(one.drawn)}", "as drawn", "general")
-    _cells(sheet, (one.letter, one.about, *cells, f"{one.roughness:g}", one.form), at, _TEXT)
-    draw_frames(sheet, one.frames, (left + _COLUMNS[-1], level - 0.8))
+    lower, upper = (f"{1e3 * limit:+.4g}" if limit else "0" for limit in seat.limits)
+    within = f"{seat.size + seat.limits.lower:.3f} to {seat.size + seat.limits.upper:.3f}"
+    fitted = (f"⌀{figure(seat.size)} {seat.fit}", f"{upper} / {lower}", within)
+    cells = fitted if seat.fit else (f"⌀{figure(seat.drawn)}", "as drawn", "general")
+    _cells(sheet, (seat.letter, seat.about, *cells, f"{seat.roughness:g}", seat.form), at, _TEXT)
+    draw_frames(sheet, seat.frames, (left + _COLUMNS[-1], level - 0.8))
 
 
 def _cells(sheet: DrawingSheet, texts: Sequence[str], at: tuple[float, float], height: float) -> None:
@@ -85,14 +85,13 @@ def _cells(sheet: DrawingSheet, texts: Sequence[str], at: tuple[float, float], h
 
 
 def with_datum(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
-    """Return the rows, the first arc about the axis told as datum: for a part, such as a link, with no round face
-    about it."""
-    told = list(rows)
+    """Return the rows with the first arc about the axis as datum: for a part without a round face about it."""
+    marked = list(rows)
     for index, row in enumerate(rows):
         if row.place.startswith("about the axis"):
-            told[index] = replace(row, asks=f"datum {DATUM}: its axis")
+            marked[index] = replace(row, asks=f"datum {DATUM}: its axis")
             break
-    return told
+    return marked
 
 
 _SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)
@@ -125,7 +124,7 @@ def layout(plan: View, front: View, half: View | None, diameters: int, table: fl
     """Return the largest standard scale on the smallest sheet that shows the part doubled, or on the larger sheet."""
     over = FIRST + NEXT * (diameters + 1)
     best = [(_scale_on(size, plan, front, half, over, table), name) for name, size in SIZES.items()]
-    scale, form = next((one for one in best if one[0] >= _LARGE), max(best, key=lambda one: one[0]))
+    scale, form = next((fit for fit in best if fit[0] >= _LARGE), max(best, key=lambda fit: fit[0]))
     scale = scale or _SCALES[-1]
     wide, high = _needed(plan, front, half, over, scale)
     right, top = SIZES[form][0] - MARGIN - TITLE_WIDTH - 6.0, SIZES[form][1] - MARGIN
@@ -208,8 +207,8 @@ def draw_balloons(
     strokes = [stroke for mark in marks for stroke in pairwise(mark.corners)]
     placed = _Placed(feet, _outlines(plan), [mark.letter for mark in marks], strokes=strokes)
     # Those with the fewest places to point at choose first.
-    for index in sorted(feet, key=lambda one: (len(feet[one]), one)):
-        leader = next((one for one in _leaders(placed, index, room) if _is_free(placed, one)), None)
+    for index in sorted(feet, key=lambda number: (len(feet[number]), number)):
+        leader = next((line for line in _leaders(placed, index, room) if _is_free(placed, line)), None)
         if leader:
             placed.circles.append(leader[1])
             placed.leaders.append(leader)
@@ -243,9 +242,9 @@ def _leaders(placed: _Placed, index: int, room: tuple[float, float, float, float
     inside = (numbers > (left, bottom)).all(axis=1) & (numbers < (right, top)).all(axis=1)
     covered = placed.outlines.query_ball_point(numbers, _RADIUS + 0.7, return_length=True)
     cost = np.broadcast_to(reaches[None, :, None], (len(feet), len(reaches), _WAYS)).ravel() + _COVERED * covered
-    for one in np.argsort(np.where(inside, cost, np.inf), kind="stable")[: int(inside.sum())].tolist():
-        foot = feet[one // (len(reaches) * _WAYS)]
-        yield (float(foot[0]), float(foot[1])), (float(numbers[one][0]), float(numbers[one][1]))
+    for place in np.argsort(np.where(inside, cost, np.inf), kind="stable")[: int(inside.sum())].tolist():
+        foot = feet[place // (len(reaches) * _WAYS)]
+        yield (float(foot[0]), float(foot[1])), (float(numbers[place][0]), float(numbers[place][1]))
 
 
 def _is_free(placed: _Placed, leader: Line) -> bool:
@@ -278,15 +277,15 @@ def _away(point: Point, line: Line) -> float:
     return hypot(point[0] - x - share * along_x, point[1] - y - share * along_y)
 
 
-def _crosses(one: Line, other: Line) -> bool:
+def _crosses(leader: Line, other: Line) -> bool:
     """Return whether two lines have a point in common."""
 
     def side(line: Line, point: Point) -> float:
         (x, y), (to_x, to_y) = line
         return (to_x - x) * (point[1] - y) - (to_y - y) * (point[0] - x)
 
-    apart = side(one, other[0]) * side(one, other[1]) > 0.0
-    return not apart and side(other, one[0]) * side(other, one[1]) <= 0.0
+    apart = side(leader, other[0]) * side(leader, other[1]) > 0.0
+    return not apart and side(other, leader[0]) * side(other, leader[1]) <= 0.0
 
 
 def _draw(plan: PlacedView, index: int, leader: Line) -> None:

@@ -89,8 +89,8 @@ def _from_stock(design: Design, titles: Mapping[str, str]) -> list[SpringLine]:
     record = str(design.choices.get("stock_spring", "none"))
     if record == "none":
         return []
-    name, _, rest = titles.get("stock_spring", record).partition(", ")
-    maker = f"{rest.rpartition('(')[2].rstrip(')')}; " if rest.endswith(")") else ""
+    name, _, details = titles.get("stock_spring", record).partition(", ")
+    maker = f"{details.rpartition('(')[2].rstrip(')')}; " if details.endswith(")") else ""
     return [SpringLine("from stock", name, note=f"{maker}cut one leg, bend the other one down")]
 
 
@@ -100,7 +100,7 @@ def _stress_relief(design: Design) -> SpringLine:
     with suppress(CatalogError):
         wire = catalog_of(design).record("spring_materials", str(design.choices["spring_material"]))
         heat, minutes = wire.entry("stress_relief_temperature"), wire.value("stress_relief_time") / 60.0
-        low, high = (one - ZERO_CELSIUS for one in (heat.low or heat.value, heat.high or heat.value))
+        low, high = (temperature - ZERO_CELSIUS for temperature in (heat.low or heat.value, heat.high or heat.value))
         warm = f"{low:.0f}" if high - low < 0.5 else f"{low:.0f} to {high:.0f}"
         maker = heat.source.split(",")[0]
         return SpringLine("stress relief after coiling", f"{warm} °C, {minutes:.0f} min", "", "", f"{note}; {maker}")
@@ -132,7 +132,7 @@ def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) 
     reach = 0.5 * coil.diameter + coil.bend_radius + 0.5 * coil.wire_diameter
     height = coil.end_level + coil.tang_length + coil.wire_diameter
     room = min(150.0 / (reach + max(coil.leg_length, reach)), 165.0 / (2.0 * reach + height))
-    scale = next((one for one in _SCALES if one <= room), _SCALES[-1])
+    scale = next((candidate for candidate in _SCALES if candidate <= room), _SCALES[-1])
     sheet = DrawingSheet(scale)
     across = 100.0 - 0.5 * (max(coil.leg_length, reach) - reach) * scale
     plan_at = (across, 45.0 + reach * scale)
@@ -212,9 +212,9 @@ def _side(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
         space.add_lwpolyline([*edge, (tang + beside, low)], dxfattribs=outline)
     space.add_line((tang - half, low), (tang + half, low), dxfattribs=outline)
     space.add_line((x, low), (x, top + 0.4 * away), dxfattribs={"layer": "CENTRE"})
-    for index, (inset, said) in enumerate(((2.0 * half, "(inside ⌀<>)"), (half, "D <>"), (0.0, "(outside ⌀<>)"))):
+    for index, (inset, label) in enumerate(((2.0 * half, "(inside ⌀<>)"), (half, "D <>"), (0.0, "(outside ⌀<>)"))):
         space.add_linear_dim(
-            (x, far[1] + (index + 1) * away), (left + inset, top), (right - inset, top), text=said, dimstyle="SHEET",
+            (x, far[1] + (index + 1) * away), (left + inset, top), (right - inset, top), text=label, dimstyle="SHEET",
             dxfattribs=dimension,
         ).render()  # fmt: skip
     for base, from_low, to_high, shown in ((left - away, bottom, top, "(<>)"), (left - 2.0 * away, low, y, "<>")):
