@@ -200,5 +200,5 @@ def lifts(placed: Mapping[str, Instance]) -> dict[str, float]:
 
 def _rank(kind: str) -> int:
     """Place of a kind along the axis; both hands of spring have one."""
-    first = next((min(_ORDER.index(one) for one in group) for group in _TOGETHER if kind in group), None)
+    first = next((min(_ORDER.index(member) for member in group) for group in _TOGETHER if kind in group), None)
     return first if first is not None else _ORDER.index(kind) if kind in _ORDER else len(_ORDER)

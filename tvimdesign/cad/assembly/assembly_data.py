@@ -67,7 +67,7 @@ _DIGITS = 3  # of millimetres
 
 def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], placed: Mapping[str, Instance]) -> bytes:
     """Return the data as JSON. Lengths in mm, masses in g, angles in rad; names are those of the parts in the GLB."""
-    by_kind = {one.kind: one for one in items}
+    by_kind = {item.kind: item for item in items}
     apart, coils = lifts(placed), installed_coils(dims)
     data = {
         "mode": design.mode,
@@ -99,13 +99,13 @@ def brought(step: WrittenStep, names: Collection[str]) -> dict[str, Any]:
 def _moved(dims: Dimensions, kind: str) -> list[list[float]]:
     """Return how far each ring of a spring's mesh has moved from rest [mm]: x, y, z in turn, for each share of the
     stroke."""
-    rest = installed_coils(dims)[kind]
-    points = coil_points(rest)
-    at_rest = wire_centre(rest)[0]
+    coil_at_rest = installed_coils(dims)[kind]
+    points = coil_points(coil_at_rest)
+    at_rest = wire_centre(coil_at_rest)[0]
     mirror = np.array([1.0, 1.0 if kind == "spring_right" else -1.0, 1.0])
-    found = []
+    offsets = []
     for share in SHARES:
         coil = installed_coils(dims, share * dims.stroke)[kind]
         moved = (wire_centre(coil, points)[0] - at_rest) * mirror
-        found.append([round(float(each), _DIGITS) for each in moved.ravel()])
-    return found
+        offsets.append([round(float(each), _DIGITS) for each in moved.ravel()])
+    return offsets

@@ -31,17 +31,17 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
         "",
     ]
     lines += ["## Parts", "", "| | part | quantity | | g each | g |", "|---|---|---|---|---|---|"]
-    for number, one in enumerate(items, start=1):
-        of = f"{'made of' if one.made else 'bought:'} {one.title}"
-        each = f"{one.mass:.2f} | {one.mass * one.quantity:.2f}"
-        lines.append(f"| {number} | {_words(one.kind)} | {one.quantity} | {of} | {each} |")
-    total = sum(one.mass * one.quantity for one in items)
+    for number, item in enumerate(items, start=1):
+        of = f"{'made of' if item.made else 'bought:'} {item.title}"
+        each = f"{item.mass:.2f} | {item.mass * item.quantity:.2f}"
+        lines.append(f"| {number} | {_words(item.kind)} | {item.quantity} | {of} | {each} |")
+    total = sum(item.mass * item.quantity for item in items)
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{cad_report.BILL_OF_MATERIALS}`.", ""]
     lines += ["| also needed | |", "|---|---|"] if extra else []
-    lines += [f"| {_words(one.kind)} | {one.title}{_about(one.mass)} |" for one in extra]
+    lines += [f"| {_words(item.kind)} | {item.title}{_about(item.mass)} |" for item in extra]
     lines += ["", _cost([*items, *extra])]
     lines += [""] if extra else []
-    lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
+    lines += [*_making(design, dims, [item.kind for item in items if item.made]), "## Steps", ""]
     steps = written_steps(design, dims, items)
     for number, step in enumerate(steps, start=1):
         if step.opens and not steps[number - 2].opens:
@@ -143,12 +143,12 @@ class WrittenStep(NamedTuple):
 def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[WrittenStep]:
     """Return steps for the kinds this module has, and one for each kind that no step takes; those that open it come
     last."""
-    counts: dict[str, object] = {f"number_of_{one.kind}": one.quantity for one in items}
-    counts |= {f"grams_of_{one.kind}": f"{one.mass:.2f}" for one in items}
+    counts: dict[str, object] = {f"number_of_{item.kind}": item.quantity for item in items}
+    counts |= {f"grams_of_{item.kind}": f"{item.mass:.2f}" for item in items}
     treated = [item for item in items if item.treatment]
     counts |= {"treatment": treated[0].treatment if treated else "", "treated_parts": _listed(treated)}
     known = Figures(design, dims, counts)
-    wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, design, dims)]
+    wanted = [step for step in steps_of({item.kind for item in items}) if _is_for(step, design, dims)]
     steps = [
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
@@ -159,7 +159,7 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     ]  # fmt: skip
     placed = {kind_of(part["part"]) for step in wanted for part in step.get("place", ())}
     taken = placed.union(*(step["kinds"] for step in wanted))
-    left = [WrittenStep(f"Fit the {_words(one.kind)} ({one.quantity}).") for one in items if one.kind not in taken]
+    left = [WrittenStep(f"Fit the {_words(item.kind)} ({item.quantity}).") for item in items if item.kind not in taken]
     return [*(step for step in steps if not step.opens), *left, *(step for step in steps if step.opens)]
 
 
@@ -260,13 +260,13 @@ def _preload_force(design: Design, _: Dimensions) -> str:
     if not math.isfinite(force):
         return "the force of the study's `pin_force`"
     grams = float(f"{_GRAMS * force:.3g}")
-    said = f"{force:.3g} N ({grams:g} g)"
+    text = f"{force:.3g} N ({grams:g} g)"
     off = preload_tolerance(design)
     if not off:
-        return said
+        return text
     share = off / design.value("preload_angle")
     ends = f"{force * max(1.0 - share, 0.0):.3g} to {force * (1.0 + share):.3g} N"
-    return f"{said}; the study counts on {ends}"
+    return f"{text}; the study counts on {ends}"
 
 
 def _sorting(design: Design, dims: Dimensions) -> str:
@@ -295,7 +295,7 @@ def _bonding_heat(design: Design, _: Dimensions) -> str:
     By hand where it was not switched.
     """
     current, time, hold = (design.values.get(name, math.nan) for name in _HEATED)
-    if not all(math.isfinite(one) and one > 0.0 for one in (current, time, hold)):
+    if not all(math.isfinite(value) and value > 0.0 for value in (current, time, hold)):
         return "heat the PCL until the rotor turns by hand, and hold that for two minutes"
     by = "the study's current profile" if "softening" in design.current_profiles else f"{current:.3g} A"
     return f"heat with {by} for {time:.3g} s, then hold {hold:.3g} A for two minutes"

@@ -154,7 +154,7 @@ def _cost_of_one(design: Design, kind: str, mass: float) -> float:
 
 def as_ordered(items: Sequence[Item]) -> list[Item]:
     """Return the items as a shop sells them: a bearing's two rings are one bearing."""
-    by_kind = {one.kind: one for one in items}
+    by_kind = {item.kind: item for item in items}
     inner, outer = (by_kind.get(kind) for kind in _RINGS)
     if not (inner and outer):
         return list(items)
@@ -162,7 +162,7 @@ def as_ordered(items: Sequence[Item]) -> list[Item]:
         inner, kind="bearing", mass=inner.mass + outer.mass, papers=(*inner.papers, *outer.papers), solids=_RINGS,
         fit="; ".join(filter(None, (outer.fit, inner.fit))),
     )  # fmt: skip
-    return [whole if one is inner else one for one in items if one is not outer]
+    return [whole if item is inner else item for item in items if item is not outer]
 
 
 def _titled(design: Design, kind: str, title: str) -> str:
@@ -355,13 +355,13 @@ def _supply(design: Design) -> list[Item]:
     ways = "both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else "one way round"
     wired = _WIRED[design.choices.get("heater_wiring", "series")]
     asks = bears = (volts, amperes)
-    asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
+    least = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
     ways += f", its limit set to {amperes:.3g} A"
-    driver, supply = f"H-bridge, current controlled {ways}, {asked}", f"DC supply, {asked}"
+    driver, supply = f"H-bridge, current controlled {ways}, {least}", f"DC supply, {least}"
     if (given := design.supply_voltage) is not None:
         bears = given, volts * amperes / given / _EFFICIENCY  # power is what stays
         supply = f"DC supply of {given:.4g} V, at least {up(bears[1])} A"
-        driver = f"Step-down driver, current controlled {ways}, from {given:.4g} V, {asked}"
+        driver = f"Step-down driver, current controlled {ways}, from {given:.4g} V, {least}"
     sensors, given = round(design.values.get("thermistor_count", 1.0)), given or float(up(volts))
     controller = (
         f"Controller with an output that sets the driver's current, and 3.3 V inputs for thermistors: {sensors}"
@@ -386,10 +386,10 @@ def _papers(kind: str) -> tuple[str, ...]:
     return (cad_report.step(kind), *drawing, cad_report.print_3mf(kind))
 
 
-def _come_by(one: Item) -> str:
-    if one.fixture:
+def _come_by(item: Item) -> str:
+    if item.fixture:
         return "fixture"
-    return "made" if one.made else "bought"
+    return "made" if item.made else "bought"
 
 
 def cost(items: Sequence[Item]) -> Total:

@@ -66,7 +66,7 @@ class DraftSolid:
         return self
 
     def _with(self, others: Sequence[DraftSolid], how: OpType) -> DraftSolid:
-        return DraftSolid(Manifold.batch_boolean([self.placed, *(one.placed for one in others)], how))
+        return DraftSolid(Manifold.batch_boolean([self.placed, *(other.placed for other in others)], how))
 
 
 class DraftKernel:
@@ -184,8 +184,8 @@ def _points(segment: Segment) -> list[Point]:
     radius, first = abs(centre), -centre
     sweep = _turn(first, half - centre) + _turn(half - centre, chord - centre)
     count = _corners(radius, abs(sweep))
-    found = [start + centre + first * complex(np.exp(1j * sweep * k / count)) for k in range(count)]
-    return [(point.real, point.imag) for point in found]
+    points = [start + centre + first * complex(np.exp(1j * sweep * k / count)) for k in range(count)]
+    return [(point.real, point.imag) for point in points]
 
 
 def _turn(first: complex, second: complex) -> float:

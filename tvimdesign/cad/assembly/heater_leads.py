@@ -51,8 +51,8 @@ def rating(design: Design, name: str = "peltier_max_temperature") -> str:
 
 def largest(design: Design, names: tuple[str, ...]) -> float | None:
     """Return the largest of some values that happen; None where the design was not taken through its cycle."""
-    found = [abs(design.values[name]) for name in names if math.isfinite(design.values.get(name, math.nan))]
-    return max(found, default=None)
+    magnitudes = [abs(design.values[name]) for name in names if math.isfinite(design.values.get(name, math.nan))]
+    return max(magnitudes, default=None)
 
 
 def fuse_in_words(record: Record, design: Design) -> str:
@@ -68,14 +68,14 @@ def fuse_in_words(record: Record, design: Design) -> str:
     size = " x ".join(f"{1e3 * record.value(name):.3g}" for name in ("body_diameter", "body_length"))
     works, holds = up(hottest - ZERO_CELSIUS), f"{fuse.holds - ZERO_CELSIUS:.3g} °C {HOLDING}"
     longer = f", less than the heater's peak: ask the maker how long it lasts there at {current:.3g} A"
-    said = [
+    details = [
         f"opens from {fuse.opens_from - ZERO_CELSIUS:.3g} to {fuse.opens_at - ZERO_CELSIUS:.3g} °C",
         f"the heater has {works} °C at most",
         f"it holds {holds}{longer if fuse.holds < hottest else ''}",
         f"body {size} mm",
         "ask for its rating in direct current",
     ]
-    return f"{_misfit(record, design, fuse, hottest, bears)}{record.title}, {fuse.designation}: {'; '.join(said)}"
+    return f"{_misfit(record, design, fuse, hottest, bears)}{record.title}, {fuse.designation}: {'; '.join(details)}"
 
 
 def _misfit(record: Record, design: Design, fuse: HeaterFuse, hottest: float, bears: Mapping[str, float]) -> str:
@@ -115,9 +115,9 @@ def thermistor_in_words(design: Design) -> str:
     """Return a thermistor for the temperature the heater is rated for: its number, and the bead that is drawn where
     one is."""
     bears, bead, fits = f"for {rating(design)}", _bead(design), _thermistor(design)
-    said = f"bead of {bead.in_words()} with insulated wires, {bears}" if bead else f"{bears}, with insulated wires"
+    wanted = f"bead of {bead.in_words()} with insulated wires, {bears}" if bead else f"{bears}, with insulated wires"
     which = f": {fits.in_words()}; another one" if fits else ", of a maker whose bead fits: it"
-    return f"Thermistor, {said}; NTC 10 kohm at 25 °C{which} needs its own table in the controller"
+    return f"Thermistor, {wanted}; NTC 10 kohm at 25 °C{which} needs its own table in the controller"
 
 
 def set_points_in_words(design: Design) -> str:
@@ -224,13 +224,13 @@ class Thermistor(NamedTuple):
 @cache
 def thermistors() -> tuple[Thermistor, ...]:
     """Return the thermistors of the data file, the first choice first."""
-    found = []
-    for one in own_data(__file__, "thermistors.yaml")["thermistors"]:
-        sizes = [parse_quantity(one[name], "m") for name in ("diameter", "length") if name in one]
-        most, beta = parse_quantity(one["temperature"], "degC"), parse_quantity(one["beta"], "K")
+    listed = []
+    for entry in own_data(__file__, "thermistors.yaml")["thermistors"]:
+        sizes = [parse_quantity(entry[name], "m") for name in ("diameter", "length") if name in entry]
+        most, beta = parse_quantity(entry["temperature"], "degC"), parse_quantity(entry["beta"], "K")
         bead = Bead(*sizes) if sizes else None
-        found.append(Thermistor(one["number"], one["maker"], one["curve"], beta, one["wires"], most, bead))
-    return tuple(found)
+        listed.append(Thermistor(entry["number"], entry["maker"], entry["curve"], beta, entry["wires"], most, bead))
+    return tuple(listed)
 
 
 def pad_count(design: Design) -> int:
@@ -245,11 +245,11 @@ def wire_in_words(design: Design, pads: int) -> str:
     current = largest(design, _STRONGEST)
     if current is None:
         return ""
-    said = f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rating(design)}"
+    text = f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rating(design)}"
     wire = _wire(current)
     source = own_data(__file__, "wire_ratings.yaml")["source"]
-    said = f"{said}: copper of {1e6 * wire.section:.3g} mm² ({wire.gauge}; {source}) or thicker" if wire else said
-    return f"{said}, spliced to the heaters' own leads{_own_leads(design)}"
+    text = f"{text}: copper of {1e6 * wire.section:.3g} mm² ({wire.gauge}; {source}) or thicker" if wire else text
+    return f"{text}, spliced to the heaters' own leads{_own_leads(design)}"
 
 
 def _wire(current: float) -> "Wire | None":
@@ -314,5 +314,5 @@ def wires() -> tuple[Wire, ...]:
     """Return the sizes of the data file, the thinnest first."""
     listed = own_data(__file__, "wire_ratings.yaml")["wires"]
     return tuple(
-        Wire(one["gauge"], parse_quantity(one["section"], "m^2"), parse_quantity(one["current"], "A")) for one in listed
+        Wire(row["gauge"], parse_quantity(row["section"], "m^2"), parse_quantity(row["current"], "A")) for row in listed
     )
