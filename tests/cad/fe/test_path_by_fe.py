@@ -28,7 +28,7 @@ WITHIN = {"hub": 0.10, "floor": 0.10, "plate": 0.10, "core": 0.10, "seat_tractio
 def test_the_way_of_the_torque_is_as_stiff_and_stressed_as_by_fe(study: str, tmp_path: Path) -> None:
     design = answer(read_study(study_path(study))).design
     export_parts(design, tmp_path / "parts")
-    by_fe = joint_rows(run_solvers(("joint",), tmp_path / "parts", tmp_path, SOLVER, print)["joint"].found)
+    by_fe = joint_rows(run_solvers(("joint",), tmp_path / "parts", tmp_path, SOLVER, print)["joint"].fine)
     by_model = model_values(resolve_design(design))
     for name, share in WITHIN.items():
         assert by_model[name] == pytest.approx(by_fe[name], rel=share), name

@@ -31,7 +31,7 @@ def test_solvers_are_run_on_both_meshes_or_refused(tmp_path: Path) -> None:
     )
     said: list[str] = []
     found = run_solvers.run_solvers(["link", "joint"], tmp_path, tmp_path, python, said.append)
-    assert found["link"].found == {"link": 1.0, "field": 1.0}
+    assert found["link"].fine == {"link": 1.0, "field": 1.0}
     assert found["joint"].coarse == {"link": run_solvers.COARSER, "field": 0.0}
     assert len(said) == 4
 

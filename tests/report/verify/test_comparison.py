@@ -89,7 +89,7 @@ def test_vanes_cup_the_plate_they_hang_from() -> None:
 
 def test_screws_bear_what_friction_leaves(tmp_path: Any) -> None:
     by_solver = solved(tmp_path)
-    for values in (by_solver["joint"].found, by_solver["joint"].coarse):
+    for values in (by_solver["joint"].fine, by_solver["joint"].coarse):
         values["foot_across"] = 9.0
     rows = {row.name: row for row in comparison.compared(MODULE, by_solver)}
     held = float(MODULE.quantity("holding_torque"))

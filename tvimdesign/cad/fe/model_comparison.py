@@ -51,7 +51,7 @@ class Compared:
 def compared(module: ResolvedModule, solved: Mapping[str, Solved]) -> list[Compared]:
     """Return all rows, the largest difference first; a row that one of the two lacks is left out."""
     model = at_loads(module, model_values(module))
-    fine = at_loads(module, fe_values(module, {name: fe_solution.found for name, fe_solution in solved.items()}))
+    fine = at_loads(module, fe_values(module, {name: fe_solution.fine for name, fe_solution in solved.items()}))
     coarse = at_loads(module, fe_values(module, {name: fe_solution.coarse for name, fe_solution in solved.items()}))
     both = [name for name in fine if name in model and name in coarse]
     rows = [Compared(name, *WORDS[name], model[name], fine[name], coarse[name]) for name in both]

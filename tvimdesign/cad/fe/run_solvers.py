@@ -25,8 +25,8 @@ AT_ONCE = 2
 class Solved:
     """Results of a solver for some parts."""
 
-    found: dict[str, float]
-    """By the names its file says; stiffness in N*m/rad, stress in MPa at one newton metre."""
+    fine: dict[str, float]
+    """By the names in its file; stiffness in N*m/rad, stress in MPa at one newton metre."""
     coarse: dict[str, float]
     """The same on the coarser mesh."""
     field: Path
@@ -61,15 +61,15 @@ def run_solvers(
         command += ["--field", work / f"{name}.npz"] if coarser == 1.0 else []
         say(f"solving the {name} on a {mesh} mesh")
         _run(commands, [str(word) for word in command], f"{name}, {mesh} mesh")
-        found: dict[str, float] = json.loads(to.read_text(encoding="utf-8"))
-        return found
+        results: dict[str, float] = json.loads(to.read_text(encoding="utf-8"))
+        return results
 
     # The longest first: the two of a pair then end at about the same time.
-    # Where one fails, or this process is interrupted, the commands are ended first, and then nobody waits for a hand.
-    with ThreadPoolExecutor(AT_ONCE) as hands, CommandGroup() as commands:
-        asked = {(name, coarser): hands.submit(run, name, coarser) for coarser in (1.0, COARSER) for name in names}
-        found = {key: future.result() for key, future in asked.items()}
-    return {name: Solved(found[name, 1.0], found[name, COARSER], work / f"{name}.npz") for name in names}
+    # If one fails, or an interrupt comes, the commands are stopped before the executor waits for them.
+    with ThreadPoolExecutor(AT_ONCE) as executor, CommandGroup() as commands:
+        futures = {(name, coarser): executor.submit(run, name, coarser) for coarser in (1.0, COARSER) for name in names}
+        results = {key: future.result() for key, future in futures.items()}
+    return {name: Solved(results[name, 1.0], results[name, COARSER], work / f"{name}.npz") for name in names}
 
 
 def _run(commands: CommandGroup, command: list[str], about: str) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from netgen.libngpy._meshing import NgException
 from ngsolve import BND, H1, GridFunction, Id, InnerProduct, Mesh, Sym, Trace, sqrt
 
-Found = dict[str, float]
+Results = dict[str, float]
 
 
 def stress(strain: Any, shear: Any, lame: Any, dilation: Any = None) -> Any:
@@ -48,11 +48,11 @@ def strain_of(moved: Any) -> Any:
 
 def sampled(mesh: Any, field: Any, *places: Any) -> Any:
     """Return the field at places [mm]; nan where the mesh's curved elements leave one out."""
-    found = np.full(places[0].shape, np.nan)
-    for index in np.ndindex(found.shape):
+    values = np.full(places[0].shape, np.nan)
+    for index in np.ndindex(values.shape):
         with contextlib.suppress(NgException):
-            found[index] = field(mesh(*(float(axis[index]) for axis in places)))
-    return found
+            values[index] = field(mesh(*(float(axis[index]) for axis in places)))
+    return values
 
 
 def write_field(path: Path, mesh: Any, field: Any, moved: Any) -> None:
@@ -69,18 +69,18 @@ def write_field(path: Path, mesh: Any, field: Any, moved: Any) -> None:
     np.savez_compressed(path, points=points, triangles=triangles, values=values, ways=ways)
 
 
-ONE: dict[str, float] = {"segmentsperedge": 1.0}
-FINER: tuple[dict[str, float], ...] = ({}, ONE, {**ONE, "curvaturesafety": 2.0}, {**ONE, "grading": 0.3})
-"""What is asked of the mesher besides, one after the other, until it finds a mesh of all faces."""
+PER_EDGE: dict[str, float] = {"segmentsperedge": 1.0}
+FINER: tuple[dict[str, float], ...] = ({}, PER_EDGE, {**PER_EDGE, "curvaturesafety": 2.0}, {**PER_EDGE, "grading": 0.3})
+"""Further sizes, tried in turn until the mesher gets a mesh of all faces."""
 
 
 def meshed(geometry: Any, order: int, **sizes: float) -> Any:
     """Return curved mesh of a geometry; where some faces get none, a mesh of more elements. Raises ValueError."""
     for finer in FINER:
-        with tempfile.TemporaryFile("w+") as said, _printing_into(said.fileno()):
+        with tempfile.TemporaryFile("w+") as output, _printing_into(output.fileno()):
             mesh = _mesh_of(geometry, **{**sizes, **finer})
-            said.seek(0)
-            if mesh is not None and "NOT ALL FACES" not in said.read():
+            output.seek(0)
+            if mesh is not None and "NOT ALL FACES" not in output.read():
                 return Mesh(mesh).Curve(order)
     raise ValueError(f"no mesh of all faces is found, not with {FINER[-1]} either")
 
@@ -109,16 +109,16 @@ def _printing_into(file: int) -> Iterator[None]:
         os.close(usual)
 
 
-def main(solve: Callable[..., Found], about: str | None) -> None:
-    """Solve the parts of a folder and write what was found as JSON; four figures are more than meshes bear."""
+def main(solve: Callable[..., Results], about: str | None) -> None:
+    """Solve the parts of a folder and write the results as JSON, to four figures."""
     parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("parts", type=Path)
-    parser.add_argument("found", type=Path)
+    parser.add_argument("results", type=Path)
     parser.add_argument("--coarser", type=float, default=1.0, help="all elements larger by this")
     parser.add_argument("--field", type=Path, help="file for the stress on the surface")
-    asked = parser.parse_args()
-    found = solve(asked.parts, coarser=asked.coarser, field=asked.field)
+    arguments = parser.parse_args()
+    results = solve(arguments.parts, coarser=arguments.coarser, field=arguments.field)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6 if sys.platform == "linux" else 0.0  # GB
-    told = {name: float(f"{value:.4g}") for name, value in found.items()}
-    told |= {"seconds": round(time.process_time(), 1), "gigabytes": round(memory, 2)}
-    asked.found.write_text(json.dumps(told, indent=1) + "\n")
+    written = {name: float(f"{value:.4g}") for name, value in results.items()}
+    written |= {"seconds": round(time.process_time(), 1), "gigabytes": round(memory, 2)}
+    arguments.results.write_text(json.dumps(written, indent=1) + "\n")

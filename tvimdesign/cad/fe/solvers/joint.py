@@ -44,10 +44,10 @@ LOWER, HIGHER = 2, 3
 GRADING, GRADING_AT_SEATS = 0.6, 0.4
 """Growth of elements from one to the next; at the larger one lips beside a thin seat of adhesive get no mesh."""
 METAL = 0.33
-"""Poisson's ratio of a spreader where its shear modulus is not told."""
+"""Poisson's ratio of a spreader where its shear modulus is not given."""
 
 
-def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
+def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Results:
     """Return the stiffness of the joint at the core's top and of each part [N*m/rad]; stresses at 1 N*m [MPa]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
@@ -63,17 +63,17 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     shear, lame = _moduli(mesh, values)
     with TaskManager():
         held = Held(mesh, shear, lame, HIGHER if is_rubber else LOWER)
-        found = held.turned()
-        strain = elastic.strain_of(found)
+        displacement = held.turned()
+        strain = elastic.strain_of(displacement)
         even = GridFunction(L2(mesh, order=held.order - LOWER))
         even.Set(Trace(strain))
         dilation = mesh.MaterialCF({"pad": even}, default=Trace(strain))
         tensor = elastic.stress(strain, shear, lame, dilation)
-        torque = held.work(found)
+        torque = held.work(displacement)
         shares = _energies(mesh, InnerProduct(tensor, strain), mm, torque)
-        frequency = turning_frequency(mesh, values, held.solved, found, torque)
+        frequency = turning_frequency(mesh, values, held.solved, displacement, torque)
         feet = joint_samples.at_feet(held.space, tensor, torque, round(mm["spring_count"]))
-    result = {"elements": mesh.ne, "unknowns": found.space.ndof, "hub": torque * 1e-3, "frequency": frequency, **feet}
+    result = {"elements": mesh.ne, "unknowns": held.space.ndof, "hub": torque * 1e-3, "frequency": frequency, **feet}
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
     result |= joint_samples.in_bodies(mesh, tensor, mm, torque) | joint_samples.at_foot(mesh, tensor, mm, torque)
     result |= joint_samples.at_plate(mesh, tensor, mm, torque)
@@ -82,7 +82,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     if "seat" in mesh.GetMaterials():
         result |= joint_samples.at_seats(mesh, tensor, mm, torque)
     if field:
-        elastic.write_field(field, mesh, elastic.mises(tensor) * 1e3 / torque, found)
+        elastic.write_field(field, mesh, elastic.mises(tensor) * 1e3 / torque, displacement)
     return result
 
 
@@ -111,13 +111,13 @@ def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
 
 def _displacements(mesh: Any, order: int) -> Any:
     """Return quadratic displacements, of another order in the pads and on their faces."""
-    one = H1(mesh, order=LOWER, dirichlet="turned|fixed")
+    component = H1(mesh, order=LOWER, dirichlet="turned|fixed")
     if order != LOWER:
         for element in mesh.Elements(VOL):
             for node in (*element.edges, *element.faces) if element.mat == "pad" else ():
-                one.SetOrder(node, order)
-        one.UpdateDofTables()
-    return one**3
+                component.SetOrder(node, order)
+        component.UpdateDofTables()
+    return component**3
 
 
 class Held:
@@ -142,23 +142,23 @@ class Held:
         moved.data = self.inverse * force
         return moved
 
-    def work(self, found: Any) -> float:
+    def work(self, displacement: Any) -> float:
         """Return twice the strain energy of a displacement [N*mm]."""
-        pulled = found.vec.CreateVector()
-        pulled.data = self.form.mat * found.vec
-        return float(InnerProduct(pulled, found.vec))
+        pulled = displacement.vec.CreateVector()
+        pulled.data = self.form.mat * displacement.vec
+        return float(InnerProduct(pulled, displacement.vec))
 
     def turned(self) -> Any:
         """Return displacement where the core's top is turned by one radian."""
-        found = GridFunction(self.space)
-        found.Set(CF((-y, x, 0)), definedon=self.space.mesh.Boundaries("turned"))
-        right = found.vec.CreateVector()
-        right.data = -self.form.mat * found.vec
-        found.vec.data += self.solved(right)
-        return found
+        displacement = GridFunction(self.space)
+        displacement.Set(CF((-y, x, 0)), definedon=self.space.mesh.Boundaries("turned"))
+        right = displacement.vec.CreateVector()
+        right.data = -self.form.mat * displacement.vec
+        displacement.vec.data += self.solved(right)
+        return displacement
 
 
-def _energies(mesh: Any, density: Any, mm: elastic.Found, torque: float) -> elastic.Found:
+def _energies(mesh: Any, density: Any, mm: elastic.Results, torque: float) -> elastic.Results:
     """Return twice the strain energy of each part [N*mm], of all the torque at one radian.
 
     The pads have what is left.

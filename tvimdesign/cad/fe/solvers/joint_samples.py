@@ -6,7 +6,7 @@ from typing import Any
 import elastic
 import foot_surface
 import numpy as np
-from elastic import Found
+from elastic import Results
 from ngsolve import (
     BND,
     CF,
@@ -29,18 +29,18 @@ STRETCH = 2.0
 """Length along an edge over which its highest stress is a mean [mm]."""
 
 
-def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+def at_foot(mesh: Any, tensor: Any, mm: Results, torque: float) -> Results:
     """Return core's von Mises stress [MPa] at one newton metre at its foot, the highest mean over a millimetre along
     its
     surface, of a sharp foot that over the first millimetre above it."""
     angles = np.linspace(0, 2 * np.pi, 73)[:-1]
-    radius, height = (one[:, None] for one in foot_surface.places(mm["core_radius"], mm.get("foot_fillet", 0.0)))
+    radius, height = (row[:, None] for row in foot_surface.places(mm["core_radius"], mm.get("foot_fillet", 0.0)))
     places = radius * np.cos(angles), radius * np.sin(angles), mm["rotor_top_level"] + height + 0.0 * angles
     highest = foot_surface.highest_mean(elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque)
     return {"foot_highest": highest.max(), "foot_mean": highest.mean()}
 
 
-def at_plate(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+def at_plate(mesh: Any, tensor: Any, mm: Results, torque: float) -> Results:
     """Return rotor plate's von Mises stress [MPa] at one newton metre beside the core's foot, a mean over thickness
     and the
     first millimetre: the highest of all stretches of two millimetres around the core, and the mean around it."""
@@ -57,7 +57,7 @@ def at_plate(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     return {"plate_mises": running.max(), "plate_mises_mean": around.mean()}
 
 
-def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+def at_edges(mesh: Any, tensor: Any, mm: Results, torque: float) -> Results:
     """Return layer's shear [MPa] at one newton metre, means over one thickness in from the arcs' edges.
 
     Of the whole inner and outer edges and ends, and the highest of all stretches of two millimetres along them.
@@ -67,7 +67,7 @@ def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     )
     deep = (np.arange(3) + 0.5) / 3 * thick
     level = (np.arange(3) + 0.5) / 3 * thick
-    found: Found = {}
+    stresses: Results = {}
     highest = 0.0
     sliding = sqrt(tensor[0, 2] ** 2 + tensor[1, 2] ** 2)
     for name in ("inner", "outer", "end"):
@@ -88,19 +88,19 @@ def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
                 values = elastic.sampled(mesh, sliding, radius * np.cos(turn), radius * np.sin(turn), up)
                 means.append(np.nanmean(values, axis=(1, 2)) * 1e3 / torque)
         stretch = max(round(STRETCH * count / length), 1)
-        running = [np.convolve(one, np.ones(stretch) / stretch, "valid").max() for one in means]
-        found[f"edge_{name}"] = float(np.nanmean(means))
+        running = [np.convolve(mean, np.ones(stretch) / stretch, "valid").max() for mean in means]
+        stresses[f"edge_{name}"] = float(np.nanmean(means))
         highest = max(highest, *running)
-    return found | {"edge_highest": highest}
+    return stresses | {"edge_highest": highest}
 
 
-def at_seats(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+def at_seats(mesh: Any, tensor: Any, mm: Results, torque: float) -> Results:
     """Return the shear [MPa] at one newton metre of the adhesive around the spreaders, along its inner and outer rims.
 
     Means over its height, in the middle of its width: the mean of all rims, and the highest over two millimetres.
     """
     inner, outer, span = (mm[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span"))
-    half, shears = 0.5 * mm["spreader_gap"], Found()
+    half, shears = 0.5 * mm["spreader_gap"], Results()
     levels = -(np.arange(4) + 0.5) / 4 * mm["spreader_depth"]
     around = tensor[0, 1] * (x * x - y * y) + (tensor[1, 1] - tensor[0, 0]) * x * y
     sliding = around / (x * x + y * y)
@@ -120,7 +120,7 @@ def at_seats(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     return shears
 
 
-def in_bodies(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+def in_bodies(mesh: Any, tensor: Any, mm: Results, torque: float) -> Results:
     """Return layer's shear and core's von Mises stress [MPa] at one newton metre."""
     points = mesh.MapToAllElements(IntegrationRule(TET, 2), VOL)
     material = np.array([e.mat for e in mesh.Elements(VOL)])
@@ -137,27 +137,27 @@ def in_bodies(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
             "core_mises_99": np.quantile(mises[shaft], 0.99)}  # fmt: skip
 
 
-def at_feet(space: Any, tensor: Any, torque: float, count: int) -> Found:
+def at_feet(space: Any, tensor: Any, torque: float, count: int) -> Results:
     """Return largest force on a foot [N] at one newton metre, across its screw and along it, from the feet's reactions.
 
     Feet stand evenly around the axis. The work of the stress on a field that moves one foot alone is its reaction.
     """
     mesh = space.mesh
-    ground = [mesh[corner].point for one in mesh.Elements(BND) if one.mat == "fixed" for corner in one.vertices]
+    ground = [mesh[corner].point for facet in mesh.Elements(BND) if facet.mat == "fixed" for corner in facet.vertices]
     angles = np.array([np.arctan2(point[1], point[0]) for point in ground])
     pitch = 2.0 * np.pi / count
     first = np.angle(np.mean(np.exp(1j * count * angles))) / count
     v = space.TestFunction()
     work = LinearForm(InnerProduct(tensor, elastic.strain_of(v)) * dx).Assemble()
-    one, across, along = GridFunction(space), [], []
+    motion, across, along = GridFunction(space), [], []
     for foot in range(count):
         turned = atan2(y * np.cos(first + foot * pitch) - x * np.sin(first + foot * pitch),
                        x * np.cos(first + foot * pitch) + y * np.sin(first + foot * pitch))  # fmt: skip
         near = IfPos(0.5 * pitch - turned, 1, 0) * IfPos(turned + 0.5 * pitch, 1, 0)
         force = []
         for way in np.eye(3):
-            one.Set(CF(tuple(near * part for part in way)), definedon=mesh.Boundaries("fixed"))
-            force.append(InnerProduct(work.vec, one.vec) * 1e3 / torque)
+            motion.Set(CF(tuple(near * part for part in way)), definedon=mesh.Boundaries("fixed"))
+            force.append(InnerProduct(work.vec, motion.vec) * 1e3 / torque)
         across.append(np.hypot(*force[:2]))
         along.append(abs(force[2]))
     return {"foot_across": max(across), "foot_along": max(along)}

@@ -43,7 +43,7 @@ def sectors(
     """
     beyond = (wider if rims is None else rims) - ledge
     inner, outer = mm["pcl_inner_radius"] - beyond, mm["pcl_outer_radius"] + beyond
-    half, found = 0.5 * mm["arc_span"] - ledge / mm["pcl_inner_radius"], []
+    half, solids = 0.5 * mm["arc_span"] - ledge / mm["pcl_inner_radius"], []
     for arc in range(round(mm["arc_count"])):
         middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
         shape = tube(inner, outer, bottom, top)
@@ -51,8 +51,8 @@ def sectors(
             side = middle + sense * half
             out = Vec(-sense * np.sin(side), sense * np.cos(side), 0)
             shape *= HalfSpace(Pnt(wider * out.x, wider * out.y, 0), out)
-        found.append(shape)
-    return found
+        solids.append(shape)
+    return solids
 
 
 def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = PRESSED) -> list[Any]:
@@ -82,18 +82,18 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
     else:
         housing = _arc_housing(read("housing"), mm, _tile_pockets(mm) if rigid else _pad_pockets(mm))
     kinds = _pressed(folder, mm, pressed) if blocks else _sheared(folder)
-    found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
-    found += [(read(name), label, size) for name, label, size in kinds]
-    found += [(liner, "liner", SIZES["layer"]) for liner in liners]
+    solids = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
+    solids += [(read(name), label, size) for name, label, size in kinds]
+    solids += [(liner, "liner", SIZES["layer"]) for liner in liners]
     if rigid:
         spreaders = [(plate, "spreader", SIZES["layer"]) for plate in sectors(mm, -mm["spreader_depth"], 0.0)]
-        found += [*spreaders, *((adhesive, "seat", SEAT) for adhesive in _seats(mm))]
+        solids += [*spreaders, *((adhesive, "seat", SEAT) for adhesive in _seats(mm))]
     elif not blocks:
-        found += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["peltier_thickness"], 0.0)]
-    for shape, label, size in found:
+        solids += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["peltier_thickness"], 0.0)]
+    for shape, label, size in solids:
         for solid in shape.solids:
             solid.name, solid.maxh = label, size * coarser
-    return [shape for shape, _, _ in found]
+    return [shape for shape, _, _ in solids]
 
 
 def _pressed(folder: Path, mm: dict[str, float], pressed: float) -> list[tuple[str, str, float]]:
@@ -107,14 +107,14 @@ def _pressed(folder: Path, mm: dict[str, float], pressed: float) -> list[tuple[s
     kinds = {"pcl_block": ("pcl", SIZES["layer"], 1, 1), "heater": ("pad", thin, 0, row)}
     if mm["spreader_depth"]:
         kinds |= {"spreader": ("spreader", SIZES["layer"], 0, 1)}
-    found = []
+    files = []
     for path in sorted(folder.glob("*_*.step")):
         kind, _, number = path.stem.rpartition("_")
         if kind in kinds:
             label, size, parity, count = kinds[kind]
             if ((int(number) - 1) // count + 1) % 2 == parity:
-                found.append((path.stem, label, size))
-    return found
+                files.append((path.stem, label, size))
+    return files
 
 
 def _sheared(folder: Path) -> list[tuple[str, str, float]]:
@@ -205,15 +205,15 @@ def _tile_pockets(mm: dict[str, float]) -> list[Any]:
     low, top = -mm["floor_thickness"] - 1.0, -mm["pad_depth"]
     deep, long = (0.5 * mm[size] - mm["window_ledge"] for size in ("peltier_width", "cold_plate_length"))
     porch = 0.5 * mm["peltier_porch"]
-    count, found = round(mm["tiles_per_arc"]), sectors(mm, top, 1.0, wider=PAD_GAP, rims=mm["spreader_gap"])
+    count, pockets = round(mm["tiles_per_arc"]), sectors(mm, top, 1.0, wider=PAD_GAP, rims=mm["spreader_gap"])
     for arc in range(round(mm["arc_count"])):
         middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
         for tile in range(count):
             inner, outer = mm["tile_radius"] - deep, mm["tile_radius"] + deep
             window = Box(Pnt(inner, porch - long, low), Pnt(outer, porch + long, top))
             turn = middle + mm["tile_pitch"] * (tile - 0.5 * (count - 1))
-            found.append(window.Rotate(Axis(Pnt(0, 0, 0), Dir(0, 0, 1)), np.degrees(turn)))
-    return found
+            pockets.append(window.Rotate(Axis(Pnt(0, 0, 0), Dir(0, 0, 1)), np.degrees(turn)))
+    return pockets
 
 
 def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:

@@ -11,7 +11,7 @@ from netgen.occ import Cylinder, Dir, Glue, OCCGeometry, Pnt
 from ngsolve import CF, BilinearForm, GridFunction, InnerProduct, Integrate, LinearForm, TaskManager, VectorH1, ds, dx
 
 
-def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
+def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Results:
     """Return the stiffness at the tool hole [N*m/rad]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
@@ -35,11 +35,12 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
         tool = mesh.Boundaries("tool")
         area = Integrate(CF(1), mesh, definedon=tool)
         load = LinearForm(v[1] / area * ds("tool")).Assemble()
-        found = GridFunction(space)
-        found.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
-    moved = InnerProduct(load.vec, found.vec)
+        displacement = GridFunction(space)
+        displacement.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
+    moved = InnerProduct(load.vec, displacement.vec)
     if field:
-        elastic.write_field(field, mesh, elastic.mises(elastic.stress(elastic.strain_of(found), shear, lame)), found)
+        tensor = elastic.stress(elastic.strain_of(displacement), shear, lame)
+        elastic.write_field(field, mesh, elastic.mises(tensor), displacement)
     return {"unknowns": space.ndof, "link": mm["link_length"] ** 2 / moved * 1e-3}
 
 

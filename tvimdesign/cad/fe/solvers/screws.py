@@ -44,7 +44,7 @@ SHARP = 8
 """Order of integration on the touching faces, where the pressure ends within elements."""
 
 
-def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
+def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Results:
     """Return the radius at which friction acts [mm]. Raises ValueError where the faces that touch do not settle."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
@@ -56,11 +56,11 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     core = Compress(VectorH1(mesh, order=2, definedon=mesh.Materials("core"), dirichlet="ground"))
     space = FESpace([link, core])
     (u, w), (v, t) = space.TnT()
-    found = GridFunction(space)
+    displacement = GridFunction(space)
     stiff = STIFF * modulus / mm["link_thickness"]
     on = {"VOL_or_BND": BND, "definedon": mesh.Boundaries("touch"), "order": SHARP}
     away = [sqrt((x - a) ** 2 + (y - b) ** 2) for a, b in places]
-    touching = sum(IfPos(0.5 * mm["link_screw_head"] + SPREADS * mm["link_thickness"] - one, 1, 0) for one in away)
+    touching = sum(IfPos(0.5 * mm["link_screw_head"] + SPREADS * mm["link_thickness"] - apart, 1, 0) for apart in away)
     radius = 0.0
     with TaskManager():
         load = _tightened(mesh, space, v, t, places, 0.5 * mm["link_screw_head"])
@@ -73,11 +73,11 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
             form += stiff * touching * (w[2] - u[2]) * (t[2] - v[2]) * ds("touch", bonus_intorder=SHARP - 4)
             form += 1e-6 * stiff * InnerProduct(u, v) * ds("touch")
             form.Assemble()
-            found.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
-            gap = found.components[1][2] - found.components[0][2]
+            displacement.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
+            gap = displacement.components[1][2] - displacement.components[0][2]
             pressure = stiff * IfPos(gap, gap, 0.0)
             last = GridFunction(space)
-            last.vec.data = found.vec
+            last.vec.data = displacement.vec
             touching = IfPos(last.components[1][2] - last.components[0][2], 1.0, 0.0)
             force, before = Integrate(pressure, mesh, **on), radius
             radius = Integrate(sqrt(x**2 + y**2) * pressure, mesh, **on) / force
@@ -86,9 +86,9 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
         else:
             raise ValueError(f"contact of link and core does not settle in {CHANGES} tries")
     if field:
-        moved = mesh.MaterialCF({"link": found.components[0], "core": found.components[1]})
-        strain = elastic.strain_of(found.components[0]), elastic.strain_of(found.components[1])
-        tensors = [elastic.mises(elastic.stress(one, shear, lame)) for one in strain]
+        moved = mesh.MaterialCF({"link": displacement.components[0], "core": displacement.components[1]})
+        strain = elastic.strain_of(displacement.components[0]), elastic.strain_of(displacement.components[1])
+        tensors = [elastic.mises(elastic.stress(of_part, shear, lame)) for of_part in strain]
         elastic.write_field(field, mesh, mesh.MaterialCF({"link": tensors[0], "core": tensors[1]}), moved)
     return {"unknowns": space.ndof, "friction_radius": radius}
 

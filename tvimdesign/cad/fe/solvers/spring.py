@@ -36,7 +36,7 @@ SIZE = 0.9
 """Elements, in wire diameters."""
 
 
-def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
+def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Results:
     """Return rate [N*m/rad] and stresses at one newton metre [MPa]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, coil = inputs["mm"], inputs["coil"]
@@ -57,12 +57,12 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
         form = BilinearForm(worked * dx, symmetric=True)
         load = LinearForm(near * InnerProduct(out, v) * dx(bonus_intorder=6)).Assemble()
         form.Assemble()
-        found = GridFunction(space)
-        found.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
-        moved = InnerProduct(load.vec, found.vec)
-    tensor = elastic.stress(elastic.strain_of(found), shear, lame)
+        displacement = GridFunction(space)
+        displacement.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
+        moved = InnerProduct(load.vec, displacement.vec)
+    tensor = elastic.stress(elastic.strain_of(displacement), shear, lame)
     if field:
-        elastic.write_field(field, mesh, elastic.mises(tensor) * 1e3 / arm, found)
+        elastic.write_field(field, mesh, elastic.mises(tensor) * 1e3 / arm, displacement)
     samples = _stresses(mesh, tensor, inputs, radius, arm)
     return {"elements": mesh.ne, "unknowns": space.ndof, "rate": arm**2 / moved * 1e-3, "arm_mm": arm, **samples}
 
@@ -81,7 +81,7 @@ def _push(mesh: Any, inputs: dict[str, Any], arm: float) -> tuple[Any, Any]:
     return near / Integrate(near, mesh, order=8), out
 
 
-def _stresses(mesh: Any, tensor: Any, inputs: dict[str, Any], radius: float, arm: float) -> elastic.Found:
+def _stresses(mesh: Any, tensor: Any, inputs: dict[str, Any], radius: float, arm: float) -> elastic.Results:
     """Return largest fibre and von Mises stress [MPa per N*m] at the coil's inner fibre, and the fibre's mean over the
     coil.
 
