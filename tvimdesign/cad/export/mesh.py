@@ -64,8 +64,8 @@ def write_mesh(path: Path, mesh: Mesh) -> None:
 
 def read_mesh(path: Path) -> Mesh:
     """Return a mesh that `write_mesh` has kept."""
-    with np.load(path) as kept:
-        return Mesh(kept["vertices"], kept["faces"])
+    with np.load(path) as arrays:
+        return Mesh(arrays["vertices"], arrays["faces"])
 
 
 def solid_mesh(solid: cq.Solid, chord: float = CHORD, turn: float = TURN) -> Mesh:
@@ -92,14 +92,14 @@ def face_meshes(solid: cq.Solid, chord: float = CHORD, turn: float = TURN) -> li
 def _patch(face: cq.Face) -> Mesh | None:
     """Return the kernel's triangles of one face, where it made any."""
     location = TopLoc_Location()
-    found = BRep_Tool.Triangulation_s(face.wrapped, location)
-    if found is None:
+    mesh = BRep_Tool.Triangulation_s(face.wrapped, location)
+    if mesh is None:
         return None
-    points = [found.Node(index) for index in range(1, found.NbNodes() + 1)]
+    points = [mesh.Node(index) for index in range(1, mesh.NbNodes() + 1)]
     if not location.IsIdentity():
         move = location.Transformation()
         points = [point.Transformed(move) for point in points]
-    corners = np.array([found.Triangle(index).Get() for index in range(1, found.NbTriangles() + 1)], dtype=np.int64) - 1
+    corners = np.array([mesh.Triangle(index).Get() for index in range(1, mesh.NbTriangles() + 1)], dtype=np.int64) - 1
     inside_out = face.wrapped.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
     vertices = np.array([(point.X(), point.Y(), point.Z()) for point in points])
     return Mesh(vertices, corners[:, ::-1] if inside_out else corners)

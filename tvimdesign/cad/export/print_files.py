@@ -226,7 +226,7 @@ def closed(name: str, mesh: Mesh) -> trimesh.Trimesh:
 def _distance(face: cq.Face, mesh: Mesh) -> float:
     """Return largest distance [mm] of the middles of triangles and of their edges from the face they stand for."""
     corners = mesh.vertices[mesh.faces]
-    middles = [corners.mean(axis=1), *(0.5 * (corners[:, one] + corners[:, (one + 1) % 3]) for one in range(3))]
+    middles = [corners.mean(axis=1), *(0.5 * (corners[:, place] + corners[:, (place + 1) % 3]) for place in range(3))]
     return float(np.max(_from_surface(face, np.concatenate(middles))))
 
 
@@ -345,5 +345,5 @@ def body_of(name: str, mesh: Mesh) -> Manifold:
 
 def mesh_of(body: Manifold) -> Mesh:
     """Return the triangles of a body."""
-    found = body.to_mesh64()
-    return Mesh(np.array(found.vert_properties[:, :3]), np.array(found.tri_verts, dtype=np.int64))
+    triangles = body.to_mesh64()
+    return Mesh(np.array(triangles.vert_properties[:, :3]), np.array(triangles.tri_verts, dtype=np.int64))

@@ -44,7 +44,7 @@ _CONTEXT = re.compile(r",#(\d+)\);")
 
 
 def in_fixed_order(text: str) -> str:
-    """Sort the blocks of colours at the end of a STEP file by the part they belong to, and number them anew.
+    """Sort the blocks of colours at the end of a STEP file by the part they belong to, and renumber them.
 
     Each block is one presentation with the entities it refers to; its last reference is the part's context, which
     stands earlier in the file and has the same number every time. A colour that parts share stands in the first block.
@@ -67,14 +67,14 @@ def in_fixed_order(text: str) -> str:
 def _colours_where_first_used(blocks: list[str]) -> list[str]:
     """Write each colour after the first line that refers to it; the kernel writes it with the part it meets first."""
     colours = {match[1]: match[0] for block in blocks for match in _COLOUR.finditer(block)}
-    found = []
+    written = []
     for block in blocks:
         lines = []
         for line in _COLOUR.sub("", block).splitlines(keepends=True):
             lines.append(line)
             lines += [colours.pop(number) for number in _NUMBER.findall(line) if number in colours]
-        found.append("".join(lines))
-    return found
+        written.append("".join(lines))
+    return written
 
 
 def plain_text(text: str) -> bytes:
@@ -87,8 +87,8 @@ def plain_text(text: str) -> bytes:
 
 
 def _context(block: str) -> int:
-    found = _CONTEXT.search(block.partition("\n")[0])
-    return int(found[1]) if found else 0
+    match = _CONTEXT.search(block.partition("\n")[0])
+    return int(match[1]) if match else 0
 
 
 _TIME = "2000-01-01T00:00:00"
@@ -180,12 +180,12 @@ def validation(solid: cq.Solid) -> Validation:
 
 
 def write_part(path: Path, solid: cq.Solid, product: Product) -> Validation:
-    """Write one part, with the properties by which a reader holds what arrived against what was sent; returns them."""
+    """Write one part with the properties by which a reader checks what arrived; return these."""
     document = _Document()
-    told = validation(solid.located(cq.Location()))
-    _add_validation(document.add(solid, product), told)
+    written = validation(solid.located(cq.Location()))
+    _add_validation(document.add(solid, product), written)
     document.write(path, product.name)
-    return told
+    return written
 
 
 def write_assembly(path: Path, name: str, placed: Mapping[str, cq.Solid], products: Mapping[str, Product]) -> None:
@@ -205,15 +205,15 @@ def write_assembly(path: Path, name: str, placed: Mapping[str, cq.Solid], produc
     document.write(path, name)
 
 
-def _add_validation(label: TDF_Label, told: Validation) -> None:
+def _add_validation(label: TDF_Label, properties: Validation) -> None:
     """Give a product its volume, area and centroid, the geometric validation properties of AP242.
 
     Parts alone have them: in an assembly the kernel hangs those of a part that stands at the origin on a shape aspect,
     where other programs do not look.
     """
-    XCAFDoc_Volume.Set_s(label, told.volume)
-    XCAFDoc_Area.Set_s(label, told.area)
-    XCAFDoc_Centroid.Set_s(label, gp_Pnt(*told.centroid))
+    XCAFDoc_Volume.Set_s(label, properties.volume)
+    XCAFDoc_Area.Set_s(label, properties.area)
+    XCAFDoc_Centroid.Set_s(label, gp_Pnt(*properties.centroid))
 
 
 def _text(text: str) -> TCollection_HAsciiString:
@@ -236,10 +236,10 @@ def read_part(path: Path) -> tuple[cq.Solid, Validation]:
     XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(labels)
     attributes = (XCAFDoc_Volume(), XCAFDoc_Area(), XCAFDoc_Centroid())
     # Asking for an attribute that is not there takes the process with it.
-    if labels.Length() != 1 or not all(labels.Value(1).IsAttribute(one.GetID_s()) for one in attributes):
+    if labels.Length() != 1 or not all(labels.Value(1).IsAttribute(attribute.GetID_s()) for attribute in attributes):
         raise GeometryError(f"{path.name}: does not read back as one part with volume, area and centroid")
-    for one in attributes:
-        labels.Value(1).FindAttribute(one.GetID_s(), one)
+    for attribute in attributes:
+        labels.Value(1).FindAttribute(attribute.GetID_s(), attribute)
     volume, area, centroid = attributes
     solids = cq.Shape.cast(XCAFDoc_ShapeTool.GetShape_s(labels.Value(1))).Solids()
     if len(solids) != 1:

@@ -65,14 +65,14 @@ class Dimensions:
     def holes(self, name: str) -> list[tuple[float, list[tuple[float, float]]]]:
         """Return round holes that a row of the table lists: of each circle of them that is not empty, radius and
         places."""
-        found = []
+        circles = []
         for index in range(round(self._values.get(f"{name}.length", 0.0))):
             count, radius, circle, azimuth = (getattr(self, f"{name}.{index}.{of}") for of in _OF_A_CIRCLE)
             if count and radius:
                 pitch = 2.0 * math.pi / count
                 places = [azimuth + pitch * each for each in range(round(count))]
-                found.append((radius, [(circle * math.cos(at), circle * math.sin(at)) for at in places]))
-        return found
+                circles.append((radius, [(circle * math.cos(at), circle * math.sin(at)) for at in places]))
+        return circles
 
 
 def dimensions(design: Design) -> Dimensions:

@@ -79,7 +79,7 @@ class ExactKernel:
     def foot(self, radius: float, fillet: float, level: float, at: Point) -> cq.Solid:
         """Draw a cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
         wide, half = radius + fillet, fillet * sqrt(0.5)
-        corners = [cq.Vector(*one) for one in ((0, 0, 0), (wide, 0, 0), (radius, 0, fillet), (0, 0, fillet))]
+        corners = [cq.Vector(*point) for point in ((0, 0, 0), (wide, 0, 0), (radius, 0, fillet), (0, 0, fillet))]
         middle = cq.Vector(wide - half, 0, fillet - half)
         lines = [cq.Edge.makeLine(*pair) for pair in zip(corners[2:], [corners[3], corners[0]], strict=True)]
         arc = cq.Edge.makeThreePointArc(corners[1], middle, corners[2])

@@ -100,14 +100,15 @@ def upright_cylinders(solid: cq.Solid) -> list[Cylinder]:
     """
     patches: dict[tuple[object, ...], list[Cylinder]] = {}
     for face in solid.Faces():
-        one = _cylinder(face) if face.geomType() == "CYLINDER" else None
-        if one:
-            patches.setdefault((one.radius, one.x, one.y, one.bottom, one.top, one.concave), []).append(one)
-    found = []
+        patch = _cylinder(face) if face.geomType() == "CYLINDER" else None
+        if patch:
+            key = patch.radius, patch.x, patch.y, patch.bottom, patch.top, patch.concave
+            patches.setdefault(key, []).append(patch)
+    cylinders = []
     for group in patches.values():
-        span = sum(one.span for one in group)
-        found += [replace(group[0], span=span, middle=0.0)] if span > _ROUND else group
-    return sorted(found)
+        span = sum(patch.span for patch in group)
+        cylinders += [replace(group[0], span=span, middle=0.0)] if span > _ROUND else group
+    return sorted(cylinders)
 
 
 def _cylinder(face: cq.Face) -> Cylinder | None:
@@ -136,11 +137,11 @@ def _round(value: float) -> float:
 
 def holes(solid: cq.Solid, at: tuple[float, float] | None = None) -> list[Cylinder]:
     """Return round upright holes: cylinders with material around and none inside; with `at` those about a place."""
-    inside_out = [one for one in upright_cylinders(solid) if one.concave and one.is_round]
+    inside_out = [cylinder for cylinder in upright_cylinders(solid) if cylinder.concave and cylinder.is_round]
     if at is not None:
-        inside_out = [one for one in inside_out if abs(one.x - at[0]) < 1e-4 and abs(one.y - at[1]) < 1e-4]
+        inside_out = [hole for hole in inside_out if abs(hole.x - at[0]) < 1e-4 and abs(hole.y - at[1]) < 1e-4]
     faces = [_Face.of(face) for face in solid.Faces()] if inside_out else []
-    return [one for one in inside_out if _is_empty(solid, faces, one)]
+    return [hole for hole in inside_out if _is_empty(solid, faces, hole)]
 
 
 @dataclass(frozen=True)
@@ -172,43 +173,44 @@ class _Face:
             plane = (normal.X(), normal.Y(), normal.X() * place.X() + normal.Y() * place.Y())
         return cls(face.wrapped, ends[:3], ends[3:], upright, plane)
 
-    def misses(self, one: Cylinder, radius: float) -> bool:
+    def misses(self, hole: Cylinder, radius: float) -> bool:
         """Return whether it surely has no point within a radius of a cylinder's axis and between its ends, touching
         aside."""
-        start, end = (one.x - radius, one.y - radius, one.bottom), (one.x + radius, one.y + radius, one.top)
+        start, end = (hole.x - radius, hole.y - radius, hole.bottom), (hole.x + radius, hole.y + radius, hole.top)
         boxed = zip(self.low, self.high, start, end, strict=True)
         if any(low >= last - _BOX or high <= first + _BOX for low, high, first, last in boxed):
             return True
         if self.upright:
             x, y, own = self.upright
-            return abs(hypot(one.x - x, one.y - y) - own) >= radius
+            return abs(hypot(hole.x - x, hole.y - y) - own) >= radius
         if self.plane:
             across, up, distance = self.plane
-            return abs(across * one.x + up * one.y - distance) >= radius
+            return abs(across * hole.x + up * hole.y - distance) >= radius
         return False
 
 
-def _is_empty(solid: cq.Solid, faces: Sequence[_Face], one: Cylinder) -> bool:
+def _is_empty(solid: cq.Solid, faces: Sequence[_Face], hole: Cylinder) -> bool:
     """Return whether a plug that nearly fills a cylinder has nothing in common with the solid.
 
     Where no face reaches into the plug it is all inside or all outside; else the kernel says what they share.
     """
-    radius = _SHRUNK * one.radius
-    near = [face for face in faces if not face.misses(one, radius)]
-    axis = cq.Edge.makeLine(cq.Vector(one.x, one.y, one.bottom), cq.Vector(one.x, one.y, one.top)).wrapped
+    radius = _SHRUNK * hole.radius
+    near = [face for face in faces if not face.misses(hole, radius)]
+    axis = cq.Edge.makeLine(cq.Vector(hole.x, hole.y, hole.bottom), cq.Vector(hole.x, hole.y, hole.top)).wrapped
     if all(BRepExtrema_DistShapeShape(axis, face.shape).Value() >= radius for face in near):
-        return not solid.isInside(cq.Vector(one.x, one.y, 0.5 * (one.bottom + one.top)))
-    plug = cq.Solid.makeCylinder(radius, one.top - one.bottom, cq.Vector(one.x, one.y, one.bottom), cq.Vector(0, 0, 1))
+        return not solid.isInside(cq.Vector(hole.x, hole.y, 0.5 * (hole.bottom + hole.top)))
+    foot, height = cq.Vector(hole.x, hole.y, hole.bottom), hole.top - hole.bottom
+    plug = cq.Solid.makeCylinder(radius, height, foot, cq.Vector(0, 0, 1))
     return bool(plug.intersect(solid).Volume() < 1e-6 * plug.Volume())
 
 
 def levels(solid: cq.Solid) -> list[float]:
     """Return the heights of the flat faces that lie level, from below."""
-    found = set()
+    heights = set()
     for face in solid.Faces():
         if face.geomType() == "PLANE" and abs(abs(face.normalAt().z) - 1.0) < 1e-9:
-            found.add(_round(face.Center().z))
-    return sorted(found)
+            heights.add(_round(face.Center().z))
+    return sorted(heights)
 
 
 def boxes_meet(first: cq.BoundBox, second: cq.BoundBox, room: float = 0.0) -> bool:

@@ -101,11 +101,11 @@ def installed_coil(dims: Dimensions, rotor_angle: float = 0.0) -> Coil:
     Raises GeometryError where the leg cannot reach the pin.
     """
     rest_turns = dims.coil_count + dims.preload_angle / (2.0 * pi)
-    rest = _leg_azimuth(dims, 0.0, _wound_diameter(dims, rest_turns))
+    rest_azimuth = _leg_azimuth(dims, 0.0, _wound_diameter(dims, rest_turns))
     turns = rest_turns
     for _ in range(20):
         azimuth = _leg_azimuth(dims, rotor_angle, _wound_diameter(dims, turns))
-        turns = rest_turns + (azimuth - rest) / (2.0 * pi)
+        turns = rest_turns + (azimuth - rest_azimuth) / (2.0 * pi)
     return Coil(
         wire_diameter=dims.wire_diameter, diameter=_wound_diameter(dims, turns), turns=turns, pitch=dims.coil_pitch,
         leg_length=dims.leg_length, tang_length=dims.tang_length,

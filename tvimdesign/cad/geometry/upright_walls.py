@@ -56,12 +56,12 @@ class Wall:
 
 def upright_walls(solid: cq.Solid) -> list[Wall]:
     """Return flat upright faces, in a fixed order."""
-    found = []
+    walls = []
     for face in solid.Faces():
         normal = face.normalAt() if face.geomType() == "PLANE" else None
         if normal is not None and abs(normal.z) < 1e-9:
-            found.append(_wall(face, normal))
-    return sorted(found)
+            walls.append(_wall(face, normal))
+    return sorted(walls)
 
 
 def _wall(face: cq.Face, normal: cq.Vector) -> Wall:
@@ -113,31 +113,31 @@ class Pair:
 def pairs(walls: list[Wall]) -> tuple[list[Pair], list[Wall]]:
     """Return walls of one height that are parallel and beside each other, nearest first; and those that are left."""
     possible = []
-    for index, one in enumerate(walls):
+    for index, first in enumerate(walls):
         for other in walls[index + 1 :]:
-            pair = _pair(one, other)
-            if pair and pair.ends[1] - pair.ends[0] > 0.5 * (one.end - one.start):
+            pair = _pair(first, other)
+            if pair and pair.ends[1] - pair.ends[0] > 0.5 * (first.end - first.start):
                 possible.append(pair)
-    found: list[Pair] = []
+    chosen: list[Pair] = []
     left = list(walls)
-    # A slot is told by its width; only what no slot has for its side is a rib's.
-    for pair in sorted(possible, key=lambda one: (not one.is_slot, one.width, one.walls)):
+    # A slot is known by its width; a rib has only walls that bound no slot.
+    for pair in sorted(possible, key=lambda candidate: (not candidate.is_slot, candidate.width, candidate.walls)):
         if all(wall in left for wall in pair.walls):
-            found.append(pair)
+            chosen.append(pair)
             left = [wall for wall in left if wall not in pair.walls]
-    return found, left
+    return chosen, left
 
 
-def _pair(one: Wall, other: Wall) -> Pair | None:
+def _pair(wall: Wall, other: Wall) -> Pair | None:
     """Return two walls as a pair, if they look in opposite directions and stand between the same heights."""
-    turned = abs((other.outwards - one.outwards) % (2.0 * pi) - pi)
-    if turned > 1e-4 or abs(one.bottom - other.bottom) > _SAME or abs(one.top - other.top) > _SAME:
+    turned = abs((other.outwards - wall.outwards) % (2.0 * pi) - pi)
+    if turned > 1e-4 or abs(wall.bottom - other.bottom) > _SAME or abs(wall.top - other.top) > _SAME:
         return None
-    away = one.offset + other.offset
+    away = wall.offset + other.offset
     if abs(away) < _SAME:
         return None
     # Along the first wall's normal, the second one is at minus its own offset.
-    return Pair((one, other), is_slot=away < 0.0)
+    return Pair((wall, other), is_slot=away < 0.0)
 
 
 CORNER = 2.0
@@ -164,8 +164,8 @@ class Sector:
     @property
     def radii(self) -> tuple[float, ...]:
         """Of its innermost and its outermost arc; one where it has no more."""
-        found = sorted({round(arc.radius, 4) for arc in self.arcs})
-        return (found[0], found[-1]) if len(found) > 1 else tuple(found)
+        radii = sorted({round(arc.radius, 4) for arc in self.arcs})
+        return (radii[0], radii[-1]) if len(radii) > 1 else tuple(radii)
 
     @property
     def levels(self) -> tuple[float, float]:
@@ -187,20 +187,20 @@ class Sector:
 
 def sectors(cylinders: Sequence[Cylinder], walls: Sequence[Wall]) -> tuple[list[Sector], list[Cylinder], list[Wall]]:
     """Return all sectors, the partial cylinders that are in none of them, and the walls that are in none."""
-    arcs = [one for one in cylinders if not one.is_round]
+    arcs = [cylinder for cylinder in cylinders if not cylinder.is_round]
     levels: dict[Hashable, list[Wall]] = {}
     for wall in walls:
         if wall.is_radial:
             levels.setdefault((wall.bottom, wall.top, *(round(radius, 3) for radius in wall.radii)), []).append(wall)
-    found = [one for group in levels.values() for one in _of_height(group, arcs)]
-    told = {face for one in found for face in one.faces}
-    return found, [arc for arc in arcs if arc not in told], [wall for wall in walls if wall not in told]
+    enclosed = [sector for group in levels.values() for sector in _of_height(group, arcs)]
+    used = {face for sector in enclosed for face in sector.faces}
+    return enclosed, [arc for arc in arcs if arc not in used], [wall for wall in walls if wall not in used]
 
 
 def _of_height(walls: Sequence[Wall], arcs: Sequence[Cylinder]) -> list[Sector]:
     """Return the sectors between walls of one height and reach: those between which an arc runs."""
     around = sorted(walls, key=_azimuth)
-    found = []
+    enclosed = []
     for index, wall in enumerate(around):
         following = around[(index + 1) % len(around)]
         first, span = _azimuth(wall), (_azimuth(following) - _azimuth(wall)) % (2.0 * pi)
@@ -212,8 +212,8 @@ def _of_height(walls: Sequence[Wall], arcs: Sequence[Cylinder]) -> list[Sector]:
         )  # fmt: skip
         whole = tuple(arc for arc in between if arc.bottom < wall.bottom + _SAME and arc.top > wall.top - _SAME)
         if len(around) > 1 and whole and _empty_beyond(wall) != _empty_beyond(following):
-            found.append(Sector((wall, following), whole, _empty_beyond(wall), first, span))
-    return found
+            enclosed.append(Sector((wall, following), whole, _empty_beyond(wall), first, span))
+    return enclosed
 
 
 def _bounds(arc: Cylinder, wall: Wall) -> bool:
@@ -237,10 +237,10 @@ def _empty_beyond(wall: Wall) -> bool:
     return sin(wall.outwards - _azimuth(wall)) > 0.0
 
 
-def _apart(one: float, other: float) -> float:
+def _apart(azimuth: float, other: float) -> float:
     """Return the difference of two azimuths, between -pi and pi."""
-    return (one - other + pi) % (2.0 * pi) - pi
+    return (azimuth - other + pi) % (2.0 * pi) - pi
 
 
-def _same(one: float, other: float) -> bool:
-    return abs(one - other) < _SAME
+def _same(value: float, other: float) -> bool:
+    return abs(value - other) < _SAME

@@ -187,15 +187,15 @@ def part_checks(
     """Compare one made part with its process: all it needs is its own solid, and its mesh if that is there."""
     mesh = mesh or solid_mesh(solid)
     triangles, bed = Triangles(mesh), (dims.bed_length, dims.bed_width, dims.bed_height)
-    found = [solid_check(kind, solid), *sliver_checks(dims, kind, solid, triangles)]
+    checks = [solid_check(kind, solid), *sliver_checks(dims, kind, solid, triangles)]
     if design.choices.get("making_method") == "milled":
         drilled = holes(solid)
-        found += milling_checks(kind, triangles, drilled, dims.pocket_depth_ratio)
-        found += corner_checks(kind, solid, dims.corner_radius, dims.corner_depth_ratio)
-        found += [hole_check(kind, drilled, dims.hole_depth_ratio)]
-        return [*found, bed_check(kind, triangles.upper - triangles.lower, bed)]
+        checks += milling_checks(kind, triangles, drilled, dims.pocket_depth_ratio)
+        checks += corner_checks(kind, solid, dims.corner_radius, dims.corner_depth_ratio)
+        checks += [hole_check(kind, drilled, dims.hole_depth_ratio)]
+        return [*checks, bed_check(kind, triangles.upper - triangles.lower, bed)]
     down, levels = PRODUCTION[kind].down, supported_levels(kind, dims)
-    return [*found, *printing_checks(kind, mesh, down, dims.overhang_angle, dims.bridge_span, bed, levels)]
+    return [*checks, *printing_checks(kind, mesh, down, dims.overhang_angle, dims.bridge_span, bed, levels)]
 
 
 def sliver_checks(dims: Dimensions, kind: str, solid: cq.Solid, triangles: Triangles) -> list[SolidCheck]:
@@ -281,4 +281,4 @@ def _threads(
     if insert_length(dims, joint):
         box, (_, _, bottom) = drawn[f"{joint}_insert"].BoundingBox(), insert_places(dims, joint)[0]
         return [(bottom + box.zmin, bottom + box.zmax)]
-    return [(one.bottom, one.top) for one in holes(drawn[host], at)]
+    return [(hole.bottom, hole.top) for hole in holes(drawn[host], at)]

@@ -36,13 +36,13 @@ class Corner(NamedTuple):
 def corner_checks(part: str, solid: cq.Solid, corner_radius: float, corner_depth_ratio: float) -> list[SolidCheck]:
     """Compare the upright inner corners of a part with the radius a cutter has and how deep it cuts [mm]."""
     sharp, rounded = list(sharp_corners(solid)), list(round_corners(solid))
-    worst = max(sharp, key=lambda one: one.depth, default=None)
+    worst = max(sharp, key=lambda corner: corner.depth, default=None)
     text = f"{len(sharp)} upright inner corners are sharp"
     if worst:
         text += (
             f", the deepest {worst.depth:.3g} mm: a cutter leaves {corner_radius:.3g} mm there, which nothing may need"
         )
-    deepest = max(rounded, key=lambda one: one.depth / one.radius, default=None)
+    deepest = max(rounded, key=lambda corner: corner.depth / corner.radius, default=None)
     ratio = deepest.depth / deepest.radius if deepest else 0.0
     reported = "no upright inner corner is round"
     if deepest:
@@ -63,7 +63,7 @@ def corner_checks(part: str, solid: cq.Solid, corner_radius: float, corner_depth
 
 def hole_check(part: str, drilled: Sequence[Cylinder], hole_depth_ratio: float) -> SolidCheck:
     """Compare the round upright holes of a part with how deep a drill goes."""
-    deepest = max(drilled, key=lambda one: (one.top - one.bottom) / one.radius, default=None)
+    deepest = max(drilled, key=lambda hole: (hole.top - hole.bottom) / hole.radius, default=None)
     if deepest is None:
         return finding(part, "hole", 0.0, hole_depth_ratio, "", "pass", "no holes")
     depth = deepest.top - deepest.bottom
@@ -76,11 +76,11 @@ def hole_check(part: str, drilled: Sequence[Cylinder], hole_depth_ratio: float) 
 
 def round_corners(solid: cq.Solid) -> Iterator[Corner]:
     """Yield upright concave cylinders that are no holes."""
-    for one in upright_cylinders(solid):
-        if one.concave and not one.is_round and one.radius < _WIDEST:
-            middle = np.array([one.x, one.y, 0.5 * (one.bottom + one.top)])
-            outwards = one.radius * np.array([np.cos(one.middle), np.sin(one.middle), 0.0])
-            yield Corner(one.radius, one.top - one.bottom, middle + outwards)
+    for cylinder in upright_cylinders(solid):
+        if cylinder.concave and not cylinder.is_round and cylinder.radius < _WIDEST:
+            middle = np.array([cylinder.x, cylinder.y, 0.5 * (cylinder.bottom + cylinder.top)])
+            outwards = cylinder.radius * np.array([np.cos(cylinder.middle), np.sin(cylinder.middle), 0.0])
+            yield Corner(cylinder.radius, cylinder.top - cylinder.bottom, middle + outwards)
 
 
 def sharp_corners(solid: cq.Solid) -> Iterator[Corner]:
@@ -90,11 +90,11 @@ def sharp_corners(solid: cq.Solid) -> Iterator[Corner]:
         if edge.geomType() != "LINE" or len(faces) != 2 or abs(abs(edge.tangentAt(0.5).z) - 1.0) > 1e-6:
             continue
         middle = edge.positionAt(0.5)
-        one, other = (face.normalAt(middle) for face in faces)
-        if one.cross(other).Length < _SMOOTH:
+        normal, other = (face.normalAt(middle) for face in faces)
+        if normal.cross(other).Length < _SMOOTH:
             continue
         # Of a convex edge, what lies behind one face and before the other is outside.
-        beside = middle + (one - other).normalized() * _BESIDE
+        beside = middle + (normal - other).normalized() * _BESIDE
         classifier.Perform(gp_Pnt(*beside.toTuple()), 1e-7)
         if classifier.State() == TopAbs_State.TopAbs_IN:
             yield Corner(0.0, edge.Length(), np.array(middle.toTuple()))
@@ -102,12 +102,12 @@ def sharp_corners(solid: cq.Solid) -> Iterator[Corner]:
 
 def _edges_with_faces(solid: cq.Solid) -> Iterator[tuple[cq.Edge, list[cq.Face]]]:
     """Yield every edge with the faces that meet there; not the seam of a closed face."""
-    found: dict[cq.Edge, list[cq.Face]] = {}
+    faces: dict[cq.Edge, list[cq.Face]] = {}
     for face in solid.Faces():
         for edge in face.Edges():
             if not BRep_Tool.IsClosed_s(edge.wrapped, face.wrapped):
-                found.setdefault(edge, []).append(face)
-    yield from found.items()
+                faces.setdefault(edge, []).append(face)
+    yield from faces.items()
 
 
 SPACING = 2.5
@@ -185,7 +185,7 @@ def set_ups(where: Samples, seen: dict[str, NDArray[np.bool_]]) -> list[str]:
     while True:
         shows = {side: float(where.area[left & seen[side]].sum()) for side in SIDES if side not in chosen}
         upright = {side: area for side, area in shows.items() if side.endswith("z") and area > _NOTHING}
-        side = max(upright or shows, key=lambda one: shows[one], default="")
+        side = max(upright or shows, key=lambda candidate: shows[candidate], default="")
         if not side or shows[side] <= _NOTHING:
             return chosen
         chosen.append(side)
@@ -195,8 +195,8 @@ def set_ups(where: Samples, seen: dict[str, NDArray[np.bool_]]) -> list[str]:
 def _pocket_check(
     part: str, triangles: Triangles, where: Samples, seen: dict[str, NDArray[np.bool_]], limit: float
 ) -> SolidCheck:
-    found = [narrowest(triangles, where.of(seen[side]), side) for side in ("+z", "-z")]
-    worst = max(filter(None, found), key=lambda one: one.ratio, default=None)
+    places = [narrowest(triangles, where.of(seen[side]), side) for side in ("+z", "-z")]
+    worst = max(filter(None, places), key=lambda place: place.ratio, default=None)
     if worst is None:
         return finding(part, "pocket", 0.0, limit, "", "pass", "no floor has walls on both sides", resolution=SPACING)
     text = f"a place {worst.width:.3g} mm wide is {worst.depth:.3g} mm deep, {worst.ratio:.3g} times; "
@@ -209,10 +209,10 @@ def _pocket_check(
 def _inside(drilled: Sequence[Cylinder], points: Array) -> NDArray[np.bool_]:
     """Return which points lie in or at a round hole."""
     inside = np.zeros(len(points), dtype=bool)
-    for one in drilled:
-        beside = np.hypot(points[:, 0] - one.x, points[:, 1] - one.y)
-        level = (points[:, 2] > one.bottom - CHORD) & (points[:, 2] < one.top + CHORD)
-        inside |= level & (beside < one.radius + CHORD)
+    for hole in drilled:
+        beside = np.hypot(points[:, 0] - hole.x, points[:, 1] - hole.y)
+        level = (points[:, 2] > hole.bottom - CHORD) & (points[:, 2] < hole.top + CHORD)
+        inside |= level & (beside < hole.radius + CHORD)
     return inside
 
 

@@ -33,7 +33,7 @@ class Standing:
 
     def __init__(self, parts: Mapping[str, Mesh] | Mapping[str, Triangles]) -> None:
         """`parts` are meshes or triangles in the module's coordinates, by name."""
-        self._parts = {n: one if isinstance(one, Triangles) else Triangles(one) for n, one in parts.items()}
+        self._parts = {n: part if isinstance(part, Triangles) else Triangles(part) for n, part in parts.items()}
 
     def first_distances(self, origins: Array, out: Array) -> Array:
         """Return how far rays up or down along the axis come before they meet a part [mm].
@@ -49,8 +49,8 @@ class Standing:
                 (origins[:, :2] >= part.lower[:2] - _SKIN) & (origins[:, :2] <= part.upper[:2] + _SKIN), axis=1
             )
             rays = np.flatnonzero(near)
-            found = part.first_hits(origins[rays], np.tile(out, (len(rays), 1))).distance
-            nearest[rays] = np.minimum(nearest[rays], found)
+            distances = part.first_hits(origins[rays], np.tile(out, (len(rays), 1))).distance
+            nearest[rays] = np.minimum(nearest[rays], distances)
         return nearest
 
     def nearest(self, point: Array) -> str:
@@ -77,13 +77,13 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[S
     meshes = {name: in_module(instance) for name, instance in placed.items()}
     shapes = {name: Triangles(mesh) for name, mesh in meshes.items()}
     order = sequence(list(meshes))
-    left = sorted(set(meshes) - {one.name for one in order})
+    left = sorted(set(meshes) - {part.name for part in order})
     text = "every part has its step" if not left else f"no step puts these in their places: {', '.join(left)}"
     yield finding("module", "steps", len(left), 0.0, "", at_most(len(left), 0.0), text)
     there: dict[str, Triangles] = {}
     for group in _groups(order):
         together = Standing(there) if there else None
-        names = [one.name for one in group]
+        names = [part.name for part in group]
         if together and kind_of(names[0]) not in _FLEXIBLE:
             # Copies of a part go in alike: what is before one is before all of them but for the angle.
             yield _way_check(kind_of(names[0]), group[0].side, {name: shapes[name] for name in names}, together)
@@ -99,11 +99,11 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[S
 def _groups(order: Sequence[PlacedPart]) -> Iterator[list[PlacedPart]]:
     """Yield neighbours in the order that are of one kind and come from one side."""
     group: list[PlacedPart] = []
-    for one in order:
-        if group and (kind_of(one.name), one.side) != (kind_of(group[0].name), group[0].side):
+    for part in order:
+        if group and (kind_of(part.name), part.side) != (kind_of(group[0].name), group[0].side):
             yield group
             group = []
-        group.append(one)
+        group.append(part)
     if group:
         yield group
 
@@ -118,13 +118,13 @@ def _way_check(kind: str, side: str, copies: Mapping[str, Triangles], there: Sta
     """Look back along the way in from every copy: what it meets there, the part would have to pass through."""
     out = _WAY[side]
     points = np.concatenate([_leading(copy, out) for copy in copies.values()])
-    found = there.first_distances(points, out)
-    blocked = np.flatnonzero(np.isfinite(found))
+    distances = there.first_distances(points, out)
+    blocked = np.flatnonzero(np.isfinite(distances))
     text = f"comes into its place from {side}, nothing in its way"
     place = None
     if len(blocked):
-        first = blocked[int(np.argmin(found[blocked]))]
-        place = points[first] + found[first] * out
+        first = blocked[int(np.argmin(distances[blocked]))]
+        place = points[first] + distances[first] * out
         text = (
             f"comes from {side}, and {there.nearest(place)} is in its way: {len(blocked)} samples of it meet something"
         )
@@ -163,7 +163,7 @@ def _driver(name: str, head: Array, out: Array, there: Standing, key: float) -> 
     """
     radius = key / sqrt(3.0)  # of its corners
     angles = np.arange(_TOOL_RAYS) * 2.0 * pi / _TOOL_RAYS
-    rim = [[share * radius * cos(one), share * radius * sin(one), 0.0] for share in (0.5, 1.0) for one in angles]
+    rim = [[share * radius * cos(angle), share * radius * sin(angle), 0.0] for share in (0.5, 1.0) for angle in angles]
     starts = head + _SKIN * out + np.array([[0.0, 0.0, 0.0], *rim])
     free = there.first_distances(starts, out)
     least = float(free.min())

@@ -58,19 +58,19 @@ def printing_checks(
     `supported` are levels of the module between which faces stand on support: that is reported, and no fault.
     """
     triangles = Triangles(lying(mesh, down))
-    found = overhangs(triangles, overhang_angle)
+    leaning = overhangs(triangles, overhang_angle)
     back = _TURNED_OVER if down == "top" else np.ones(3)
-    bridges = [one for one in found if one.span <= bridge_span]
-    hanging = [one for one in found if one.span > bridge_span]
-    area = sum(one.area for one in hanging)
-    worst = max(hanging, key=lambda one: one.area, default=None)
-    is_open = all(any(_within(one, back[2], between) for between in supported) for one in hanging)
+    bridges = [patch for patch in leaning if patch.span <= bridge_span]
+    hanging = [patch for patch in leaning if patch.span > bridge_span]
+    area = sum(patch.area for patch in hanging)
+    worst = max(hanging, key=lambda patch: patch.area, default=None)
+    is_open = all(any(_within(patch, back[2], between) for between in supported) for patch in hanging)
     angle = f"{degrees(overhang_angle):.3g} deg"
     text = f"{area:.4g} mm2 lean more than {angle} and are no bridge of {bridge_span:.3g} mm or less"
     if worst:
         text += f": they need support, {_places(len(hanging))}, the largest {worst.area:.4g} mm2"
-    span = max((one.span for one in bridges), default=0.0)
-    longest = max(bridges, key=lambda one: one.span, default=None)
+    span = max((patch.span for patch in bridges), default=0.0)
+    longest = max(bridges, key=lambda patch: patch.span, default=None)
     bridged = f"{len(bridges)} bridges, the longest {span:.3g} mm" if bridges else "nothing is bridged"
     return [
         finding(
@@ -85,12 +85,12 @@ def printing_checks(
     ]  # fmt: skip
 
 
-def _within(one: Overhang, back: float, between: tuple[float, float]) -> bool:
+def _within(overhang: Overhang, back: float, between: tuple[float, float]) -> bool:
     """Return whether all of an overhang is between two levels of the module.
 
     `back` is -1 where the part is turned over.
     """
-    low, high = sorted(back * level for level in one.levels)
+    low, high = sorted(back * level for level in overhang.levels)
     return low > between[0] - _ON_BED and high < between[1] + _ON_BED
 
 
@@ -108,8 +108,8 @@ def overhangs(triangles: Triangles, overhang_angle: float) -> list[Overhang]:
     above = triangles.corners[:, :, 2].max(axis=1) > triangles.lower[2] + _ON_BED
     leaning = -triangles.normal[:, 2] > sin(overhang_angle) + 1e-6
     chosen = np.flatnonzero(above & leaning)
-    found = [_overhang(triangles, group) for group in _connected(triangles.corners, chosen)]
-    return [one for one in found if one.area > _NOTHING]
+    patches = [_overhang(triangles, group) for group in _connected(triangles.corners, chosen)]
+    return [patch for patch in patches if patch.area > _NOTHING]
 
 
 def _connected(corners: Array, chosen: Index) -> list[Index]:
@@ -120,7 +120,7 @@ def _connected(corners: Array, chosen: Index) -> list[Index]:
     owner = np.repeat(np.arange(len(chosen)), 3)
     links = coo_matrix((np.ones(len(owner)), (owner, len(chosen) + corner.ravel())), shape=(4 * len(chosen),) * 2)
     _, label = connected_components(links, directed=False)
-    return [chosen[label[: len(chosen)] == one] for one in np.unique(label[: len(chosen)])]
+    return [chosen[label[: len(chosen)] == number] for number in np.unique(label[: len(chosen)])]
 
 
 def _overhang(triangles: Triangles, group: Index) -> Overhang:

@@ -110,12 +110,12 @@ def _meets(boxes: Array, box: int, start: Array, inverse: tuple[float, float, fl
     """
     near, far = 0.0, np.inf
     for axis in range(3):
-        one = (boxes[box, axis] - start[axis]) * inverse[axis]
-        other = (boxes[box, axis + 3] - start[axis]) * inverse[axis]
-        if one > other:
-            one, other = other, one
-        near = max(near, one)
-        far = min(far, other)
+        first = (boxes[box, axis] - start[axis]) * inverse[axis]
+        second = (boxes[box, axis + 3] - start[axis]) * inverse[axis]
+        if first > second:
+            first, second = second, first
+        near = max(near, first)
+        far = min(far, second)
     return far >= near and near <= most and not np.isnan(boxes[box, 0])
 
 
@@ -185,10 +185,10 @@ def across(triangles: Triangles, points: Array, up: Array, along: Sequence[float
     tops = (triangles.corners @ up).max(axis=1)
     for angle in (*(pi * step / _DIRECTIONS for step in range(_DIRECTIONS)), *along):
         ahead = np.tile([cos(angle), sin(angle), 0.0], (len(points), 1))
-        one, other = triangles.first_hits(points, ahead), triangles.first_hits(points, -ahead)
-        way = one.distance + other.distance
-        lower = np.minimum(tops[one.triangle], tops[other.triangle]) - points @ up
-        facing = np.einsum("ij,ij->i", triangles.normal[one.triangle], triangles.normal[other.triangle])
+        hit, other = triangles.first_hits(points, ahead), triangles.first_hits(points, -ahead)
+        way = hit.distance + other.distance
+        lower = np.minimum(tops[hit.triangle], tops[other.triangle]) - points @ up
+        facing = np.einsum("ij,ij->i", triangles.normal[hit.triangle], triangles.normal[other.triangle])
         shorter = (way < width) & (facing < _OPPOSED)
         width, height = np.where(shorter, way, width), np.where(shorter, lower, height)
     return width, height

@@ -50,14 +50,14 @@ class PlacedBodies:
         kinds = (kind_of(first), kind_of(second))
         if kinds in self._near:
             return False
-        one, other = self._body(first), self._body(second)
-        apart = one is not None and other is not None and one.min_gap(other, ROOM) >= ROOM
+        body, other = self._body(first), self._body(second)
+        apart = body is not None and other is not None and body.min_gap(other, ROOM) >= ROOM
         if not apart:
             self._near.add(kinds)
         return apart
 
     def _body(self, name: str) -> Manifold | None:
-        """Return the body of a part where it stands, found once: a placed body is sorted anew for each question."""
+        """Return the body of a part where it stands, made once: a placed body is sorted again for each question."""
         if name not in self._in_place:
             self._in_place[name] = self._placed_body(name)
         return self._in_place[name]
@@ -109,7 +109,7 @@ def clearance_checks(
     where = "at rest" if share == 0.0 else f"at {share * dims.stop_angle:+.4f} rad"
     say(f"interference {where}")
     placed = place(dims, drawn, share * dims.stop_angle, say)
-    if share == 0.0:  # most parts touch: to tell the others apart takes as long as to hold them against each other
+    if share == 0.0:  # most parts touch: to sort out the others takes as long as to intersect them
         return list(interference_checks(placed, where))
     bodies = PlacedBodies(instances(dims, drawn, placed, known, share * dims.stop_angle))
 
@@ -127,11 +127,11 @@ def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Soli
         by_kind.setdefault(kind_of(name), []).append(solid)
     mass = inertia = 0.0
     for kind, solids in by_kind.items():
-        one = kind in SPRINGS  # the row is the volume of one spring, of the others that of all of a kind
+        is_single = kind in SPRINGS  # the row is the volume of one spring, of the others that of all of a kind
         volume = sum(solid.Volume() for solid in solids) * _MM3
         density = design.value(KINDS[kind].density)
         mass += volume * density
-        yield _against(f"{kind}_volume", volume / (len(solids) if one else 1), design.value(KINDS[kind].volume))
+        yield _against(f"{kind}_volume", volume / (len(solids) if is_single else 1), design.value(KINDS[kind].volume))
         if kind in TURNING or f"{kind}_inertia" in design.values:
             about_axis = density * _MM5 * sum(_polar_moment(solid) for solid in solids)
             inertia += about_axis if kind in TURNING else 0.0
@@ -214,17 +214,17 @@ def _shared(
     copies: dict[tuple[str, str], list[str]] = {}
     for first, second in pairs:
         copies.setdefault((first, kind_of(second)), []).append(second)
-    found: dict[tuple[str, str], tuple[float, Place | None]] = {}
+    shared: dict[tuple[str, str], tuple[float, Place | None]] = {}
     for (first, _), others in copies.items():
         none = len(others) > 1 and _common(placed[first], *(placed[other] for other in others))[0] == 0.0
-        found |= {(first, other): (0.0, None) if none else _common(placed[first], placed[other]) for other in others}
-    return found
+        shared |= {(first, other): (0.0, None) if none else _common(placed[first], placed[other]) for other in others}
+    return shared
 
 
 def _common(first: cq.Solid, *others: cq.Solid) -> tuple[float, Place | None]:
     """Return volume a solid shares with others [mm^3], and its centroid.
 
-    Not a number, which fails, where nobody can tell.
+    Not a number, which fails, where that is unknown.
     """
     operation, arguments, tools = BRepAlgoAPI_Common(), TopTools_ListOfShape(), TopTools_ListOfShape()
     arguments.Append(first.wrapped)

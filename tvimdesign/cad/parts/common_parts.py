@@ -190,10 +190,10 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
 def _screw_holes(dims: Dimensions) -> list[cq.Shape]:
     """Draw the core's holes for the screws of retainer and link."""
     top, bottom, point = dims.link_bottom_level, dims.core_bottom_level, dims.drill_point_ratio
-    found = blind_hole(dims.retainer_screw_hole, bottom, bottom + dims.retainer_screw_depth, point)
+    holes = blind_hole(dims.retainer_screw_hole, bottom, bottom + dims.retainer_screw_depth, point)
     for at in link_screws(dims):
-        found += blind_hole(dims.link_screw_hole, top, top - dims.link_screw_depth, point, at)
-    return found
+        holes += blind_hole(dims.link_screw_hole, top, top - dims.link_screw_depth, point, at)
+    return holes
 
 
 def link(dims: Dimensions) -> cq.Shape:

@@ -183,9 +183,9 @@ def wedge_of(placed: Mapping[str, Instance]) -> tuple[float, float]:
     Of all pairs that which lies nearest to a wedge whose faces both show; the second is the larger by less than pi.
     """
     springs, polymer = (
-        [_azimuth(one) for name, one in placed.items() if kind_of(name) in kinds] for kinds in (SPRINGS, POLYMER)
+        [_azimuth(part) for name, part in placed.items() if kind_of(name) in kinds] for kinds in (SPRINGS, POLYMER)
     )
-    pairs = [(a, b) for one, other in product(springs or polymer, polymer) for a, b in ((one, other), (other, one))]
+    pairs = [(a, b) for pair in product(springs or polymer, polymer) for a, b in (pair, pair[::-1])]
     wedges = [(a, a + (b - a) % (2.0 * pi)) for a, b in pairs]
     return min(wedges, key=lambda wedge: (round(abs(wedge[1] - wedge[0] - _BEST_WEDGE), 6), wedge))
 
@@ -198,7 +198,7 @@ def _azimuth(instance: Instance) -> float:
 
 def _wedge(first: float, last: float, placed: Mapping[str, Instance]) -> Cutter:
     """Return a sector about the axis that reaches beyond every part."""
-    points = np.vstack([one.points() for one in placed.values()])
+    points = np.vstack([part.points() for part in placed.values()])
     low, high, reach = points[:, 2].min() - 1.0, points[:, 2].max() + 1.0, 4.0 * float(np.abs(points).max())
     corners = [(0.0, 0.0), *((reach * cos(a), reach * sin(a)) for a in np.linspace(first, last, 4))]
     return Cutter(corners, low, high)

@@ -89,10 +89,10 @@ def actors(mesh: Mesh, matrix: Array, colour: Rgb) -> tuple[vtkActor, vtkActor]:
     """Return the faces of a placed part in its colour, and its sharp edges in black."""
     placed = vtkMatrix4x4()
     placed.DeepCopy(matrix.ravel().tolist())
-    found = _coloured(_mappers(mesh), colour)
-    for actor in found:
+    both = _coloured(_mappers(mesh), colour)
+    for actor in both:
         actor.SetUserMatrix(placed)
-    return found
+    return both
 
 
 def surface_actors(surface: vtkPolyData, colour: Rgb) -> tuple[vtkActor, vtkActor]:
@@ -230,7 +230,7 @@ def look(renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Tripl
     right = np.cross((0.0, 0.0, 1.0), towards)
     right /= np.linalg.norm(right)
     upward = np.cross(towards, right)
-    points = np.vstack([one.points() for one in placed.values()])
+    points = np.vstack([instance.points() for instance in placed.values()])
     across, along = points @ right, points @ upward
     middle = 0.5 * ((across.min() + across.max()) * right + (along.min() + along.max()) * upward)
     camera = renderer.GetActiveCamera()
