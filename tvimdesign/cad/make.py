@@ -67,8 +67,8 @@ class PartsProcess:
                 encoding="utf-8", process_group=0,  # no session: Linux shares processors out by session first
             )  # fmt: skip
             self._stack = stack.pop_all()
-        self._said: queue.Queue[str | None] = queue.Queue()
-        read_lines(self._process, self._said.put)
+        self._lines: queue.Queue[str | None] = queue.Queue()
+        read_lines(self._process, self._lines.put)
         self._out: Path | None = None
 
     @property
@@ -98,8 +98,8 @@ class PartsProcess:
         self._out = out
         assert self._process.stdin is not None
         with contextlib.suppress(BrokenPipeError):  # that it has died shows at the end
-            asked = [str(design_path.resolve()), str(out.resolve()), str(part_limit)]
-            self._process.stdin.write(json.dumps(asked) + "\n")
+            request = [str(design_path.resolve()), str(out.resolve()), str(part_limit)]
+            self._process.stdin.write(json.dumps(request) + "\n")
             self._process.stdin.flush()
 
     def finish(self, progress: Callable[[str], None] | None = None, limit: float = LIMIT) -> CadReport:
@@ -108,7 +108,7 @@ class PartsProcess:
         state: dict[str, Any] = {"progress": "starting"}
         watch = ProcessorLimit(self._process.pid, limit)
         try:
-            for message in _messages(self._said, watch):
+            for message in _messages(self._lines, watch):
                 state |= message
                 if progress and "progress" in message:
                     progress(message["progress"])
@@ -119,9 +119,9 @@ class PartsProcess:
         return _report(self._out, state, why, last_line(self._tail))
 
 
-def _messages(said: queue.Queue[str | None], watch: ProcessorLimit) -> Iterator[dict[str, Any]]:
+def _messages(lines: queue.Queue[str | None], watch: ProcessorLimit) -> Iterator[dict[str, Any]]:
     """Yield what a child reports, until it ends. Raises ProcessorTimeError between two reports."""
-    while (line := wait_for(watch, lambda seconds: said.get(timeout=seconds))) is not None:
+    while (line := wait_for(watch, lambda seconds: lines.get(timeout=seconds))) is not None:
         watch.restart()
         message: dict[str, Any] = json.loads(line)
         yield message

@@ -78,7 +78,7 @@ def run(tmp_path: Path) -> Run:
     def do(*wanted: Work, design: Design | None = None, limit: float = 600.0, **changed: float) -> Done:
         base = design or design_of("toy", {})
         subject = TrackedDesign(base.model_copy(update={"values": base.values | changed}), TITLES)
-        return WorkerPool(subject, Cache(tmp_path / "kept"), lambda _: None, limit, hands=2).do(wanted)
+        return WorkerPool(subject, Cache(tmp_path / "kept"), lambda _: None, limit, workers=2).do(wanted)
 
     return do
 
@@ -113,7 +113,7 @@ def test_work_that_nothing_needs_is_started_last(tmp_path: Path) -> None:
     begun: list[str] = []
     late = replace(STACK, turn=Turn.LATE)
     subject = TrackedDesign(design_of("toy", {}), TITLES)
-    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), begun.append, hands=1)
+    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), begun.append, workers=1)
     done = workshop.do([PLATE, late, Work(name="layer", do=thickness)])
     assert begun == ["1 of 3, plate", "2 of 3, layer", "3 of 3, stack"]
     assert list(done.results) == ["plate", "stack", "layer"]
@@ -209,7 +209,7 @@ def test_stuck_crashed_and_refused_work_is_named(run: Run, tmp_path: Path) -> No
 def test_a_child_does_several_pieces_and_a_dead_one_is_replaced(tmp_path: Path) -> None:
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     plan = [Work(name=name, do=crashes if name == "crash" else by_whom) for name in ("a", "b", "crash", "c", "d")]
-    done = WorkerPool(subject, Cache(tmp_path), lambda _: None, hands=1).do(plan)
+    done = WorkerPool(subject, Cache(tmp_path), lambda _: None, workers=1).do(plan)
     assert list(done.failed) == ["crash"]
     by = {name: text(done, name) for name in "abcd"}
     assert by["a"] == by["b"] != by["c"] == by["d"]
@@ -255,7 +255,7 @@ def never_ends(job):
 
 if __name__ == "__main__":
     subject = TrackedDesign(design_of("toy", {}), {})
-    pool = worker.WorkerPool(subject, Cache(Path("kept").absolute()), lambda _: None, hands=1)
+    pool = worker.WorkerPool(subject, Cache(Path("kept").absolute()), lambda _: None, workers=1)
     pool.do([worker.Work(name="plate", do=never_ends)])
 """
 
@@ -283,7 +283,7 @@ def of_elsewhere(folder: Path, monkeypatch: pytest.MonkeyPatch) -> WorkerPool:
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     with monkeypatch.context() as patched:
         patched.setattr("tvimdesign.cad.jobs.worker.sys.platform", "darwin")
-        pool = WorkerPool(subject, Cache(folder / "kept"), lambda _: None, hands=1)
+        pool = WorkerPool(subject, Cache(folder / "kept"), lambda _: None, workers=1)
     assert pool._context.get_start_method() == "spawn"
     return pool
 
@@ -357,7 +357,7 @@ def test_files_are_handed_out_while_the_next_piece_of_work_is_done(tmp_path: Pat
         told.append(f"made {result.folder.parent.name}")
 
     subject = TrackedDesign(design_of("toy", {}), TITLES)
-    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), told.append, hands=1, made=made)
+    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), told.append, workers=1, made=made)
     workshop.do([PLATE, Work(name="layer", do=thickness)])
     assert told == ["1 of 2, plate", "2 of 2, layer", "made plate", "made layer"]
     told.clear()

@@ -144,12 +144,13 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
     """Make what a part is printed, milled or looked at from."""
     solid, what = _solids(job.needs)[kind], product(job.design, kind)
     if PRODUCTION[kind].drawn:
-        asked = drawing_requirements(kind, job.dims, job.design.choices)
+        requirements = drawing_requirements(kind, job.dims, job.design.choices)
         if kind == "heater" and (order := heater_order(job.design)):
-            asked = replace(asked, notes=[f"{words[0].upper()}{words[1:]}." for words in order])
+            requirements = replace(requirements, notes=[f"{words[0].upper()}{words[1:]}." for words in order])
         if is_of_structure(kind) and (treatment := job.titles.get(cad_report.TREATMENT)):
-            asked = replace(asked, notes=[*asked.notes, f"Before reaming: {treatment}, as its strength is counted."])
-        _sheet(job, kind, solid, what, asked)
+            notes = [*requirements.notes, f"Before reaming: {treatment}, as its strength is counted."]
+            requirements = replace(requirements, notes=notes)
+        _sheet(job, kind, solid, what, requirements)
         if outline := plate_outline(solid):
             _write(job.folder, cad_report.cut_dxf(kind), outline)
     if PRODUCTION[kind].down == "bought":
@@ -157,10 +158,10 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
     return [_print(job, kind, solid, what, PRODUCTION[kind])]
 
 
-def _sheet(job: Job, kind: str, solid: cq.Solid, what: Product, asked: DrawingRequirements) -> None:
+def _sheet(job: Job, kind: str, solid: cq.Solid, what: Product, requirements: DrawingRequirements) -> None:
     """Write the drawing of a part or a fixture."""
     material = KINDS[kind].material if kind in KINDS else STRUCTURE
-    sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(material, ""))
+    sheet = part_sheet(kind, solid, what, job.design.name, requirements, job.titles.get(material, ""))
     _write(job.folder, cad_report.drawing_dxf(kind), sheet.dxf())
     _write(job.folder, cad_report.drawing_pdf(kind), sheet.pdf())
 
@@ -204,12 +205,12 @@ def _spring(kind: str, job: Job) -> list[SolidCheck]:
 def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
     """Write a part's STEP file, and compare what is read back with what the file says it must be."""
     path = _place(folder, cad_report.step(what.name))
-    told = write_part(path, solid, what)
+    written = write_part(path, solid, what)
     read, reported = read_part(path)
-    found = validation(read)
-    off = max(abs(found.volume / one.volume - 1.0) for one in (reported, told))
-    off = max(off, abs(found.area / reported.area - 1.0))
-    beside = dist(found.centroid, reported.centroid)
+    measured = validation(read)
+    off = max(abs(measured.volume / properties.volume - 1.0) for properties in (reported, written))
+    off = max(off, abs(measured.area / reported.area - 1.0))
+    beside = dist(measured.centroid, reported.centroid)
     if beside > off:  # else it is less than that over any size; the tightest box takes as long as all else here
         off = max(off, beside / max(tight_box(solid).DiagonalLength, 1.0))
     text = f"{what.name}: volume, area and centroid read back from STEP as the file says they are"
@@ -335,13 +336,13 @@ def _bill_and_note(job: Job) -> list[SolidCheck]:
 def fits(design: Design, dims: Dimensions) -> dict[str, str]:
     """Return tolerance classes of the seats that bearings and dowel pins go into, by kind, as the drawings have
     them."""
-    found: dict[str, list[str]] = {}
+    classes: dict[str, list[str]] = {}
     for kind in MODULES[dims.mode].drawn(dims):
         if PRODUCTION[kind].drawn:
             for seat in drawing_requirements(kind, dims, design.choices).seats:
                 if seat.mates and seat.fit:
-                    found.setdefault(seat.mates, []).append(f"{kind.replace('_', ' ')} ⌀{seat.size:.4g} {seat.fit}")
-    return {kind: ", ".join(seats) for kind, seats in found.items()}
+                    classes.setdefault(seat.mates, []).append(f"{kind.replace('_', ' ')} ⌀{seat.size:.4g} {seat.fit}")
+    return {kind: ", ".join(seats) for kind, seats in classes.items()}
 
 
 def _pictures(job: Job) -> list[SolidCheck]:

@@ -116,8 +116,8 @@ class Result:
     @property
     def digest(self) -> str:
         """Digest of the files kept for results made from this one."""
-        kept = {name: reported for name, reported in self.files.items() if name.startswith("kept/")}
-        return _digest(json.dumps(kept, sort_keys=True).encode())
+        files = {name: reported for name, reported in self.files.items() if name.startswith("kept/")}
+        return _digest(json.dumps(files, sort_keys=True).encode())
 
 
 class Cache:
@@ -128,7 +128,7 @@ class Cache:
         self._folder = folder
         self._code = code_digest()
         self.damaged: list[str] = []
-        """Names of the pieces of work that are made anew because others could have changed what was kept, or did."""
+        """Names of the pieces of work that are made again because others changed what was kept, or could have."""
 
     def fresh(self, name: str) -> Path:
         """Return an empty folder for a piece of work to write into."""
@@ -175,7 +175,7 @@ class Cache:
     def find(self, name: str, subject: TrackedDesign, needs: Mapping[str, Result]) -> Result | None:
         """Return the result of a piece of work for a design, where it is there and sound."""
         same = {"name": name, "code": self._code, "needs": {need: result.digest for need, result in needs.items()}}
-        for folder in self._kept(name):
+        for folder in self._stored(name):
             trace = _read(folder)
             if trace is None:
                 self._drop(name, folder)
@@ -193,18 +193,18 @@ class Cache:
         if name not in self.damaged:
             self.damaged.append(name)
 
-    def _kept(self, name: str) -> list[Path]:
+    def _stored(self, name: str) -> list[Path]:
         """Return the folders of a piece of work's results, the latest used first."""
         place = self._folder / name
         if not is_own_folder(place):
             return []
-        found = [path for path in place.iterdir() if not path.name.startswith(".") and not path.is_symlink()]
-        return sorted((path for path in found if path.is_dir()), key=_age)
+        folders = [path for path in place.iterdir() if not path.name.startswith(".") and not path.is_symlink()]
+        return sorted((path for path in folders if path.is_dir()), key=_age)
 
     def _tidy(self, name: str) -> None:
         """Remove what is too much, and what a run that was killed has left half made."""
         left = [path for path in (self._folder / name).glob(".new.*") if time.time() - _HALF_MADE > -_age(path)]
-        for old in [*self._kept(name)[_MOST:], *left]:
+        for old in [*self._stored(name)[_MOST:], *left]:
             shutil.rmtree(old, ignore_errors=True)
 
 

@@ -42,7 +42,7 @@ _BRIDGED = "vtk"
 KERNEL = "cadquery"
 _LETTERS = "abcdefghijklmnopqrstuvwxyz 0123456789.,-() ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
-_KEPT = "cad"
+_CACHE_NAME = "cad"
 """What the user's folder of parts is called."""
 
 
@@ -98,30 +98,30 @@ def run(design_path: Path, out: Path, part_limit: float, say: Callable[..., None
 
     with ExitStack() as stack:
         prefix = HALF_MADE.format(os.getpid())
-        own = cache_folder(_KEPT) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
+        own = cache_folder(_CACHE_NAME) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
         store = Cache(Path(own))
-        workshop = WorkerPool(
+        pool = WorkerPool(
             TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), part_limit,
             made=lambda result: _hand_out(result, out),
         )  # fmt: skip
-        done = workshop.do(build_plan(dimensions(design)))
+        done = pool.do(build_plan(dimensions(design)))
         files = sorted(name for result in done.results.values() for name in result.out)
     pictures = done.failed.pop(PICTURES, "")
     if done.failed:
         without = [f"without it there is no {', '.join(done.lost)}"] if done.lost else []
-        kept = f"the other {len(files)} files are written" if files else "no parts were made"
-        raise GeometryError("; ".join([*done.failed.values(), *without, kept]))
+        written = f"the other {len(files)} files are written" if files else "no parts were made"
+        raise GeometryError("; ".join([*done.failed.values(), *without, written]))
     checks = [check.fields() for result in done.results.values() for check in result.checks]
     notes = [f"no pictures: {pictures}"] if pictures else []
     notes += [f"{name} is made anew: its kept files are damaged, or others could change them" for name in store.damaged]
-    notes += _not_kept()
+    notes += _cache_notes()
     say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
 
 
-def _not_kept() -> list[str]:
-    """Return a word where the user names a folder for kept results that cannot be one."""
+def _cache_notes() -> list[str]:
+    """Return a note if the user names a folder for kept results that cannot be one."""
     named = os.environ.get(FOLDER_VARIABLE)
-    if not named or cache_folder(_KEPT) is not None:
+    if not named or cache_folder(_CACHE_NAME) is not None:
         return []
     return [f"nothing is kept for the next run: {named} ({FOLDER_VARIABLE}) is no folder that only you can change"]
 
@@ -169,7 +169,7 @@ def _hand_out(result: Result, out: Path) -> None:
 def main(arguments: list[str], job: Callable[[Path, Path, float, Callable[..., None]], None] = run) -> int:
     """Run a job, by default that of all parts; return the exit code. An error is a line of JSON too.
 
-    Told to wait, it loads the CAD kernel, and reads a line of JSON with the other arguments from standard input.
+    With `--wait` it loads the CAD kernel, and reads a line of JSON with the other arguments from standard input.
     """
     follow_parent()
     gc.disable()  # a seventh of the time to load: this process keeps all that it makes; its children collect

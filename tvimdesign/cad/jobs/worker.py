@@ -1,10 +1,8 @@
 """Does pieces of work in child processes, several at once, each with a limit of processor time.
 
-What is kept is not done again.
-
-A child is forked once the CAD kernel is loaded, so that it starts at once, and does one piece of work after another: a
-fork for each would copy what it touches of the kernel's memory anew. One that is stuck in the kernel, or crashes, is
-ended and its work named; another takes its place, and what was made is kept.
+Results in the cache are not made again. Workers are forked once the CAD kernel is loaded, so that they start at once,
+and do one piece of work after another: a fork for each would copy memory of the kernel again. A worker that is stuck or
+crashes is stopped and its work named; another takes its place.
 """
 
 import contextlib
@@ -85,17 +83,19 @@ class Done:
 
 
 @dataclass
-class _Hand:
-    """A child process, which does what it is sent."""
+class _Worker:
+    """A child process that does the work it is sent."""
 
     process: BaseProcess
-    line: Connection
+    pipe: Connection
 
 
 @dataclass
-class _Running:
+class _Task:
+    """A piece of work in progress."""
+
     work: Work
-    hand: _Hand
+    worker: _Worker
     folder: Path
     watch: ProcessorLimit
     step: str
@@ -113,156 +113,153 @@ class WorkerPool:
         store: Cache,
         progress: Progress,
         limit: float = LIMIT,
-        hands: int | None = None,
+        workers: int | None = None,
         made: Callable[[Result], object] = lambda _result: None,
     ) -> None:
-        """`hands` is how many pieces of work are in progress at once; as many as there are cores, at most four.
-
-        `made` gets every result as soon as it is there.
-        """
+        """Prepare. By default there are as many `workers` as cores, at most four; `made` gets every result at once."""
         self._made = made
         self._subject, self._store, self._progress = subject, store, progress
         self._limit = limit
-        self._hands = hands or min(os.cpu_count() or 1, 4)
+        self._workers = workers or min(os.cpu_count() or 1, 4)
         # Elsewhere a fork is not safe: a library's threads may hold locks, and macOS ends such a child.
         self._context: Any = mp.get_context("fork" if sys.platform == "linux" else "spawn")
-        self._idle: list[_Hand] = []
+        self._idle: list[_Worker] = []
         self._plan: Sequence[Work] = ()
-        self._untold: list[Result] = []
+        self._pending_results: list[Result] = []
 
     def do(self, build_plan: Sequence[Work]) -> Done:
-        """Do all pieces of work, each after those that it needs; the results stand in the plan's order."""
+        """Do all pieces of work, each after those that it needs; return the results in the plan's order."""
         done = Done()
         self._plan = build_plan
-        waiting, running = sorted(build_plan, key=lambda work: work.turn), list[_Running]()
+        waiting, running = sorted(build_plan, key=lambda work: work.turn), list[_Task]()
         gc.freeze()  # a child that collects what is here copies all of it
         try:
             while waiting or running:
                 waiting = self._start(waiting, running, done)
-                self._tell()  # while the children work on: to hand out files is to wait for the disk
-                self._listen(running, done)
-            self._tell()
+                self._report()  # while the workers go on, because copying files waits for the disk
+                self._poll(running, done)
+            self._report()
         finally:
             gc.unfreeze()
-            for one in running:
-                _end(one.hand)
-                self._store.discard(one.folder)
-            for hand in self._idle:
-                _end(hand)
+            for task in running:
+                _stop(task.worker)
+                self._store.discard(task.folder)
+            for worker in self._idle:
+                _stop(worker)
             self._idle = []
         in_order = [work.name for work in build_plan if work.name in done.results]
         return Done({name: done.results[name] for name in in_order}, done.failed, done.lost, done.reused)
 
-    def _start(self, waiting: list[Work], running: list[_Running], done: Done) -> list[Work]:
-        """Start what can be started, settle what needs no doing; returns what is still waiting."""
+    def _start(self, waiting: list[Work], running: list[_Task], done: Done) -> list[Work]:
+        """Start what can be started, and take from the cache what is there; return what is still waiting."""
         left = []
         for work in waiting:
             if any(need in done.failed or need in done.lost for need in work.needs):
                 done.lost.append(work.name)
             elif not all(need in done.results for need in work.needs):
                 left.append(work)
-            elif kept := self._store.find(work.name, self._subject, self._needs(work, done)):
-                done.results[work.name] = kept
-                self._untold.append(kept)
+            elif cached := self._store.find(work.name, self._subject, self._needs(work, done)):
+                done.results[work.name] = cached
+                self._pending_results.append(cached)
                 done.reused.append(work.name)
-            elif len(running) < self._hands:
+            elif len(running) < self._workers:
                 running.append(self._begin(work, done, len(running)))
             else:
                 left.append(work)
         return left
 
-    def _tell(self) -> None:
-        for result in self._untold:
+    def _report(self) -> None:
+        for result in self._pending_results:
             self._made(result)
-        self._untold = []
+        self._pending_results = []
 
     def _needs(self, work: Work, done: Done) -> dict[str, Result]:
         return {need: done.results[need] for need in work.needs}
 
-    def _begin(self, work: Work, done: Done, running: int) -> _Running:
+    def _begin(self, work: Work, done: Done, running: int) -> _Task:
         number = len(done.results) + len(done.failed) + len(done.lost) + running + 1
         self._progress(f"{number} of {len(self._plan)}, {work.words or work.name.replace('_', ' ')}")
-        hand = self._idle.pop() if self._idle else self._fork()
+        worker = self._idle.pop() if self._idle else self._fork()
         folder = self._store.fresh(work.name)
         needs = {need: result.folder / "kept" for need, result in self._needs(work, done).items()}
-        with contextlib.suppress(OSError):  # that it has died is heard in `_listen`
-            hand.line.send((self._plan.index(work), needs, folder))
-        assert hand.process.pid is not None
-        return _Running(work, hand, folder, ProcessorLimit(hand.process.pid, self._limit), work.name)
+        with contextlib.suppress(OSError):  # `_poll` notices a dead worker
+            worker.pipe.send((self._plan.index(work), needs, folder))
+        assert worker.process.pid is not None
+        return _Task(work, worker, folder, ProcessorLimit(worker.process.pid, self._limit), work.name)
 
-    def _fork(self) -> _Hand:
-        line, its_end = self._context.Pipe()
+    def _fork(self) -> _Worker:
+        pipe, its_end = self._context.Pipe()
         process = self._context.Process(target=_child, args=(self._plan, self._subject, its_end), daemon=True)
         process.start()
         its_end.close()
-        return _Hand(process, line)
+        return _Worker(process, pipe)
 
-    def _listen(self, running: list[_Running], done: Done) -> None:
-        """Wait until one of those at work says something, ends, or exceeds its limit."""
+    def _poll(self, running: list[_Task], done: Done) -> None:
+        """Wait until a worker sends a message, ends, or exceeds its limit."""
         if not running:
             return
-        ready = wait([one.hand.line for one in running], timeout=CHECK_EVERY)
-        for one in list(running):
-            over = self._hear(one) if one.hand.line in ready else _exceeds_limit(one)
+        ready = wait([task.worker.pipe for task in running], timeout=CHECK_EVERY)
+        for task in list(running):
+            over = self._receive(task) if task.worker.pipe in ready else _exceeds_limit(task)
             if over:
-                running.remove(one)
-                self._settle(one, done)
+                running.remove(task)
+                self._finish(task, done)
 
-    def _hear(self, one: _Running) -> bool:
-        """Take in what a child said; returns whether it has come to its end."""
+    def _receive(self, task: _Task) -> bool:
+        """Receive a worker's message; return whether the piece of work is over."""
         try:
-            message = one.hand.line.recv()
+            message = task.worker.pipe.recv()
         except (EOFError, OSError):
             return True
         if "step" in message:
-            one.step = message["step"]  # where it was, if it fails
+            task.step = message["step"]  # where it was, if it fails
             return False
-        one.reported = message
+        task.reported = message
         return True
 
-    def _settle(self, one: _Running, done: Done) -> None:
-        """Keep what a child made, or say why there is nothing; one that answered waits for more."""
-        name = one.work.name
-        if one.reported is None:
-            if not one.stopped:
-                one.hand.process.join(timeout=5.0)
-            why = one.stopped or f"its process ended with code {one.hand.process.exitcode}"
-            at = "" if one.step == name else f" (at: {one.step})"
+    def _finish(self, task: _Task, done: Done) -> None:
+        """Store the result of a piece of work, or note why there is none; a worker that answered becomes idle."""
+        name = task.work.name
+        if task.reported is None:
+            if not task.stopped:
+                task.worker.process.join(timeout=5.0)
+            why = task.stopped or f"its process ended with code {task.worker.process.exitcode}"
+            at = "" if task.step == name else f" (at: {task.step})"
             done.failed[name] = f"{name}: {why}{at}"
-            _end(one.hand)
-        elif "error" in one.reported:
-            done.failed[name] = one.reported["error"]
+            _stop(task.worker)
+        elif "error" in task.reported:
+            done.failed[name] = task.reported["error"]
         else:
-            checks = [SolidCheck(**check) for check in one.reported["checks"]]
-            reads: Reads = one.reported["reads"]
-            done.results[name] = self._store.close(name, one.folder, reads, self._needs(one.work, done), checks)
-            self._untold.append(done.results[name])
-        if one.reported is not None:
-            self._idle.append(one.hand)
+            checks = [SolidCheck(**check) for check in task.reported["checks"]]
+            reads: Reads = task.reported["reads"]
+            done.results[name] = self._store.close(name, task.folder, reads, self._needs(task.work, done), checks)
+            self._pending_results.append(done.results[name])
+        if task.reported is not None:
+            self._idle.append(task.worker)
         if name in done.failed:
-            self._store.discard(one.folder)
+            self._store.discard(task.folder)
 
 
-def _exceeds_limit(one: _Running) -> bool:
+def _exceeds_limit(task: _Task) -> bool:
     """Return True if a piece of work exceeds its limit, and note which."""
     try:
-        one.watch.check()
+        task.watch.check()
     except ProcessorTimeError as error:
-        one.stopped = f"{error}; a part takes seconds: change one of its dimensions a little"
-    return bool(one.stopped)
+        task.stopped = f"{error}; a part takes seconds: change one of its dimensions a little"
+    return bool(task.stopped)
 
 
-def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> None:
-    """Do the pieces of work that are asked for by their places in the plan, until nobody asks."""
+def _child(plan: Sequence[Work], subject: TrackedDesign, pipe: Connection) -> None:
+    """Do the requested pieces of work, given by their places in the plan, until the pipe closes."""
     parent = mp.parent_process()
-    if parent and sys.platform != "linux":  # the kernel does not tell of its end, and work is not left to listen
+    if parent and sys.platform != "linux":  # no signal comes when the parent ends, so a thread waits for it
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
     follow_parent(parent.pid if parent else None)
     gc.enable()
     with contextlib.suppress(EOFError):
         while True:
-            place, needs, folder = line.recv()
-            line.send(_done(plan[place], subject, needs, folder, lambda step: line.send({"step": step})))
+            place, needs, folder = pipe.recv()
+            pipe.send(_done(plan[place], subject, needs, folder, lambda step: pipe.send({"step": step})))
             set_lower_priority(os.getpid())  # people wait for the first part
 
 
@@ -274,7 +271,7 @@ def _end_with(parent: BaseProcess) -> None:
 def _done(
     work: Work, subject: TrackedDesign, needs: Mapping[str, Path], folder: Path, progress: Progress
 ) -> dict[str, Any]:
-    """Do one piece of work; returns what came of it."""
+    """Do one piece of work; return its checks and what it read, or the error."""
     try:
         design, dims, titles, reads = subject.watched(work.named)
         checks = work.do(Job(design, dims, titles, needs, folder, progress))
@@ -285,8 +282,8 @@ def _done(
         return {"error": f"{work.name}: cannot be made ({type(error).__name__}: {error})"}
 
 
-def _end(hand: _Hand) -> None:
-    hand.line.close()
-    if hand.process.is_alive():
-        hand.process.kill()
-    hand.process.join()
+def _stop(worker: _Worker) -> None:
+    worker.pipe.close()
+    if worker.process.is_alive():
+        worker.process.kill()
+    worker.process.join()
