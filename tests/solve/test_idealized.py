@@ -15,7 +15,7 @@ from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
 from tvimdesign.report.run.blocks.facts import more_facts
 from tvimdesign.report.run.blocks.verdict import verdict
-from tvimdesign.report.run.front_report import of_ratings, said_of_ratings
+from tvimdesign.report.run.front_report import of_ratings, ratings_note
 from tvimdesign.report.run.reasons import above_rating
 from tvimdesign.report.run.run_study import foreseen_ratings
 from tvimdesign.solve.pareto.tradeoff import Point
@@ -182,7 +182,7 @@ def test_a_point_of_a_front_has_its_own() -> None:
     }  # fmt: skip
     cooler = Point("between", values | {PADS: 1.0}, {})
     assert of_ratings(cooler, study, TABLE)["status"] == "optimal"
-    assert said_of_ratings([(PADS,), ()]).startswith("points 1 of the front")
+    assert ratings_note([(PADS,), ()]).startswith("points 1 of the front")
 
 
 @pytest.mark.slow

@@ -204,8 +204,8 @@ def push(code: Code, w: Array, d: Array) -> None:
     for g in range(groups.shape[0] - 1):
         op, start, end = groups[g, 0], groups[g, 1], groups[g + 1, 1]
         for k in range(start, end):
-            one, other, at = first[k], second[k], to[k]
-            x, y = w[one], w[other]
+            left, right, at = first[k], second[k], to[k]
+            x, y = w[left], w[right]
             if op == MUL:
                 value, by_x, by_y = x * y, y, x
             elif op == ADD:
@@ -217,6 +217,6 @@ def push(code: Code, w: Array, d: Array) -> None:
             w[at] = value
             for j in range(blocks):
                 if by_y == 0.0:
-                    scale_tangents(d, at * blocks + j, one * blocks + j, by_x)
+                    scale_tangents(d, at * blocks + j, left * blocks + j, by_x)
                 else:
-                    add_tangents(d, at * blocks + j, one * blocks + j, by_x, other * blocks + j, by_y)
+                    add_tangents(d, at * blocks + j, left * blocks + j, by_x, right * blocks + j, by_y)

@@ -85,17 +85,17 @@ def search(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _cubic(share: float, one: float, other: float, here: float, there: float) -> float:
+def _cubic(share: float, before: float, after: float, here: float, there: float) -> float:
     left = 1.0 - share
-    whole = one * left * left * (1.0 + 2.0 * share) + other * share * share * (3.0 - 2.0 * share)
+    whole = before * left * left * (1.0 + 2.0 * share) + after * share * share * (3.0 - 2.0 * share)
     return whole + share * left * (here * left - there * share)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _slope(share: float, one: float, other: float, here: float, there: float) -> float:
+def _slope(share: float, before: float, after: float, here: float, there: float) -> float:
     left = 1.0 - share
     cross = 2.0 * share * left
-    return 3.0 * cross * (other - one) + here * (left * left - cross) - there * (cross - share * share)
+    return 3.0 * cross * (after - before) + here * (left * left - cross) - there * (cross - share * share)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -233,12 +233,10 @@ def _standing(m: System, w: Array, v: Array, y: Array, u: Array, moved: Array, t
 @njit(cache=True, nogil=True, error_model="numpy")
 def settle(
     m: System, w: Array, v: Array, places: Integers, given: Array, code: Code, g: Array, result: int,
-    watching: Integers, watched: Array, size: int, rest: Array, currents: Array, exists: NDArray[np.bool_],
+    watching: Integers, watched: Array, size: int, states: Array, currents: Array, exists: NDArray[np.bool_],
 ) -> None:  # fmt: skip
-    """Find the states `rest`, integrals left out, and the currents that stay while a quantity is zero; where there are
-    none, say so.
-    """
-    (staying, count), total = rest.shape, m.mass.size
+    """Find the `states` without integrals and the `currents` that stay while a quantity is zero, where they exist."""
+    (staying, count), total = states.shape, m.mass.size
     y, moved, to = np.zeros((total, LANES)), np.empty((total, LANES)), np.empty((total, LANES))
     u, before, change = np.empty(LANES), np.empty(LANES), np.empty(LANES)
     for start in range(0, count, LANES):
@@ -249,7 +247,7 @@ def settle(
             k = min(start + j, count - 1)
             u[j], change[j] = currents[k], np.inf
             for i in range(staying):
-                y[i, j] = rest[i, k]
+                y[i, j] = states[i, k]
         for _ in range(_BALANCE):
             _standing(m, w, v, y, u, moved, to)
             put(g, moved, size)
@@ -277,6 +275,6 @@ def settle(
                 break
         for j in range(min(LANES, count - start)):
             for i in range(staying):
-                rest[i, start + j] = y[i, j]
+                states[i, start + j] = y[i, j]
             currents[start + j] = u[j]
             exists[start + j] = change[j] <= _AT_REST

@@ -148,16 +148,16 @@ def store(w: Array, places: Integers, columns: Array, start: int) -> None:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def evaluate(
-    code: Code, w: Array, places: Integers, given: Array, results: Integers, found: Array, first: int, end: int
+    code: Code, w: Array, places: Integers, given: Array, results: Integers, values: Array, first: int, end: int
 ) -> None:
     """Run a tape down columns from `first` to before `end`, a multiple of LANES of them or the last.
 
-    Rows of `given` are what the registers at `places` take, of `found` the results.
+    Rows of `given` are the inputs for the registers at `places`, rows of `values` the results.
     """
     for start in range(first, end, LANES):
         load(w, places, given, start)
         run(code, w)
-        store(w, results, found, start)
+        store(w, results, values, start)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

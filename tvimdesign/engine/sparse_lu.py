@@ -61,8 +61,8 @@ def pattern_of(size: int, rows: Integers, columns: Integers) -> tuple[Pattern, I
     updates: list[tuple[Integers, Integers, Integers]] = []
     for k in range(size):
         i, j = k + 1 + np.flatnonzero(filled[k + 1 :, k]), k + 1 + np.flatnonzero(filled[k, k + 1 :])
-        one, other = (part.ravel() for part in np.meshgrid(i, j, indexing="ij"))
-        updates.append((entry[one, other], entry[one, k], entry[k, other]))
+        row, column = (part.ravel() for part in np.meshgrid(i, j, indexing="ij"))
+        updates.append((entry[row, column], entry[row, k], entry[k, column]))
     lower, upper = np.tril(filled, -1), np.triu(filled, 1)
     target, left, upper_of = (np.concatenate([part[i] for part in updates]) for i in range(3))
     # Contiguous and writable whatever the size: of another layout, numba would compile every step anew.

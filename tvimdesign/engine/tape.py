@@ -194,7 +194,7 @@ def _recorded(function: Any, inverses: bool) -> _Record:
     listed = list(operations)
     if inverses:
         listed, moved = _with_inverses(listed)
-        written = [(result, entry, moved[-1 - one] if one < 0 else one) for result, entry, one in written]
+        written = [(result, entry, moved[-1 - at] if at < 0 else at) for result, entry, at in written]
     return _Record(starts, list(constants), listed, written, [function.nnz_out(i) for i in range(function.n_out())])
 
 

@@ -82,10 +82,10 @@ def _where(b: Any, test: str, x: Any, y: Any, yes: Any, no: Any) -> Any:
 
 
 def _horner(b: Any, x: Any, coefficients: Sequence[float]) -> Any:
-    found = _all(coefficients[0])
+    total = _all(coefficients[0])
     for coefficient in coefficients[1:]:
-        found = _known(b, "fmuladd", found, x, _all(coefficient))
-    return found
+        total = _known(b, "fmuladd", total, x, _all(coefficient))
+    return total
 
 
 def _exp(b: Any, given: Any) -> Any:
@@ -93,12 +93,12 @@ def _exp(b: Any, given: Any) -> Any:
     x = _known(b, "minnum", _known(b, "maxnum", given, _all(-1000.0)), _all(1000.0))
     n = _known(b, "rint", b.fmul(x, _all(1.0 / math.log(2.0))))
     r = b.fsub(b.fsub(x, b.fmul(n, _all(_LN2_HIGH))), b.fmul(n, _all(_LN2_LOW)))
-    found = _horner(b, r, [1.0 / math.factorial(k) for k in range(13, -1, -1)])
+    value = _horner(b, r, [1.0 / math.factorial(k) for k in range(13, -1, -1)])
     power = b.fptosi(n, _WHOLE)
     half = b.ashr(power, _bits(1))
     for part in (half, b.sub(power, half)):  # in two steps, as 2^n alone may be no number
-        found = b.fmul(found, b.bitcast(b.shl(b.add(part, _bits(1023)), _bits(52)), _NUMBERS))
-    return b.select(b.fcmp_unordered("uno", given, given), given, found)
+        value = b.fmul(value, b.bitcast(b.shl(b.add(part, _bits(1023)), _bits(52)), _NUMBERS))
+    return b.select(b.fcmp_unordered("uno", given, given), given, value)
 
 
 def _bits(value: int) -> Any:
@@ -119,19 +119,19 @@ def _log(b: Any, given: Any) -> Any:
     s = b.fdiv(f, b.fadd(f, _all(2.0)))
     series = _horner(b, b.fmul(s, s), [2.0 / k for k in range(23, 0, -2)])
     small = b.fadd(b.fmul(s, series), b.fmul(e, _all(_LN2_LOW)))
-    found = b.fadd(b.fmul(e, _all(_LN2_HIGH)), small)
-    found = _where(b, "==", given, _all(math.inf), given, found)
-    found = _where(b, "==", given, _all(0.0), _all(-math.inf), found)
-    return _where(b, ">=", given, _all(0.0), found, _all(math.nan))
+    value = b.fadd(b.fmul(e, _all(_LN2_HIGH)), small)
+    value = _where(b, "==", given, _all(math.inf), given, value)
+    value = _where(b, "==", given, _all(0.0), _all(-math.inf), value)
+    return _where(b, ">=", given, _all(0.0), value, _all(math.nan))
 
 
 def _log1p(b: Any, x: Any) -> Any:
     """log(1 + x) = x log(u)/(u - 1), u = 1 + x as it is rounded (Kahan)."""
     u = b.fadd(x, _all(1.0))
     d = b.fsub(u, _all(1.0))
-    found = b.fmul(_log(b, u), b.fdiv(x, d))
-    found = _where(b, "==", x, _all(math.inf), x, found)
-    return _where(b, "==", d, _all(0.0), x, found)
+    value = b.fmul(_log(b, u), b.fdiv(x, d))
+    value = _where(b, "==", x, _all(math.inf), x, value)
+    return _where(b, "==", d, _all(0.0), x, value)
 
 
 add = _lanewise(2, lambda b, x, y: b.fadd(x, y))
@@ -181,14 +181,14 @@ def _along(operands: int) -> Any:
 
             empty = ir.Constant(_TANGENTS, ir.Undefined)
             every_first = ir.Constant(ir.VectorType(ir.IntType(32), BLOCK), [0] * BLOCK)
-            found: Any = None
+            total: Any = None
             for i in range(2, 2 + 2 * operands, 2):
                 factor = context.cast(builder, given[i + 1], signature.args[i + 1], types.float64)
                 first = builder.insert_element(empty, factor, ir.Constant(ir.IntType(32), 0))
                 factors = builder.shuffle_vector(first, empty, every_first)
                 value = builder.load(at(i), align=8)
-                found = builder.fmul(factors, value) if found is None else _fma(builder, factors, value, found)
-            builder.store(found, at(1), align=8)
+                total = builder.fmul(factors, value) if total is None else _fma(builder, factors, value, total)
+            builder.store(total, at(1), align=8)
             return context.get_dummy_value()
 
         return types.void(*kinds), generate

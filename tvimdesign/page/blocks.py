@@ -1,4 +1,4 @@
-"""What a page is put together from: plain records. Numbers in them are text already, as the terminal prints them."""
+"""Plain records that a page consists of. Numbers in them are text already, as the terminal prints them."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

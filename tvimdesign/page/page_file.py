@@ -31,7 +31,7 @@ def page_html(page: Page) -> bytes:
         style="\n".join(_static(name) for name in _STYLES),
         code=_modules(drawn),
         loader=_static("loader.js"),
-        data=_json({one.name: dict(one.data) for one in drawn}),
+        data=_json({figure.name: dict(figure.data) for figure in drawn}),
         drawn=drawn,
     )
     return _with_files(text.rstrip() + "\n", page.carried).encode()
@@ -66,7 +66,7 @@ def _modules(drawn: Sequence[Drawn]) -> str:
 
     `loader.js` unpacks it: a page that was opened from a disk cannot import other files.
     """
-    libraries = {name for one in drawn for name in one.libraries}
+    libraries = {name for figure in drawn for name in figure.libraries}
     own = [path for path in _own_modules() if path in _ALWAYS or drawn]
     return _packed_code((*own, *(f"vendor/{name}.js" for name in sorted(libraries))))
 
@@ -79,7 +79,7 @@ def _packed_code(names: tuple[str, ...]) -> str:
 @cache
 def _own_modules() -> tuple[str, ...]:
     """Return modules of static/ and its folders, but no libraries."""
-    found = []
+    names = []
     folders = [PurePosixPath()]
     while folders:
         folder = folders.pop()
@@ -87,8 +87,8 @@ def _own_modules() -> tuple[str, ...]:
             if entry.is_dir() and entry.name != "vendor":
                 folders.append(folder / entry.name)
             elif entry.name.endswith(".js") and entry.name != "loader.js":
-                found.append((folder / entry.name).as_posix())
-    return tuple(sorted(found))
+                names.append((folder / entry.name).as_posix())
+    return tuple(sorted(names))
 
 
 @cache
@@ -122,7 +122,7 @@ def template(name: str) -> Any:
 
 def page_fragment(page: Page, left_out: Collection[str] = ()) -> dict[str, Any]:
     """Return status, first screen and sections but those `left_out`, as HTML, with the data of their figures."""
-    shown = replace(page, sections=[one for one in page.sections if one.name not in left_out])
+    shown = replace(page, sections=[section for section in page.sections if section.name not in left_out])
     macros = template("blocks.html.jinja").module
     drawn = list(figures(shown))
     return {
@@ -130,9 +130,9 @@ def page_fragment(page: Page, left_out: Collection[str] = ()) -> dict[str, Any]:
         "tone": page.tone,
         "first": str(macros.each(page.first)),
         "sections": [
-            {"name": one.name, "title": one.title, "html": str(macros.each(one.blocks)), "folded": one.folded}
-            for one in shown.sections
+            {"name": part.name, "title": part.title, "html": str(macros.each(part.blocks)), "folded": part.folded}
+            for part in shown.sections
         ],
-        "data": {one.name: dict(one.data) for one in drawn},
-        "binaries": {one.name: packed(one.binary) for one in drawn if one.binary},
+        "data": {figure.name: dict(figure.data) for figure in drawn},
+        "binaries": {figure.name: packed(figure.binary) for figure in drawn if figure.binary},
     }

@@ -20,7 +20,7 @@ from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
 from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
-from tvimdesign.simulation.working_cycle.phase_instants import Found, Instant
+from tvimdesign.simulation.working_cycle.phase_instants import Instant, PhaseOutputs
 from tvimdesign.simulation.working_cycle.phase_results import PhaseResults
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.optimizer.verify_optimum import exceeded
@@ -99,7 +99,7 @@ class Duty:
 
     def cycle(self, state: Array, period: float) -> DutyCycle | None:
         """Return one cycle from a state; None if it never gets soft or stiff. Without time for a rest it has none."""
-        runs: list[Found] = []
+        runs: list[PhaseOutputs] = []
         soft_after = self._run(runs, "softening", state, self.drives["softening"], None)
         if soft_after is None or (self.soft > 0.0 and self.hold is None):
             return None
@@ -130,7 +130,7 @@ class Duty:
         return DutyCycle(end.state[: self.heating.size], taken, energy, values)
 
     def _run(
-        self, runs: list[Found], name: str, state: Array, profile: CurrentProfile, length: float | None
+        self, runs: list[PhaseOutputs], name: str, state: Array, profile: CurrentProfile, length: float | None
     ) -> Instant | None:
         """Step a phase until it ends or, with a length, for so long, and add what it supplies."""
         engine: PhaseEngine = self.heating if name == "softening" else self.cooling
@@ -141,7 +141,7 @@ class Duty:
         )  # fmt: skip
         end = run.instants[-1] if length else moments.get(ends)
         if end is not None:
-            runs.append(Found(end=end))
+            runs.append(PhaseOutputs(end=end))
             PhaseResults(run).add_paths(runs[-1], None)
         return end
 

@@ -219,9 +219,9 @@ def around_pads(m: Module) -> tuple[Body, ...]:
         surface=in_air._replace(behind=BEYOND * m.rotor_thickness / m.structure_conductivity)
     )
     parts = (*blocks, *walls, below[2], *below_walls, *below_pads)
-    rest = lumps.less(m.housing_rest, parts, np.pi * m.housing_inner_radius**2 - m.ring_width * sum(depths))
+    remainder = lumps.less(m.housing_rest, parts, np.pi * m.housing_inner_radius**2 - m.ring_width * sum(depths))
     rim, within, *above_walls = m.plate_around
-    return (*blocks, *walls, rim, within, below[2], *below_walls, *above_walls, *below_pads, *above_pads, rest)
+    return (*blocks, *walls, rim, within, below[2], *below_walls, *above_walls, *below_pads, *above_pads, remainder)
 
 
 def _divided(whole: Body) -> list[Body]:

@@ -362,8 +362,8 @@ def heater_fuse(record: Record, hottest: float, current: float, ratings: Mapping
     stays = [kind for kind in record.table("types") if kind["functioning_temperature"] - band >= hottest + margin]
     if not stays:
         most = max(kind["functioning_temperature"] for kind in record.table("types")) - band - margin
-        held, asked = (f"{kelvin - ZERO_CELSIUS:.4g} degC" for kelvin in (most, hottest))
-        raise InputError(f"{record.title}: no type stays closed at the heater's {asked}, the highest at {held}")
+        held, hot = (f"{kelvin - ZERO_CELSIUS:.4g} degC" for kelvin in (most, hottest))
+        raise InputError(f"{record.title}: no type stays closed at the heater's {hot}, the highest at {held}")
     if current > (bears := _strongest(record)):
         raise InputError(f"{record.title}: no type bears the heater's {current:.3g} A, the strongest {bears:.3g} A")
     least = min(ratings.values())

@@ -49,8 +49,8 @@ def peltier_scale(m: Module) -> Scalar:
 @quantities.helper()
 def pads(m: Module) -> peltier.PeltierModule:
     """All pads as one module: S, R and K grow with the count of couples, strings in parallel share the current."""
-    one = peltier.PeltierModule(m.peltier_seebeck, m.peltier_resistance, m.peltier_conductance)
-    return peltier.wired(one, m.peltier_scale, m.heater_strings)
+    pad = peltier.PeltierModule(m.peltier_seebeck, m.peltier_resistance, m.peltier_conductance)
+    return peltier.wired(pad, m.peltier_scale, m.heater_strings)
 
 
 @quantities.helper()

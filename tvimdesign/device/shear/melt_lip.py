@@ -166,11 +166,11 @@ def lip_ways(m: Module) -> tuple[Scalar, ...]:
     share = m.rotor_thickness / (m.rotor_thickness + m.lip_height)
     ways = [way * m.beside_area / m.edge_length for way in WAYS]
     covered = shape_factors.reaches(m.rotor_rim, ways)
-    within = [1.0, *(one / way for one, way in zip(covered, ways, strict=True)), 0.0]
+    within = [1.0, *(lip / way for lip, way in zip(covered, ways, strict=True)), 0.0]
     ends = [within[i + 1] - within[i + 2] for i in range(len(ways))]
     ends[0] = ends[0] + 1.0
     step = shape_factors.step(share)
-    return tuple(step * end - one * (1.0 - share) / m.rotor_thickness for one, end in zip(covered, ends, strict=True))
+    return tuple(step * end - lip * (1.0 - share) / m.rotor_thickness for lip, end in zip(covered, ends, strict=True))
 
 
 def _lip_faces(m: Module) -> tuple[Scalar, ...]:

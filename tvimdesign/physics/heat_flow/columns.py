@@ -76,7 +76,7 @@ def at_end(place: Any, heights: Any, width: Any, slot: Any) -> Any:
 
         sum 2/(n pi) sin(n pi y/t) cosh(n pi p w/t)/sinh(n pi w/t),
 
-    of which the mean over the width is 2/(n pi)^2 sin(n pi y/t) t/w. A slot takes its share as in `gap_end_depth`.
+    whose mean over the width is 2/(n pi)^2 sin(n pi y/t) t/w. A slot takes its share as in `gap_end_depth`.
     """
     total = 0.0
     for n in range(1, SINES + 1):

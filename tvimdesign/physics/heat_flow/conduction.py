@@ -38,9 +38,9 @@ def potential(temperature: Any, conductivities: Conductivities, melting: Melting
     """
     window = melting.end - melting.start
     width = _WINDOW_SHARE * window
-    begun, done = temperature - melting.start, temperature - melting.end
-    molten = (ramp(begun, width) ** 2 - ramp(done, width) ** 2) / (2.0 * window)
-    return conductivities.solid * begun + (conductivities.melt - conductivities.solid) * molten
+    above_start, above_end = temperature - melting.start, temperature - melting.end
+    molten = (ramp(above_start, width) ** 2 - ramp(above_end, width) ** 2) / (2.0 * window)
+    return conductivities.solid * above_start + (conductivities.melt - conductivities.solid) * molten
 
 
 def mean_conductivity(temperature: Any, at: Any, wall: Any, conductivities: Conductivities, melting: Melting) -> Any:

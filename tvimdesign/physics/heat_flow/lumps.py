@@ -212,10 +212,10 @@ def heated_between(across: Any, first: Any, second: Any) -> tuple[Any, Any, Any]
     `across` is k A/H of the whole slab, `first` and `second` lead on from its faces. A parabola from face to face with
     the mean T_m gives q_1 = 6 (T_m - T_1) - 2 (T_2 - T_1) over k A/H to the first: a star of 1/2, 1/2 and -1/6.
     """
-    one, other = in_series(2.0 * across, first), in_series(2.0 * across, second)
+    to_first, to_second = in_series(2.0 * across, first), in_series(2.0 * across, second)
     mean = -6.0 * across
-    total = mean + one + other
-    return mean * one / total, mean * other / total, one * other / total
+    total = mean + to_first + to_second
+    return mean * to_first / total, mean * to_second / total, to_first * to_second / total
 
 
 def in_series(*conductances: Any) -> Any:

@@ -25,13 +25,13 @@ def shared_capacity(whole: Any) -> tuple[Any, Any]:
     return SIDE_SHARE * whole, (1.0 - 2.0 * SIDE_SHARE) * whole
 
 
-def wired(one: PeltierModule, count: Any, strings: Any) -> PeltierModule:
+def wired(pad: PeltierModule, count: Any, strings: Any) -> PeltierModule:
     """Return `count` alike modules in `strings` parallel strings, as one module that takes the whole current.
 
     Each takes I/p: S I T sums to (n/p) S I T, I^2 R to (n/p^2) R I^2, and heat is conducted through all n of them.
     """
     in_series = count / strings
-    return PeltierModule(in_series * one.seebeck, in_series * one.resistance / strings, count * one.conductance)
+    return PeltierModule(in_series * pad.seebeck, in_series * pad.resistance / strings, count * pad.conductance)
 
 
 def max_cooling_power(module: PeltierModule, cold_temperature: Any) -> Any:

@@ -51,7 +51,7 @@ def gap_end_depth(slot: Any) -> Any:
 
     A layer whose end loses the flux q(y) is colder in the mean by k_gap/k times that, times t over its width, than with
     q at its faces: its mean over the width has T'' = q/(k w), whatever its profile. The series of `gap_end` is
-    cot(pi y/(2 t)), of which 7 zeta(3)/(2 pi^3) comes. Before a narrow slot g the map has the flux 1/(g s) at
+    cot(pi y/(2 t)); it gives 7 zeta(3)/(2 pi^3). Before a narrow slot g the map has the flux 1/(g s) at
     y = 2 g/pi (s - artanh(1/s)): less by 2/pi^2 times the integral of p coth p up to artanh(1/s) = s, 0.28 g/t.
     A fraction with both is within 2 % of conduction in two dimensions up to g = t/3, 3 % at 0.6 t.
     """
@@ -68,8 +68,8 @@ def sink_of_slices(deep: Any, colder: Any) -> Any:
     [1].
 
     `deep` is `WalledEnd.deep` over the layer's width w/t: how much colder its mean is than an even fall from near to
-    far face. Slices that give x per excess have the profile sinh(x^1/2 (1 - y/t)), the mean of which is below the even
-    fall's by 1/2 - tanh(x^1/2/2)/x^1/2 = x/24 - x^2/240 + ..., here solved for x within 2 % up to 0.08. What is
+    far face. Slices that give x per excess have the profile sinh(x^1/2 (1 - y/t)), whose mean is below the even fall's
+    by 1/2 - tanh(x^1/2/2)/x^1/2 = x/24 - x^2/240 + ..., here solved for x within 2 % up to 0.08. What is
     left of the excess follows from how much `colder` the layer is (`WalledEnd.colder` over the width), by a sheet too.
     """
     return 2.0 * FALLING * deep / (1.0 - 2.0 * AT_WALL * colder)
@@ -225,7 +225,7 @@ def through_faces(
         T_above - T = onto q + across p,    p = U (T - across q - T_ambient),
 
     U the surface's conductance near ambient temperature. Star to mesh; beside the surface's own loss there are links to
-    the air, of which one from above that lies below zero.
+    the air; the one from above is negative.
     """
     outside = surface.area * surface_coefficient(surface, ambient, ambient)
     crossed = across * outside

@@ -124,8 +124,8 @@ def pad_stiffness(moduli: tuple[Any, Any], sides: tuple[Any, Any], thickness: An
     """Return the force over the way of a pad's face [N/m], E A/t with 1/E = 1/(3 G (1 + 2 S^2)) + 1/M.
 
     `moduli` are shear and bulk modulus [Pa], `sides` width and height of the pad [m]; the slot is as wide as `slot`
-    says and reaches so far up from the pad's lower side [m]. A is the pad less the slot, of which half a thickness
-    beside each edge holds too; S is A over the free sides, the pad's four and the slot's three [GL]. A slot narrower
+    says and reaches so far up from the pad's lower side [m]. A is the pad less the slot, but half a thickness beside
+    each of its edges holds too. S is A over the free sides, the pad's four and the slot's three [GL]. A slot narrower
     than the pad is thick opens no side in full. M is the bulk modulus as `block.volumetric_modulus` takes it. FE of
     single pads: within 8 %; of pads without a slot it is up to 12 % too soft, as [GL] is.
     """

@@ -158,7 +158,7 @@ class AnnularLap(NamedTuple):
 
     modes: tuple[Mode, ...]
     """Load that comes over: one mode for each layer between sheets."""
-    rest: Any
+    upper_torque: Any
     """Share n of the torque [1] that would stay in the upper sheet of a long lap."""
     inner: Any
     """Inner radius [m]."""
@@ -174,8 +174,8 @@ def annular_lap(layer: Any, upper: Any, lower: Any, radii: tuple[Any, Any], inwa
     at its inner edge, where the upper one has all of it.
     """
     both = upper + lower
-    rest = (1.0 - inward) * lower / both
-    return AnnularLap((Mode(np.sqrt(layer * both), rest - 1.0, rest),), rest, *radii)
+    upper_torque = (1.0 - inward) * lower / both
+    return AnnularLap((Mode(np.sqrt(layer * both), upper_torque - 1.0, upper_torque),), upper_torque, *radii)
 
 
 def edge_rises(lap: AnnularLap) -> tuple[Any, Any]:
@@ -212,7 +212,7 @@ def _nodes(lap: AnnularLap) -> list[tuple[Any, Any, Any, Any]]:
     for node, weight in zip(0.5 * (1.0 + NODES), 0.5 * WEIGHTS * np.log(b / a), strict=True):
         radius = a * np.exp(node * np.log(b / a))
         stays = [_still(mode, (a, b), radius) for mode in lap.modes]
-        torque = lap.rest + sum(still for still, _ in stays)
+        torque = lap.upper_torque + sum(still for still, _ in stays)
         nodes.append((weight, radius, torque, sum(slope for _, slope in stays) / radius))
     return nodes
 

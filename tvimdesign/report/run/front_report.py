@@ -76,7 +76,7 @@ class FrontOfRun:
         above = [of_ratings(point, accept, self.table)["above_rating"] for point in front.points]
         self.entry = reported["front"] = plain(front, shown_names(self.study, front), self.table, yields, above)
         if any(above):
-            troubles.append(AboveRatingError(said_of_ratings(above)))
+            troubles.append(AboveRatingError(ratings_note(above)))
         failures = [failure for failure in front.failures if failure.reason != OUT_OF_TIME]
         if len(failures) < len(front.failures):
             late.leave_out(f"{len(front.failures) - len(failures)} points of the front")
@@ -138,7 +138,7 @@ def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> l
     return [yields.at(values, deadline=deadline).together.share for values in inputs]
 
 
-def said_of_ratings(above: Sequence[tuple[str, ...]]) -> str:
+def ratings_note(above: Sequence[tuple[str, ...]]) -> str:
     """Return which points are beyond ratings that the study does not accept."""
     points = ", ".join(str(number) for number, names in enumerate(above, start=1) if names)
     named = ", ".join(dict.fromkeys(name for names in above for name in names))

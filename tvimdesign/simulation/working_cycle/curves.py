@@ -94,7 +94,7 @@ def intervals(
     Damping peaks between the least and the largest solid fraction, so fractions between are tried too. Where the point
     says what soft or stiff means, the cycle is simulated for each of them.
     """
-    found: dict[str, tuple[float, float]] = {}
+    ranges: dict[str, tuple[float, float]] = {}
     for point in resolved.points:
         low, nominal, high = fractions_at(resolved, float(inputs[model.index[f"temperature@{point}"]]))
         if low == high:
@@ -118,10 +118,10 @@ def intervals(
         least, most = np.min(runs, axis=0), np.max(runs, axis=0)
         for name, a, b in zip(model.output_names, least, most, strict=True):
             if not (np.isnan(a) or np.isclose(a, b, rtol=1e-9, atol=0.0)):
-                other = found.get(name, (a, b))
-                found[name] = (float(min(a, other[0])), float(max(b, other[1])))
-        found[f"solid_fraction@{point}"] = (low, high)
-    return found
+                other = ranges.get(name, (a, b))
+                ranges[name] = (float(min(a, other[0])), float(max(b, other[1])))
+        ranges[f"solid_fraction@{point}"] = (low, high)
+    return ranges
 
 
 def left_at(values: Mapping[str, Any], point: str, share: Any, nominal: Any) -> dict[str, Any]:
@@ -223,10 +223,10 @@ def impedance_sweep(resolved: ResolvedModule) -> Curves:
     shares = np.array([nominal, *(low + part * (high - low) for part in np.linspace(0.0, 1.0, HISTORIES))])
     # Every sample at once; the solid fraction at the hot point is given.
     swept = left_at(resolved.values, "hot", shares, nominal) | {"temperature@hot": celsius + ZERO_CELSIUS}
-    found = resolved.table.evaluate(swept, [f"{name}@hot" for name in names])
+    values = resolved.table.evaluate(swept, [f"{name}@hot" for name in names])
     curves: Curves = {"temperature": celsius.tolist()}
     for name in names:
-        every = np.broadcast_to(found[f"{name}@hot"], shares.shape)
+        every = np.broadcast_to(values[f"{name}@hot"], shares.shape)
         curves |= {name: every[0].tolist(), f"{name}_low": every.min(axis=0).tolist(),
                    f"{name}_high": every.max(axis=0).tolist()}  # fmt: skip
     return curves

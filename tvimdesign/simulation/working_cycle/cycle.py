@@ -14,7 +14,7 @@ from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.engine.interpreter import Array
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid, Instant
+from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, Instant, PhaseOutputs
 from tvimdesign.simulation.working_cycle.phase_results import PhaseResults
 from tvimdesign.simulation.working_cycle.phase_run import TOLERANCE as ENGINE_TOLERANCE
 
@@ -96,17 +96,17 @@ class Simulator:
             sought = [event for event in events if wanted is None or event in wanted or event == phase.ends]
             engine = self.model.engines[name]
             run, moments, _ = engine.simulate(inputs, profile, state, sought, horizon, self.tolerance, deadline)
-            found = Found(end=moments.get(phase.ends))
+            outputs = PhaseOutputs(end=moments.get(phase.ends))
             results = PhaseResults(run)
-            results.add_paths(found, None)
-            values |= {event: moment.time for event, moment in moments.items()} | found.values
-            trajectories[name] = self._trajectory(results, found.end)
+            results.add_paths(outputs, None)
+            values |= {event: moment.time for event, moment in moments.items()} | outputs.values
+            trajectories[name] = self._trajectory(results, outputs.end)
             stays = [row.name for row in phase_functions.steadies if wanted is None or row.name in wanted]
-            standing = results.standing(found.end) if stays and found.end is not None else None
+            standing = results.standing(outputs.end) if stays and outputs.end is not None else None
             if standing is not None:
                 state = standing.state[: engine.size]
                 balances[name] = np.append(state, standing.current)
-                values |= {one: run.value(one, state, standing.current) for one in stays}
+                values |= {quantity: run.value(quantity, state, standing.current) for quantity in stays}
         return Cycle(values, trajectories, balances)
 
     def run_to_show(self, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None) -> Cycle:
@@ -144,7 +144,7 @@ class Supplied(NamedTuple):
 
     values: Array
     slopes: Array
-    driven: dict[str, Found]
+    driven: dict[str, PhaseOutputs]
     """All of each driven phase."""
 
 
@@ -173,24 +173,24 @@ class CycleEngine:
         values = np.full(len(self._place), np.inf)
         slopes = np.zeros((len(self._place), along.shape[1]))
         ended: dict[str, Instant] = {}
-        driven: dict[str, Found] = {}
+        driven: dict[str, PhaseOutputs] = {}
         horizon = float(inputs[self.model.index["horizon"]])
         for name, engine in self.model.engines.items():
             after = engine.phase.phase.after
             if not self._needed(name, wanted) or (after and after not in ended):
                 continue
             before = ended[after] if after else None
-            found, grid = engine.run(
+            outputs, grid = engine.run(
                 inputs, along, before, wanted, horizon, self._tolerance, grids.get(name), drives.get(name)
             )
             if name not in drives:
                 grids[name] = grid
-            for row, value in found.values.items():
-                values[self._place[row]], slopes[self._place[row]] = value, found.slopes[row]
-            if found.end is not None:
-                ended[name] = found.end
+            for row, value in outputs.values.items():
+                values[self._place[row]], slopes[self._place[row]] = value, outputs.slopes[row]
+            if outputs.end is not None:
+                ended[name] = outputs.end
                 if name in drives:
-                    driven[name] = found
+                    driven[name] = outputs
         return Supplied(values, slopes, driven)
 
     def _needed(self, name: str, wanted: Collection[str] | None) -> bool:
@@ -199,5 +199,5 @@ class CycleEngine:
             return True
         phase = self.model.phases[name]
         mine = any(row.name in wanted for row in (*phase.events, *phase.paths, *phase.steadies))
-        after = (other for other, one in self.model.phases.items() if one.phase.after == name)
+        after = (other for other, later in self.model.phases.items() if later.phase.after == name)
         return mine or any(self._needed(other, wanted) for other in after)

@@ -18,7 +18,7 @@ from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid, Instant
+from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, Instant, PhaseOutputs
 from tvimdesign.simulation.working_cycle.phase_results import PhaseResults
 from tvimdesign.simulation.working_cycle.phase_run import PhaseRun
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
@@ -111,7 +111,7 @@ class PhaseEngine:
         tolerance: float,
         grid: Grid | None,
         drive: Drive | None = None,
-    ) -> tuple[Found, Grid]:
+    ) -> tuple[PhaseOutputs, Grid]:
         """Step until every wanted event has happened, and evaluate all that is wanted.
 
         Steps are those of a `grid`, or as long as their errors are within the `tolerance`. With a `drive`, whose length
@@ -121,24 +121,24 @@ class PhaseEngine:
         run, start, pace, dpace = self._begin(inputs, along, before)
         ends = self.phase.phase.ends
         sought = [row.name for row in self.phase.events if wanted is None or row.name in wanted or row.name == ends]
-        found, results = Found(), PhaseResults(run)
+        outputs, results = PhaseOutputs(), PhaseResults(run)
         if drive is not None:
-            found.end = run.driven(start, drive.with_length())
-            if found.end is not None:
-                found.add(ends, found.end.time, found.end.of_time)
-                found.short, found.of_short = run.slopes(ends, found.end)
-                results.add_samples(found, wanted)
+            outputs.end = run.driven(start, drive.with_length())
+            if outputs.end is not None:
+                outputs.add(ends, outputs.end.time, outputs.end.of_time)
+                outputs.short, outputs.of_short = run.slopes(ends, outputs.end)
+                results.add_samples(outputs, wanted)
         else:
             grid = grid or run.first(start, pace, sought, horizon, tolerance)
             events = [name for name in sought if name in grid.events]
             moments = run.search(start, pace, dpace, events, grid)
             for name, moment in moments.items():
-                found.add(name, moment.time, moment.of_time)
-            found.end = moments.get(ends)
-        if found.end is not None:
-            results.add_paths(found, wanted)
-            results.add_steadies(found, wanted)
-        return found.without_length(), grid or Grid()
+                outputs.add(name, moment.time, moment.of_time)
+            outputs.end = moments.get(ends)
+        if outputs.end is not None:
+            results.add_paths(outputs, wanted)
+            results.add_steadies(outputs, wanted)
+        return outputs.without_length(), grid or Grid()
 
     def _begin(self, inputs: Array, along: Array, before: Instant | None) -> tuple[PhaseRun, Instant, float, Array]:
         """Return a run with its constants in place, where it starts, and the unit of its steps with its slopes."""
@@ -149,8 +149,8 @@ class PhaseEngine:
             size = self.start.arguments[1]
             of_state = np.column_stack([before.of_state[:size], np.zeros(size)])
             ((y, s),) = self.start.tangents((before.state[:size], inputs), (of_state, along))
-        rest = self.lip + len(self.integrals)
-        y, s = np.append(y, np.zeros(rest)), np.concatenate([s, np.zeros((rest, along.shape[1]))])
+        extra = self.lip + len(self.integrals)
+        y, s = np.append(y, np.zeros(extra)), np.concatenate([s, np.zeros((extra, along.shape[1]))])
         sign = self.phase.phase.sign
         current, of_current = sign * float(inputs[self._current_place]), sign * along[self._current_place]
         start = Instant(0.0, np.zeros(along.shape[1]), y, s, current, of_current)

@@ -57,7 +57,7 @@ class Drive:
 
 
 @dataclass
-class Found:
+class PhaseOutputs:
     """Values of a phase by name, with their derivatives."""
 
     values: dict[str, float] = field(default_factory=dict)
@@ -69,20 +69,20 @@ class Found:
     samples: dict[str, tuple[Array, Array]] = field(default_factory=dict)
     """What the highest value of a driven phase is asked of, at the end of every step, with derivatives."""
 
-    def without_length(self) -> Found:
+    def without_length(self) -> PhaseOutputs:
         """Leave out the last direction."""
         end = self.end.without_length() if self.end is not None else None
-        slopes = {name: one[:-1] for name, one in self.slopes.items()}
+        slopes = {name: slope[:-1] for name, slope in self.slopes.items()}
         samples = {name: (values, of_values[:, :-1]) for name, (values, of_values) in self.samples.items()}
-        return Found(self.values, slopes, end, self.short, self.of_short[:-1], samples)
+        return PhaseOutputs(self.values, slopes, end, self.short, self.of_short[:-1], samples)
 
     def add(self, name: str, value: float, slopes: Array) -> None:
         """Add one."""
         self.values[name], self.slopes[name] = float(value), np.asarray(slopes)
 
 
-def hermite(share: float, one: Array, other: Array, here: Array, there: Array) -> Array:
+def hermite(share: float, before: Array, after: Array, here: Array, there: Array) -> Array:
     """Interpolate between two states along a cubic, whose slopes over the step are given."""
     left = 1.0 - share
-    whole = one * left**2 * (1.0 + 2.0 * share) + other * share**2 * (3.0 - 2.0 * share)
+    whole = before * left**2 * (1.0 + 2.0 * share) + after * share**2 * (3.0 - 2.0 * share)
     return np.asarray(whole + share * left * (here * left - there * share))

@@ -8,7 +8,7 @@ import numpy as np
 from tvimdesign.engine.integrator import newton_matrix
 from tvimdesign.engine.interpreter import Array
 from tvimdesign.engine.sparse_lu import solve_many
-from tvimdesign.simulation.working_cycle.phase_instants import Found, Instant, hermite
+from tvimdesign.simulation.working_cycle.phase_instants import Instant, PhaseOutputs, hermite
 from tvimdesign.simulation.working_cycle.phase_run import PhaseRun
 
 STANDING = -1e-12
@@ -25,33 +25,33 @@ class PhaseResults:
         self._seen: dict[tuple[str, ...], Array] = {}
         """Quantities at the ends of the steps, by those that are recorded together."""
 
-    def add_paths(self, found: Found, wanted: Collection[str] | None) -> None:
+    def add_paths(self, outputs: PhaseOutputs, wanted: Collection[str] | None) -> None:
         """Add what the phase adds up to, is at its end, or reaches; of a phase without an end, what it reaches."""
-        end = found.end or self.run.instants[-1]
+        end = outputs.end or self.run.instants[-1]
         passed = self.passed(end)
         self._seen = {}
         for row in self.of.phase.paths:
-            if (wanted is not None and row.name not in wanted) or (row.reduce != "maximum" and found.end is None):
+            if (wanted is not None and row.name not in wanted) or (row.reduce != "maximum" and outputs.end is None):
                 continue
             if row.reduce == "integral":
                 place = self.of.size + self.of.lip + self.of.integrals.index(row.name)
-                found.add(row.name, end.state[place], end.of_state[place])
+                outputs.add(row.name, end.state[place], end.of_state[place])
             elif row.reduce == "end":
-                found.add(row.name, *self.run.slopes(row.name, end))
+                outputs.add(row.name, *self.run.slopes(row.name, end))
             else:
-                found.add(row.name, *self._highest(row.name, passed))
+                outputs.add(row.name, *self._highest(row.name, passed))
 
-    def add_samples(self, found: Found, wanted: Collection[str] | None) -> None:
+    def add_samples(self, outputs: PhaseOutputs, wanted: Collection[str] | None) -> None:
         """Add every quantity whose highest value is asked of, at the end of every step."""
         names = [row.name for row in self.of.phase.paths if row.reduce == "maximum"]
         groups = {name: self.of.together[name] for name in names if wanted is None or name in wanted}
         seen = {
-            group: [self.run.slopes_together(group, one) for one in self.run.instants]
+            group: [self.run.slopes_together(group, instant) for instant in self.run.instants]
             for group in {group for group, _ in groups.values()}
         }
         for name, (group, place) in groups.items():
             values, slopes = zip(*((values[place], slopes[place]) for values, slopes in seen[group]), strict=True)
-            found.samples[name] = np.array(values), np.array(slopes)
+            outputs.samples[name] = np.array(values), np.array(slopes)
 
     def _highest(self, name: str, passed: list[Instant]) -> tuple[float, Array]:
         """Return the maximum of a quantity up to the end; between two steps it is looked for along cubics."""
@@ -63,10 +63,10 @@ class PhaseResults:
         best = passed[k]
         if k < len(passed) - 1:
             for first in range(max(k - 1, 0), k + 1):
-                one, other = passed[first], passed[first + 1]
-                share, value = _peak(self._along_cubic(name, one, other))
+                before, after = passed[first], passed[first + 1]
+                share, value = _peak(self._along_cubic(name, before, after))
                 if value > values[k]:
-                    best, values[k] = self._between(one, other, share), value
+                    best, values[k] = self._between(before, after, share), value
         return self.run.slopes(name, best)
 
     def passed(self, end: Instant) -> list[Instant]:
@@ -79,36 +79,36 @@ class PhaseResults:
         each = max(-(-least // max(len(passed) - 1, 1)), 1)
         shares = np.arange(each) / each
         times, states, currents = [], [], []
-        for one, other in pairwise(passed):
-            length = other.time - one.time
-            here, there = self.run.rates(one) * length, self.run.rates(other) * length
+        for before, after in pairwise(passed):
+            length = after.time - before.time
+            here, there = self.run.rates(before) * length, self.run.rates(after) * length
             for share in shares:
-                times.append(one.time + share * length)
-                states.append(hermite(share, one.state, other.state, here, there))
-                currents.append(one.current + share * (other.current - one.current))
+                times.append(before.time + share * length)
+                states.append(hermite(share, before.state, after.state, here, there))
+                currents.append(before.current + share * (after.current - before.current))
         times, states, currents = [*times, end.time], [*states, end.state], [*currents, end.current]
         return np.array(times), np.array(states).T[: self.of.size], np.array(currents)
 
-    def _along_cubic(self, name: str, one: Instant, other: Instant) -> Callable[[float], float]:
+    def _along_cubic(self, name: str, before: Instant, after: Instant) -> Callable[[float], float]:
         """Return a quantity as a function of the share of a step."""
-        length, rise = other.time - one.time, other.current - one.current
-        here, there = self.run.rates(one) * length, self.run.rates(other) * length
+        length, rise = after.time - before.time, after.current - before.current
+        here, there = self.run.rates(before) * length, self.run.rates(after) * length
         return lambda share: self.run.value(
-            name, hermite(share, one.state, other.state, here, there), one.current + share * rise
+            name, hermite(share, before.state, after.state, here, there), before.current + share * rise
         )
 
-    def _between(self, one: Instant, other: Instant, share: float) -> Instant:
+    def _between(self, before: Instant, after: Instant, share: float) -> Instant:
         """Return the instant at a share of a step, along cubics."""
-        length, of_length = other.time - one.time, other.of_time - one.of_time
-        rates = [self._moving(now) for now in (one, other)]
+        length, of_length = after.time - before.time, after.of_time - before.of_time
+        rates = [self._moving(now) for now in (before, after)]
         here, there = (rate * length for rate, _ in rates)
         of_here, of_there = (of_rate * length + rate[:, None] * of_length for rate, of_rate in rates)
         return Instant(
-            one.time + share * length, one.of_time + share * of_length,
-            hermite(share, one.state, other.state, here, there),
-            hermite(share, one.of_state, other.of_state, of_here, of_there),
-            one.current + share * (other.current - one.current),
-            one.of_current + share * (other.of_current - one.of_current), one.step,
+            before.time + share * length, before.of_time + share * of_length,
+            hermite(share, before.state, after.state, here, there),
+            hermite(share, before.of_state, after.of_state, of_here, of_there),
+            before.current + share * (after.current - before.current),
+            before.of_current + share * (after.of_current - before.of_current), before.step,
         )  # fmt: skip
 
     def _moving(self, now: Instant) -> tuple[Array, Array]:
@@ -123,14 +123,14 @@ class PhaseResults:
         first, last = self.run.motion.size + 1, int(self.run.motion.rates.arguments[-1])
         return self.run.registers[1][first:last, : self.run.lanes]
 
-    def add_steadies(self, found: Found, wanted: Collection[str] | None) -> None:
+    def add_steadies(self, outputs: PhaseOutputs, wanted: Collection[str] | None) -> None:
         """Add what it takes to stay where the phase has ended."""
         rows = [row.name for row in self.of.phase.steadies if wanted is None or row.name in wanted]
-        standing = self.standing(found.end) if rows and found.end is not None else None
+        standing = self.standing(outputs.end) if rows and outputs.end is not None else None
         if standing is None:
             return
         for name in rows:
-            found.add(name, *self.run.slopes(name, standing))
+            outputs.add(name, *self.run.slopes(name, standing))
 
     def standing(self, end: Instant) -> Instant | None:
         """Return state and current that stay, with their tangents; None where there are none.
@@ -181,10 +181,10 @@ class PhaseResults:
             b = np.ascontiguousarray(right[order])
             b[order >= size] = 0.0
             solve_many(m.pattern, entries, b)
-            found = np.empty_like(b)
-            found[order] = b
-            found[size:] = 0.0
-            return found
+            solution = np.empty_like(b)
+            solution[order] = b
+            solution[size:] = 0.0
+            return solution
 
         for _ in range(40):
             newton_matrix(m, v, y, current, STANDING, -1.0, entries)
@@ -212,7 +212,7 @@ def _peak(function: Callable[[float], float]) -> tuple[float, float]:
     There the function hardly changes with the share, so that its slope at a share that stays is that of the peak.
     """
     shares = np.linspace(0.0, 1.0, 9)
-    values = np.array([function(one) for one in shares])
+    values = np.array([function(trial) for trial in shares])
     k = int(np.argmax(values))
     share, value, width = float(shares[k]), float(values[k]), 0.125
     if 0 < k < 8:

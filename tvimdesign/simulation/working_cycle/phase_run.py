@@ -55,9 +55,9 @@ class PhaseRun:
     def first(self, start: Instant, pace: float, sought: list[str], horizon: float, tolerance: float) -> Grid:
         """Step as far as the events that are sought, each step as long as its error allows."""
         constant = CurrentProfile.constant(start.current)
-        found, _ = self.simulate(start, pace, sought, horizon, constant, tolerance, seek=False)
-        times = np.array([one.time for one in self.instants])
-        return Grid((np.diff(times) / pace).tolist(), {name: one.step for name, one in found.items()})
+        events, _ = self.simulate(start, pace, sought, horizon, constant, tolerance, seek=False)
+        times = np.array([instant.time for instant in self.instants])
+        return Grid((np.diff(times) / pace).tolist(), {name: instant.step for name, instant in events.items()})
 
     def simulate(
         self, start: Instant, pace: float, sought: list[str], horizon: float, profile: CurrentProfile,
@@ -69,20 +69,20 @@ class PhaseRun:
         nothing will change any more. Raises SimulationError where not even the first step can be taken.
         """
         start = replace(start, current=float(profile.at(np.zeros(1))[0]))
-        found = dict.fromkeys(self._due(sought, start.state, start.current), start)
+        events = dict.fromkeys(self._due(sought, start.state, start.current), start)
         self.instants, h = [start], FIRST * pace
-        y, ahead, one = start.state.copy(), np.zeros(start.state.size), start
+        y, ahead, now = start.state.copy(), np.zeros(start.state.size), start
         nothing, settled = np.zeros((y.size, self.lanes)), False
-        while one.time < horizon and len(self.instants) <= MOST_STEPS and not settled:
-            if len(found) == len(sought) and not throughout:
+        while now.time < horizon and len(self.instants) <= MOST_STEPS and not settled:
+            if len(events) == len(sought) and not throughout:
                 break
             deadline.check("the working cycle of a design was simulated")
-            room = min(profile.next_corner(one.time), horizon) - one.time
+            room = min(profile.next_corner(now.time), horizon) - now.time
             least, whole = (room, False) if h > 0.999 * room else (h, True)
-            end = float(profile.at(np.array([one.time + least]))[0])
-            slope = (end - one.current) / least
+            end = float(profile.at(np.array([now.time + least]))[0])
+            slope = (end - now.current) / least
             length, following = adapted(
-                self.motion.system, self.registers[2], y, one.current, slope, least, tolerance, ahead
+                self.motion.system, self.registers[2], y, now.current, slope, least, tolerance, ahead
             )
             if length == 0.0:
                 if len(self.instants) == 1:
@@ -90,15 +90,15 @@ class PhaseRun:
                     raise SimulationError(f"the {name} of this design cannot be simulated; check its inputs")
                 break
             h = following if whole or length < least else max(following, h)
-            current = one.current + slope * length
-            other = Instant(one.time + length, one.of_time, y.copy(), nothing, current, one.of_current, one.step + 1)
-            self.instants.append(other)
-            for name in self._due([name for name in sought if name not in found], other.state, current):
-                found[name] = self._crossing(name, one, other, slope) if seek else other
-            if slope == 0.0 and not throughout and np.isinf(profile.next_corner(other.time)):
-                settled = bool(np.max(np.abs(self.rates(other)[: self.of.size])) * (horizon - other.time) < STALLED)
-            one = other
-        return found, settled
+            current = now.current + slope * length
+            then = Instant(now.time + length, now.of_time, y.copy(), nothing, current, now.of_current, now.step + 1)
+            self.instants.append(then)
+            for name in self._due([name for name in sought if name not in events], then.state, current):
+                events[name] = self._crossing(name, now, then, slope) if seek else then
+            if slope == 0.0 and not throughout and np.isinf(profile.next_corner(then.time)):
+                settled = bool(np.max(np.abs(self.rates(then)[: self.of.size])) * (horizon - then.time) < STALLED)
+            now = then
+        return events, settled
 
     def search(self, start: Instant, pace: float, dpace: Array, sought: list[str], grid: Grid) -> dict[str, Instant]:
         """Step along a grid to where each event first is due."""
@@ -107,7 +107,7 @@ class PhaseRun:
             shares = np.append(shares, shares[-1] * GROWTH ** np.arange(1, EXTRA + 1))
         self.instants = [start]
         steps = _Steps(start, shares * pace, shares[:, None] * dpace)
-        found: dict[str, Instant] = {}
+        events: dict[str, Instant] = {}
 
         @cache
         def gaps(group: tuple[str, ...], k: int) -> Array:
@@ -118,17 +118,17 @@ class PhaseRun:
             k = grid.events[name]
             while 0 <= k < len(shares):
                 if not self._advanced(steps, k + 1):
-                    return found
+                    return events
                 if gaps(group, k)[place] >= 0.0:
                     k -= 1
                 elif gaps(group, k + 1)[place] < 0.0:
                     k += 1
                 else:
-                    found[name] = self._crossing(name, self.instants[k], self.instants[k + 1])
+                    events[name] = self._crossing(name, self.instants[k], self.instants[k + 1])
                     break
             if k < 0:
-                found[name] = start
-        return found
+                events[name] = start
+        return events
 
     def _advanced(self, steps: _Steps, count: int) -> bool:
         """Return whether so many steps could be taken."""
@@ -177,7 +177,7 @@ class PhaseRun:
 
     def values(self, group: tuple[str, ...], passed: Sequence[Instant]) -> Array:
         """Return quantities that are recorded together, a column each, at some instants, a row each."""
-        return np.array([self._values(group, one.state, one.current) for one in passed])
+        return np.array([self._values(group, instant.state, instant.current) for instant in passed])
 
     def _values(self, group: tuple[str, ...], y: Array, current: float) -> Array:
         (values,) = self.of.watch(*group).at.values(
@@ -220,25 +220,25 @@ class PhaseRun:
         first = self.motion.size + 1
         return self.registers[0][first : int(self.motion.rates.arguments[-1])]
 
-    def _crossing(self, name: str, one: Instant, other: Instant, slope: float = 0.0) -> Instant:
+    def _crossing(self, name: str, start: Instant, end: Instant, slope: float = 0.0) -> Instant:
         """Find the instant of an event between the ends of two steps, in which the current has a `slope`.
 
         The last step ends there: its length is sought by the secant method, and is one more direction.
         """
-        whole = other.time - one.time
-        here, there = self.rates(one) * whole, self.rates(other) * whole
+        whole = end.time - start.time
+        here, there = self.rates(start) * whole, self.rates(end) * whole
 
         def between(share: float) -> Array:
-            return hermite(share, one.state, other.state, here, there)
+            return hermite(share, start.state, end.state, here, there)
 
         def due(share: float) -> float:
-            return self.value(name, between(share), one.current + slope * share * whole)
+            return self.value(name, between(share), start.current + slope * share * whole)
 
         share, steep = _root(due)
         length, steep = whole * share, steep / whole
-        least, most, before, last = 0.0, 1.05 * whole, None, other
+        least, most, before, last = 0.0, 1.05 * whole, None, end
         for _ in range(MOST_TRIALS):
-            last = self._last_step(one, length, slope, 0.4 * (between(length / whole) - one.state), 0)
+            last = self._last_step(start, length, slope, 0.4 * (between(length / whole) - start.state), 0)
             gap = self.value(name, last.state, last.current)
             if before is not None and length != before[0] and gap != before[1]:
                 steep = (gap - before[1]) / (length - before[0])
@@ -251,7 +251,7 @@ class PhaseRun:
                 length = 0.5 * (least + most)
             if near:
                 break
-        last = self._last_step(one, length, slope, 0.4 * (last.state - one.state), self.lanes)
+        last = self._last_step(start, length, slope, 0.4 * (last.state - start.state), self.lanes)
         gap, slopes = self.slopes(name, last)
         short, longer = -gap / slopes[-1], -slopes / slopes[-1]
         longer[-1] = 0.0
@@ -260,19 +260,19 @@ class PhaseRun:
         of_current = last.of_current + slope * longer
         of_current[-1] = 0.0
         return replace(
-            last, time=one.time + length + short, of_time=one.of_time + longer,
+            last, time=start.time + length + short, of_time=start.of_time + longer,
             state=last.state + short * by_length[:, 0], of_state=s + by_length * longer,
             current=last.current + slope * short, of_current=of_current,
         )  # fmt: skip
 
-    def _last_step(self, one: Instant, length: float, slope: float, guess: Array, lanes: int) -> Instant:
+    def _last_step(self, start: Instant, length: float, slope: float, guess: Array, lanes: int) -> Instant:
         """Return the instant after a last step; the last of its `lanes` directions, if any, is its length."""
-        y, s, longer = one.state.copy(), one.of_state[:, :lanes].copy(), np.zeros(lanes)
+        y, s, longer = start.state.copy(), start.of_state[:, :lanes].copy(), np.zeros(lanes)
         longer[-1:] = 1.0
-        u = one.current + slope * TIMES * length
-        du = one.of_current[:lanes] + slope * TIMES[:, None] * longer
+        u = start.current + slope * TIMES * length
+        du = start.of_current[:lanes] + slope * TIMES[:, None] * longer
         step(self.motion.system, *self.registers, y, s, u, du, length, longer, guess)
-        return Instant(one.time + length, longer, y, s, float(u[-1]), du[-1], one.step + 1)
+        return Instant(start.time + length, longer, y, s, float(u[-1]), du[-1], start.step + 1)
 
 
 class _Steps:

@@ -83,11 +83,11 @@ for _name, _code in (
 def _binary(code: int, *operands: Any) -> Any:
     """Apply an elementwise operation to two operands, one of them symbols."""
     matrices, dimensions = [], 0
-    for one in operands:
-        if isinstance(one, float | int):
-            matrices.append(one)
+    for operand in operands:
+        if isinstance(operand, float | int):
+            matrices.append(operand)
             continue
-        array: Any = one if isinstance(one, ca.ArrayInterface) else ca.ArrayInterface(one)
+        array: Any = operand if isinstance(operand, ca.ArrayInterface) else ca.ArrayInterface(operand)
         matrices.append(array._v)
         dimensions = max(dimensions, array._ndim)
     return _of(ca.SX.binary(code, *matrices), dimensions)
@@ -95,16 +95,16 @@ def _binary(code: int, *operands: Any) -> Any:
 
 def _of(matrix: Any, dimensions: int) -> Symbols:
     """Return symbols of what CasADi computed: a quantity where there is a dimension."""
-    found: Symbols = object.__new__(Symbols)
-    found._v, found._ndim = matrix, dimensions
-    return found
+    made: Symbols = object.__new__(Symbols)
+    made._v, made._ndim = matrix, dimensions
+    return made
 
 
-def _quick(found: Any) -> Any:
+def _quick(result: Any) -> Any:
     """Convert CasADi's array to symbols where it can be."""
-    if type(found) is not ca.ArrayInterfaceSX:
-        return found
-    array: Any = found
+    if type(result) is not ca.ArrayInterfaceSX:
+        return result
+    array: Any = result
     return _of(array._v, array._ndim) if array._ndim < 2 else array
 
 

@@ -22,7 +22,7 @@ from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.current_profile import ramp_time
 from tvimdesign.simulation.working_cycle.cycle import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid
+from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, PhaseOutputs
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
@@ -277,7 +277,7 @@ class Problem:
         latest = self._latest(inputs)
         return cycle[place] / latest - 1.0, of_cycle[place] / latest
 
-    def _peaks(self, x: Array, cycle: Array, of_cycle: Array, driven: dict[str, Found]) -> tuple[Array, Array]:
+    def _peaks(self, x: Array, cycle: Array, of_cycle: Array, driven: dict[str, PhaseOutputs]) -> tuple[Array, Array]:
         """Put the peaks of driven phases in their places, and return how far the samples are above them."""
         rows, jacobian = [], []
         for column, peak in enumerate(self.peaks, start=len(x) - len(self.peaks)):
