@@ -63,4 +63,4 @@ def rubbed(inputs: Values) -> Values:
     moved = released.motion
     stops = np.flatnonzero(moved.speed == 0.0)
     turned = moved.angle[stops][np.abs(np.diff(moved.angle[stops], prepend=np.nan)) > 1e-9]
-    return {"amplitude": np.abs(turned[: inputs["count"]]), "rest": abs(released.rest or 0.0)}
+    return {"amplitude": np.abs(turned[: inputs["count"]]), "rest": abs(released.rest_angle or 0.0)}

@@ -44,8 +44,8 @@ def test_amplitude_falls_by_twice_the_band_in_every_half_swing(one_sided: bool) 
     while abs(amplitudes[-1]) > BAND:
         amplitudes.append(-np.sign(amplitudes[-1]) * (abs(amplitudes[-1]) - 2.0 * BAND))
     assert peaks == pytest.approx(amplitudes[1:], rel=1e-6)
-    assert found.rest == pytest.approx(amplitudes[-1], rel=1e-6)
-    assert abs(found.rest or 1.0) < BAND
+    assert found.rest_angle == pytest.approx(amplitudes[-1], rel=1e-6)
+    assert abs(found.rest_angle or 1.0) < BAND
     # Friction does not change the period.
     times = moved.times[turns_of(moved.speed) - 1]
     assert np.diff(times) == pytest.approx(np.pi * np.sqrt(INERTIA / SPRINGS), rel=1e-6)
@@ -108,7 +108,7 @@ def test_hardly_any_friction_is_none() -> None:
 
 def test_a_melt_creeps_to_the_edge_of_the_band_and_stays() -> None:
     found = let_go(MELT)
-    assert found.rest == pytest.approx(BAND, rel=1e-4)
+    assert found.rest_angle == pytest.approx(BAND, rel=1e-4)
     assert np.max(np.diff(found.motion.energy)) <= 1e-12 * found.motion.energy[0]
 
 

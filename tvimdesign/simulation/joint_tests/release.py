@@ -47,7 +47,7 @@ class Released:
     """One release with what is read off it."""
 
     case: Case
-    found: OneSided
+    response: OneSided
     slip: float
     """Angle by which the layer slipped, or yielded, while the link was held [rad]."""
     backlash: float
@@ -60,12 +60,12 @@ class Released:
     @property
     def motion(self) -> Motion:
         """The motion itself."""
-        return self.found.motion
+        return self.response.motion
 
     @property
     def contact_lost(self) -> float:
         """Share of the first swing in which nothing touches."""
-        return self.found.lost_share(0.0, self.found.first_swing())
+        return self.response.lost_share(0.0, self.response.first_swing())
 
 
 def release(
@@ -214,20 +214,20 @@ def _sheets(released: Released) -> tuple[CurveTable, ...]:
         Column("angle", "rad", moved.angle),
         Column("torque", "N*m", moved.torque),
         Column("stored_energy", "J", moved.energy),
-        *contact_columns(released.case, released.found),
+        *contact_columns(released.case, released.response),
     ]
     if released.simple:
         columns += [
             Column("angle_kelvin_voigt", "rad", released.simple.angle),
             Column("torque_kelvin_voigt", "N*m", released.simple.torque),
         ]
-    events = event_sheets(name, released.found)
+    events = event_sheets(name, released.response)
     return (CurveTable(name, tuple(columns)), *_first_swing(released, columns), *events)
 
 
 def _first_swing(released: Released, columns: Sequence[Column]) -> tuple[CurveTable]:
     """Return the first swing alone, whose loop shows loss and backlash; later ones lie over it."""
-    count = int(np.searchsorted(released.motion.times, released.found.first_swing(), side="right"))
+    count = int(np.searchsorted(released.motion.times, released.response.first_swing(), side="right"))
     return (
         CurveTable(_loop_name(released), tuple(replace(column, values=column.values[:count]) for column in columns)),
     )

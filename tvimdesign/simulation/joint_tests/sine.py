@@ -33,7 +33,7 @@ class Swung:
 
     case: Case
     frequency: float
-    found: OneSided
+    response: OneSided
     stiffness: float
     damping: float
     dissipated: float
@@ -45,7 +45,7 @@ class Swung:
     @property
     def motion(self) -> Motion:
         """The motion itself."""
-        return self.found.motion
+        return self.response.motion
 
 
 def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
@@ -114,13 +114,13 @@ def _sheets(swung: Swung) -> tuple[CurveTable, ...]:
         Column("time", "s", moved.times),
         Column("angle", "rad", moved.angle),
         Column("torque", "N*m", moved.torque),
-        *contact_columns(swung.case, swung.found),
+        *contact_columns(swung.case, swung.response),
     )
     name, loop = f"sine_{swung.case.name}", last_period(moved, swung.frequency)
     return (
         CurveTable(name, columns),
         CurveTable(f"{name}_loop", tuple(replace(column, values=column.values[loop]) for column in columns)),
-        *event_sheets(name, swung.found),
+        *event_sheets(name, swung.response),
     )
 
 

@@ -286,7 +286,7 @@ class Course:
         """Return angle, speed and internal angles, one column a sample."""
         return np.asarray((self._from @ np.column_stack(self.columns))[:-1])
 
-    def found(self) -> OneSided:
+    def motion(self) -> OneSided:
         """Return all it has come through; the torque is that on the link, friction counted."""
         states = self.states()
         touching = Touching(*np.array([phase.touching for phase in self.phases]).T)

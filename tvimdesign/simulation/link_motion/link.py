@@ -59,7 +59,7 @@ def released(plant: Plant, angle: float, internal: Array, friction: float = 0.0,
     first = course.quickest / SAMPLES_A_PERIOD
     while not course.over(enough, turns):
         course.follow(first, enough, turns)
-    return course.found()
+    return course.motion()
 
 
 def swung(
@@ -71,7 +71,7 @@ def swung(
     course.start(0.0, amplitude * omega, squeezed(plant, precompression))
     for _ in range(periods * samples):
         course.across(1.0 / frequency / samples)
-    return course.found()
+    return course.motion()
 
 
 def squeezed(plant: Plant, angle: float) -> Array:

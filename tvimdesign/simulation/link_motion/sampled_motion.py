@@ -71,7 +71,7 @@ class OneSided:
     touching: NDArray[np.bool_]
     """True where a block touches from a sample to the next; one row a block."""
     events: tuple[ContactEvent, ...]
-    rest: float | None = None
+    rest_angle: float | None = None
     """Angle at which friction holds the link for good [rad]; None where it is free, or still moves."""
 
     def lost_share(self, start: float, end: float) -> float:
@@ -95,8 +95,8 @@ class OneSided:
         A curve that ends while the link swings may end just as it passes its rest: a whole swing must be within.
         """
         times, turns = self.motion.times, turns_of(self.motion.speed)
-        settled = settling_time(times, self.motion.angle - (self.rest or 0.0), share)
-        if self.rest is None and len(turns) > TURNS_OF_A_SWING:
+        settled = settling_time(times, self.motion.angle - (self.rest_angle or 0.0), share)
+        if self.rest_angle is None and len(turns) > TURNS_OF_A_SWING:
             swing = times[turns[-1]] - times[turns[-1 - TURNS_OF_A_SWING]]
             return settled if times[-1] - settled >= swing else float("inf")
         return settled

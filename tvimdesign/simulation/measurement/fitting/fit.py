@@ -83,7 +83,7 @@ class BestFit(NamedTuple):
     """A problem's best parameters, without their uncertainty."""
 
     residuals: Residuals
-    found: RobustFit
+    fit: RobustFit
 
     @property
     def problem(self) -> Problem:

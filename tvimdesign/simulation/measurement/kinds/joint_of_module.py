@@ -97,7 +97,7 @@ class JointOfModule:
             for i, row in enumerate(rows)
         ]  # fmt: skip
 
-    def kept(self, fit: Fit) -> tuple[Fit, list[str]]:
+    def drop_impossible(self, fit: Fit) -> tuple[Fit, list[str]]:
         """Drop values that the module cannot have from a fit; return notes on them too."""
         names = [row.name for row in self._explained]
         if not {*names} <= {quantity.name for quantity in fit.derived} or self._given_again(fit, names):
@@ -192,6 +192,6 @@ def with_records(fit: Fit, notes: Sequence[str], module: JointOfModule | None, *
         note = "Without --set study=... and --set state=... nothing but the inertia goes to a record."
         own = {_INERTIA: fit["inertia"]} if inertia else {}
         return Measurement(fit, (*notes, note), own)
-    kept_fit, missed = module.kept(fit)
-    own, others, left = module.records(kept_fit, inertia=inertia)
-    return Measurement(kept_fit, (*notes, *module.notes(), *missed, *left), own, more_records=others)
+    possible_fit, missed = module.drop_impossible(fit)
+    own, others, left = module.records(possible_fit, inertia=inertia)
+    return Measurement(possible_fit, (*notes, *module.notes(), *missed, *left), own, more_records=others)

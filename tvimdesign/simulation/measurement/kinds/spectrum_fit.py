@@ -56,7 +56,7 @@ def _without_ends(melt: Melt, count: int, first: BestFit) -> tuple[Melt, int, Be
     """Return the fit in which modes at the ends of what is looked for are a viscosity and the modulus of a solid."""
     shortest, longest = melt.window
     times = {parameter.name: parameter.outer(float(inner))
-             for parameter, inner in zip(first.problem.parameters, first.found.inner, strict=True)}  # fmt: skip
+             for parameter, inner in zip(first.problem.parameters, first.fit.inner, strict=True)}  # fmt: skip
     modes = [times[f"time_{i}"] for i in range(1, count + 1)]
     fast = sum(time < shortest * (1.0 + _AT_END) for time in modes)
     slow = sum(time > longest / (1.0 + _AT_END) for time in modes)
