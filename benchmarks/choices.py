@@ -80,7 +80,7 @@ def clocked(relaxation: Relaxation, how: str) -> Clocked:
     else:
         search = BranchAndBound([relaxation], int(how))
         search.run()
-        objectives = sorted(run.start.objective for run in search.found.values())
+        objectives = sorted(run.start.objective for run in search.runs.values())
     return Clocked(objectives, relaxation.work, time.process_time() - begin)
 
 

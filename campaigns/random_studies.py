@@ -118,9 +118,9 @@ def judged(seed: int) -> dict[str, Any]:
         return {"status": "infeasible", "said": str(error)[:300], "wrong": wrong, "seconds": seconds}
     seconds = time.process_time() - began
     status, _, why = answered.design.status.partition(":")
-    said = "" if answered.found else complaint(answered, study.table)
+    said = "" if answered.has_design else complaint(answered, study.table)
     wrong = ""
-    if answered.found:
+    if answered.has_design:
         wrong = wrong_optimum(study, answered)
     elif status == "infeasible":
         wrong = "a design keeps all limits" if Attack(study).finds_a_design(seed) else ""

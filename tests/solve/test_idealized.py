@@ -133,7 +133,7 @@ def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
     assert found.design.status == "above_rating"
     assert set(found.design.above_rating) == {*BOTH, PADS}
     assert found.design.accepting == ()
-    assert found.found  # it is a design all the same: every limit is kept
+    assert found.has_design  # it is a design all the same: every limit is kept
     assert verdict(found, {}, []).text.startswith("Above a rating: ")
     said = above_rating(found, TABLE)
     assert f"structure_temperature_margin >= 0 K, by {-found.design.value(BOTH[0]):.3g} K" in said

@@ -54,7 +54,7 @@ def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
     monkeypatch.setattr(search, "find_conflicts", lambda *_: None)
     found = answer(study)
     assert len(made) == 2
-    assert not found.found
+    assert not found.has_design
     assert found.solution.feasible
     assert complaint(found, study.table).startswith(
         "test: no design known to be the best one (not converged: a feasible design"
@@ -81,7 +81,7 @@ def test_where_a_search_ends_without_a_design_nothing_is_handed_on() -> None:
         told: list[Any] = []
         solution = replace(known.solution, status=status)
         found = answer(study, search=lambda *_, of=solution: of, designed=lambda *given, told=told: told.append(given))
-        assert (bool(told), found.found) == (is_design, is_design)
+        assert (bool(told), found.has_design) == (is_design, is_design)
 
 
 PROCESS_STUDY = """

@@ -122,7 +122,7 @@ ROBUST = ALGEBRAIC.replace("{starts: 1}", "{starts: 1, time_limit: 5 min}") + "r
 def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word: str, then: float) -> None:
     clock = Clock(word, then)
     answered = clock.answer(read_study_text(ROBUST))
-    assert (answered.design.status, answered.feasible, answered.found) == (BELOW_YIELD, True, True)
+    assert (answered.design.status, answered.feasible, answered.has_design) == (BELOW_YIELD, True, True)
     assert answered.solution.out_of_time == LIMIT
     assert MARGINS in clock.deadline.left_out
     missed = below_yield(answered)

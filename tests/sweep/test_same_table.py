@@ -141,7 +141,7 @@ def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(
     cells = [Cell(f"{number:032x}", asked.points.texts(number)) for number in range(3)]
     spent = Pool(SweptStudy.of(asked), tmp_path, 1).answer(cells, lambda _: None)
     shards = Shards(tmp_path, asked.columns)
-    found = [kept.answer for kept in shards.kept(cell.key for cell in cells)]
+    found = [kept.answer for kept in shards.cells(cell.key for cell in cells)]
     assert [one.status for one in found] == ["evaluated", "evaluated", "crashed"]
     assert found[2].reason.startswith("its process ended with code -9")
     assert (spent.cells, spent.died) == (3, 2)

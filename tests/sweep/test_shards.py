@@ -41,7 +41,7 @@ def test_what_is_kept_comes_back_to_the_last_digit(tmp_path: Path) -> None:
     written(tmp_path, KEYS[3:])
     shards = Shards(tmp_path, COLUMNS)
     assert len(shards) == 5
-    found = list(shards.kept(iter([KEYS[2], KEYS[3]])))
+    found = list(shards.cells(iter([KEYS[2], KEYS[3]])))
     assert [one.answer for one in found] == [answer(2), answer(0)]
     assert found[0].seconds == 0.25
     assert len(list((tmp_path / "shards").iterdir())) == 2
@@ -63,7 +63,7 @@ def test_an_unfinished_line_is_no_cell_and_the_next_shard_is_new(tmp_path: Path)
 def test_a_shard_with_fewer_columns_is_left_alone_and_one_with_more_serves(tmp_path: Path) -> None:
     written(tmp_path, KEYS)
     shards = Shards(tmp_path, ("spring_material", "module_mass"))
-    (found,) = shards.kept(iter(KEYS[1:2]))
+    (found,) = shards.cells(iter(KEYS[1:2]))
     assert found.answer.values == ("music_wire", 0.1)
     assert len(Shards(tmp_path, (*COLUMNS, "peak_power"))) == 0
 

@@ -95,7 +95,7 @@ class Result(Generic[StudyT]):
     def of(cls, answered: AnsweredStudy, study: StudyT) -> Result[StudyT]:
         """Return the result of a study's answer. Raises NoDesignError where there is no design."""
         result = cls(answered, study)
-        if not answered.result.found:
+        if not answered.result.has_design:
             raise NoDesignError(complaint(answered.result, answered.study.table), result)
         return result
 
@@ -109,7 +109,7 @@ class Result(Generic[StudyT]):
         """The first line of the screen, such as `Build it`; yield and intervals are computed for it."""
         from tvimdesign.report.run.first_screen import verdict_of
 
-        if self._answered.result.found:
+        if self._answered.result.has_design:
             self.uncertainty()
         return verdict_of(self._answered).text
 
@@ -303,7 +303,7 @@ class Result(Generic[StudyT]):
     def _repr_html_(self) -> str:
         result, table = self._answered.result, self._answered.study.table
         rows = [
-            (check.text, value_text(result, check.output, table), "met" if check.kept else "violated", margin)
+            (check.text, value_text(result, check.output, table), "met" if check.met else "violated", margin)
             for check in result.checks if check.origin == "require" for margin in (margin_text(check, table),)
         ]  # fmt: skip
         names = [*self.design.study["vary"], *self.design.study["minimize"]]

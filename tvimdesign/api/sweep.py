@@ -82,7 +82,7 @@ class Sweep(Generic[StudyT]):
         places = {name: place for place, name in enumerate(self.plan.columns)}
         if lacking := [name for name in names if name not in places]:
             raise InputError(f"{', '.join(lacking)}: not kept by this sweep; name it in `outputs=`")
-        wanted = list(names) or [name for name in self.plan.asked if name in places]
+        wanted = list(names) or [name for name in self.plan.study_outputs if name in places]
         listed = columns(self.plan)
         heads = [column.name for column in listed if column.kind in {"axis", "told"}]
         frame = pd.DataFrame([self._row(number, heads, wanted, places) for number in range(len(self))])
@@ -177,7 +177,7 @@ def swept(
         sweep_folder(plan, Path(out), where, say, overwrite=overwrite, resume=not overwrite, plots=False)
         keys = CellKeys(plan)
         every = (keys.key(plan.points.texts(number)) for number in range(plan.count))
-        return Sweep(plan, list(Shards(Path(out), plan.columns).kept(every)), study_of, Path(out))
+        return Sweep(plan, list(Shards(Path(out), plan.columns).cells(every)), study_of, Path(out))
 
 
 def _here(plan: SweepPlan, say: Any) -> list[StoredCell]:

@@ -117,7 +117,7 @@ def _stands(answered: AnsweredStudy) -> dict[str, str]:
     for check in answered.result.checks:
         if check.origin != "require":
             continue
-        stand = "violated" if not check.kept else "active" if check.margin <= NOTHING else "met"
+        stand = "violated" if not check.met else "active" if check.margin <= NOTHING else "met"
         states[check.output] = max(stand, states.get(check.output, "met"), key=order.index)
     for limit in answered.study.require:  # a limit on what is the least of several is put on each of them
         several = [states[name] for name in _all_of(limit.output, answered.study) if name in states]

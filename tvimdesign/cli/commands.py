@@ -64,7 +64,7 @@ def run(
     from tvimdesign.report.run.run_study import run_study
 
     folder = out or options.default_folder(study)
-    after = _verification(folder, fe_python, overwrite=overwrite, told=not json) if verified else None
+    after = _verification(folder, fe_python, overwrite=overwrite, show=not json) if verified else None
     run_study(
         study, folder, overwrite=overwrite, cad=cad, plots=plots,
         prove=prove, resume=resume, full=full, as_json=json,
@@ -74,7 +74,7 @@ def run(
         after()
 
 
-def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> Callable[[], None]:
+def _verification(run: Path, fe_python: str, *, overwrite: bool, show: bool) -> Callable[[], None]:
     """Return a function that verifies a finished run. Raises InputError now where finite elements cannot be had."""
     import sys
 
@@ -83,7 +83,7 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
 
     require_fe(fe_python or sys.executable)
     out = run.with_name(f"{run.resolve().name}-verified")
-    return lambda: verify_design(run, out, fe_python, overwrite=overwrite, as_json=False, told=told)
+    return lambda: verify_design(run, out, fe_python, overwrite=overwrite, as_json=False, show=show)
 
 
 @app.command()

@@ -35,7 +35,7 @@ from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.parametric_optimizer import Moved, ParametricOptimizer
 from tvimdesign.solve.optimizer.refinements import put_at_bounds
-from tvimdesign.solve.optimizer.verify_optimum import exceeded, kept, verify_optimum
+from tvimdesign.solve.optimizer.verify_optimum import exceeded, is_met, verify_optimum
 from tvimdesign.solve.result import ConstraintCheck
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Options, Range, Study, given, read_tree
@@ -95,7 +95,7 @@ def limits_shown(
 
 
 def _stands(limit: Constraint, value: float, table: Table, presses: bool) -> str:
-    if not kept(limit, value, table):
+    if not is_met(limit, value, table):
         return "violated"
     return "active" if presses or -float(limit.residual(value)) <= NOTHING else "met"
 
@@ -104,7 +104,7 @@ def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
     margin = -float(limit.residual(value))
     check = ConstraintCheck(
         text=in_words(limit, table), output=limit.output, value=value, margin=margin, scale=limit.scale,
-        absolute=limit.absolute, kept=stands != "violated", worst=margin, origin=limit.origin, part_of=limit.part_of,
+        absolute=limit.absolute, met=stands != "violated", worst=margin, origin=limit.origin, part_of=limit.part_of,
     )  # fmt: skip
     unit = table.unit(limit.output)
     got = value if abs(margin) > _ROUNDING else limit.limit
@@ -264,14 +264,14 @@ class Engine:
         design = result.design
         known = given(answered.study)
         shown = shown_design(answered.study, free, known, design.values)
-        shown["status"] = "" if result.found else complaint(result, table)
-        if result.found and state.way == "optimize" and answered.study.robust:
+        shown["status"] = "" if result.has_design else complaint(result, table)
+        if result.has_design and state.way == "optimize" and answered.study.robust:
             progress("computing yield and intervals over the assumed values")
             with suppress(TvimError):
                 note_uncertainty(answered, Uncertainty(answered.study).data(design))
         says = verdict_of(answered)
         shown["verdict"], shown["tone"] = says.text, says.tone
-        shown["found"] = result.found
+        shown["found"] = result.has_design
         with suppress(TvimError):
             at = {name: design.values[name] for name in free.vary if name in design.values}
             evaluated = self._evaluated(answered.study, known, at)

@@ -46,7 +46,7 @@ def output_rows(spread: Spread, table: Table) -> Iterator[Row]:
 
 def limit_rows(spread: Spread, table: Table) -> Iterator[Row]:
     """Yield one row for each limit: its yield with the interval of 95 %, and its C_pk."""
-    for limit_yield in spread.kept:
+    for limit_yield in spread.limit_yields:
         yield {
             "limit": in_words(limit_yield.limit, table), "output": limit_yield.limit.output,
             "origin": limit_yield.limit.origin,
@@ -119,7 +119,7 @@ _REACH = 5.0
 
 def figure_data(spread: Spread, table: Table) -> dict[str, Any]:
     """Return contributors' shares of requirements and minimised outputs, and histograms of the least satisfied."""
-    shown = [i for i, name in enumerate(spread.outputs) if name in spread.asked and spreads(spread, i)]
+    shown = [i for i, name in enumerate(spread.outputs) if name in spread.requested and spreads(spread, i)]
     order = np.argsort(-np.sum(spread.shares[shown], axis=0), kind="stable")
     parts = [
         {
@@ -131,7 +131,7 @@ def figure_data(spread: Spread, table: Table) -> dict[str, Any]:
     remainder = [100.0 * float(np.sum(spread.shares[i, order[_PARTS:]])) for i in shown]
     if any(share > 0.0 for share in remainder):
         parts.append({"name": "all others", "shares": remainder})
-    by_yield = sorted(spread.kept, key=lambda limit_yield: limit_yield.share.share)
+    by_yield = sorted(spread.limit_yields, key=lambda limit_yield: limit_yield.share.share)
     rows = dict.fromkeys(spread.outputs.index(limit_yield.limit.output) for limit_yield in by_yield)
     every = dict.fromkeys([*rows, *shown])
     panels = [_panel(spread, table, i) for i in every if spreads(spread, i)][:_PANELS]
@@ -148,10 +148,10 @@ def _panel(spread: Spread, table: Table, i: int) -> dict[str, Any]:
     reach = _REACH * (most - quarter)
     ends = (max(low, middle - reach), min(high, middle + reach)) if reach > 0.0 else (low, high)
     counts, edges = np.histogram(finite, bins=_BINS, range=(float(ends[0]), float(ends[1])))
-    limits = [k.limit.limit for k in spread.kept if k.limit.output == name]
+    limits = [k.limit.limit for k in spread.limit_yields if k.limit.output == name]
     span = (2.0 * edges[0] - edges[-1], 2.0 * edges[-1] - edges[0])
     near = [limit for limit in limits if span[0] <= limit <= span[1]]
-    share = min((k.share.share for k in spread.kept if k.limit.output == name), default=None)
+    share = min((k.share.share for k in spread.limit_yields if k.limit.output == name), default=None)
     caption = "" if share is None else f"{100.0 * share:.3g} % of modules within limits"
     return {
         "title": caption,

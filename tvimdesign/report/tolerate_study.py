@@ -30,7 +30,7 @@ from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule,
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
-from tvimdesign.solve.uncertainty.tolerance import Kept, Preload, Spread, Tolerancing
+from tvimdesign.solve.uncertainty.tolerance import LimitYield, Preload, Spread, Tolerancing
 from tvimdesign.study import Study, read_study, standard_tolerances
 from tvimdesign.study.design import Design, read_design, write_design
 
@@ -43,7 +43,7 @@ def spread_table(spread: Spread, data: Mapping[str, Any]) -> Grid:
          number(row["deviation_rss"]), number(row["mean"]), number(row["deviation"]),
          ends_text(row["low"], row["high"], 4), row["unit"], _most_by(spread, i))
         for i, row in enumerate(data["outputs"])
-        if row["output"] in spread.asked and spreads(spread, i)
+        if row["output"] in spread.requested and spreads(spread, i)
     ]  # fmt: skip
     return grid("What spreads from part to part", heads, rows, right=range(1, 7), code=(0, 8))
 
@@ -122,22 +122,22 @@ _CARRIED = 0.2
 
 def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str]:
     """Return what people should know, the most important first."""
-    worst = [limit_yield for limit_yield in spread.kept if _violated_at_worst(spread, limit_yield)]
-    corners = "no limit is violated" if not worst else f"{len(worst)} of {len(spread.kept)} limits are violated"
+    worst = [limit_yield for limit_yield in spread.limit_yields if _violated_at_worst(spread, limit_yield)]
+    corners = "no limit is violated" if not worst else f"{len(worst)} of {len(spread.limit_yields)} limits are violated"
     angle = [] if preload is None else [free_angle(preload)]
     return [f"In the worst case {corners}.", *_what_first(spread, table), *angle, *_caveats(spread)]
 
 
-def _violated_at_worst(spread: Spread, limit_yield: Kept) -> bool:
+def _violated_at_worst(spread: Spread, limit_yield: LimitYield) -> bool:
     i = spread.outputs.index(limit_yield.limit.output)
     end = spread.worst.high[i] if limit_yield.limit.sense == "<=" else spread.worst.low[i]
     return not float(limit_yield.limit.residual(end)) <= 1e-9
 
 
-def of_concern(spread: Spread) -> list[Kept]:
+def of_concern(spread: Spread) -> list[LimitYield]:
     """Return limits that too many modules violate, the worst first."""
     return sorted(
-        (limit_yield for limit_yield in spread.kept if limit_yield.share.share < _GOOD),
+        (limit_yield for limit_yield in spread.limit_yields if limit_yield.share.share < _GOOD),
         key=lambda limit_yield: limit_yield.share.share,
     )
 
@@ -168,7 +168,7 @@ def _what_first(spread: Spread, table: Table) -> Iterator[str]:
     yield f"Tighten {first} first: {'; '.join(_halved(spread, limit_yield, j, table) for limit_yield in led)}."
 
 
-def _led_by(spread: Spread, concern: list[Kept], j: int) -> list[Kept]:
+def _led_by(spread: Spread, concern: list[LimitYield], j: int) -> list[LimitYield]:
     """Return the limits of concern that one contributor carries most of."""
     shares = {
         limit_yield.limit.name: float(spread.shares[spread.outputs.index(limit_yield.limit.output), j])
@@ -178,7 +178,7 @@ def _led_by(spread: Spread, concern: list[Kept], j: int) -> list[Kept]:
     return sorted(carried, key=lambda limit_yield: -shares[limit_yield.limit.name])[:2]
 
 
-def _halved(spread: Spread, limit_yield: Kept, j: int, table: Table) -> str:
+def _halved(spread: Spread, limit_yield: LimitYield, j: int, table: Table) -> str:
     """Return what a contributor carries of a limit's spread, and what half its tolerance would do."""
     i = spread.outputs.index(limit_yield.limit.output)
     share = float(spread.shares[i, j])
@@ -297,7 +297,7 @@ def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule
 def _optimum(study: Study, progress: Progress) -> Design:
     table = study.table
     result = answer(study, progress)
-    if not result.found:
+    if not result.has_design:
         raise InfeasibleError(complaint(result, table))
     return result.design
 

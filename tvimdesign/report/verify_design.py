@@ -48,7 +48,7 @@ def verified(rows: Sequence[Compared], solved: Mapping[str, Solved]) -> dict[str
         ],
         "solved": {
             name: {mesh: {key: finite(value) for key, value in values.items()}
-                   for mesh, values in (("fine", fe.found), ("coarse", fe.coarse))}
+                   for mesh, values in (("fine", fe.fine), ("coarse", fe.coarse))}
             for name, fe in solved.items()
         },
     }  # fmt: skip
@@ -116,10 +116,10 @@ TITLES = {
 }  # fmt: skip
 
 
-def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_json: bool, told: bool = True) -> None:
+def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_json: bool, show: bool = True) -> None:
     """Solve the parts of a design and write the folder.
 
-    Nothing is printed unless `told`. Raises InputError, SimulationError, OutputError.
+    Nothing is printed unless `show`. Raises InputError, SimulationError, OutputError.
     """
     source = design_file(path)
     design = read_design(source)
@@ -134,7 +134,7 @@ def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_
             _write(command, data, rows, solved, Path(work))
         page = verify_page(command, design.name, data, rows)
         command.finish("verified", {"design": source}, design.study, page=page)
-    if told:
+    if show:
         command.report(data, "report.html with table and pictures is")
 
 

@@ -25,7 +25,7 @@ from tvimdesign.solve.nlp.constraints import (
 )
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL, SIMULATED_MISSED, Progress
-from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, exceeded, happened, kept, sorted_by_acceptance
+from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, exceeded, happened, is_met, sorted_by_acceptance
 from tvimdesign.solve.search import Keep, Search, SearchInterrupted, optimize
 from tvimdesign.solve.variants import Cooling, Idealization, cooling, idealizations
 from tvimdesign.study import Study, given
@@ -52,7 +52,7 @@ class ConstraintCheck:
     """The limit's size, SI; or what stands for it where the limit is zero or a temperature."""
     absolute: bool
     """Whether the margin is to be read in the row's unit, not as a share."""
-    kept: bool
+    met: bool
     worst: float
     """The least margin over what history leaves open; the margin itself where there is one value."""
     origin: str
@@ -89,9 +89,9 @@ class StudyResult:
     control: ControlResult | None
 
     @property
-    def found(self) -> bool:
+    def has_design(self) -> bool:
         """Existence of a design: evaluated, optimal, beyond a rating that is not accepted, or below a yield."""
-        return _is_found(self.design, self.solution)
+        return _has_design(self.design, self.solution)
 
     @property
     def accepted_in_vain(self) -> tuple[str, ...]:
@@ -107,15 +107,15 @@ class StudyResult:
     @property
     def undecided(self) -> tuple[ConstraintCheck, ...]:
         """The requirements and rules that are met as nominally heated, and broken with another history."""
-        return tuple(check for check in self.checks if check.kept and check.worst < -CYCLE_TOLERANCE)
+        return tuple(check for check in self.checks if check.met and check.worst < -CYCLE_TOLERANCE)
 
     @property
     def feasible(self) -> bool:
         """Feasibility: every requirement and rule is satisfied."""
-        return all(check.kept for check in self.checks)
+        return all(check.met for check in self.checks)
 
 
-def _is_found(design: Design, solution: Solution | None) -> bool:
+def _has_design(design: Design, solution: Solution | None) -> bool:
     return solution is None or design.status in {OPTIMAL, ABOVE_RATING, BELOW_YIELD}
 
 
@@ -148,7 +148,7 @@ def answer(
             progress("searching again: a limit on what is simulated of the design is violated")
             solution = search(closer, progress, reference, keep, objectives)
             again = _result(study, solution, designed)
-            if again.design.status != SIMULATED_MISSED and not again.found:
+            if again.design.status != SIMULATED_MISSED and not again.has_design:
                 break
             result = again
         return result
@@ -221,7 +221,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         _check(make_constraint(table, limit.output, limit.sense, limit.limit, "require"), values, table, {})
         for limit in (study.simulated if exists else ())
     )
-    if solution is not None and not all(check.kept for check in simulated):
+    if solution is not None and not all(check.met for check in simulated):
         status = SIMULATED_MISSED
     ratings = {limit.output: _check(limit, values, table, open_values) for limit in exceeded(values, table)}
     above, accepting = sorted_by_acceptance(ratings, study.accept)
@@ -239,7 +239,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         current_profiles={phase: profile.plain() for phase, profile in current_profiles.items()},
         solution=_plain(solution),
     )
-    if _is_found(design, solution):
+    if _has_design(design, solution):
         designed(design, solution)
     required = constraints_of(study, table, resolved.values)
     checks = (*(_check(limit, values, table, open_values) for limit in required), *simulated)
@@ -248,7 +248,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         for limit in advice_of(table)
         if table.output(limit.output).exists(design.choices) and happened(limit.output, values, table)
     ]
-    ignored = [check for limit in advice if not (check := _check(limit, values, table, open_values)).kept]
+    ignored = [check for limit in advice if not (check := _check(limit, values, table, open_values)).met]
     return StudyResult(
         design=design, checks=checks, warnings=(*(ratings[name] for name in above), *ignored),
         accepted=tuple(ratings[name] for name in accepting),
@@ -306,7 +306,7 @@ def _check(
     residual = limit.residual(value)
     return ConstraintCheck(
         text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
-        scale=limit.scale, absolute=limit.absolute, kept=kept(limit, value, table),
+        scale=limit.scale, absolute=limit.absolute, met=is_met(limit, value, table),
         worst=-max(float(limit.residual(end)) for end in ends), origin=limit.origin,
         part_of=limit.part_of,
     )  # fmt: skip

@@ -197,7 +197,7 @@ def _account(
     solution = replace(verify_optimum(optimizer, run, starts, seconds), passed_over=dict(passed_over))
     constant, late = relaxation.constant_current_optimum, optimizer.deadline.late
     if constant.best is not None:
-        solution = replace(solution, constant=late.attempt("the comparison with constant currents", constant.found))
+        solution = replace(solution, constant=late.attempt("the comparison with constant currents", constant.optimum))
     if robust is not None and robust.share is not None and run.start.converged:
         account = partial(_yield_reached, optimizer, run, nominal, robust.share)
         solution = replace(solution, yield_reached=late.attempt("the yield that is asked for", account))
@@ -288,12 +288,12 @@ def _choose(
     """
     trees, options = begin.trees, begin.study.solver
     stopped = trees[0].optimizer.deadline.met
-    solved, proof = dict(search.found), SolverEffort()
+    solved, proof = dict(search.runs), SolverEffort()
     pruned, improved = search.pruned, 0.0
     if options.prove and not stopped:
-        solved, proof = _each(search.found, enumerated_here(begin))
+        solved, proof = _each(search.runs, enumerated_here(begin))
         pruned = 0
-        improved = _improvement(search.found, solved)
+        improved = _improvement(search.runs, solved)
     ranked = sorted(solved, key=lambda key: (order(solved[key]), key))
     reported = [(trees[place], solved[place, box]) for place, box in ranked]
     best = exact.solved(trees[ranked[0][0]], ranked[0][1], solved[ranked[0]]) if ranked else None
@@ -306,7 +306,7 @@ def _choose(
         proven=options.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
         work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
-    others = [design for key, design in zip(ranked, reported, strict=True) if key in search.found or design in shown]
+    others = [design for key, design in zip(ranked, reported, strict=True) if key in search.runs or design in shown]
     plain = [design for design in others[1:] if not design[0].sizes.mixtures]
     return choosing, [best, *plain] if best else [_closest(trees[0], exact)], shown
 

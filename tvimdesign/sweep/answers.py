@@ -11,7 +11,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.anchored_search import AnchoredSearch
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, refuse_impossible
 from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL
-from tvimdesign.solve.optimizer.verify_optimum import exceeded, kept, sorted_by_acceptance
+from tvimdesign.solve.optimizer.verify_optimum import exceeded, is_met, sorted_by_acceptance
 from tvimdesign.study import Study, drawn, given, read_tree
 from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy, Texts, set_in
 
@@ -77,13 +77,13 @@ class CellAnswers:
         if status == BELOW_YIELD and solution.yield_reached:
             reached = solution.yield_reached
             lost = f", most lost to {reached.lost_to[0].text}" if reached.lost_to else ""
-            reasons.append(f"yield {reached.together:.1%} of {reached.asked:.0%} asked{lost}")
+            reasons.append(f"yield {reached.together:.1%} of {reached.target:.0%} asked{lost}")
         reasons += [f"the search ended at its time limit of {solution.out_of_time:g} s"] if solution.out_of_time else []
         return answer._replace(reason=_short("; ".join([*reasons, *filter(None, [answer.reason])])), warm=warm)
 
     def _answer_of(self, status: str, study: Study, values: dict[str, float], chosen: dict[str, Any]) -> CellAnswer:
         limits = constraints_of(study, study.table, chosen)
-        violated = [limit for limit in limits if not kept(limit, values[limit.output], study.table)]
+        violated = [limit for limit in limits if not is_met(limit, values[limit.output], study.table)]
         margins = [-float(limit.residual(values[limit.output])) for limit in limits]
         return CellAnswer(
             status=status,

@@ -184,10 +184,10 @@ class SweepPlan:
             names = [f"{row.name}@{point}" if row.per_point else row.name
                      for row in rows for point in (points if row.per_point else ("",))]  # fmt: skip
             return tuple(dict.fromkeys([*study.vary, *names]))
-        return tuple(dict.fromkeys([*self.asked, *self.block.outputs]))
+        return tuple(dict.fromkeys([*self.study_outputs, *self.block.outputs]))
 
     @property
-    def asked(self) -> tuple[str, ...]:
+    def study_outputs(self) -> tuple[str, ...]:
         """Return the outputs the study asks about: those it minimises, limits and varies, and those every table has."""
         study = self.first
         limits = [limit.output for limit in study.require]

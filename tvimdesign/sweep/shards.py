@@ -110,7 +110,7 @@ class Shards:
     def __len__(self) -> int:
         return len(self._places)
 
-    def kept(self, keys: Iterator[str]) -> Iterator[StoredCell]:
+    def cells(self, keys: Iterator[str]) -> Iterator[StoredCell]:
         """Yield the cells of some keys, in their order. Raises KeyError for one that is not there."""
         opened = [path.open("rb") for path, _ in self._files]
         try:
@@ -206,7 +206,7 @@ def _about(plan: SweepPlan, name: str) -> str:
 def rows(plan: SweepPlan, keys: Iterable[str], shards: Shards) -> Iterator[list[Value]]:
     """Yield every cell as a row of the table, in order, numbers in the units of the columns."""
     units = [plan.unit(name) for name in plan.columns]
-    for number, cell in enumerate(shards.kept(iter(keys))):
+    for number, cell in enumerate(shards.cells(iter(keys))):
         yield [number + 1, *plan.axis_values(number), *status_values(cell, units)]
 
 

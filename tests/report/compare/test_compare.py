@@ -10,7 +10,7 @@ import pytest
 from comparable import COARSE, COMPRESSION, SHEAR, written
 from support import Command
 
-from tvimdesign.report.compare.compare_studies import Asked, answers
+from tvimdesign.report.compare.compare_studies import StudyRequest, answers
 
 PICTURES = {f"fronts.{ending}" for ending in ("png", "pdf", "svg")}
 
@@ -158,7 +158,7 @@ def test_process_that_dies_leaves_the_other(tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr(tempfile, "tempdir", str(elsewhere))
     out.mkdir()
     beside: list[list[Path]] = []
-    asked = [Asked("gone", tmp_path / "gone.yaml"), Asked("there", path)]
+    asked = [StudyRequest("gone", tmp_path / "gone.yaml"), StudyRequest("there", path)]
     kept: list[tuple[str, dict[str, Any]]] = []
     found = answers(
         asked, out, 2, lambda _: None, lambda: beside.append([*out.iterdir(), *elsewhere.iterdir()]),

@@ -115,8 +115,8 @@ def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
 
 @pytest.mark.slow
 def test_drawn_modules_are_compared_where_one_has_no_optimum(outcome: Outcome) -> None:
-    assert "optimised" in outcome.found["s"]
-    assert "optimised" not in outcome.found["c"]
+    assert "optimised" in outcome.answers["s"]
+    assert "optimised" not in outcome.answers["c"]
     assert outcome.which == "drawn"
     sentence, rows = outcome.sentence, {row.name: row for row in outcome.rows["drawn"]}
     assert ", as drawn: " in sentence
@@ -129,19 +129,19 @@ def test_drawn_modules_are_compared_where_one_has_no_optimum(outcome: Outcome) -
 def test_warnings_are_of_the_same_designs(outcome: Outcome) -> None:
     text = " ".join(summary_text(outcome).split())
     for name in ("s", "c"):
-        told: dict[str, Any] = outcome.found[name]["drawn"]
+        told: dict[str, Any] = outcome.answers[name]["drawn"]
         assert f"{name}: {told['soft']}" in text
         table = outcome.tables[name]
         shown = [advice_text(one["output"], one["value"], one["because"], table) for one in told["warnings"]]
         assert shown
         assert all(f"Warning {name}: {one}" in text for one in shown)
-    other = {warning["output"] for warning in outcome.found["s"]["optimised"]["warnings"]}
-    for output in other - {warning["output"] for warning in outcome.found["s"]["drawn"]["warnings"]}:
+    other = {warning["output"] for warning in outcome.answers["s"]["optimised"]["warnings"]}
+    for output in other - {warning["output"] for warning in outcome.answers["s"]["drawn"]["warnings"]}:
         assert f"Warning s: {output}" not in text
     reported = outcome.plain()
     assert (reported["format"], reported["units"]) == (1, "SI")
     mass = next(row for row in reported["comparisons"]["drawn"] if row["name"] == "module_mass")
     assert mass["si"]["s"] == pytest.approx(1e-3 * mass["values"]["s"])
     assert mass["si_unit"] == "kg"
-    mine = {"s": outcome.found["s"]}
+    mine = {"s": outcome.answers["s"]}
     assert Outcome({"s": outcome.entrants["s"]}, mine).which == "optimised"

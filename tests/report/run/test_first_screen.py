@@ -190,13 +190,13 @@ def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s() -> None:
     one = case("paper_shear")
     rows = {row.name: row for row in requirements(one.result, {})}
     values = one.result.design.values
-    assert rows["spring_stiffness"].asked == "5.2 to 5.8 N·m/rad"
+    assert rows["spring_stiffness"].requested == "5.2 to 5.8 N·m/rad"
     least, most = map(float, rows["spring_stiffness"].got.split(" to "))  # over the stroke
     assert least == pytest.approx(values["least_spring_stiffness"], rel=1e-3)
     assert least <= values["spring_stiffness"] * 1.001
     assert most >= values["spring_stiffness"] * 0.999
     assert rows["spring_stiffness"].stands == "at the limit"
-    assert rows["holding_torque"].asked == ">= 12 N·m"  # as asked, though it is the least of three
+    assert rows["holding_torque"].requested == ">= 12 N·m"  # as asked, though it is the least of three
     assert rows["holding_torque"].stands == "at the limit"
     assert rows["impedance_range"].stands == "at the limit"
     assert rows["peak_power"].stands == f"{100.0 * (1.0 - values['peak_power'] / 15.0):.2g} %"

@@ -58,7 +58,9 @@ def answer(
         study={"require": require, "robust": robust, "minimize": {"module_mass": 1.0}},
     )  # fmt: skip
     of = {"conflict_set": None, "out_of_time": None, "yield_reached": None, **solution}
-    return cast(StudyResult, SimpleNamespace(design=design, found=found, checks=checks, solution=SimpleNamespace(**of)))
+    return cast(
+        StudyResult, SimpleNamespace(design=design, has_design=found, checks=checks, solution=SimpleNamespace(**of))
+    )
 
 
 def sides(*texts: str) -> ConflictSet:
@@ -146,7 +148,7 @@ def test_a_violation_below_rounding_is_not_shown_as_none() -> None:
     assert margin_text(replace(gap, absolute=False), table) == "-0.004 %"
     heat = replace(gap, output="peltier_temperature_margin", margin=4.7, scale=5.0, absolute=False)
     assert margin_text(heat, table) == "23.5 K"  # a difference is no size that a share could be taken of
-    assert margin_text(replace(gap, kept=True), table) == "0 mm"  # within the solver's tolerance
+    assert margin_text(replace(gap, met=True), table) == "0 mm"  # within the solver's tolerance
     assert verdict(answer(checks=(gap,)), SURE, []).text.endswith("by 0.0004 mm")
 
 

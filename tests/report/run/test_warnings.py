@@ -238,7 +238,7 @@ def test_the_yield_is_what_tolerate_says(found: StudyResult, module: ResolvedMod
     expected = Tolerancing(module, lambda _: None).analyse(SAMPLES, STUDY.solver.seed)
     assert 0.02 < expected.together.share < 0.98
     assert said["parts_yield"]["share"] == expected.together.share
-    assert (said["limits"], said["tolerances"]) == (len(expected.kept), "standard")
+    assert (said["limits"], said["tolerances"]) == (len(expected.limit_yields), "standard")
     alone = model.at(module, SAMPLES)  # by the design's own kernel
     assert said["parts_yield"]["share"] == alone.together.share
 

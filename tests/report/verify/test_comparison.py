@@ -175,7 +175,7 @@ def test_the_run_comes_first_and_its_folder_is_verified(monkeypatch: pytest.Monk
     monkeypatch.setattr("tvimdesign.cad.fe.run_solvers.require_fe", done.append)
     monkeypatch.setattr(
         "tvimdesign.report.verify_design.verify_design",
-        lambda path, out, _, **given: done.append((path, out, given["told"])),
+        lambda path, out, _, **given: done.append((path, out, given["show"])),
     )
     out = tmp_path / "wrist"
     commands.run(tmp_path / "mine.yaml", out=out, verified=True, json=True)

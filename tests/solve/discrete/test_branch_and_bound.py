@@ -104,7 +104,7 @@ def test_it_finds_the_best_combinations_and_accounts_for_all(trees: list[Bowl], 
     search = BranchAndBound(cast("list[Relaxation]", trees), keep)
     search.run()
     expected = sorted(objective for relaxation in trees for objective in relaxation.enumerated())
-    found = sorted(run.start.objective for run in search.found.values())
+    found = sorted(run.start.objective for run in search.runs.values())
     assert found[:keep] == pytest.approx(expected[:keep], rel=1e-5)
     assert search.inside <= 1e-12
     assert len(found) + search.pruned <= sum(relaxation.sizes.count for relaxation in trees)
@@ -130,7 +130,7 @@ def test_a_bowl_over_thousands_of_combinations_takes_a_few_runs(
     bowl = Bowl(0, Sizes(tuple("abcd"[: len(lists)]), lists), centre, weights, 5.0, 0.0)
     search = BranchAndBound(cast("list[Relaxation]", [bowl]), 1)
     search.run()
-    assert min(run.start.objective for run in search.found.values()) == pytest.approx(min(bowl.enumerated()))
+    assert min(run.start.objective for run in search.runs.values()) == pytest.approx(min(bowl.enumerated()))
     assert bowl.solved <= most
 
 

@@ -186,10 +186,10 @@ def test_the_smallest_set_holds_once_one_of_it_moves_as_far_as_told() -> None:
 
 def test_the_design_that_breaks_least_breaks_what_is_told_by_as_much() -> None:
     found = _answer(STIFF)
-    assert not found.found
+    assert not found.has_design
     # A requirement that is put on several outputs at once, as that on the stiffness over the stroke, is one.
     broken: dict[str, float] = {}
-    for check in (one for one in found.checks if not one.kept):
+    for check in (one for one in found.checks if not one.met):
         name = check.part_of or check.output
         broken[name] = max(-check.margin, broken.get(name, 0.0))
     reported = {side.text.split(" ")[0]: side.by for side in found.solution.conflict_set.broken}

@@ -18,7 +18,7 @@ QUARTER = np.array([[1.0 - np.sin(a), 1.0 - np.cos(a)] for a in np.linspace(0.0,
 
 @given(st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5), st.integers(0, 5)), min_size=1, max_size=8))
 def test_kept_points_are_those_no_other_is_better_than(rows: list[tuple[int, int, int]]) -> None:
-    kept = [rows[i] for i in shape.kept(np.array(rows, dtype=float))]
+    kept = [rows[i] for i in shape.efficient(np.array(rows, dtype=float))]
     assert len(set(kept)) == len(kept)
     for row in rows:
         beaten = any(o != row and all(x <= y for x, y in zip(o, row, strict=True)) for o in rows)

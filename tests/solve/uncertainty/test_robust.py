@@ -58,7 +58,7 @@ def _solved(text: str) -> tuple[StudyResult, Spread]:
 
 
 def _share(spread: Spread, output: str) -> float:
-    return next(kept.share.share for kept in spread.kept if kept.limit.output == output)
+    return next(kept.share.share for kept in spread.limit_yields if kept.limit.output == output)
 
 
 @pytest.mark.slow
@@ -134,7 +134,7 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{yield: 95 %}}\n", "a test")
     found = answer(study)
-    assert found.found
+    assert found.has_design
     assert found.design.status == "below_yield"
     assert verdict(found, {}, []).kind == "margins_missed"
     said = below_yield(found)
@@ -190,7 +190,7 @@ def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
     found = answer(study)
-    assert not found.found
+    assert not found.has_design
     assert "(`robust`): ask for fewer, or spread less" in complaint(found, study.table)
 
 

@@ -25,7 +25,7 @@ from tvimdesign.report.compare.comparison import (
     summary_text,
     title_of,
 )
-from tvimdesign.report.compare.comparison_job import finished_run, nothing_found
+from tvimdesign.report.compare.comparison_job import empty_answer, finished_run
 from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.output.command import Command, design_file, done_in_part
 from tvimdesign.report.output.page_sections import tone_of
@@ -58,7 +58,7 @@ def compare_studies(
     of_file = {case.places.file: label for label, case in cases.items()}
     unequal = [f"{of_file[each.file]}, {each.path}: {each.message}" for each in differences([*cases.values()])]
     with Command(out, overwrite=overwrite, as_json=as_json) as command:
-        answers_by_label = {label: nothing_found() for label in cases}
+        answers_by_label = {label: empty_answer() for label in cases}
 
         def keep(label: str, answer: dict[str, Any]) -> None:
             answers_by_label[label] = answer
@@ -69,7 +69,7 @@ def compare_studies(
             for (label, case), path in zip(cases.items(), paths, strict=True):
                 answers_by_label[label] = finished_run(design_file(path), case.study.table, which)
         else:
-            requests = [Asked(label, case.path) for label, case in cases.items()]
+            requests = [StudyRequest(label, case.path) for label, case in cases.items()]
             start_plotter = command.start_plotter if plots else lambda: None
             answers_by_label |= answers(
                 requests, command.folder.path, points, command.progress, start_plotter, settings, keep
@@ -148,7 +148,7 @@ def _study_text(case: Case, settings: Sequence[str]) -> str:
 
 def _write(folder: ResultsFolder, outcome: Outcome, texts: dict[str, str]) -> None:
     """Write what is there: each study with its designs, and the tables once two studies have a design."""
-    for label, answer in outcome.found.items():
+    for label, answer in outcome.answers.items():
         name = "-".join(part for part in Path(label).with_suffix("").parts if part not in {"/", ".."})
         for which in COMPARISONS:
             if which in answer:
@@ -174,7 +174,7 @@ HALF_DONE = ".studies."
 _CRASHED = TvimError.exit_code + 2
 
 
-class Asked(NamedTuple):
+class StudyRequest(NamedTuple):
     """One study to answer, and what it is called meanwhile."""
 
     label: str
@@ -190,13 +190,13 @@ class _Child(NamedTuple):
 
 
 def answers(
-    requests: Sequence[Asked],
+    requests: Sequence[StudyRequest],
     out: Path,
     points: int,
     progress: Progress,
     when_idle: Callable[[], object] = lambda: None,
     settings: Sequence[str] = (),
-    keep: Callable[[str, dict[str, Any]], object] = lambda _label, _found: None,
+    keep: Callable[[str, dict[str, Any]], object] = lambda _label, _answer: None,
 ) -> dict[str, dict[str, Any]]:
     """Return what each study's job found, by label; a job that died has its reason under `troubles`.
 
@@ -244,7 +244,7 @@ def answers(
 
 
 def _start(
-    study: Asked, others: Sequence[Path], how: tuple[int, Sequence[str]], stem: Path,
+    study: StudyRequest, others: Sequence[Path], how: tuple[int, Sequence[str]], stem: Path,
     lines: queue.Queue[tuple[str, str | None]],
 ) -> _Child:  # fmt: skip
     """Start a child process; `how` is the count of points of a front, and the settings."""
@@ -261,7 +261,7 @@ def _start(
 
 def _finish(child: _Child) -> dict[str, Any]:
     code = child.process.wait()
-    answer: dict[str, Any] = json.loads(child.out.read_text()) if child.out.exists() else nothing_found()
+    answer: dict[str, Any] = json.loads(child.out.read_text()) if child.out.exists() else empty_answer()
     if code:
         last = " ".join(child.errors.read_text(errors="replace").strip().splitlines()[-1:])
         error = f"its process ended with code {code}: {last or 'without a message'}"

@@ -39,17 +39,17 @@ class Outcome:
     """All studies' answers under their labels; the others are compared with the first study."""
 
     def __init__(
-        self, entrants: Mapping[str, Case], found: Mapping[str, dict[str, Any]], differences: Sequence[str] = ()
+        self, entrants: Mapping[str, Case], answers: Mapping[str, dict[str, Any]], differences: Sequence[str] = ()
     ) -> None:
-        """Take what each child process wrote as `found`, and the conditions in which finished runs differ."""
-        self.entrants, self.found, self.differences = dict(entrants), dict(found), list(differences)
+        """Take what each child process wrote as `answers`, and the conditions in which finished runs differ."""
+        self.entrants, self.answers, self.differences = dict(entrants), dict(answers), list(differences)
         self.tables = {label: entrant.study.table for label, entrant in entrants.items()}
         self.seconds: dict[str, float] = {}
 
     @property
     def troubles(self) -> list[tuple[str, dict[str, Any]]]:
         """(study, what failed) of everything that was not done."""
-        return [(label, trouble) for label, answer in self.found.items() for trouble in answer["troubles"]]
+        return [(label, trouble) for label, answer in self.answers.items() for trouble in answer["troubles"]]
 
     @property
     def failures(self) -> list[str]:
@@ -62,7 +62,7 @@ class Outcome:
         return {
             which: {
                 label: Design.model_validate(answer[which]["design"])
-                for label, answer in self.found.items() if which in answer
+                for label, answer in self.answers.items() if which in answer
             }
             for which in COMPARISONS
         }  # fmt: skip
@@ -70,7 +70,7 @@ class Outcome:
     @property
     def which(self) -> str:
         """Say what is compared: the optima where every study that has a design has one, else the designs as drawn."""
-        with_design = [answer for answer in self.found.values() if any(which in answer for which in COMPARISONS)]
+        with_design = [answer for answer in self.answers.values() if any(which in answer for which in COMPARISONS)]
         return "optimised" if with_design and all("optimised" in answer for answer in with_design) else "drawn"
 
     @cached_property
@@ -84,7 +84,7 @@ class Outcome:
     def fronts(self) -> dict[tuple[str, str], dict[str, dict[str, Any]]]:
         """Fronts by their two outputs, then by study."""
         fronts_by_pair: dict[tuple[str, str], dict[str, dict[str, Any]]] = {}
-        for label, answer in self.found.items():
+        for label, answer in self.answers.items():
             for front in answer["fronts"]:
                 fronts_by_pair.setdefault((front["first"], front["second"]), {})[label] = front
         return fronts_by_pair
@@ -158,14 +158,14 @@ class Outcome:
         for which in self.rows:
             texts = self._against(which) if which != self.which else []
             broken = [
-                f"{label} as drawn does not meet {', '.join(self.found[label][which]['broken'])}"
-                for label in self.designs[which] if self.found[label][which]["broken"]
+                f"{label} as drawn does not meet {', '.join(self.answers[label][which]['broken'])}"
+                for label in self.designs[which] if self.answers[label][which]["broken"]
             ]  # fmt: skip
             sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in (*texts, *broken)]
         return [*sentences, *(standing(contest) for contest in self.contests)]
 
     def _verdicts(self) -> list[str]:
-        designs = {label: answer.get(self.which, {}) for label, answer in self.found.items()}
+        designs = {label: answer.get(self.which, {}) for label, answer in self.answers.items()}
         texts = [f"{label}: {design['verdict']}." for label, design in designs.items() if design.get("verdict")]
         return [f"Verdict on {text}" for text in texts]
 
@@ -207,7 +207,7 @@ class Outcome:
         }
 
     def _study(self, label: str) -> dict[str, Any]:
-        entrant, answer = self.entrants[label], self.found[label]
+        entrant, answer = self.entrants[label], self.answers[label]
         return {
             "file": str(entrant.path), "name": entrant.study.name, "mode": entrant.study.mode,
             **{which: {key: value for key, value in answer[which].items() if key != "design"}
@@ -340,10 +340,10 @@ def _value(row: Row, label: str) -> str:
 def _searches(outcome: Outcome) -> Iterator[str]:
     """Yield what soft means, how optima and fronts were found, and what is accepted."""
     which = outcome.which
-    texts = [f"{label}: {answer[which]['soft']}" for label, answer in outcome.found.items() if which in answer]
+    texts = [f"{label}: {answer[which]['soft']}" for label, answer in outcome.answers.items() if which in answer]
     if texts:
         yield f"Soft is, {COMPARISONS[which]}, {'; '.join(texts)}."
-    for label, answer in outcome.found.items():
+    for label, answer in outcome.answers.items():
         search, seconds = answer.get("optimised"), answer["seconds"].get("optimised")
         if search and search["optima"]:
             optima = [f"{optimum['objective']:.5g}" for optimum in search["optima"]]
@@ -365,7 +365,7 @@ def _searches(outcome: Outcome) -> Iterator[str]:
 
 def warnings_of(outcome: Outcome) -> Iterator[str]:
     """Yield the advice that the compared designs do not follow."""
-    for label, answer in outcome.found.items():
+    for label, answer in outcome.answers.items():
         for warning in answer.get(outcome.which, {"warnings": []})["warnings"]:
             value = math.inf if warning["value"] is None else warning["value"]
             yield f"{label}: {advice_text(warning['output'], value, warning['because'], outcome.tables[label])}"

@@ -68,10 +68,10 @@ def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:
         results = {}
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from error
-    return {**nothing_found(), which: compared_design(design, results, table)}
+    return {**empty_answer(), which: compared_design(design, results, table)}
 
 
-def nothing_found() -> dict[str, Any]:
+def empty_answer() -> dict[str, Any]:
     """Return what a comparison has of a study before anything is computed."""
     return {"fronts": [], "seconds": {}, "troubles": []}
 
@@ -99,7 +99,7 @@ class ComparisonJob:
         self.table = self.study.table
         self.points, self.say = points, say
         self._built: list[tuple[Optimizer, list[Run]]] = []
-        self.found = nothing_found()
+        self.answer = empty_answer()
 
     @cached_property
     def others(self) -> list[Study]:
@@ -116,17 +116,17 @@ class ComparisonJob:
         with self._step("as drawn"):
             self.say("as drawn")
             as_drawn = answer(drawn(self.study))
-            self.found["drawn"] = self._compared(as_drawn)
+            self.answer["drawn"] = self._compared(as_drawn)
             answered = answered if self.study.vary else as_drawn
         with self._step("verdict"):
             if answered:
                 self.say("verdict")
                 warnings = warnings_of(answered, record_checks(self.study))
-                self.found[which]["verdict"] = verdict(answered, uncertainty_of(answered, self.study), warnings).text
+                self.answer[which]["verdict"] = verdict(answered, uncertainty_of(answered, self.study), warnings).text
         if answered and self._built and self.points:
             with self._step("fronts"):
                 self._trade(answered)
-        return self.found
+        return self.answer
 
     @contextmanager
     def _step(self, name: str) -> Iterator[None]:
@@ -135,11 +135,11 @@ class ComparisonJob:
         try:
             yield
         except TvimError as error:
-            self.found["troubles"].append({"step": name, "error": str(error), "exit_code": error.exit_code})
+            self.answer["troubles"].append({"step": name, "error": str(error), "exit_code": error.exit_code})
         finally:
-            spent = self.found["seconds"].get(name, 0.0)
-            self.found["seconds"][name] = spent + time.perf_counter() - began
-            self._keep(self.found)
+            spent = self.answer["seconds"].get(name, 0.0)
+            self.answer["seconds"][name] = spent + time.perf_counter() - began
+            self._keep(self.answer)
 
     def _optimised(self) -> StudyResult:
         starts = [anchored_search.at_its_start(study) for study in (self.study, *self.others)]
@@ -147,15 +147,15 @@ class ComparisonJob:
         objectives = front_outputs(self.study, self.table) if self.points else ()
         built = self._built
         answered = answer(self.study, self.say, common, lambda *search: built.append(search), objectives)
-        if not answered.found:
+        if not answered.has_design:
             raise InfeasibleError(complaint(answered, self.table))
-        self.found["optimised"] = self._compared(answered)
+        self.answer["optimised"] = self._compared(answered)
         if refused := above_rating(answered, self.table):
-            self.found["troubles"].append(
+            self.answer["troubles"].append(
                 {"step": "ratings", "error": refused, "exit_code": AboveRatingError.exit_code}
             )
         if missed := below_yield(answered):
-            self.found["troubles"].append({"step": "yield", "error": missed, "exit_code": BelowYieldError.exit_code})
+            self.answer["troubles"].append({"step": "yield", "error": missed, "exit_code": BelowYieldError.exit_code})
         return answered
 
     def _compared(self, answered: StudyResult) -> dict[str, Any]:
@@ -168,7 +168,7 @@ class ComparisonJob:
         first, *others = front_outputs(self.study, self.table)
         for second in others:
             front = completed(trace_front(trade, (first, second), self.points), trade)
-            self.found["fronts"].append(self._plain(front, trade.optimum))
+            self.answer["fronts"].append(self._plain(front, trade.optimum))
 
     @staticmethod
     def _plain(front: Front, optimum: Point) -> dict[str, Any]:

@@ -220,7 +220,7 @@ def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
     if not math.isfinite(check.margin):
         return "never"
     margin, unit = margin_of(check, table)
-    margin = margin if abs(check.margin) > NOTHING or not getattr(check, "kept", True) else 0.0
+    margin = margin if abs(check.margin) > NOTHING or not getattr(check, "met", True) else 0.0
     if _has_unit(check, table):
         return f"{number(margin, 3)} {pretty(unit)}".rstrip()
     if abs(margin) >= 10.0:
@@ -237,7 +237,7 @@ def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | 
         **number_entry(check.value, table.unit(check.output), ends),
         "margin": finite(margin),
         "margin_unit": pretty(margin_unit),
-        "kept": check.kept,
+        "kept": check.met,
         "origin": check.origin,
     }
 
@@ -327,7 +327,8 @@ def control_entry(control: ControlResult) -> ControlEntry:
 def yield_entry(reached: YieldReached, table: Table) -> Yield:
     """Return the account of a yield that was asked for, with units."""
     nominal = {name: number_entry(value, table.unit(name)) for name, value in reached.nominal.items()}
-    return cast("Yield", asdict(reached) | {"nominal": nominal})
+    entry = asdict(reached) | {"nominal": nominal}
+    return cast("Yield", {"asked": entry.pop("target"), **entry})
 
 
 def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> ValueEntry:

@@ -138,6 +138,6 @@ def drawings(answered: AnsweredStudy) -> list[Drawing]:
     """Return every figure of an answer, with what it is drawn from; none where there is no design."""
     from tvimdesign.report.run import run_page
 
-    if not answered.result.found:
+    if not answered.result.has_design:
         return []
     return run_page.drawings(answered.result, answered.study.table) + answered.front.drawings()

@@ -58,7 +58,7 @@ def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = No
     head, first = _as_fit(joined(parts, width), more, width), warning_lines(answered.warnings, width, 1)
     facts: list[list[str]] = []
     room = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - 1
-    if answer.found:
+    if answer.has_design:
         extra = [*front_fact(answered.front.front, answered.study.table), *chosen_fact(answer)]
         facts = [_fact_lines(fact, width) for fact in (*main_facts(answer, answered.uncertainty), *extra)]
         while extra and sum(map(len, facts)) > room - len(first) - _LEAST:
@@ -162,7 +162,7 @@ def print_everything(answered: AnsweredStudy, console: Console, seconds: float |
     """Print the first screen and every table."""
     print_first_screen(answered, console, seconds)
     answer = answered.result
-    if answer.found:
+    if answer.has_design:
         console.print()
         facts = more_facts(answer, answered.uncertainty, answered.front.front)
         print_block(Facts([(fact.label, fact.text) for fact in facts]), console)

@@ -60,7 +60,7 @@ class FrontOfRun:
 
         Messages go into `reported`, points without a design into `troubles`.
         """
-        if self.study.front is None or result.solution is None or not result.found:
+        if self.study.front is None or result.solution is None or not result.has_design:
             return
         trade = Tradeoff(self.study, result.solution, *self._built[0], progress, self._memory)
         sought = trace_front(trade, self.outputs, self.study.front.points)

@@ -24,7 +24,7 @@ NO_ROOM = 100.0
 
 def active(answer: StudyResult) -> list[ActiveConstraint]:
     """Return the active limits, the costliest first."""
-    held = answer.solution.held if answer.solution and answer.found else ()
+    held = answer.solution.held if answer.solution and answer.has_design else ()
     return sorted((limit for limit in held if limit.shadow_price > PRICE_SHOWN), key=lambda limit: -limit.shadow_price)
 
 
@@ -35,7 +35,7 @@ def is_active(check: ConstraintCheck, answer: StudyResult) -> bool:
 
 def slack(answer: StudyResult) -> list[ActiveConstraint]:
     """Return the limits that could be somewhat tighter and change nothing, those with the least margin first."""
-    held = answer.solution.held if answer.solution and answer.found else ()
+    held = answer.solution.held if answer.solution and answer.has_design else ()
     slack_limits = [limit for limit in held if limit.shadow_price <= PRICE_SHOWN and limit.margin > NOTHING]
     return sorted(slack_limits, key=lambda limit: limit.margin)
 
@@ -67,7 +67,7 @@ def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
     """Return every limit and end of a range at the optimum: how it stands, its margin, and what a step of it costs."""
     rows: list[LimitEntry] = []
     tight, loose = active(answer), slack(answer)
-    held = answer.solution.held if answer.solution and answer.found else ()
+    held = answer.solution.held if answer.solution and answer.has_design else ()
     others = [limit for limit in held if limit not in tight and limit not in loose]
     groups: tuple[tuple[Stands, list[ActiveConstraint]], ...] = (
         ("active", tight), ("touches", others), ("slack", loose)
@@ -121,7 +121,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
     if between:
         values = ", ".join(f"{name} {choice_text(name, value, table)}" for name, value in between.choices.items())
         lines.append(f"With {values} there is a design: list values nearer to these, or give a number a range.")
-    broken = _worst_of_each(check for check in answer.checks if not check.kept)
+    broken = _worst_of_each(check for check in answer.checks if not check.met)
     if broken:
         lines.append(
             "The design that comes closest violates these:"

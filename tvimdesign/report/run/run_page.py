@@ -180,8 +180,8 @@ def run_page(folder: ResultsFolder, answered: AnsweredStudy) -> Page:
     module = module_section(answered)
     values = answered.reported["values"]
     every = Folded(f"All {len(values)} inputs and outputs, with their sources", [values_grid(values)])
-    sections = [folded(Section(module.name, module.title, [*module.blocks, *([every] if answer.found else [])]))]
-    if answer.found:
+    sections = [folded(Section(module.name, module.title, [*module.blocks, *([every] if answer.has_design else [])]))]
+    if answer.has_design:
         sections = _of_a_design(cad, answered, sections)
     return Page(
         answer.design.name, f"{answer.design.mode} module", says.text, says.tone, glance(answered), preview(cad),
@@ -209,7 +209,7 @@ def glance(answered: AnsweredStudy) -> list[Block]:
     answer, uncertainty = answered.result, answered.uncertainty
     rows = requirements(answer, uncertainty)
     first: list[Block] = [requirements_grid(rows)] if rows else []
-    if not answer.found:
+    if not answer.has_design:
         return [*first, Points([warning.text for warning in answered.warnings]), conflict_points(answered)]
     facts = [(fact.label, _in_short(fact)) for fact in main_facts(answer, uncertainty)]
     more = [(fact.label, fact.text) for fact in more_facts(answer, uncertainty, answered.front.front)]
@@ -327,7 +327,7 @@ def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     result, table = answered.result, answered.study.table
     write_study(folder, answered.tree, answered.study)
     write_results(folder, answered)
-    if result.solution and result.found:
+    if result.solution and result.has_design:
         folder.write("why.csv", why_csv(result, table))
     for phase, history in result.histories.items():
         folder.write(f"{phase}.csv", curves_csv(history, PHASE_UNITS, "degC"))

@@ -98,7 +98,7 @@ def run_study(
                 deadline=deadline,
             )
         result, command.failures = answered.result, answered.failures
-        if result.found:
+        if result.has_design:
             vector = bool(making) or study.write.vector
             command.begin_plots(drawings(answered), study.name, vector=vector, folder="plots")
             command.missing = [f"parts: {without}"] if without else []
@@ -111,7 +111,7 @@ def run_study(
         if not as_json:
             _print_result(answered, time.perf_counter() - began, full=full)
         parts = ""
-        if making and result.found:
+        if making and result.has_design:
             parts = _add_parts(making, answered, command)
         elif making:
             making.stop()
@@ -205,7 +205,7 @@ def _ending(answered: AnsweredStudy) -> TvimError | None:
     from tvimdesign.report.run.uncertainty_data import below_yield
 
     result, table = answered.result, answered.study.table
-    if not result.found:
+    if not result.has_design:
         return InfeasibleError(complaint(result, table))
     if refused := above_rating(result, table):
         return AboveRatingError(refused)
@@ -248,7 +248,7 @@ class Best:
 
     def note(self, result: StudyResult) -> None:
         """Note an answer where it is a design that was searched."""
-        if result.found and result.solution:
+        if result.has_design and result.solution:
             design = result.design
             self.study = started_at(Study.model_validate(design.study), design.values, design.choices)
 

@@ -65,9 +65,9 @@ class Uncertainty:
             for name in (requirement.output, *study.limited_with(requirement.output))
         ]
         shown = [name for name in FIRST_SCREEN if name.partition("@")[0] in self.table.by_name]
-        self.asked = list(dict.fromkeys([*required, *study.minimize, *shown]))
+        self.requested = list(dict.fromkeys([*required, *study.minimize, *shown]))
         self._start = self._tolerant(resolve_study(study))
-        self.model = UncertaintyModel(self._start, self.asked, list(study.vary))
+        self.model = UncertaintyModel(self._start, self.requested, list(study.vary))
 
     def _tolerant(self, resolved: ResolvedModule) -> ResolvedModule:
         """Return a module with the tolerances that count."""
@@ -83,7 +83,7 @@ class Uncertainty:
         """
         resolved = self._tolerant(resolve_design(design))
         if not self.model.fits(resolved):  # another record was chosen
-            self.model = UncertaintyModel(resolved, self.asked)
+            self.model = UncertaintyModel(resolved, self.requested)
         return self.model.at(resolved, modules, draws, deadline=deadline)
 
     def data(
@@ -95,7 +95,7 @@ class Uncertainty:
             name: _rows(name, interval.swings, interval.nominal, self.table)
             for name, interval in uncertainty.intervals.items()
         }
-        assumptions = {name: rows.get(name, []) for name in self.asked}
+        assumptions = {name: rows.get(name, []) for name in self.requested}
         entry = self.entry(uncertainty, modules, draws)
         return {**entry, "assumptions": assumptions, "needs": self._needs(uncertainty)}
 
@@ -143,7 +143,7 @@ def uncertainty_of(answer: StudyResult, study: Study, deadline: Deadline = NEVER
 
     Empty without a design, or where they are left out. Raises TimeOverError.
     """
-    if os.environ.get(_SPREAD) == "off" or not answer.found:
+    if os.environ.get(_SPREAD) == "off" or not answer.has_design:
         return {}
     reached = yield_of(answer)
     data = Uncertainty(study).data(answer.design, 0 if reached else MODULES, deadline=deadline)
@@ -203,7 +203,7 @@ _CARRIED = 0.05
 
 def yield_of(answer: StudyResult) -> YieldReached | None:
     """Return the account of a yield that the study asks for; None without a design or without one asked for."""
-    return answer.solution.yield_reached if answer.solution and answer.found else None
+    return answer.solution.yield_reached if answer.solution and answer.has_design else None
 
 
 def changes(answer: StudyResult, before: Mapping[str, float], after: Mapping[str, float], table: Table) -> list[str]:
@@ -214,12 +214,12 @@ def changes(answer: StudyResult, before: Mapping[str, float], after: Mapping[str
 def below_yield(answer: StudyResult) -> str:
     """Report a design that fewer modules satisfy than asked: which limits, by which tolerance; else empty."""
     reached, limit = yield_of(answer), answer.solution.out_of_time if answer.solution else None
-    if answer.design.status != BELOW_YIELD or not answer.found:
+    if answer.design.status != BELOW_YIELD or not answer.has_design:
         return ""
     if limit is not None or reached is None:
         return _not_in_time(answer, reached, limit)
     lines = [
-        f"{answer.design.name}: no design found with a yield of {percent(reached.asked)}; "
+        f"{answer.design.name}: no design found with a yield of {percent(reached.target)}; "
         f"the best has {percent(reached.together)}. Most is lost to"
     ]
     lines += [f"  {lost_in_words(loss)}" for loss in reached.lost_to]
@@ -231,7 +231,7 @@ def below_yield(answer: StudyResult) -> str:
 
 def lever(reached: YieldReached, table: Table) -> list[str]:
     """Return what the one tolerance to tighten must be for the yield asked for, in words; nothing if it is reached."""
-    tolerance, target = reached.tightened, percent(reached.asked)
+    tolerance, target = reached.tightened, percent(reached.target)
     if tolerance is None:
         return []
     unit, of = difference_unit(table.unit(tolerance.name)), label(tolerance.name)
@@ -247,9 +247,8 @@ def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float
     ended = f"the time limit{limited} ended the search before it had all margins against spread"
     sentence = "how many modules satisfy every limit is not known"
     if reached is not None:
-        sentence = (
-            f"{percent(reached.together)} of the modules satisfy every limit so far, {percent(reached.asked)} are asked"
-        )
+        share, target = percent(reached.together), percent(reached.target)
+        sentence = f"{share} of the modules satisfy every limit so far, {target} are asked"
     return f"{answer.design.name}: {ended}; {sentence}. Raise `solver.time_limit` (or --time-limit)."
 
 

@@ -131,12 +131,12 @@ _AFRESH = 2
 
 @dataclass
 class BranchAndBound:
-    """One search over the trees of all records; `found` are the runs of single combinations, by tree and box."""
+    """One search over the trees of all records; `runs` are the runs of single combinations, by tree and box."""
 
     trees: Sequence[Relaxation]
     keep: int
     """Number of best combinations that the search must prove: bounds are compared with the last of them."""
-    found: dict[tuple[int, Box], Run] = field(default_factory=dict)
+    runs: dict[tuple[int, Box], Run] = field(default_factory=dict)
     inside: float = 0.0
     """Largest share by which a design within a box was better than the box's bound."""
     unknown: set[tuple[int, Box]] = field(default_factory=set)
@@ -186,15 +186,15 @@ class BranchAndBound:
     @property
     def start_infeasible(self) -> bool:
         """Return whether no combination has a design, as far as searches from all optima show."""
-        return not (self.found or self.unknown or self.stopped)
+        return not (self.runs or self.unknown or self.stopped)
 
     def _begin_afresh(self) -> None:
         """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
-        best = sorted(self.found, key=lambda key: (order(self.found[key]), key))[:_AFRESH]
+        best = sorted(self.runs, key=lambda key: (order(self.runs[key]), key))[:_AFRESH]
         for key, again in zip(best, self._answers([Task(*key, None, "thoroughly") for key in best]), strict=False):
-            before = self.found[key]
+            before = self.runs[key]
             if again.run is not None and order(again.run) < order(before):
-                self.found[key] = again.run
+                self.runs[key] = again.run
                 objective = before.start.objective
                 self.inside = max(self.inside, (objective - again.run.start.objective) / abs(objective))
 
@@ -205,13 +205,13 @@ class BranchAndBound:
     @property
     def cutoff(self) -> float:
         """The bound from which on a box is left."""
-        objectives = sorted(run.start.objective for run in self.found.values())
+        objectives = sorted(run.start.objective for run in self.runs.values())
         return objectives[self.keep - 1] * (1.0 - GAP) if len(objectives) >= self.keep else math.inf
 
     @property
     def pruned(self) -> int:
         """Combinations that were left by their bound."""
-        solved = sum(bool(self._bounded[place][tuple(first for first, _ in box)]) for place, box in self.found)
+        solved = sum(bool(self._bounded[place][tuple(first for first, _ in box)]) for place, box in self.runs)
         return sum(int(bounded.sum()) for bounded in self._bounded) - solved
 
     def _urgency(self, node: Node) -> tuple[float, float, int]:
@@ -277,14 +277,14 @@ class BranchAndBound:
             self.unknown.discard(key)
             if run is None and not certain:
                 self.unknown.add(key)
-            if run is not None and (key not in self.found or order(run) < order(self.found[key])):
+            if run is not None and (key not in self.runs or order(run) < order(self.runs[key])):
                 others += self._record(key, run)
         if others:
             self._try(others)
 
     def _promises(self, task: Task) -> bool:
         """Return whether a combination is new, or the run nearby is better than its known result."""
-        known = self.found.get((task.place, task.box))
+        known = self.runs.get((task.place, task.box))
         if known is None or task.near is None:
             return True
         promised = task.near.start.objective
@@ -293,8 +293,8 @@ class BranchAndBound:
     def _record(self, key: tuple[int, Box], run: Run) -> list[Task]:
         """Keep a combination's design; what is to be tried beside the first one of its tree."""
         relaxation = self.trees[key[0]]
-        best = min((one.start.objective for one in self.found.values()), default=math.inf)
-        self.found[key] = run
+        best = min((solved.start.objective for solved in self.runs.values()), default=math.inf)
+        self.runs[key] = run
         relaxation.note(run)
         if run.start.objective < best:
             self._say(relaxation)
@@ -347,7 +347,7 @@ class BranchAndBound:
     def _say(self, relaxation: Relaxation) -> None:
         """Report the progress of the search and the best objective so far."""
         solved, left = (f"{count} {what}{'s' if count != 1 else ''}" for count, what in
-                        ((len(self.found), "combination"), (len(self._open), "group")))  # fmt: skip
-        best = min((run.start.objective for run in self.found.values()), default=None)
+                        ((len(self.runs), "combination"), (len(self._open), "group")))  # fmt: skip
+        best = min((run.start.objective for run in self.runs.values()), default=None)
         so_far = "" if best is None else f": objective {best:.5g} so far"
         relaxation.optimizer.progress(f"{solved} solved, {left} of combinations left{so_far}")

@@ -203,7 +203,7 @@ class TightenedTolerance:
 class YieldReached:
     """Yield of random modules of a design, against the requested yield, and its cost."""
 
-    asked: float
+    target: float
     modules: int
     """Drawn apart from those the design was found by."""
     shares: dict[str, float]
@@ -222,7 +222,7 @@ class YieldReached:
     @property
     def reached(self) -> bool:
         """Return whether the requested share of modules satisfies the limits."""
-        return self.together >= self.asked
+        return self.together >= self.target
 
 
 @dataclass(frozen=True)

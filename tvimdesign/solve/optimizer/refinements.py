@@ -43,7 +43,7 @@ class ConstantCurrentOptimum:
             self.best = run
         return run.inputs
 
-    def found(self) -> Constant | None:
+    def optimum(self) -> Constant | None:
         """Return the best simulated optimum with constant currents; None if there is none."""
         if self.optimizer is None or self.best is None:
             return None

@@ -354,7 +354,7 @@ def happened(name: str, values: Mapping[str, float], table: Table) -> bool:
     return not np.isnan(values[name]) and all(np.isfinite(values[peak]) for peak in peaks)
 
 
-def kept(limit: Constraint, value: float, table: Table) -> bool:
+def is_met(limit: Constraint, value: float, table: Table) -> bool:
     """Return whether a value satisfies a limit, to the precision of its computation."""
     tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
     return bool(limit.residual(value) <= tolerance)
@@ -365,7 +365,7 @@ def exceeded(values: Mapping[str, float], table: Table) -> tuple[Constraint, ...
     return tuple(
         limit
         for limit in ratings_of(table)
-        if happened(limit.output, values, table) and not kept(limit, values[limit.output], table)
+        if happened(limit.output, values, table) and not is_met(limit, values[limit.output], table)
     )
 
 

@@ -101,7 +101,7 @@ class _Tracer:
         self.ends: list[Point] = []
         self.between: list[Point] = []
         self.lost = 0
-        self.first = trade.asked
+        self.first = trade.requests
 
     def front(self) -> Front:
         """Return the whole front, or the part that exists so far."""
@@ -134,7 +134,7 @@ class _Tracer:
         held = (f"{', '.join(listed)} as in the optimum: listed sizes and records are not traded",) if listed else ()
         return Front(
             self.outputs, tuple(points), self.lost, tuple(self.failures), (*notes, *self.notes, *held),
-            self.trade.asked - self.first,
+            self.trade.requests - self.first,
         )  # fmt: skip
 
     # --- ends ---
@@ -211,7 +211,7 @@ class _Tracer:
 
     @property
     def _may_try(self) -> bool:
-        return self.trade.asked - self.first < MOST_TRIES * self.count
+        return self.trade.requests - self.first < MOST_TRIES * self.count
 
     def _seek(self, place: Array) -> bool:
         """Seek the design on the line through a place; whether it is a new one."""
@@ -301,7 +301,7 @@ def undominated(points: Sequence[Point], names: Sequence[str]) -> list[Point]:
     """Return the points that no other matches in every named output (less is better); of equal ones the first."""
     if not points:
         return []
-    return [points[i] for i in shape.kept(np.array([[point.values[name] for name in names] for point in points]))]
+    return [points[i] for i in shape.efficient(np.array([[point.values[name] for name in names] for point in points]))]
 
 
 def _alike(values: Sequence[float]) -> bool:

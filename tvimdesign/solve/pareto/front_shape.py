@@ -69,7 +69,7 @@ class Frame:
         return tuple(lines)
 
 
-def kept(rows: Array) -> list[int]:
+def efficient(rows: Array) -> list[int]:
     """Places of the rows that no other is as good as in every column (less is better); of equal ones the first."""
     places = []
     for i, row in enumerate(rows):

@@ -97,7 +97,7 @@ class Tradeoff:
         self.points: list[Point] = [self.optimum]
         self.ends: dict[str, Point] = {}
         """Where the least of an output was found before, by output."""
-        self.asked = 0
+        self.requests = 0
         """Count of the designs that were sought."""
 
     def weights(self, weights: dict[str, float]) -> dict[str, float]:
@@ -113,7 +113,7 @@ class Tradeoff:
         Where a design that was found before keeps the bounds and is better, this has ended in a worse optimum: then
         also from there.
         """
-        number, self.asked = self.asked, self.asked + 1
+        number, self.requests = self.requests, self.requests + 1
         answer = self._memory.recall(number, objective) if self._memory else None
         if answer is None and self.optimizer.deadline.passed:
             return Failure(where, OUT_OF_TIME)
@@ -157,7 +157,7 @@ class Tradeoff:
     def again(self, point: Point, other: Point) -> Point | None:
         """Return a point solved again from another one; None if no better one results."""
         assert point.objective is not None  # the study's own optimum is never asked for again
-        number, self.asked = self.asked, self.asked + 1
+        number, self.requests = self.requests, self.requests + 1
         answer = self._memory.recall(number, point.objective) if self._memory else None
         if answer is None and self.optimizer.deadline.passed:
             return None

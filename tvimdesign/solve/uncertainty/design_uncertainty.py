@@ -65,11 +65,11 @@ class DesignUncertainty:
 class UncertaintyModel:
     """Limits and asked outputs of a module as functions of what spreads, is unmeasured, or is free."""
 
-    def __init__(self, resolved: ResolvedModule, asked: Sequence[str], free: Sequence[str] = ()) -> None:
+    def __init__(self, resolved: ResolvedModule, requested: Sequence[str], free: Sequence[str] = ()) -> None:
         """Record. `free` are the inputs in which the designs that it is asked of may differ."""
         self._resolved, study, table = resolved, resolved.study, resolved.table
         lost = behind_profiles(table, {*study.profile.pieces(), *resolved.current_profiles})
-        self.asked = tuple(name for name in dict.fromkeys(asked) if not _behind(table, name, lost))
+        self.requested = tuple(name for name in dict.fromkeys(requested) if not _behind(table, name, lost))
         unmeasured = [quantity.name for quantity in unmeasured_inputs(resolved)]
         self._free = set(free)
         self._spreading = {name.partition("@")[0] for name in study.tolerances}
@@ -79,7 +79,7 @@ class UncertaintyModel:
             limit for limit in every if _behind(table, limit.output, moved) and judges_modules(limit, self._spreading)
         ]
         limited = [limit.output for limit in self.limits if not _behind(table, limit.output, lost)]
-        self.outputs = list(dict.fromkeys([*limited, *self.asked]))
+        self.outputs = list(dict.fromkeys([*limited, *self.requested]))
         counting = [name for name in unmeasured if any(_behind(table, output, {name}) for output in self.outputs)]
         moving = dict.fromkeys([*study.tolerances, *free, *counting])
         self.names = [name for name in moving if isinstance(resolved.values.get(name), int | float)]
@@ -174,7 +174,7 @@ class UncertaintyModel:
             return {}
         drawn = draw(before_measuring(moved), draws, resolved.study.solver.seed)
         values = rows(drawn, [quantity.name for quantity in moved])
-        return {name: covered(values[self.outputs.index(name)]) for name in self.asked}
+        return {name: covered(values[self.outputs.index(name)]) for name in self.requested}
 
     def _of_ranges(
         self, resolved: ResolvedModule, limits: Sequence[Constraint], draws: int, rows: Rows
@@ -192,7 +192,7 @@ class UncertaintyModel:
         values = every(drawn)
         ranges = intervals(every, moved, drawn, values, float(resolved.values["horizon"]))
         by_name = dict(zip(self.outputs, ranges, strict=True))
-        requested = {name: by_name[name] for name in self.asked}
+        requested = {name: by_name[name] for name in self.requested}
         hanging = [limit for limit in limits if _behind(resolved.table, limit.output, set(places))]
         if not hanging:
             return requested, None, {}, moved

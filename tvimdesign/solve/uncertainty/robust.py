@@ -71,7 +71,7 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
 def _rank(tried: tuple[int, Robust]) -> tuple[bool, bool, float]:
     """Rank designs that reach what is asked by their objectives, then the others by how near they come."""
     robust = tried[1]
-    return not robust.reached, not robust.plausible, robust.run.start.objective if robust.reached else -robust.kept
+    return not robust.reached, not robust.plausible, robust.run.start.objective if robust.reached else -robust.share
 
 
 def _with_margins(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], other: Robust) -> Run:

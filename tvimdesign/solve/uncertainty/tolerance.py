@@ -22,8 +22,8 @@ SOBOL_SAMPLES = 1 << 10
 
 
 @dataclass(frozen=True)
-class Kept:
-    """One limit, and how many modules keep it."""
+class LimitYield:
+    """A limit and the yield of modules that satisfy it."""
 
     limit: Constraint
     share: spread.Yield
@@ -37,7 +37,7 @@ class Spread:
 
     contributors: tuple[spread.Contributor, ...]
     outputs: tuple[str, ...]
-    asked: tuple[str, ...]
+    requested: tuple[str, ...]
     """Those the study minimises or requires, or that a summary shows."""
     nominal: Array
     derivatives: Array
@@ -51,7 +51,7 @@ class Spread:
     first: Array
     """First-order Sobol indices."""
     total: Array
-    kept: tuple[Kept, ...]
+    limit_yields: tuple[LimitYield, ...]
     together: spread.Yield
     """Yield of all limits together."""
     left_out: tuple[str, ...]
@@ -131,7 +131,7 @@ class Tolerancing:
         progress("preparing the equations for random deviations")
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
-        self.asked = tuple(name for name in dict.fromkeys(self._requested()) if name in self.outputs)
+        self.requested = tuple(name for name in dict.fromkeys(self._requested()) if name in self.outputs)
         self.limits = [limit for limit in self.limits if limit.output in self.outputs]
         self.many = BatchModel(resolved.functions, names, self.outputs)
         self.horizon = float(resolved.values["horizon"])
@@ -206,11 +206,11 @@ class Tolerancing:
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
         satisfied, together = self._satisfied(results)
         return Spread(
-            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, results,
-            first, total, satisfied, together, self.left_out,
+            tuple(contributors), self.outputs, self.requested, self.nominal, derivatives, deviation, shares, worst,
+            results, first, total, satisfied, together, self.left_out,
         )  # fmt: skip
 
-    def _satisfied(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:
+    def _satisfied(self, drawn: spread.MonteCarlo) -> tuple[tuple[LimitYield, ...], spread.Yield]:
         shares = []
         every = np.ones(drawn.values.shape[1], dtype=bool)
         for limit in self.limits:
@@ -219,7 +219,7 @@ class Tolerancing:
                 keeps = np.asarray(limit.keeps(drawn.values[i]))
             every &= keeps
             able = spread.capability(float(drawn.mean[i]), float(drawn.deviation[i]), limit.limit, limit.sense)
-            shares.append(Kept(limit, spread.share_kept(keeps), able))
+            shares.append(LimitYield(limit, spread.share_kept(keeps), able))
         return tuple(shares), spread.share_kept(every)
 
     def preload(self, samples: int, seed: int) -> Preload | None:

@@ -51,7 +51,7 @@ class Robust:
     run: Run
     margins: dict[str, float]
     """By limit [shares of its scale]."""
-    kept: float
+    share: float
     reached: bool
     """Whether that is as many as asked, to the lower end of its interval of 95 %."""
     plausible: bool = True
@@ -76,7 +76,7 @@ def reach_yield(
     which = f", with {', '.join(sizes)}" if sizes else ""
     for number in range(MOST_ROUNDS):
         optimizer.progress(f"simulating modules with random deviations{which}")
-        if number >= ROUNDS and candidates[-1].kept <= max(candidate.kept for candidate in candidates[:-1]):
+        if number >= ROUNDS and candidates[-1].share <= max(candidate.share for candidate in candidates[:-1]):
             break
         try:
             drawn = yields.compared(run.inputs, share, optimizer.deadline)
@@ -106,7 +106,7 @@ def reach_yield(
         candidates,
         key=lambda candidate: (
             not candidate.reached,
-            candidate.run.start.objective if candidate.reached else -candidate.kept,
+            candidate.run.start.objective if candidate.reached else -candidate.share,
         ),
     )
     optimizer.margins = best.margins

@@ -218,7 +218,7 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
     values = optimizer.model.values(nominal.inputs, cycle.values)
     names = [name for name in table.names(points) if table.output(name).headline]
     return YieldReached(
-        asked=share, modules=drawn.residuals.shape[1], shares=drawn.shares, together=drawn.together.share,
+        target=share, modules=drawn.residuals.shape[1], shares=drawn.shares, together=drawn.together.share,
         lost_to=tuple(_lost(drawn, optimizer)), nominal_together=without,
         nominal={name: float(values[name]) for name in dict.fromkeys([*optimizer.study.minimize, *names])},
         tightened=tightened(drawn, yields.contributors(run.inputs), share),
@@ -241,7 +241,7 @@ def tightened(drawn: Drawn, contributors: Sequence[spread.Contributor], share: f
     around = np.nan_to_num(residuals - np.nanmean(residuals, axis=1, keepdims=True))
     slopes = around @ centred.T / np.sum(centred**2, axis=1)
 
-    def kept(i: int, factor: float) -> float:
+    def yield_with(i: int, factor: float) -> float:
         moved = drawn.residuals + (factor - 1.0) * slopes[:, i, None] * off[i]
         return spread.share_kept(np.all(moved <= ALGEBRAIC_TOLERANCE, axis=0)).share
 
@@ -249,14 +249,14 @@ def tightened(drawn: Drawn, contributors: Sequence[spread.Contributor], share: f
         low, high = 0.0, 1.0
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            low, high = (middle, high) if kept(i, middle) >= share else (low, middle)
+            low, high = (middle, high) if yield_with(i, middle) >= share else (low, middle)
         return low
 
-    without = {i: kept(i, 0.0) for i in range(len(contributors))}
+    without = {i: yield_with(i, 0.0) for i in range(len(contributors))}
     factors = {i: least(i) for i in without if without[i] >= share}
     best = max(factors or without, key=lambda i: (factors or without)[i])
     size, factor = contributors[best].plus_minus, factors.get(best, 0.0)
-    return TightenedTolerance(contributors[best].name, size, factor * size, kept(best, factor))
+    return TightenedTolerance(contributors[best].name, size, factor * size, yield_with(best, factor))
 
 
 def _lost(drawn: Drawn, optimizer: Optimizer) -> list[LostTo]:

@@ -398,7 +398,7 @@ def chosen_fact(answer: StudyResult) -> list[Fact]:
 def _current(answer: StudyResult, table: Table) -> list[Fact]:
     """Return what currents that follow a profile buy against the best constant ones, which have no margins."""
     best = answer.solution.constant if answer.solution else None
-    if best is None or not answer.found or answer.solution is None:
+    if best is None or not answer.has_design or answer.solution is None:
         return []
     text = f"follows a profile while {' and '.join(answer.design.current_profiles)}"
     reached = yield_of(answer)
@@ -421,7 +421,7 @@ def _yield(answer: StudyResult, uncertainty: Mapping[str, Any], table: Table) ->
             parts.append(f"{len(uncertainty['left_out'])} that never happen or follow a profile are not counted")
     if reached is not None:
         cost = ", ".join(changes(answer, reached.nominal, answer.design.values, table))
-        parts.append(f"target {percent(reached.asked)}, without margins {percent(reached.nominal_together)}")
+        parts.append(f"target {percent(reached.target)}, without margins {percent(reached.nominal_together)}")
         parts.append(f"the margins cost {cost}")
     elif share is not None and share["share"] < _GOOD and robust.get("share") is None:
         standard = "" if uncertainty["tolerances"] == "study" else "`tolerances: standard` and "

@@ -23,7 +23,7 @@ class Requirement:
     """One output that the study or the machine limits."""
 
     name: str
-    asked: str
+    requested: str
     got: str
     range: str
     """`38 to 104`, over the ranges of unmeasured inputs; empty if that says no more than the value."""
@@ -42,7 +42,7 @@ class Requirement:
     def cells(self) -> tuple[str, ...]:
         """The row under `HEADS`."""
         title = f"{label(self.name.partition('@')[0])}, {self.state}" if self.state else label(self.name)
-        return title, self.asked, self.got, self.range, self.stands
+        return title, self.requested, self.got, self.range, self.stands
 
 
 def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Requirement]:
@@ -63,7 +63,7 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
         spread = range_text(_interval(_limited(checks, name, table), intervals))
         state = _hot_states(answer) if table.output(name).at_end in {check.output for check in checks} else ""
         rows.append(replace(row, range=spread, depends_on=label(first) if first else "", state=state))
-    violated = [check for check in answer.checks if check.origin != "require" and not check.kept]
+    violated = [check for check in answer.checks if check.origin != "require" and not check.met]
     for check in sorted(violated, key=lambda check: check.worst):
         rows.append(_requirement(answer, table, check.output, check.text.removeprefix(check.output).strip(), [check]))
     return rows
@@ -129,7 +129,7 @@ def _got(answer: StudyResult, names: Sequence[str], unit: str, check: Constraint
     name, table = names[0], table_for(answer.design.mode)
     if name in answer.intervals:
         text = value_text(answer, name, table, rounded=True)
-    elif check.absolute and check.kept and abs(check.margin) <= NOTHING and check.output == name:
+    elif check.absolute and check.met and abs(check.margin) <= NOTHING and check.output == name:
         text = number(on_limit(check, unit))
     elif len(names) > 1:
         values = [from_si(answer.design.value(output), unit) for output in names]
@@ -141,7 +141,7 @@ def _got(answer: StudyResult, names: Sequence[str], unit: str, check: Constraint
 
 def _stands(answer: StudyResult, check: ConstraintCheck, table: Table) -> tuple[str, Tone]:
     """Return the margin, or how a limit without any stands; `3 %, active` if the optimum is at its tolerance margin."""
-    if not check.kept:
+    if not check.met:
         return f"violated by {margin_text(check, table).lstrip('-')}", "bad"
     if check in answer.undecided:
         return "open: history decides", "warn"

@@ -22,7 +22,7 @@ COSTS = 5
 
 def text_sections(answered: AnsweredStudy) -> list[Section]:
     """Return the sections that the terminal prints; the page has figures between them."""
-    if not answered.result.found:
+    if not answered.result.has_design:
         return [Section("conflict", "No design", [conflict_points(answered)]), module_section(answered)]
     front = answered.reported.get("front")
     return [
@@ -43,7 +43,7 @@ def module_section(answered: AnsweredStudy) -> Section:
     """Return what was varied, the operating points, the headline quantities and the limits."""
     answer = answered.result
     blocks: list[Block] = [varied] if (varied := tables.variables_grid(answer)).rows else []
-    if answer.found:
+    if answer.has_design:
         blocks += [
             tables.points_grid(answer),
             Folded("Way of the frozen torque", [tables.torque_path_grid(answer)]),
@@ -57,7 +57,7 @@ def search_section(answered: AnsweredStudy) -> list[Section]:
     """Return how the design was found: optima, margins, listed choices and currents; none of an evaluation."""
     answer = answered.result
     lines = _robustness(answer)
-    if answer.solution is not None and answer.found:
+    if answer.solution is not None and answer.has_design:
         at_start = sum(answer.design.study["minimize"].values())
         lines.insert(0, f"Objective {answer.solution.objective:.5g}, at the study's own start {at_start:.5g}.")
     blocks: list[Block] = [Points(lines)] if lines else []

@@ -37,8 +37,8 @@ def variables_grid(answer: StudyResult) -> Grid:
         ends = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
         allowed = ends_text(from_si(ends[0], unit), from_si(ends[1], unit), 4)
         rows.append((name, start, end, pretty(unit), allowed + ("" if "lower" in vary else ", listed")))
-    title = "What was varied" if answer.found else "Where the solver ended; this is not a design"
-    heads = ("variable", "start", "design" if answer.found else "end", "unit", "allowed")
+    title = "What was varied" if answer.has_design else "Where the solver ended; this is not a design"
+    heads = ("variable", "start", "design" if answer.has_design else "end", "unit", "allowed")
     return grid(title, heads, rows, right=(1, 2))
 
 
@@ -146,7 +146,7 @@ def checks_grid(answer: StudyResult) -> Grid:
 
 
 def _check_row(check: ConstraintCheck, answer: StudyResult, table: Table) -> tuple[str, ...]:
-    stands = "violated" if not check.kept else "active" if is_active(check, answer) else "ok"
+    stands = "violated" if not check.met else "active" if is_active(check, answer) else "ok"
     stands = "open" if check in answer.undecided else stands
     because = "the study" if check.origin == "require" else check.origin
     margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least

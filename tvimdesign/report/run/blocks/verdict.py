@@ -79,7 +79,7 @@ def verdict(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Seque
     warnings : Sequence of RunWarning
         The warnings of the run, the gravest first.
     """
-    if not answer.found:
+    if not answer.has_design:
         return Verdict("infeasible", _infeasible(answer))
     return (
         _unfit(answer)
@@ -109,7 +109,7 @@ def _infeasible(answer: StudyResult) -> str:
         return "No design found in time: raise solver.time_limit"
     if answer.design.status == FLAT_GOAL:
         return "No optimum: nothing under `vary` moves what is minimised"
-    violated = [check for check in answer.checks if not check.kept]
+    violated = [check for check in answer.checks if not check.met]
     if violated:
         table = table_for(answer.design.mode)
         return f"No design found: the nearest violates {_violation(_worst(violated), table)}"
@@ -121,7 +121,7 @@ def _unfit(answer: StudyResult) -> Verdict | None:
         return Verdict("unfit", "Do not build it: it never gets soft within `horizon`")
     if math.isinf(answer.design.value("stiffening_time")):
         return Verdict("unfit", "Do not build it: it never gets stiff again within `horizon`")
-    violated = [check for check in answer.checks if not check.kept]
+    violated = [check for check in answer.checks if not check.met]
     if not violated:
         return None
     table = table_for(answer.design.mode)
@@ -149,7 +149,7 @@ def _margins_missed(answer: StudyResult) -> Verdict | None:
     if reached is None:
         return Verdict("margins_missed", "Margins not reached: the time limit ended the search")
     return Verdict(
-        "margins_missed", f"Margins not reached: yield {percent(reached.together)} of {percent(reached.asked)} asked"
+        "margins_missed", f"Margins not reached: yield {percent(reached.together)} of {percent(reached.target)} asked"
     )
 
 
@@ -236,7 +236,7 @@ def starts_in_words(answer: StudyResult) -> list[str]:
         return []
     free, optima = answer.solution.free_starts, answer.solution.distinct_optima()
     count = "1 start" if len(free) == 1 else f"{len(free)} starts"
-    if not answer.found:
+    if not answer.has_design:
         return [f"{sum(start.converged for start in free)} of {count} converged" if optima else f"{count}, no design"]
     if not optima:
         return ["no start converged, a later search did"]

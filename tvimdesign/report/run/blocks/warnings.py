@@ -53,7 +53,7 @@ def warnings_of(answer: StudyResult, doubts: Sequence[str], deadline: Deadline =
     Remedies of those that the first screen shows are tried until the deadline.
     """
     from_records = [_other("doubt", line=doubt) for doubt in doubts]
-    if not answer.found:
+    if not answer.has_design:
         return from_records
     own = [*_of_choices(answer), *_of_the_switch(answer), *_of_advice(answer, deadline)]
     warnings = [*own, *_of_points(answer), *_of_the_search(answer)]
