@@ -60,11 +60,11 @@ def _cost(items: Sequence[Item]) -> str:
     return (
         f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list, some of them a neighbour's: "
         f"{between(sums.low, sums.high)} for whole packs. "
-        f"Ask suppliers for quotes of the others.{_asked_first(items)}"
+        f"Ask suppliers for quotes of the others.{_made_to_order(items)}"
     )
 
 
-def _asked_first(items: Sequence[Item]) -> str:
+def _made_to_order(items: Sequence[Item]) -> str:
     """Return what is made to order, to be asked for before all else; empty if nothing is."""
     slow = _listed([item for item in items if MADE_TO_ORDER in item.lead_time])
     words = f" Order first what is {MADE_TO_ORDER}, and ask how long it takes, which no list says"

@@ -386,7 +386,7 @@ def _papers(kind: str) -> tuple[str, ...]:
     return (cad_report.step(kind), *drawing, cad_report.print_3mf(kind))
 
 
-def _come_by(item: Item) -> str:
+def _source(item: Item) -> str:
     if item.fixture:
         return "fixture"
     return "made" if item.made else "bought"
@@ -410,7 +410,7 @@ def bill_csv(items: Sequence[Item]) -> bytes:
         noted = ", ".join(filter(None, (offer.number, offer.note))) if offer else chosen
         ordered = (offer.supplier, noted, offer.pack) if offer else ("", noted, "")
         writer.writerow([
-            number, item.kind, item.quantity, _come_by(item), item.material, item.title,
+            number, item.kind, item.quantity, _source(item), item.material, item.title,
             item.fit, f"{item.mass:.3f}", f"{item.mass * item.quantity:.3f}", *ordered, item.price,
             f"{item.cost * item.quantity:.4f}" if item.cost else "", item.lead_time, offer.link if offer else "",
             " ".join(item.solids), " ".join(item.papers),

@@ -70,15 +70,15 @@ def feature_rows(solid: cq.Solid, requirements: DrawingRequirements) -> list[Fea
         steps, alone = pairs(_between_levels(alone))
         beside = [*beside, *steps]
     rows = [
-        *_like(_hole_row_for(requirements), _holes(cylinders, requirements), _hole_key),
-        *_like(_sector_row, bounded, _sector_key),
-        *_like(_pair_row, beside, _pair_key),
-        *_like(_wall_row, alone, _wall_key),
-        *_like(_arc_row_for(requirements), [arc for arc in arcs if not is_corner(arc)], _arc_key),
-        *_like(_corners_row, [arc for arc in arcs if is_corner(arc)], lambda arc: round(arc.radius, 4)),
+        *_rows(_hole_row_for(requirements), _holes(cylinders, requirements), _hole_key),
+        *_rows(_sector_row, bounded, _sector_key),
+        *_rows(_pair_row, beside, _pair_key),
+        *_rows(_wall_row, alone, _wall_key),
+        *_rows(_arc_row_for(requirements), [arc for arc in arcs if not is_corner(arc)], _arc_key),
+        *_rows(_corners_row, [arc for arc in arcs if is_corner(arc)], lambda arc: round(arc.radius, 4)),
     ]
     rows = [row if requirements.placed or row.what not in _BODY else replace(row, place="") for row in rows]
-    return _unlike([_over(row, box.zmin, box.zmax) for row in rows])
+    return _distinct_rows([_over(row, box.zmin, box.zmax) for row in rows])
 
 
 def _between_levels(walls: Sequence[Wall]) -> list[Wall]:
@@ -97,7 +97,7 @@ def is_corner(face: Cylinder) -> bool:
     return face.concave and not face.is_round and face.radius <= CORNER
 
 
-def _like(row: Callable[[list[T]], FeatureRow], faces: Iterable[T], key: Callable[[T], Hashable]) -> list[FeatureRow]:
+def _rows(row: Callable[[list[T]], FeatureRow], faces: Iterable[T], key: Callable[[T], Hashable]) -> list[FeatureRow]:
     """Return a row for each group of features that are alike."""
     groups: dict[Hashable, list[T]] = {}
     for face in faces:
@@ -236,7 +236,7 @@ def _reach(wall: Wall) -> str:
     return f"R{figure(near)} to R{figure(far)}"
 
 
-def _unlike(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
+def _distinct_rows(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
     """Return the rows, with the ends of walls where rows would read the same without."""
     alike = Counter(row.text for row in rows)
     distinct = []

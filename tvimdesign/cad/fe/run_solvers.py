@@ -50,7 +50,7 @@ def require_fe(python: str) -> None:
 
 
 def run_solvers(
-    names: Sequence[str], parts: Path, work: Path, python: str, say: Callable[[str], None]
+    names: Sequence[str], parts: Path, work: Path, python: str, progress: Callable[[str], None]
 ) -> dict[str, Solved]:
     """Solve the parts of a folder on two meshes by each solver; files go into `work`. Raises SimulationError."""
 
@@ -59,7 +59,7 @@ def run_solvers(
         to = work / f"{name}_{mesh}.json"
         command = [python, SOLVERS / f"{name}.py", parts, to, "--coarser", f"{coarser}"]
         command += ["--field", work / f"{name}.npz"] if coarser == 1.0 else []
-        say(f"solving the {name} on a {mesh} mesh")
+        progress(f"solving the {name} on a {mesh} mesh")
         _run(commands, [str(word) for word in command], f"{name}, {mesh} mesh")
         results: dict[str, float] = json.loads(to.read_text(encoding="utf-8"))
         return results

@@ -85,11 +85,11 @@ def warm_up(mode: str = "") -> None:
     import_module("tvimdesign.cad.render.pictures")
 
 
-def run(design_path: Path, out: Path, part_limit: float, say: Callable[..., None]) -> None:
-    """Make what is not kept from before, put all files into `out`; `say` gets each step, then what came of it."""
+def run(design_path: Path, out: Path, part_limit: float, send: Callable[..., None]) -> None:
+    """Make what is not in the cache and put all files into `out`; `send` gets each step, then the results."""
     started = time.perf_counter()
     design = read_design(design_path)
-    say(progress="loading the CAD kernel")
+    send(progress="loading the CAD kernel")
     load_kernel()
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.jobs.build_plan import PICTURES, build_plan
@@ -101,8 +101,8 @@ def run(design_path: Path, out: Path, part_limit: float, say: Callable[..., None
         own = cache_folder(_CACHE_NAME) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
         store = Cache(Path(own))
         pool = WorkerPool(
-            TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), part_limit,
-            made=lambda result: _hand_out(result, out),
+            TrackedDesign(design, _titles(design)), store, lambda step: send(progress=step), part_limit,
+            made=lambda result: _deliver(result, out),
         )  # fmt: skip
         done = pool.do(build_plan(dimensions(design)))
         files = sorted(name for result in done.results.values() for name in result.out)
@@ -115,7 +115,7 @@ def run(design_path: Path, out: Path, part_limit: float, say: Callable[..., None
     notes = [f"no pictures: {pictures}"] if pictures else []
     notes += [f"{name} is made anew: its kept files are damaged, or others could change them" for name in store.damaged]
     notes += _cache_notes()
-    say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
+    send(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
 
 
 def _cache_notes() -> list[str]:
@@ -159,7 +159,7 @@ def _ordered_by(record: Record, design: Design, row: str) -> str:
     return record.words["designation"].format(length=f"{1e3 * length:.3g}")
 
 
-def _hand_out(result: Result, out: Path) -> None:
+def _deliver(result: Result, out: Path) -> None:
     """Copy a result into the user's folder, each file whole: the first are there long before the last."""
     for name in result.out:
         (out / name).parent.mkdir(parents=True, exist_ok=True)
@@ -175,7 +175,7 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, Callable[..., N
     gc.disable()  # a seventh of the time to load: this process keeps all that it makes; its children collect
     write = line_writer()  # the kernel prints to standard output from C++
 
-    def say(**message: Any) -> None:
+    def send(**message: Any) -> None:
         write(message)
 
     try:
@@ -187,9 +187,9 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, Callable[..., N
                 return 0
             arguments = json.loads(line)
         design_path, out = (Path(argument) for argument in arguments[:2])
-        job(design_path, out, float(arguments[2]), say)
+        job(design_path, out, float(arguments[2]), send)
     except TvimError as error:
-        say(error=str(error), code=error.exit_code)
+        send(error=str(error), code=error.exit_code)
         return error.exit_code
     return 0
 

@@ -33,27 +33,27 @@ BASE, MOVING = "base", "moving"
 """What stands with the housing, and what turns with the rotor."""
 
 
-def run(design_path: Path, out: Path, _part_limit: float, say: Callable[..., None]) -> None:
-    """Write mass properties and meshes of both bodies; `say` gets each step, then what the checks found."""
+def run(design_path: Path, out: Path, _part_limit: float, send: Callable[..., None]) -> None:
+    """Write mass properties and meshes of both bodies; `send` gets each step, then what the checks found."""
     started = time.perf_counter()
     design = read_design(design_path)
-    say(progress="loading the CAD kernel")
+    send(progress="loading the CAD kernel")
     from tvimdesign.cad.assembly.assembly import drawn_parts, place
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.inspection.size_checks import size_checks
 
     dims = dimensions(design)
-    drawn = drawn_parts(dims, lambda part: say(progress=part))
+    drawn = drawn_parts(dims, lambda part: send(progress=part))
     placed = place(dims, drawn)
     checks = [asdict(check) for check in size_checks(design, placed)]
-    say(progress="meshes")
+    send(progress="meshes")
     meshes, bodies = coarse_meshes(dims, drawn), names_of_bodies(placed)
     (out / MESHES).mkdir(exist_ok=True)
     for body, names in bodies.items():
         atomic_write(out / MESHES / f"{body}.stl", body_stl(meshes, placed, names))
     atomic_write(out / BODIES, (json.dumps(_weighed(design, placed, bodies), indent=2) + "\n").encode())
     files = [BODIES, *(f"{MESHES}/{body}.stl" for body in bodies)]
-    say(checks=checks, files=files, notes=[], reused=[], seconds=time.perf_counter() - started)
+    send(checks=checks, files=files, notes=[], reused=[], seconds=time.perf_counter() - started)
 
 
 def names_of_bodies(placed: Mapping[str, Any]) -> dict[str, list[str]]:
