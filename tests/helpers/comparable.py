@@ -66,7 +66,7 @@ def written(folder: Path, **texts: str) -> list[Path]:
     return paths
 
 
-def entrants(folder: Path, *texts: str) -> list[Case]:
+def cases(folder: Path, *texts: str) -> list[Case]:
     """Studies of these texts as the comparison takes them."""
     paths = written(folder, **{f"study_{i}": text for i, text in enumerate(texts)})
     studies = [(path, read_study(path)) for path in paths]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from cad_designs import shipped_design
-from comparable import COMPRESSION, SHEAR, entrants
+from comparable import COMPRESSION, SHEAR, cases
 from support import ROOT, Command, refused
 
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
@@ -129,7 +129,7 @@ def test_tolerate_leaves_out_the_constant_current_that_a_profile_replaces(tvimde
 
 def problems_of(folder: Path, *texts: str) -> list[str]:
     try:
-        refuse_unequal(entrants(folder, *texts))
+        refuse_unequal(cases(folder, *texts))
     except StudyError as error:
         return [str(problem) for problem in error.problems]
     return []
@@ -180,6 +180,6 @@ def test_another_record_or_an_evaluated_study_is_one_difference(tmp_path: Path) 
     reported = problems_of(tmp_path, SHEAR, drawn)
     assert len(reported) == 1
     assert "vary: missing: this study is evaluated only" in reported[0]
-    item = entrants(tmp_path, SHEAR)
+    item = cases(tmp_path, SHEAR)
     with pytest.raises(StudyError, match=r"study_0\.yaml: given twice"):
         refuse_unequal([*item, *item])

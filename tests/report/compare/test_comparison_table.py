@@ -6,7 +6,7 @@ import math
 from typing import Any, Literal
 
 import pytest
-from comparable import COARSE, COMPRESSION, entrants, written
+from comparable import COARSE, COMPRESSION, cases, written
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -108,7 +108,7 @@ def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
         for name, path in zip(("s", "c"), paths, strict=True)
     }
     return Outcome(
-        dict(zip(("s", "c"), entrants(folder, first, second), strict=True)),
+        dict(zip(("s", "c"), cases(folder, first, second), strict=True)),
         {name: job.run() for name, job in jobs.items()},
     )
 
@@ -144,4 +144,4 @@ def test_warnings_are_of_the_same_designs(outcome: Outcome) -> None:
     assert mass["si"]["s"] == pytest.approx(1e-3 * mass["values"]["s"])
     assert mass["si_unit"] == "kg"
     mine = {"s": outcome.answers["s"]}
-    assert Outcome({"s": outcome.entrants["s"]}, mine).which == "optimised"
+    assert Outcome({"s": outcome.cases["s"]}, mine).which == "optimised"

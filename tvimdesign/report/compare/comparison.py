@@ -39,11 +39,11 @@ class Outcome:
     """All studies' answers under their labels; the others are compared with the first study."""
 
     def __init__(
-        self, entrants: Mapping[str, Case], answers: Mapping[str, dict[str, Any]], differences: Sequence[str] = ()
+        self, cases: Mapping[str, Case], answers: Mapping[str, dict[str, Any]], differences: Sequence[str] = ()
     ) -> None:
         """Take what each child process wrote as `answers`, and the conditions in which finished runs differ."""
-        self.entrants, self.answers, self.differences = dict(entrants), dict(answers), list(differences)
-        self.tables = {label: entrant.study.table for label, entrant in entrants.items()}
+        self.cases, self.answers, self.differences = dict(cases), dict(answers), list(differences)
+        self.tables = {label: case.study.table for label, case in cases.items()}
         self.seconds: dict[str, float] = {}
 
     @property
@@ -173,7 +173,7 @@ class Outcome:
     def sentence(self) -> str:
         """The answer with its conditions: how the others stand against the first."""
         reported = [*self._without_design(), *self._against(self.which)]
-        alike = ", ".join(conditions(self.entrants))
+        alike = ", ".join(conditions(self.cases))
         count = f"{len(self.differences)} different conditions (below)"
         return f"With {count if self.differences else alike}, {COMPARISONS[self.which]}: {'; '.join(reported)}."
 
@@ -189,7 +189,7 @@ class Outcome:
     def _against(self, which: str) -> list[str]:
         labels = list(self.designs[which])
         rows = self.rows.get(which, [])
-        reported = list(next(iter(self.entrants.values())).study.minimize) or list(_DEFAULT_OUTPUTS)
+        reported = list(next(iter(self.cases.values())).study.minimize) or list(_DEFAULT_OUTPUTS)
         return [against(label, labels[0], rows, reported) for label in labels[1:]]
 
     def plain(self) -> dict[str, Any]:
@@ -199,7 +199,7 @@ class Outcome:
             "sentence": self.sentence,
             "conclusions": self.conclusions,
             "differences": self.differences,
-            "studies": {label: self._study(label) for label in self.entrants},
+            "studies": {label: self._study(label) for label in self.cases},
             "comparisons": {which: [plain(row) for row in rows] for which, rows in self.rows.items()},
             "leads": [contest.plain() for contest in self.contests],
             "fronts": self.fronts_plain() if self.fronts else {},
@@ -207,9 +207,9 @@ class Outcome:
         }
 
     def _study(self, label: str) -> dict[str, Any]:
-        entrant, answer = self.entrants[label], self.answers[label]
+        case, answer = self.cases[label], self.answers[label]
         return {
-            "file": str(entrant.path), "name": entrant.study.name, "mode": entrant.study.mode,
+            "file": str(case.path), "name": case.study.name, "mode": case.study.mode,
             **{which: {key: value for key, value in answer[which].items() if key != "design"}
                for which in COMPARISONS if which in answer},
             "troubles": answer["troubles"], "seconds": answer["seconds"],
@@ -278,8 +278,8 @@ def first_blocks(outcome: Outcome) -> list[Block]:
 
 def title_of(outcome: Outcome) -> str:
     """Return the names of the studies, their labels if two have one name."""
-    names = [entrant.study.name for entrant in outcome.entrants.values()]
-    return " against ".join(names if len(set(names)) == len(names) else outcome.entrants)
+    names = [case.study.name for case in outcome.cases.values()]
+    return " against ".join(names if len(set(names)) == len(names) else outcome.cases)
 
 
 def summary_text(outcome: Outcome) -> str:
@@ -303,7 +303,7 @@ def _side_by_side(outcome: Outcome) -> Section:
 
 def reported_rows(outcome: Outcome) -> list[Grid]:
     """Tabulate headlines and requirements side by side, a table for each comparison."""
-    required = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
+    required = {r.output for case in outcome.cases.values() for r in case.study.require}
     return [
         side_by_side(COMPARISONS[which].capitalize(), [row for row in rows if row.headline or row.name in required])
         for which, rows in outcome.rows.items()

@@ -153,12 +153,12 @@ class ParetoComparison:
         }  # fmt: skip
 
 
-def conditions(entrants: Mapping[str, Case]) -> list[str]:
+def conditions(cases: Mapping[str, Case]) -> list[str]:
     """Describe what holds for every study: shared requirements, temperatures, current, materials, surroundings."""
-    first = next(iter(entrants.values()))
+    first = next(iter(cases.values()))
     study, table, values = first.study, first.study.table, first.values
     everywhere = [
-        r for r in study.require if all(r.output.partition("@")[0] in e.study.table.by_name for e in entrants.values())
+        r for r in study.require if all(r.output.partition("@")[0] in e.study.table.by_name for e in cases.values())
     ]
     required = [f"{r.output} {r.sense} {format_quantity(r.limit, table.unit(r.output))}" for r in everywhere]
     points = [
