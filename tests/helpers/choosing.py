@@ -14,7 +14,7 @@ LISTED = sample_text("listed_choices")
 
 
 def listed(text: str = LISTED) -> Study:
-    """The study of a text."""
+    """Return the study of a text."""
     return read_study_text(text, "a test")
 
 
@@ -29,10 +29,10 @@ def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> di
         for name, vary in study.vary.items()
         if isinstance(vary, Options) and isinstance(study.table.quantity(name), Input)
     }
-    asked = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": starts})})
-    optimizer = Optimizer(asked, reference)
+    single_start = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": starts})})
+    optimizer = Optimizer(single_start, reference)
     begins = list(optimizer.multistart.points())
-    found: dict[tuple[float, ...], float] = {}
+    objectives: dict[tuple[float, ...], float] = {}
     for combination in itertools.product(*lists.values()):
         sizes = [float(value) for value in combination]
         within = {name: (size, size) for name, size in zip(lists, sizes, strict=True)}
@@ -42,14 +42,14 @@ def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> di
                 place[optimizer.model.index[name]] = size
             run = optimizer.solve(within, begin=place)
             if run.start.converged:
-                found[tuple(sizes)] = min(run.start.objective, found.get(tuple(sizes), math.inf))
-    return found
+                objectives[tuple(sizes)] = min(run.start.objective, objectives.get(tuple(sizes), math.inf))
+    return objectives
 
 
 def with_each_record(study: Study, reference: dict[str, float], starts: int) -> dict[tuple[str | float, ...], float]:
     """Return the same for every combination of records and sizes; records come first, in the study's order."""
-    found: dict[tuple[str | float, ...], float] = {}
+    objectives: dict[tuple[str | float, ...], float] = {}
     for records in discrete_records(study, study.table):
         alone = by_brute_force(with_records(study, records), reference, starts)
-        found |= {(*records.values(), *sizes): objective for sizes, objective in alone.items()}
-    return found
+        objectives |= {(*records.values(), *sizes): objective for sizes, objective in alone.items()}
+    return objectives

@@ -212,18 +212,18 @@ def test_a_study_without_them_has_the_same_values(limited: StudyResult) -> None:
 @pytest.mark.slow
 def test_a_limit_in_the_duty_is_kept_by_another_search() -> None:
     text = study_path("paper_shear").read_text()
-    asked = read_study_text(f"{text}\nduty: {{switches_per_hour: 4}}\n")
+    switched = read_study_text(f"{text}\nduty: {{switches_per_hour: 4}}\n")
     rows = (Requirement(output="return_time@duty", sense="<=", limit=292.0, text="<= 292 s"),)
     progress: list[str] = []
-    result = answer(asked.model_copy(update={"simulated": rows}), progress.append)
+    result = answer(switched.model_copy(update={"simulated": rows}), progress.append)
     assert result.design.status == "optimal"
     assert result.feasible
     assert 285.0 < result.design.values["return_time@duty"] <= 292.0
     assert any("searching again" in line for line in progress)
-    missed = answer(asked.model_copy(update={"simulated": (rows[0].model_copy(update={"limit": 20.0}),)}))
+    missed = answer(switched.model_copy(update={"simulated": (rows[0].model_copy(update={"limit": 20.0}),)}))
     assert not missed.has_design
     assert [check.output for check in missed.checks if not check.met] == ["return_time@duty"]
-    assert "switches_per_hour" in complaint(missed, asked.table)
+    assert "switches_per_hour" in complaint(missed, switched.table)
 
 
 def test_a_sweep_refuses_limits_on_a_duty() -> None:

@@ -31,8 +31,8 @@ def published() -> StudyResult:
 
 
 @pytest.mark.gate
-def test_the_papers_ratio_is_told_with_the_stiffness_as_drawn(published: StudyResult) -> None:
-    by = {one.text: one.as_drawn for one in published.idealizations}
+def test_the_papers_ratio_is_shown_with_the_stiffness_as_drawn(published: StudyResult) -> None:
+    by = {idealization.text: idealization.as_drawn for idealization in published.idealizations}
     assert list(by) == ["leg_model: ignored", "transmission: unity"]
     # An independent reading of the drawn module found 4.53 N*m/rad at rest and 4.09 at full stroke, for 5.61.
     drawn = by["transmission: unity"]
@@ -48,9 +48,9 @@ def test_the_papers_ratio_is_told_with_the_stiffness_as_drawn(published: StudyRe
 
 
 def test_a_study_as_drawn_has_none() -> None:
-    found = answer(read_study_text("mode: shear\n"))
-    assert found.idealizations == ()
-    assert not any(row["idealized"] for row in results(found, TABLE)["values"].values())
+    result = answer(read_study_text("mode: shear\n"))
+    assert result.idealizations == ()
+    assert not any(row["idealized"] for row in results(result, TABLE)["values"].values())
 
 
 def test_every_idealization_is_no_default_and_names_its_omission() -> None:
@@ -64,9 +64,9 @@ def test_every_idealization_is_no_default_and_names_its_omission() -> None:
 @pytest.mark.gate
 def test_a_layer_that_freezes_where_it_melts_changes_times_alone() -> None:
     study = read_study_text("mode: shear\nmodule: {phase_model: equilibrium}\n")
-    (one,) = answer(study).idealizations
-    assert "stiffening_time" in one.as_drawn
-    assert "spring_stiffness" not in one.as_drawn
+    (idealization,) = answer(study).idealizations
+    assert "stiffening_time" in idealization.as_drawn
+    assert "spring_stiffness" not in idealization.as_drawn
 
 
 SINK = "cold_side: sink, cooling_current: 0.8 A"
@@ -124,52 +124,52 @@ def answered(accept: str = "", *, searched: bool = True) -> StudyResult:
     return answer(read_study_text(text))
 
 
-def _facts(found: StudyResult) -> dict[str, str]:
-    return {fact.label: fact.text for fact in more_facts(found, {}, None)}
+def _facts(result: StudyResult) -> dict[str, str]:
+    return {fact.label: fact.text for fact in more_facts(result, {}, None)}
 
 
 def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
-    found = answered()
-    assert found.design.status == "above_rating"
-    assert set(found.design.above_rating) == {*BOTH, PADS}
-    assert found.design.accepting == ()
-    assert found.has_design  # it is a design all the same: every limit is kept
-    assert verdict(found, {}, []).text.startswith("Above a rating: ")
-    said = above_rating(found, TABLE)
-    assert f"structure_temperature_margin >= 0 K, by {-found.design.value(BOTH[0]):.3g} K" in said
-    assert f"accept: [{', '.join(found.design.above_rating)}]" in said
+    result = answered()
+    assert result.design.status == "above_rating"
+    assert set(result.design.above_rating) == {*BOTH, PADS}
+    assert result.design.accepting == ()
+    assert result.has_design  # it is a design all the same: every limit is kept
+    assert verdict(result, {}, []).text.startswith("Above a rating: ")
+    text = above_rating(result, TABLE)
+    assert f"structure_temperature_margin >= 0 K, by {-result.design.value(BOTH[0]):.3g} K" in text
+    assert f"accept: [{', '.join(result.design.above_rating)}]" in text
 
 
 def test_an_optimum_within_accepted_ratings_says_what_it_accepts() -> None:
-    found = answered(ACCEPTED)
-    assert (found.design.status, found.design.above_rating) == ("optimal", ())
-    assert set(found.design.accepting) == {*BOTH, PADS}
-    assert verdict(found, {}, []).kind != "rating"
-    assert f"as the study accepts: {', '.join(found.design.accepting)}" in _facts(found)["Accepts"]
-    assert above_rating(found, TABLE) == ""
-    assert not {check.output for check in found.warnings} & {*BOTH, PADS}
-    assert found.accepted_in_vain == ()
-    found = answered(f"accept: [{', '.join(BOTH)}]\n")
-    assert found.design.status == "above_rating"
-    assert (found.design.above_rating, set(found.design.accepting)) == ((PADS,), set(BOTH))
-    found = answered(ACCEPTED.replace("[", "[pcl_temperature_margin, "))
-    assert found.design.status == "optimal"
-    assert found.accepted_in_vain == ("pcl_temperature_margin",)
-    assert "pcl_temperature_margin: not needed" in _facts(found)["Accepts"]
+    result = answered(ACCEPTED)
+    assert (result.design.status, result.design.above_rating) == ("optimal", ())
+    assert set(result.design.accepting) == {*BOTH, PADS}
+    assert verdict(result, {}, []).kind != "rating"
+    assert f"as the study accepts: {', '.join(result.design.accepting)}" in _facts(result)["Accepts"]
+    assert above_rating(result, TABLE) == ""
+    assert not {check.output for check in result.warnings} & {*BOTH, PADS}
+    assert result.accepted_in_vain == ()
+    result = answered(f"accept: [{', '.join(BOTH)}]\n")
+    assert result.design.status == "above_rating"
+    assert (result.design.above_rating, set(result.design.accepting)) == ((PADS,), set(BOTH))
+    result = answered(ACCEPTED.replace("[", "[pcl_temperature_margin, "))
+    assert result.design.status == "optimal"
+    assert result.accepted_in_vain == ("pcl_temperature_margin",)
+    assert "pcl_temperature_margin: not needed" in _facts(result)["Accepts"]
 
 
 def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
-    found = answered(searched=False)
-    assert found.design.status == "evaluated"
-    assert set(found.design.above_rating) == {*BOTH, PADS}
-    assert verdict(found, {}, []).kind == "rating"
+    result = answered(searched=False)
+    assert result.design.status == "evaluated"
+    assert set(result.design.above_rating) == {*BOTH, PADS}
+    assert verdict(result, {}, []).kind == "rating"
     assert verdict(answered(ACCEPTED, searched=False), {}, []).kind != "rating"
 
 
 def test_check_says_it_beforehand_of_the_module_a_search_starts_from() -> None:
-    said = foreseen_ratings(read_study_text(SEARCHED))
-    assert [line.split(" is ")[1].split(": ")[1] for line in said if "starts from" in line] == [PADS, *BOTH]
-    assert all("accept: [" in line and "An optimum may be, too." in line for line in said)
+    messages = foreseen_ratings(read_study_text(SEARCHED))
+    assert [line.split(" is ")[1].split(": ")[1] for line in messages if "starts from" in line] == [PADS, *BOTH]
+    assert all("accept: [" in line and "An optimum may be, too." in line for line in messages)
     required = SEARCHED.replace("require: {", f'require: {{{PADS}: ">= 0 K", ')
     assert [PADS in line for line in foreseen_ratings(read_study_text(required))] == [False, False]
     assert foreseen_ratings(read_study_text(SEARCHED + ACCEPTED)) == []

@@ -91,7 +91,7 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
 
 
 @pytest.mark.slow
-def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
+def test_the_reported_times_are_those_of_the_drives_simulated_again() -> None:
     solution = solve(CYCLE)
     again = fine(solution.model).run(solution.inputs, solution.current_profiles)
     for phase, event in (("softening", "response_time"), ("stiffening", "stiffening_time")):
@@ -114,19 +114,19 @@ def test_a_cycle_with_profiles_is_not_longer_than_with_constants() -> None:
 
 
 @pytest.mark.slow
-def test_a_slow_supply_costs_time_and_is_told() -> None:
+def test_a_slow_supply_costs_time_and_is_reported() -> None:
     slow, eased = (solve(CYCLE.replace("0.5 A/s", f"{slew} A/s")) for slew in ("0.08", "0.0808"))
     assert slow.status == "optimal"
     assert slow.values["cycle_time"] > solve(CYCLE).values["cycle_time"]
     assert max(profile.steepest for profile in slow.current_profiles.values()) == pytest.approx(0.08, rel=1e-4)
     # The solver's own objectives: what a hundredth saves is not far above the simulator's tolerance.
     ends = [solution.starts[0].objective for solution in (slow, eased)]
-    prices = [one(solution, "current_slew <=").shadow_price for solution in (slow, eased)]
+    prices = [active(solution, "current_slew <=").shadow_price for solution in (slow, eased)]
     assert min(prices) > 1e-3
     assert 100.0 * (ends[0] - ends[1]) / ends[0] == pytest.approx(sum(prices) / 2.0, rel=0.05)
 
 
-def one(solution: Solution, name: str) -> ActiveConstraint:
+def active(solution: Solution, name: str) -> ActiveConstraint:
     (held,) = (held for held in solution.held if held.name == name)
     return held
 
@@ -150,7 +150,7 @@ def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
     below, above = (
         solve(text.replace(f"<= {written}", f"<= {float(number) + moved} {unit}")) for moved in (-step, step)
     )
-    shadow_price = one(solve(text), name).shadow_price
+    shadow_price = active(solve(text), name).shadow_price
     assert shadow_price > 1e-2
     saved = 100.0 * (below.objective - above.objective) / (2.0 * shares * solve(text).objective)
     assert saved == pytest.approx(shadow_price, rel=0.1)

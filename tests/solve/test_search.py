@@ -77,7 +77,7 @@ def test_random_starts_come_to_one_optimum(text: str, apart: float) -> None:
 
 
 @pytest.mark.slow
-def test_the_paper_s_study_ends_in_optima_that_are_all_told(paper: Solution) -> None:
+def test_the_paper_s_study_ends_in_optima_that_are_all_reported(paper: Solution) -> None:
     """Springs of another lever, narrow arcs farther out and both are optima of their own, 2 to 7 % worse."""
     assert sum(start.converged for start in paper.starts) >= 10
     reported = [start.objective for start in paper.distinct_optima()]
@@ -146,7 +146,7 @@ def test_a_price_is_what_relaxing_a_limit_or_a_range_saves() -> None:
 def test_listed_records_are_compared_by_one_measure() -> None:
     text = SMALL.replace("vary:", "vary:\n  spring_material: {choose: [stainless_302, music_wire]}")
     solution = optimize(read_study_text(text))
-    by_material = {one.choices["spring_material"]: one.objective for one in solution.choosing.best}
+    by_material = {candidate.choices["spring_material"]: candidate.objective for candidate in solution.choosing.best}
     assert by_material.keys() == {"music_wire", "stainless_302"}
     assert solution.objective == pytest.approx(min(by_material.values()), rel=1e-3)
     assert len(solution.free_starts) == 1  # with the records mixed
@@ -178,20 +178,20 @@ def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize(
-    ("targets", "said"),
+    ("targets", "message"),
     [
         ("soft_impedance: 0.5 N.m/rad", "soft_impedance 0.5 N·m/rad cannot be reached: the softest joint"),
         ("stiff_impedance: 90000 N.m/rad", "stiff_impedance 90000 N·m/rad cannot be reached: the stiffest joint"),
     ],
 )
-def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets: str, said: str) -> None:
+def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets: str, message: str) -> None:
     text = (
         f"mode: shear\nmodule: {{impedance_targets: stated, soft_impedance: 40 N.m/rad, {targets}}}\n".replace(
             "soft_impedance: 40 N.m/rad, soft_", "soft_"
         )
         + "vary: {pcl_thickness: [0.6 mm, 2 mm], wire_diameter: [1.5 mm, 3 mm]}\nminimize: response_time\n"
     )
-    with pytest.raises(InputError, match=said) as caught:
+    with pytest.raises(InputError, match=message) as caught:
         optimize(read_study_text(text, "a test"))
     # The target it names can be reached: a little beyond it on the side of what is possible, the search goes on.
     possible = str(caught.value).rpartition("target is ")[2]
@@ -202,14 +202,14 @@ def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets: str, s
     assert optimize(read_study_text(again, "a test")).starts
 
 
-def test_where_no_switch_is_found_the_arithmetic_conflict_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_where_no_switch_ends_the_arithmetic_conflict_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(search, "find_conflicts", lambda *_: None)
-    asked = "  spring_stiffness: '>= 9 N.m/rad'\n  spring_fatigue_safety: '>= 3'\nminimize: {peak_power: 1}\n"
+    limits = "  spring_stiffness: '>= 9 N.m/rad'\n  spring_fatigue_safety: '>= 3'\nminimize: {peak_power: 1}\n"
     with pytest.raises(
         InfeasibleError,
         match=r"cannot hold together.*\n  spring_stiffness.*\n  moving it alone is not enough: spring_f",
     ):
-        optimize(read_study_text(f"{FOUR_SIZES_IN_SHEAR}require:\n{asked}solver: {{starts: 1}}\n"))
+        optimize(read_study_text(f"{FOUR_SIZES_IN_SHEAR}require:\n{limits}solver: {{starts: 1}}\n"))
 
 
 @pytest.mark.slow
@@ -226,7 +226,7 @@ def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most
     assert free.values[row] > 1.5 * limit
     assert held.values[row] == pytest.approx(limit, rel=1e-4)
     assert held.objective > 1.01 * free.objective
-    assert next(one.shadow_price for one in held.held if one.name == f"{row} <=") > 0.0
+    assert next(active.shadow_price for active in held.held if active.name == f"{row} <=") > 0.0
 
 
 NUMBERS_ALONE = ["paper_shear", "elbow_printed", "wrist_joint"]
@@ -238,8 +238,8 @@ def _frozen(name: str) -> tuple[Optimizer, np.ndarray, dict[str, Any]]:
     frozen = json.loads((ROOT / "campaigns/frozen/studies" / f"{name}.json").read_text(encoding="utf-8"))
     optimizer = Optimizer(read_study(study_path(name)), frozen["optimum"]["reference"])
     inputs = optimizer.model.start.copy()
-    for one, value in frozen["chosen"].items():
-        inputs[optimizer.model.index[one]] = value
+    for key, value in frozen["chosen"].items():
+        inputs[optimizer.model.index[key]] = value
     return optimizer, inputs, frozen["optimum"]
 
 

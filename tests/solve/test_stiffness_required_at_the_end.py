@@ -30,18 +30,18 @@ def _answer(more: str = "", criterion: str = "mean") -> StudyResult:
 @pytest.mark.gate
 def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None:
     # The threshold is arithmetic of the hot point; the impedance at the end is read off the simulated layer.
-    found = _answer(criterion="softening").design.values
-    assert found["softened_impedance"] == pytest.approx(found["soft_threshold"], rel=1e-4)
-    assert found["spring_stiffness"] < found["softened_stiffness"] < found["softened_impedance"]
+    values = _answer(criterion="softening").design.values
+    assert values["softened_impedance"] == pytest.approx(values["soft_threshold"], rel=1e-4)
+    assert values["spring_stiffness"] < values["softened_stiffness"] < values["softened_impedance"]
 
 
 @pytest.mark.gate
 @pytest.mark.parametrize("name", ENDS)
 def test_it_is_the_last_of_the_simulated_history(name: str) -> None:
-    found = _answer()
+    result = _answer()
     column, zero = {"softened_temperature": ("far_face", 273.15)}.get(name, (f"joint_{name.partition('_')[2]}", 0.0))
-    last = found.histories["softening"][column][-1] + zero
-    assert found.design.values[name] == pytest.approx(last, rel=1e-6)
+    last = result.histories["softening"][column][-1] + zero
+    assert result.design.values[name] == pytest.approx(last, rel=1e-6)
 
 
 @pytest.mark.slow
@@ -64,8 +64,8 @@ def test_simulation_confirms_the_stiffness_required_at_the_end() -> None:
 )
 def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, reached: bool) -> None:
     # The thermometer at the far face waits for 100 degC, which is the hot point; the impedance does not.
-    found = _answer(criterion=criterion)
-    warned = [check for check in found.warnings if check.output == "hot_point_margin"]
+    result = _answer(criterion=criterion)
+    warned = [check for check in result.warnings if check.output == "hot_point_margin"]
     assert bool(warned) is not reached
     assert all("never" in check.origin and "softened_stiffness" in check.origin for check in warned)
 
@@ -107,18 +107,18 @@ def answered(module: str, points: str = "") -> StudyResult:
     return answer(study)
 
 
-def warned(found: StudyResult) -> set[str]:
-    return {check.output for check in found.warnings}
+def warned(result: StudyResult) -> set[str]:
+    return {check.output for check in result.warnings}
 
 
 def test_a_cold_point_hotter_than_the_hot_one_and_melts_are_warned_of() -> None:
-    found = answered(f"{QUICK}, pcl_crystallization_half_time: 100000 s")
-    assert np.isfinite(found.design.value("stiffening_time"))
-    assert np.isinf(found.design.value("frozen_time"))
-    assert "stiffening_over_freezing" in warned(found)
-    found = answered("stiffening_band: 1.02")
-    assert found.design.value("stiffening_time") > found.design.value("frozen_time")
-    assert "stiffening_over_freezing" not in warned(found)
+    result = answered(f"{QUICK}, pcl_crystallization_half_time: 100000 s")
+    assert np.isfinite(result.design.value("stiffening_time"))
+    assert np.isinf(result.design.value("frozen_time"))
+    assert "stiffening_over_freezing" in warned(result)
+    result = answered("stiffening_band: 1.02")
+    assert result.design.value("stiffening_time") > result.design.value("frozen_time")
+    assert "stiffening_over_freezing" not in warned(result)
     points = "operating_points: {cold: {temperature: 110 degC}, hot: {temperature: 100 degC}}\n"
     assert "thresholds_apart" in warned(answered("current: 1.5 A", points))
     assert "thresholds_apart" not in warned(answered("current: 1.5 A"))
@@ -127,10 +127,10 @@ def test_a_cold_point_hotter_than_the_hot_one_and_melts_are_warned_of() -> None:
 def test_the_last_slice_of_a_layer_is_half_frozen_at_the_frozen_time() -> None:
     # On the melting curve, from 65 to 50 degC, the middle of the window is half frozen. The least frozen slice, taken
     # smoothly, may be 0.03 short of that.
-    found = answered("phase_model: equilibrium, stiffening_band: 1.01")
-    stiffening = found.histories["stiffening"]
+    result = answered("phase_model: equilibrium, stiffening_band: 1.01")
+    stiffening = result.histories["stiffening"]
     warmest = np.max([stiffening[name] for name in stiffening if name.startswith("cell_")], axis=0)
-    then = np.interp(found.design.value("frozen_time"), stiffening["time"], warmest)
+    then = np.interp(result.design.value("frozen_time"), stiffening["time"], warmest)
     assert 57.5 <= then <= 57.5 + 0.03 * 15.0
 
 
@@ -159,10 +159,10 @@ def answered_between(module: str, cold: float = 30.0, hot: float = 100.0) -> Stu
     return answer(read_study_text(text, "a test"))
 
 
-def liquid_impedance(found: StudyResult, celsius: float) -> complex:
+def liquid_impedance(result: StudyResult, celsius: float) -> complex:
     """K* of the joint with a layer that is all melt, at 1 Hz, from the record's spectrum in complex numbers."""
-    value = found.design.value
-    modes = melt_modes(Catalog().record("polymers", found.design.choices["pcl_grade"]))
+    value = result.design.value
+    modes = melt_modes(Catalog().record("polymers", result.design.choices["pcl_grade"]))
     kelvin, reference = celsius + KELVIN, value("pcl_melt_reference")
     shift = np.exp(value("pcl_flow_activation_energy") / 8.314462618 * (1.0 / kelvin - 1.0 / reference))
     omega = 2j * np.pi
@@ -175,9 +175,9 @@ def liquid_impedance(found: StudyResult, celsius: float) -> complex:
 
 @pytest.mark.slow
 def test_softening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
-    found = answered_between("current: 1.5 A", hot=60.0)
-    low, high = found.intervals["softening_time"]
-    target = abs(liquid_impedance(found, 60.0))
+    result = answered_between("current: 1.5 A", hot=60.0)
+    low, high = result.intervals["softening_time"]
+    target = abs(liquid_impedance(result, 60.0))
     stated = answered_between(f"current: 1.5 A, impedance_targets: stated, soft_impedance: {target:.9f} N.m/rad")
     assert high == pytest.approx(stated.design.value("softening_time"), rel=1e-3)
     assert low < 0.5 * high
@@ -186,24 +186,24 @@ def test_softening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
 
 @pytest.mark.gate
 def test_stiffening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
-    found = answered_between("current: 1.5 A", cold=60.0)
-    low, high = found.intervals["stiffening_time"]
-    assert 0.0 < low < found.design.value("stiffening_time") < high
-    assert found.intervals["cycle_time"] == pytest.approx(
-        [found.design.value("response_time") + t for t in (low, high)], rel=1e-4
+    result = answered_between("current: 1.5 A", cold=60.0)
+    low, high = result.intervals["stiffening_time"]
+    assert 0.0 < low < result.design.value("stiffening_time") < high
+    assert result.intervals["cycle_time"] == pytest.approx(
+        [result.design.value("response_time") + t for t in (low, high)], rel=1e-4
     )
 
 
 @pytest.mark.gate
 def test_a_switch_that_never_ends_has_no_advice_on_what_never_began() -> None:
-    found = answered_between("current: 0.3 A", hot=60.0)
-    assert np.isinf(found.design.value("response_time"))
-    assert not [check.text for check in found.warnings if not np.isfinite(check.value)]
+    result = answered_between("current: 0.3 A", hot=60.0)
+    assert np.isinf(result.design.value("response_time"))
+    assert not [check.text for check in result.warnings if not np.isfinite(check.value)]
 
 
 def test_the_temperature_sweep_is_a_band_in_the_melting_range_only() -> None:
-    found = answered_between("current: 1.5 A")
-    sweep = {name: np.array(column) for name, column in found.sweep.items()}
+    result = answered_between("current: 1.5 A")
+    sweep = {name: np.array(column) for name, column in result.sweep.items()}
     inside = (sweep["temperature"] >= 45.0) & (sweep["temperature"] <= 70.0)
     for name in ("pcl_stiffness", "joint_stiffness", "joint_damping", "solid_fraction"):
         low, middle, high = sweep[f"{name}_low"], sweep[name], sweep[f"{name}_high"]
@@ -211,7 +211,7 @@ def test_the_temperature_sweep_is_a_band_in_the_melting_range_only() -> None:
         assert np.all(middle <= high)
         assert np.all((low < high) == inside)
     at_sixty = int(np.argmin(np.abs(sweep["temperature"] - 60.0)))
-    assert sweep["joint_stiffness_low"][at_sixty] == pytest.approx(liquid_impedance(found, 60.0).real, rel=1e-6)
+    assert sweep["joint_stiffness_low"][at_sixty] == pytest.approx(liquid_impedance(result, 60.0).real, rel=1e-6)
 
 
 @pytest.mark.gate
@@ -219,9 +219,9 @@ def test_a_limit_that_only_some_histories_satisfy_is_undecided() -> None:
     points = "operating_points: {warm: {temperature: 60 degC}}\n"
     require = "require: {joint_stiffness@warm: '>= 100 N.m/rad', joint_stiffness@hot: '>= 1 N.m/rad'}\n"
     study = read_study_text(f"mode: shear\nmodule: {{{STIFF}}}\n{points}{require}", "a test")
-    found = answer(study)
-    assert [check.output for check in found.undecided] == ["joint_stiffness@warm"]
-    low, high = found.design.intervals["joint_stiffness@warm"]
-    assert low == pytest.approx(liquid_impedance(found, 60.0).real, rel=1e-6)
-    assert found.undecided[0].worst == pytest.approx(low / 100.0 - 1.0, rel=1e-9)
+    result = answer(study)
+    assert [check.output for check in result.undecided] == ["joint_stiffness@warm"]
+    low, high = result.design.intervals["joint_stiffness@warm"]
+    assert low == pytest.approx(liquid_impedance(result, 60.0).real, rel=1e-6)
+    assert result.undecided[0].worst == pytest.approx(low / 100.0 - 1.0, rel=1e-9)
     assert low < 100.0 < high

@@ -39,10 +39,10 @@ def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
 
     def failing(self: Relaxation, begin: Array) -> Run:
         run = self.optimizer.solve(begin=begin)
-        kept = first is not bool(made)
-        status, objective = (FEASIBLE, run.start.objective) if kept else ("Maximum_Iterations_Exceeded", 0.0)
+        best = first is not bool(made)
+        status, objective = (FEASIBLE, run.start.objective) if best else ("Maximum_Iterations_Exceeded", 0.0)
         inputs = run.inputs.copy()
-        if not kept:
+        if not best:
             inputs[self.optimizer.model.index["current"]] = 2.5
         run = replace(run, inputs=inputs)
         run.start = replace(run.start, status=status, objective=objective, converged=False)
@@ -52,11 +52,11 @@ def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
     monkeypatch.setattr(Relaxation, "_from_one_of_each", failing)
     monkeypatch.setattr(Relaxation, "from_all_over", lambda _: [])
     monkeypatch.setattr(search, "find_conflicts", lambda *_: None)
-    found = answer(study)
+    results = answer(study)
     assert len(made) == 2
-    assert not found.has_design
-    assert found.solution.feasible
-    assert complaint(found, study.table).startswith(
+    assert not results.has_design
+    assert results.solution.feasible
+    assert complaint(results, study.table).startswith(
         "test: no design known to be the best one (not converged: a feasible design"
     )
 
@@ -67,8 +67,8 @@ def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch: pytest.M
     order: list[Any] = []
     histories = result._histories
     monkeypatch.setattr(result, "_histories", lambda *of: order.append("histories") or histories(*of))
-    found = answer(study, designed=lambda design, _: order.append(design))
-    assert order[0] is found.design
+    answered = answer(study, designed=lambda design, _: order.append(design))
+    assert order[0] is answered.design
     assert order[1:] == ["histories"]
 
 
@@ -78,10 +78,12 @@ def test_where_a_search_ends_without_a_design_nothing_is_handed_on() -> None:
     assert known.solution
     study = Study.model_validate(known.design.study)
     for status, is_design in (("optimal", True), ("infeasible: this design violates its limits least", False)):
-        told: list[Any] = []
+        made: list[Any] = []
         solution = replace(known.solution, status=status)
-        found = answer(study, search=lambda *_, of=solution: of, designed=lambda *given, told=told: told.append(given))
-        assert (bool(told), found.has_design) == (is_design, is_design)
+        answered = answer(
+            study, search=lambda *_, of=solution: of, designed=lambda *given, made=made: made.append(given)
+        )
+        assert (bool(made), answered.has_design) == (is_design, is_design)
 
 
 PROCESS_STUDY = """
@@ -99,13 +101,13 @@ solver: {{starts: 1}}
 
 @pytest.mark.parametrize(("process", "wall"), [("print_petg", 1.2e-3), ("machine_6061", 1.0e-3)])
 def test_walls_end_where_the_process_ends(process: str, wall: float) -> None:
-    found = answer(read_study_text(PROCESS_STUDY.format(process=process), "a test")).design
-    assert found.status == "optimal"
-    assert found.values["wall_thickness"] == pytest.approx(wall, rel=1e-4)
+    design = answer(read_study_text(PROCESS_STUDY.format(process=process), "a test")).design
+    assert design.status == "optimal"
+    assert design.values["wall_thickness"] == pytest.approx(wall, rel=1e-4)
     # Keys in the plate and narrow teeth of the stops would want more of it; they are left out.
-    assert found.values["rotor_thickness"] == pytest.approx(wall, rel=1e-4)
+    assert design.values["rotor_thickness"] == pytest.approx(wall, rel=1e-4)
     # The floor keeps that wall below a pad of 1.5 mm; in metal the screws in the core ask for more.
-    assert found.values["floor_thickness"] >= 1.5e-3 + wall - 1e-7
+    assert design.values["floor_thickness"] >= 1.5e-3 + wall - 1e-7
 
 
 def test_one_yardstick_is_the_geometric_mean_and_one_of_zeros() -> None:
@@ -120,9 +122,9 @@ def test_one_yardstick_is_the_geometric_mean_and_one_of_zeros() -> None:
 
 def test_a_switch_that_never_ends_counts_as_long_as_it_is_followed() -> None:
     cold = SHEAR.replace("current: 1.5 A", "current: 0.1 A\n  horizon: 900 s")
-    found = anchored_search.at_its_start(read_study_text(cold, "test"))
-    assert found["response_time"] == 900.0
-    assert found.keys() == {"module_mass", "response_time"}  # only what is minimised
+    values = anchored_search.at_its_start(read_study_text(cold, "test"))
+    assert values["response_time"] == 900.0
+    assert values.keys() == {"module_mass", "response_time"}  # only what is minimised
 
 
 CROSSED = "vary: {pcl_outer_radius: [20 mm, 25 mm], pcl_inner_radius: [41 mm, 56 mm]}\nminimize: module_mass\n"

@@ -54,11 +54,11 @@ class Clock:
     """A clock that stands until a certain progress message, and a deadline by it."""
 
     def __init__(self, word: str, then: float = FOLLOWING) -> None:
-        self.word, self.then, self.now, self.said = word, then, 0.0, list[str]()
+        self.word, self.then, self.now, self.messages = word, then, 0.0, list[str]()
         self.deadline = Deadline(LIMIT, lambda: self.now)
 
     def say(self, text: str) -> None:
-        self.said.append(text)
+        self.messages.append(text)
         if re.search(self.word, text):
             self.now = max(self.now, self.then)
 
@@ -69,14 +69,14 @@ class Clock:
         return optimize(study, self.say, deadline=self.deadline)
 
 
-def test_starts_that_are_left_are_told_and_the_best_design_is_kept() -> None:
+def test_starts_that_are_left_are_counted_and_the_best_design_stays() -> None:
     clock = Clock("start 3 of 6")
     answered = clock.answer(read_study_text(SEARCHED))
     solution = answered.solution
     assert (answered.design.status, answered.feasible) == (OPTIMAL, True)
     assert solution.out_of_time == 300.0
     assert len(solution.starts) == 3
-    assert any("objective" in text and "so far" in text for text in clock.said)
+    assert any("objective" in text and "so far" in text for text in clock.messages)
     assert any("time limit of 5 min" in warning.text for warning in warnings_of(answered, ()))
 
 
@@ -107,7 +107,7 @@ def test_the_search_for_the_conflict_ends_with_the_time() -> None:
     quick = SEARCHED.replace('">= 2 N.m"', '">= 2 N.m", response_time: "<= 1 s"').replace("starts: 6", "starts: 1")
     solution = clock.optimize(read_study_text(quick))
     assert solution.status.startswith("not converged")
-    assert "looking for the smallest set of limits that conflict" not in clock.said
+    assert "looking for the smallest set of limits that conflict" not in clock.messages
 
 
 ROBUST = ALGEBRAIC.replace("{starts: 1}", "{starts: 1, time_limit: 5 min}") + "robust: {yield: 95 %}\n"
@@ -200,9 +200,9 @@ def test_the_study_begins_at_a_design_that_keeps_all_limits(text: str, tmp_path:
     assert read.vary.keys() == best.vary.keys()
     names = list(best.vary)
     assert [given(read)[name] for name in names] == [given(best)[name] for name in names]
-    found, begun = (answer(drawn(study)) for study in (read, read_study_text(text)))
-    assert found.feasible
-    assert found.design.values["response_time"] < 0.9 * begun.design.values["response_time"]
+    result, plain = (answer(drawn(study)) for study in (read, read_study_text(text)))
+    assert result.feasible
+    assert result.design.values["response_time"] < 0.9 * plain.design.values["response_time"]
 
 
 def test_before_the_first_design_there_is_none() -> None:

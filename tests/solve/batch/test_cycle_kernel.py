@@ -48,7 +48,7 @@ def _worst(model: DeviceFunctions, names: list[str], count: int) -> float:
     simulator, columns = fine(model), _columns(model, count)
     kernel = CycleKernel(model, MOVING, names)
     pace = _pace(model, simulator.run(model.start))
-    usual, found = kernel(columns, pace), kernel(columns, kernel.fitted(pace, columns[:, 0]))
+    usual, paced = kernel(columns, pace), kernel(columns, kernel.fitted(pace, columns[:, 0]))
     phases = list(kernel.phases)
     worst = 0.0
     for i in range(count):
@@ -58,9 +58,9 @@ def _worst(model: DeviceFunctions, names: list[str], count: int) -> float:
         expected = np.array([values[name] for name in kernel.names])
         happens = np.isfinite(expected)
         assert happens.any()
-        for one in (usual, found):
-            assert np.array_equal(np.isfinite(one[:, i]), happens)
-            worst = max(worst, float(np.max(np.abs(one[happens, i] / expected[happens] - 1.0))))
+        for reached in (usual, paced):
+            assert np.array_equal(np.isfinite(reached[:, i]), happens)
+            worst = max(worst, float(np.max(np.abs(reached[happens, i] / expected[happens] - 1.0))))
     return worst
 
 
@@ -110,13 +110,13 @@ def test_what_never_ends_is_infinite_and_its_neighbours_are_not(
 ) -> None:
     model = build()
     kernel = CycleKernel(model, ["current"], ["response_time", "switch_energy", *ENDS, "peak_power"])
-    found = kernel(np.array([[0.06, 1.5]]), _pace(model, switch_of("as it is")))
-    assert np.isinf(found[:-1, 0]).all()
-    assert np.isfinite(found[:, 1]).all()
-    assert np.isfinite(found[-1, 0])  # a peak is one of a stage that never ends, too
+    values = kernel(np.array([[0.06, 1.5]]), _pace(model, switch_of("as it is")))
+    assert np.isinf(values[:-1, 0]).all()
+    assert np.isfinite(values[:, 1]).all()
+    assert np.isfinite(values[-1, 0])  # a peak is one of a stage that never ends, too
 
 
-ONE = ("exp", "log", "log1p", "expm1", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
+UNARY = ("exp", "log", "log1p", "expm1", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
        "fabs", "erf", "floor", "ceil", "sign")  # fmt: skip
 PLACES = [
     0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 3.0, -2.5, 0.7071, 0.7072, 1.0 - 1e-9, 1.0 + 1e-9, 1.4143, 1e-9, -1e-12, -0.9999,
@@ -127,15 +127,15 @@ PLACES = [
 def test_operations_are_those_of_casadi_and_its_c_library() -> None:
     """For every pair of places: edges, and where the series of logarithm and exponential meet."""
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
-    entries = [getattr(ca, name)(x) for name in ONE]
+    entries = [getattr(ca, name)(x) for name in UNARY]
     entries += [x < y, x <= y, x == y, x != y, ca.logic_not(x), ca.logic_and(x, y), ca.logic_or(x, y),
                 ca.if_else(x, y, 7.0), ca.if_else(x < y, x, y), ca.copysign(x, y), ca.atan2(x, y), ca.fmin(x, y),
                 ca.fmax(x, y), x / y, x * y, -x, x * x, 2 * x, 1 / (x + 3.0)]  # fmt: skip
     function = ca.Function("f", [x, y], [ca.vertcat(*entries)])
     columns = np.array(list(itertools.product(PLACES, repeat=2))).T.copy()
-    for place, found in zip(columns.T, Kernel(function)(columns).T, strict=True):
+    for place, values in zip(columns.T, Kernel(function)(columns).T, strict=True):
         expected = np.asarray(function(*place)).ravel()
-        assert found == pytest.approx(expected, rel=1e-15, abs=5e-324, nan_ok=True), place
+        assert values == pytest.approx(expected, rel=1e-15, abs=5e-324, nan_ok=True), place
 
 
 @pytest.mark.parametrize("study", ["paper_shear", "paper_compression", "wrist_joint"])
@@ -148,8 +148,8 @@ def test_the_kernel_of_the_table_agrees_with_casadi(study: str) -> None:
     function = of_columns(model.every_output, [model.start, np.full(len(model.switch_names), 50.0)], places)
     random = np.random.default_rng(1)
     columns = np.array([[model.start[i]] for _, i in places]) * random.uniform(0.99, 1.01, (len(moving), 21))
-    found, expected = Kernel(function)(columns), np.asarray(function(columns))
-    for name, ours, theirs in zip(model.output_names, found, expected, strict=True):
+    values, expected = Kernel(function)(columns), np.asarray(function(columns))
+    for name, ours, theirs in zip(model.output_names, values, expected, strict=True):
         assert ours == pytest.approx(theirs, rel=digits(name, 1e-13), abs=1e-15, nan_ok=True), name
 
 

@@ -90,12 +90,12 @@ def bowls(draw: st.DrawFn) -> list[Bowl]:
     count = draw(st.integers(1, 3))
     sizes = Sizes(tuple("abc"[:count]), tuple(draw(_LISTS) for _ in range(count)))
     numbers = st.tuples(*[st.floats(0.5, 65.0)] * count)
-    found = []
+    bowls = []
     for place in range(draw(st.integers(1, 2))):
         weights = draw(st.tuples(*[st.floats(0.1, 10.0)] * count))
         base, least = draw(st.floats(1.0, 50.0)), draw(st.floats(0.5, 40.0))
-        found.append(Bowl(place, sizes, draw(numbers), weights, base, least, draw(st.booleans())))
-    return found
+        bowls.append(Bowl(place, sizes, draw(numbers), weights, base, least, draw(st.booleans())))
+    return bowls
 
 
 @settings(deadline=None, derandomize=True, max_examples=40)
@@ -104,11 +104,11 @@ def test_it_finds_the_best_combinations_and_accounts_for_all(trees: list[Bowl], 
     search = BranchAndBound(cast("list[Relaxation]", trees), keep)
     search.run()
     expected = sorted(objective for relaxation in trees for objective in relaxation.enumerated())
-    found = sorted(run.start.objective for run in search.runs.values())
-    assert found[:keep] == pytest.approx(expected[:keep], rel=1e-5)
+    objectives = sorted(run.start.objective for run in search.runs.values())
+    assert objectives[:keep] == pytest.approx(expected[:keep], rel=1e-5)
     assert search.inside <= 1e-12
-    assert len(found) + search.pruned <= sum(relaxation.sizes.count for relaxation in trees)
-    assert len(found) + search.pruned >= len(expected)
+    assert len(objectives) + search.pruned <= sum(relaxation.sizes.count for relaxation in trees)
+    assert len(objectives) + search.pruned >= len(expected)
 
 
 THIRTEEN, POWERS = tuple(float(i) for i in range(1, 14)), tuple(4.0**power for power in range(8))
@@ -156,8 +156,8 @@ def test_unsolved_boxes_are_split_in_the_middle_and_lists_ascend() -> None:
     sizes = Sizes(("a", "b", "c"), ((1.0, 2.0), (1.0, 2.0, 3.0), (1.0, 2.0)))
     boxes = list(sizes.each())
     assert len(set(boxes)) == sizes.count == 12
-    for one, other in itertools.pairwise(boxes):
-        assert sum(abs(a - b) for (a, _), (b, _) in zip(one, other, strict=True)) == 1
+    for box, other in itertools.pairwise(boxes):
+        assert sum(abs(a - b) for (a, _), (b, _) in zip(box, other, strict=True)) == 1
 
 
 SOLVER = ("solver.starts=2", "solver.cells=6", "solver.fineness=0.67", "solver.alternatives=32")
@@ -208,16 +208,16 @@ def test_no_combination_in_them_has_one(name: str, monkeypatch: pytest.MonkeyPat
     alone = with_each_record(study, solution.reference, SEVERAL)
     assert 0 < len(alone) < choosing.combinations
     assert any(not is_one(box) for _, box in left)
-    assert not {tuple(tree.choices(one).values()) for tree, box in left for one in _each(box)} & alone.keys()
-    told = {tuple(one.choices.values()): one.objective for one in choosing.best}
-    assert all(told[one] <= objective * (1.0 + 1e-6) for one, objective in alone.items())
-    assert choosing.without_design + len(told) == choosing.combinations
+    assert not {tuple(tree.choices(places).values()) for tree, box in left for places in _each(box)} & alone.keys()
+    objectives = {tuple(candidate.choices.values()): candidate.objective for candidate in choosing.best}
+    assert all(objectives[places] <= objective * (1.0 + 1e-6) for places, objective in alone.items())
+    assert choosing.without_design + len(objectives) == choosing.combinations
 
 
 def _each(box: Box) -> list[Box]:
     """Return every combination in a box."""
     places = [range(first, last + 1) for first, last in box]
-    return [tuple((place, place) for place in one) for one in itertools.product(*places)]
+    return [tuple((place, place) for place in combination) for combination in itertools.product(*places)]
 
 
 STUDY = """
@@ -245,11 +245,11 @@ def test_a_warm_run_cut_short_leaves_several_combinations_open(
 ) -> None:
     """Several are searched from one place alone: their halves are asked the same."""
     relaxation, near = tree
-    asked: list[str] = []
+    statuses: list[str] = []
 
     def ending(status: str) -> Callable[..., Any]:
         def ended(*_: Any, **_begin: Any) -> Run:
-            asked.append(status)
+            statuses.append(status)
             return replace(near, start=replace(near.start, status=status, converged=False))
 
         return ended
@@ -258,7 +258,7 @@ def test_a_warm_run_cut_short_leaves_several_combinations_open(
     monkeypatch.setattr(relaxation, "_beside", ending(OVER))
     monkeypatch.setattr(relaxation, "_solved", ending(cold))
     assert relaxation.best_within(box, near) == (None, certain)
-    assert asked == [OVER] + [cold] * searches
+    assert statuses == [OVER] + [cold] * searches
 
 
 def beginning_nowhere(relaxation: Relaxation, monkeypatch: pytest.MonkeyPatch, near: Run) -> list[str]:
@@ -283,10 +283,10 @@ def test_if_no_run_can_start_differential_evolution_finds_a_module(
     """Legs that do not reach their pins, say: the run nearby with another size in it is no module."""
     relaxation, near = tree
     endings = beginning_nowhere(relaxation, monkeypatch, near)
-    found, certain = relaxation.best_within(((1, 1),), None)
+    run, certain = relaxation.best_within(((1, 1),), None)
     assert certain
-    assert found.start.converged
-    assert found.start.end["coil_count"] == pytest.approx(4.0)
+    assert run.start.converged
+    assert run.start.end["coil_count"] == pytest.approx(4.0)
     assert len(endings) == 2
 
 

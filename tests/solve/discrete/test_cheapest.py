@@ -59,9 +59,9 @@ def test_a_limit_on_the_cost_rules_out_the_dear_heater(tmp_path: Path) -> None:
 
 @pytest.mark.gate
 def test_a_limit_below_every_cost_names_the_least_one(tmp_path: Path) -> None:
-    one = STUDY.replace("{choose: [dear, cheap]}", "{choose: [cheap]}")
-    least = float(optimize(_study(tmp_path, one, cheap=15.0)).values["cost"])
-    study = _study(tmp_path, one.replace('rad"}', 'rad", cost: "<= 60 USD"}'), cheap=15.0)
+    shelf = STUDY.replace("{choose: [dear, cheap]}", "{choose: [cheap]}")
+    least = float(optimize(_study(tmp_path, shelf, cheap=15.0)).values["cost"])
+    study = _study(tmp_path, shelf.replace('rad"}', 'rad", cost: "<= 60 USD"}'), cheap=15.0)
     with pytest.raises(InfeasibleError, match=rf"cost <= 60 USD cannot hold .* to <= {least:.4g} USD"):
         refuse_what_cannot_be(study)
 

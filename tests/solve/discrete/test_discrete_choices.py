@@ -37,11 +37,11 @@ def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], flo
     """Compare the best combinations with each solved `alone` from three starts, and check the tally."""
     choosing = _chosen(solution)
     alone = alone or by_brute_force(study, solution.reference, 3)
-    expected = sorted(alone.items(), key=lambda one: one[1])
+    expected = sorted(alone.items(), key=lambda item: item[1])
     assert solution.status == "optimal"
-    for found, (sizes, objective) in zip(choosing.best, expected, strict=False):
-        assert found.objective == pytest.approx(objective, rel=SETTLED)
-        assert tuple(found.choices.values()) == pytest.approx(sizes)
+    for candidate, (sizes, objective) in zip(choosing.best, expected, strict=False):
+        assert candidate.objective == pytest.approx(objective, rel=SETTLED)
+        assert tuple(candidate.choices.values()) == pytest.approx(sizes)
     assert len(choosing.best) == min(study.solver.alternatives, len(expected))
     assert choosing.solved + choosing.pruned + choosing.without_design == choosing.combinations
     assert choosing.solved + choosing.pruned >= len(expected)
@@ -51,22 +51,22 @@ def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], flo
 
 
 @pytest.fixture(scope="module")
-def found() -> Solution:
+def solution() -> Solution:
     return optimize(listed())
 
 
 @pytest.fixture(scope="module")
-def alone(found: Solution) -> dict[tuple[float, ...], float]:
+def alone(solution: Solution) -> dict[tuple[float, ...], float]:
     """Return every combination solved alone, from the study's start."""
-    return by_brute_force(listed(), found.reference, starts=1)
+    return by_brute_force(listed(), solution.reference, starts=1)
 
 
 @pytest.mark.gate
 def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(
-    found: Solution, alone: dict[tuple[float, ...], float]
+    solution: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:
-    _agrees(listed(), found, alone)
-    work = _chosen(found).work
+    _agrees(listed(), solution, alone)
+    work = _chosen(solution).work
     assert work.warm_iterations <= 8 * work.warm  # a re-solve takes a few iterations
 
 
@@ -81,12 +81,12 @@ def test_the_bounds_save_most_of_the_work() -> None:
 
 @pytest.mark.slow
 def test_solving_every_combination_finds_the_same_and_says_so(
-    found: Solution, alone: dict[tuple[float, ...], float]
+    solution: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:
     proven = _chosen(optimize(listed(LISTED.replace("solver: {", "solver: {prove: true, "))))
     assert proven.proven
     assert proven.improved <= 1e-6
-    assert [one.choices for one in proven.best] == [one.choices for one in _chosen(found).best]
+    assert [best.choices for best in proven.best] == [best.choices for best in _chosen(solution).best]
     assert (proven.solved, proven.pruned) == (len(alone), 0)
     assert proven.solved + proven.without_design == proven.combinations
     assert "Every combination was then solved" in tally_in_words(proven)
@@ -94,11 +94,11 @@ def test_solving_every_combination_finds_the_same_and_says_so(
 
 @pytest.mark.gate
 def test_every_combination_is_as_good_as_solved_alone_and_cold(
-    found: Solution, alone: dict[tuple[float, ...], float]
+    solution: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:
-    said: list[str] = []
-    relaxation = _relaxation(found)
-    relaxation.optimizer.progress = said.append
+    messages: list[str] = []
+    relaxation = _relaxation(solution)
+    relaxation.optimizer.progress = messages.append
     each = {
         tuple(low for low, _ in relaxation.sizes.ends(box).values()): run.start.objective
         for _, block in enumerated_here(Begin(listed(), None, (), [relaxation]))
@@ -108,23 +108,23 @@ def test_every_combination_is_as_good_as_solved_alone_and_cold(
     for sizes, objective in alone.items():
         assert each[sizes] <= objective * (1.0 + SETTLED)
     assert min(each.values()) == pytest.approx(min(alone.values()), rel=SETTLED)
-    assert f"0 of {relaxation.sizes.count} combinations" in said[0]
+    assert f"0 of {relaxation.sizes.count} combinations" in messages[0]
 
 
 @pytest.mark.slow
-def test_bonmin_comes_to_the_same(found: Solution) -> None:
+def test_bonmin_comes_to_the_same(solution: Solution) -> None:
     # A solver of others' making, by the algorithm of it that is right.
-    chosen = best_by_bonmin(listed(), found.reference)
-    best = _chosen(found).best[0]
+    chosen = best_by_bonmin(listed(), solution.reference)
+    best = _chosen(solution).best[0]
     assert chosen.success
     assert chosen.objective == pytest.approx(best.objective, rel=SETTLED)
     assert chosen.choices == pytest.approx(best.choices, rel=1e-6)
 
 
-def _relaxation(found: Solution) -> Relaxation:
+def _relaxation(solution: Solution) -> Relaxation:
     """Return the problem of the listed study with its starts run, its objective over the same reference."""
     study = listed()
-    optimizer = Optimizer(study, found.reference)
+    optimizer = Optimizer(study, solution.reference)
     relaxation = Relaxation(0, optimizer, {}, discrete_sizes(study, TABLE), SolverEffort())
     relaxation.starts()
     return relaxation
@@ -132,17 +132,17 @@ def _relaxation(found: Solution) -> Relaxation:
 
 @pytest.mark.gate
 def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
-    found: Solution, alone: dict[tuple[float, ...], float]
+    solution: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:
-    choosing = _chosen(found)
+    choosing = _chosen(solution)
     standard = 1e3 * min(alone, key=lambda sizes: alone[sizes])[0]
-    said, data = price_in_words(choosing, TABLE), choosing_data(choosing, TABLE)
+    text, data = price_in_words(choosing, TABLE), choosing_data(choosing, TABLE)
     for name, value in choosing.best[0].values.items():
-        assert value == pytest.approx(found.values[name], rel=1e-5), "simulated at other samples"
+        assert value == pytest.approx(solution.values[name], rel=1e-5), "simulated at other samples"
         share = value / choosing.between.values[name] - 1.0
         assert data["cost_of_standard_sizes"][name] == pytest.approx(share, rel=1e-9)
-        assert f"{name} {share:+.1%}" in said
-    assert f"wire_diameter {standard:.4g} mm instead of {1e3 * choosing.between.choices['wire_diameter']:.4g}" in said
+        assert f"{name} {share:+.1%}" in text
+    assert f"wire_diameter {standard:.4g} mm instead of {1e3 * choosing.between.choices['wire_diameter']:.4g}" in text
     # Margins may lead to another combination.
     second = choosing.best[1]
     share = second.objective / choosing.between.objective - 1.0
@@ -173,15 +173,15 @@ def test_a_design_between_listed_sizes_is_infeasible_with_advice() -> None:
         "accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]\n"
         "minimize: module_mass\nsolver: {starts: 1, cells: 6}\n"
     )
-    found = answer(study)
-    assert found.design.status == NO_COMBINATION
-    said = complaint(found, study.table)
-    assert re.search(r"With wire_diameter 2\.[45]\d* mm there is a design: list values nearer", said)
-    assert "time_limit" not in said
-    assert found.solution is not None
-    late = replace(found, solution=replace(found.solution, out_of_time=60.0))
+    result = answer(study)
+    assert result.design.status == NO_COMBINATION
+    message = complaint(result, study.table)
+    assert re.search(r"With wire_diameter 2\.[45]\d* mm there is a design: list values nearer", message)
+    assert "time_limit" not in message
+    assert result.solution is not None
+    late = replace(result, solution=replace(result.solution, out_of_time=60.0))
     assert "raise `solver.time_limit`" in complaint(late, study.table)
-    assert "solver.starts" not in said  # no other start helps
+    assert "solver.starts" not in message  # no other start helps
 
 
 def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:

@@ -24,25 +24,25 @@ COMPRESSION = sample_text("mixed_compression")
 def _as_enumerated(study: Study, solution: Solution) -> None:
     """Compare the best combinations with each solved alone, cold, from as many starts as the search has."""
     choosing = solution.choosing
-    alone = sorted(with_each_record(study, solution.reference, study.solver.starts).items(), key=lambda one: one[1])
+    alone = sorted(with_each_record(study, solution.reference, study.solver.starts).items(), key=lambda item: item[1])
     assert solution.status == "optimal"
     assert len(solution.free_starts) >= study.solver.starts
-    assert [one.objective for one in choosing.best] == pytest.approx([value for _, value in alone[:3]], rel=1e-6)
+    assert [listed.objective for listed in choosing.best] == pytest.approx([value for _, value in alone[:3]], rel=1e-6)
     known = dict(alone)
-    for one in choosing.best:
-        key = tuple(one.choices.values())
-        assert known[min(known, key=lambda other: _apart(other, key))] == pytest.approx(one.objective, rel=1e-6)
+    for candidate in choosing.best:
+        key = tuple(candidate.choices.values())
+        assert known[min(known, key=lambda other: _apart(other, key))] == pytest.approx(candidate.objective, rel=1e-6)
     assert choosing.bound <= choosing.best[0].objective * (1.0 + 1e-6)
     assert choosing.solved + choosing.pruned + choosing.without_design == choosing.combinations
     assert choosing.solved + choosing.pruned >= len(alone)
     assert choosing.work.warm + choosing.work.cold < len(alone)
 
 
-def _apart(one: tuple[str | float, ...], other: tuple[str | float, ...]) -> float:
+def _apart(first: tuple[str | float, ...], other: tuple[str | float, ...]) -> float:
     """Return how far two combinations are apart: words that differ, and what the numbers differ by."""
     return sum(
         float(a != b) if isinstance(a, str) or isinstance(b, str) else abs(a - b)
-        for a, b in zip(one, other, strict=True)
+        for a, b in zip(first, other, strict=True)
     )
 
 
@@ -101,8 +101,9 @@ def test_records_of_another_structure_are_another_family() -> None:
     text = SHEAR.replace("[flexible_1600, silicone_9ar_08_24v, polyimide_foil_24v]",
                          "[flexible_1600, cp30138, tm_31_14_85, silicone_9ar_08_24v]")  # fmt: skip
     sheets, rigid = families_of(listed(text))
-    assert [one["peltier_module"] for one in sheets.mixtures[0].records] == ["flexible_1600", "silicone_9ar_08_24v"]
-    assert [one["peltier_module"] for one in rigid.mixtures[0].records] == ["cp30138", "tm_31_14_85"]
+    names = [record["peltier_module"] for record in sheets.mixtures[0].records]
+    assert names == ["flexible_1600", "silicone_9ar_08_24v"]
+    assert [record["peltier_module"] for record in rigid.mixtures[0].records] == ["cp30138", "tm_31_14_85"]
     assert sheets.count == rigid.count == 8
 
 
@@ -114,13 +115,13 @@ def test_at_a_corner_a_mixture_is_the_device_of_its_records(study: Study) -> Non
     cycle = dict.fromkeys(mixed.switch_names, 1.0)
     for mixture in family.mixtures:
         for place, records in enumerate(mixture.records):
-            asked = with_records(study, {**family.records, **records})
-            plain = DeviceFunctions(study.table, given(asked), points, 6)
+            chosen = with_records(study, {**family.records, **records})
+            plain = DeviceFunctions(study.table, given(chosen), points, 6)
             inputs = mixed.start.copy()
             for other, name in enumerate(mixture.shares):
                 inputs[mixed.index[name]] = float(other == place)
-            expected, found = plain.values(plain.start, cycle), mixed.values(mixed.mixed(inputs), cycle)
-            assert found == pytest.approx(expected, rel=1e-12, nan_ok=True)
+            expected, values = plain.values(plain.start, cycle), mixed.values(mixed.mixed(inputs), cycle)
+            assert values == pytest.approx(expected, rel=1e-12, nan_ok=True)
 
 
 MIXTURE = Mixture(({"a": "x"}, {"a": "y"}, {"a": "z"}), {"n": (1.0, 3.0, 9.0)}, ({}, {}, {}), ())
@@ -168,7 +169,7 @@ def solved(chosen: str, listed: str) -> Solution:
 def test_the_best_module_of_a_list_is_the_best_of_each_alone() -> None:
     best = solved("", f"  peltier_module: {{choose: [{', '.join(MODULES)}]}}\n")
     alone = {name: solved(f"peltier_module: {name}", "") for name in MODULES}
-    masses = {name: one.values["module_mass"] for name, one in alone.items() if one.feasible}
+    masses = {name: solution.values["module_mass"] for name, solution in alone.items() if solution.feasible}
     assert len(masses) == 3
     lightest = min(masses, key=masses.__getitem__)
     assert best.feasible
@@ -209,12 +210,12 @@ def test_the_best_stock_spring_of_a_list_is_the_best_of_each_alone(tmp_path: Pat
     alone = {name: solved(f"module: {{stock_spring: {name}}}", "") for name in SPRINGS}
     # Objectives are over each study's own start; that of the study that lists all is the common measure.
     objectives = {
-        name: sum(one.values[weighed] / best.reference[weighed] for weighed in best.reference)
-        for name, one in alone.items() if one.feasible
+        name: sum(solution.values[weighed] / best.reference[weighed] for weighed in best.reference)
+        for name, solution in alone.items() if solution.feasible
     }  # fmt: skip
     assert len(objectives) >= 2
     name = min(objectives, key=objectives.__getitem__)
     assert best.objective == pytest.approx(objectives[name], rel=1e-5)
     numbers = dict(zip(best.model.names, best.inputs, strict=True))
-    found = (1e3 * numbers["wire_diameter"], 1e3 * numbers["coil_diameter"], numbers["coil_count"])
-    assert found == pytest.approx(SPRINGS[name])
+    listed_spring = (1e3 * numbers["wire_diameter"], 1e3 * numbers["coil_diameter"], numbers["coil_count"])
+    assert listed_spring == pytest.approx(SPRINGS[name])

@@ -59,10 +59,10 @@ def _refusal(text: str) -> str:
 
 @pytest.mark.gate
 def test_a_limit_that_cannot_hold_is_named_with_what_the_ranges_allow() -> None:
-    said = _refusal(HEAVY)
-    assert "module_mass <= 60 g cannot hold" in said
-    assert "pcl_thickness >= 0.6 mm" in said
-    (figure,) = re.findall(r"move to <= ([\d.]+) g", said)
+    message = _refusal(HEAVY)
+    assert "module_mass <= 60 g cannot hold" in message
+    assert "pcl_thickness >= 0.6 mm" in message
+    (figure,) = re.findall(r"move to <= ([\d.]+) g", message)
     free = _answer(HEAVY.replace(', module_mass: "<= 60 g"', ""))
     lightest = 1e3 * free.design.values["module_mass"]
     assert figure == f"{lightest:.4g}"  # in the digits that are printed
@@ -99,11 +99,11 @@ def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None
         'spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"',
         'module_mass: "<= 400 g", spring_index: "<= 6", coil_pitch: "<= 2.05 mm"',
     )
-    said = _refusal(text)
-    assert "These cannot hold together" in said
-    assert "spring_index <= 6" in said
-    assert "module_mass" not in said
-    (figure,) = re.findall(r"coil_pitch <= 2.05 mm: alone it would have to move to <= ([\d.]+) mm", said)
+    message = _refusal(text)
+    assert "These cannot hold together" in message
+    assert "spring_index <= 6" in message
+    assert "module_mass" not in message
+    (figure,) = re.findall(r"coil_pitch <= 2.05 mm: alone it would have to move to <= ([\d.]+) mm", message)
     assert float(figure) > 2.05
     refuse_infeasible(read_study_text(text.replace("<= 2.05 mm", f"<= {1.001 * float(figure):.6g} mm")))
     refuse_infeasible(read_study_text(text.replace(', coil_pitch: "<= 2.05 mm"', "")))
@@ -126,27 +126,27 @@ def test_a_robust_study_is_refused_with_what_its_margins_take() -> None:
 
 
 def test_where_runs_end_nowhere_what_is_broken_stands_for_the_conflict() -> None:
-    asked: list[int] = []
+    runs: list[int] = []
     limits = [SimpleNamespace(origin="require", name=str(i)) for i in range(9)]
     run = SimpleNamespace(inputs=np.zeros(1), unknowns=np.zeros(1))
     slacks, ends = np.where(np.arange(9) == 4, 0.5, 0.0), np.array([1.0])
     least = SimpleNamespace(run=run, pressing=np.ones(9), slacks=slacks, ends=ends)
 
     def settle(*_: Any) -> Any:
-        asked.append(len(asked))
-        return SimpleNamespace(converged=len(asked) == 1, conflict_search=False, pressing=np.ones(9), ends=ends)
+        runs.append(len(runs))
+        return SimpleNamespace(converged=len(runs) == 1, conflict_search=False, pressing=np.ones(9), ends=ends)
 
     elastic = SimpleNamespace(limits=limits, count=9, settle=settle)
     assert _conflicting(cast(Any, elastic), cast(Any, least)) == ([4], ends)
-    assert len(asked) < 9
+    assert len(runs) < 9
 
 
-def test_every_limit_that_the_fixed_inputs_break_is_told_at_once() -> None:
-    said = _refusal(
+def test_every_limit_that_the_fixed_inputs_violate_is_named_at_once() -> None:
+    message = _refusal(
         "mode: shear\nmodule: {wire_diameter: 4 mm, coil_diameter: 12 mm, core_radius: 6 mm}\n"
         'vary: {current: [0.5 A, 2.5 A]}\nrequire: {envelope_diameter: "<= 100 mm"}\nminimize: peak_power\n'
     )
-    lines = [line for line in said.splitlines() if "nothing under `vary` can change it" in line]
+    lines = [line for line in message.splitlines() if "nothing under `vary` can change it" in line]
     assert any("spring_index >= 4 does not hold (it is 3; " in line for line in lines)
     assert any("envelope_diameter" in line for line in lines)
     assert len(lines) >= 3
@@ -160,10 +160,10 @@ def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> N
 
 
 def test_a_check_says_the_same_of_limits_that_need_no_simulation() -> None:
-    said = _refusal(STIFF)
-    assert "spring_fatigue_safety >= 3" in said
-    assert "module_mass" not in said
-    (figure,) = re.findall(r"spring_stiffness >= 12 N·m/rad: alone it would have to move to >= ([\d.]+)", said)
+    message = _refusal(STIFF)
+    assert "spring_fatigue_safety >= 3" in message
+    assert "module_mass" not in message
+    (figure,) = re.findall(r"spring_stiffness >= 12 N·m/rad: alone it would have to move to >= ([\d.]+)", message)
     solution = _answer(STIFF).solution
     assert len(solution.starts) == 1
     (place,) = (side.move_to for side in solution.conflict_set.sides if side.text.startswith("spring_stiffness"))
@@ -171,10 +171,10 @@ def test_a_check_says_the_same_of_limits_that_need_no_simulation() -> None:
 
 
 @pytest.mark.slow
-def test_the_smallest_set_holds_once_one_of_it_moves_as_far_as_told() -> None:
-    found = _answer(STIFF)
-    assert found.design.status.startswith("infeasible")
-    conflict_set = found.solution.conflict_set
+def test_the_smallest_set_holds_once_a_limit_of_it_moves_as_far_as_named() -> None:
+    result = _answer(STIFF)
+    assert result.design.status.startswith("infeasible")
+    conflict_set = result.solution.conflict_set
     sides = {side.text.split(" ")[0]: side for side in conflict_set.sides}
     assert set(sides) == {"spring_stiffness", "spring_fatigue_safety"}
     place = sides["spring_stiffness"].move_to
@@ -184,15 +184,15 @@ def test_the_smallest_set_holds_once_one_of_it_moves_as_far_as_told() -> None:
     assert _answer(short).design.status.startswith("infeasible")
 
 
-def test_the_design_that_breaks_least_breaks_what_is_told_by_as_much() -> None:
-    found = _answer(STIFF)
-    assert not found.has_design
+def test_the_design_that_violates_least_does_so_by_what_is_reported() -> None:
+    result = _answer(STIFF)
+    assert not result.has_design
     # A requirement that is put on several outputs at once, as that on the stiffness over the stroke, is one.
     broken: dict[str, float] = {}
-    for check in (one for one in found.checks if not one.met):
+    for check in (limit for limit in result.checks if not limit.met):
         name = check.part_of or check.output
         broken[name] = max(-check.margin, broken.get(name, 0.0))
-    reported = {side.text.split(" ")[0]: side.by for side in found.solution.conflict_set.broken}
+    reported = {side.text.split(" ")[0]: side.by for side in result.solution.conflict_set.broken}
     assert set(broken) == set(reported)
     for text, by in reported.items():
         assert broken[text] == pytest.approx(by, rel=1e-4)
@@ -200,8 +200,8 @@ def test_the_design_that_breaks_least_breaks_what_is_told_by_as_much() -> None:
 
 @pytest.mark.slow
 def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
-    found = _answer(HURRIED)
-    conflict_set = found.solution.conflict_set
+    result = _answer(HURRIED)
+    conflict_set = result.solution.conflict_set
     sides = {side.text.split(" ")[0]: side for side in conflict_set.sides}
     assert set(sides) == {"response_time", "peak_power"}
     for name, limit, factor in (("response_time", "<= 150 s", 1.01), ("peak_power", "<= 9 W", 1.01)):
@@ -210,7 +210,7 @@ def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
         assert _answer(HURRIED.replace(limit, f"<= {factor * place:.6g} {unit}")).design.status == "optimal"
 
 
-def test_a_start_begun_again_from_a_design_that_keeps_all_limits_converges() -> None:
+def test_a_start_restarted_from_a_feasible_design_converges() -> None:
     study = read_study_text(STIFF.replace(">= 12 N.m/rad", ">= 4.5 N.m/rad"))
     optimizer = Optimizer(study)
     run = optimizer.solve()
@@ -242,10 +242,10 @@ solver: {{starts: 1}}
 def test_another_spring_is_named_and_no_number_of_it(vary: str, limit: str) -> None:
     with pytest.raises(InfeasibleError) as caught:
         refuse_infeasible(read_study_text(FINGER.format(vary=vary, limit=limit), "test"))
-    said = str(caught.value)
-    assert "choose another `stock_spring`" in said, said
-    assert "vary wire_diameter" not in said
-    assert "wire_diameter," not in said
+    message = str(caught.value)
+    assert "choose another `stock_spring`" in message, message
+    assert "vary wire_diameter" not in message
+    assert "wire_diameter," not in message
 
 
 ONLY_THE_CYCLE = """
@@ -297,9 +297,9 @@ def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.
         return run
 
     monkeypatch.setattr(Relaxation, "_from_one_of_each", failing)
-    found = optimize(study)
-    assert found.status == "optimal"
-    assert found.objective <= usual.objective * (1.0 + 1e-6)
+    solution = optimize(study)
+    assert solution.status == "optimal"
+    assert solution.objective <= usual.objective * (1.0 + 1e-6)
 
 
 STUDY = """
@@ -316,14 +316,14 @@ def screen() -> FeasibilityScreen:
 
 
 @pytest.mark.parametrize(
-    ("sums", "worsts", "impossible", "asked"),
+    ("sums", "worsts", "impossible", "count"),
     [([0.1, 0.2, 0.1], [0.1, 0.3], True, 5), ([0.1, 0.0, 0.1], [], False, 2), ([0.1, np.nan, 0.1], [], False, 2),
      ([0.1, 0.2, 0.1], [0.1, 0.0], False, 5), ([0.1, 0.2, 0.1], [np.nan, np.nan], True, 5)],
     ids=["neither finds one", "the sum finds one", "a sum has no least", "a worst finds one", "a worst has no least"],
 )  # fmt: skip
 def test_limits_are_infeasible_if_neither_measure_finds_a_point(
     screen: FeasibilityScreen, monkeypatch: pytest.MonkeyPatch,
-    sums: list[float], worsts: list[float], impossible: bool, asked: int,
+    sums: list[float], worsts: list[float], impossible: bool, count: int,
 ) -> None:  # fmt: skip
     begins = [np.full(2, float(place)) for place in range(3)]
     left = {"sum": iter(sums), "worst": iter(worsts)}
@@ -335,4 +335,4 @@ def test_limits_are_infeasible_if_neither_measure_finds_a_point(
 
     monkeypatch.setattr(screen, "_least", least)
     assert screen.impossible({}, begins) is impossible
-    assert places == [0.0, 1.0, 2.0, 0.0, 2.0][:asked]
+    assert places == [0.0, 1.0, 2.0, 0.0, 2.0][:count]

@@ -21,7 +21,7 @@ from tvimdesign.solve.optimizer.parametric_optimizer import ParametricOptimizer
 from tvimdesign.study import Study, given, read_study_text, read_tree
 from tvimdesign.study.tree import tree_of_text, with_settings
 
-ASKED = """
+REQUIRED = """
 require:
   spring_stiffness: ">= 5 N.m/rad"
   peak_power: "<= 9 W"
@@ -30,7 +30,7 @@ require:
 minimize: {module_mass: 1, cycle_time: 2}
 solver: {cells: 8, starts: 1}
 """
-SHEAR = FOUR_SIZES_IN_SHEAR + "  cooling_current: [0.3 A, 1.5 A]\n" + ASKED
+SHEAR = FOUR_SIZES_IN_SHEAR + "  cooling_current: [0.3 A, 1.5 A]\n" + REQUIRED
 COMPRESSION = f"""
 mode: compression
 module: {{response_criterion: softening, core_radius: 8 mm, link_dowel: iso_8734_2, rotor_rim: 8 mm,
@@ -157,7 +157,7 @@ def test_an_optimum_is_where_its_own_steps_have_it() -> None:
     assert optimizer.problem.grids is not run.grids  # placed anew
 
 
-def test_steps_of_a_quick_switch_are_placed_anew_for_a_slow_one() -> None:
+def test_steps_of_a_quick_switch_are_placed_again_for_a_slow_one() -> None:
     # The least power heats for an hour; the steps of the study's start, which takes minutes, miss its end by 0.5 %.
     text = "mode: shear\nvary: {current: [0.1 A, 3 A]}\nminimize: peak_power\nsolver: {cells: 6, starts: 1}\n"
     optimizer = Optimizer(read_study_text(text, "a test"))

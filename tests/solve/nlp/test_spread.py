@@ -60,9 +60,9 @@ def test_a_normal_part_has_the_quantiles_and_yield_of_its_distribution() -> None
     assert drawn.low[0] == pytest.approx(1.0 - 3.0 * 0.1, abs=2e-3)
     assert drawn.high[0] == pytest.approx(1.0 + 3.0 * 0.1, abs=2e-3)
     drawn = _drawn(lambda x: x, PARTS[:1], 1 << 16, seed=2)
-    found = spread.share_kept(drawn.values[0] <= 1.1)  # one standard deviation above the mean
-    assert found.share == pytest.approx(0.841345, abs=1e-4)
-    assert found.low < 0.841345 < found.high
+    share = spread.share_kept(drawn.values[0] <= 1.1)  # one standard deviation above the mean
+    assert share.share == pytest.approx(0.841345, abs=1e-4)
+    assert share.low < 0.841345 < share.high
     assert spread.capability(1.0, 0.1, 1.3, "<=") == pytest.approx(1.0)
     assert spread.capability(1.0, 0.1, 1.3, ">=") == pytest.approx(-1.0)
 
@@ -101,9 +101,9 @@ def test_sobol_indices_of_ishigamis_function_are_the_published_ones() -> None:
 
 @pytest.mark.parametrize(("good", "count"), [(0, 50), (37, 50), (50, 50), (999, 1000)])
 def test_the_interval_of_a_yield_is_wilsons(good: int, count: int) -> None:
-    found = spread.share_kept(np.arange(count) < good)
+    share = spread.share_kept(np.arange(count) < good)
     expected = stats.binomtest(good, count).proportion_ci(method="wilson")
-    assert (found.low, found.high) == pytest.approx((expected.low, expected.high), abs=1e-6)
+    assert (share.low, share.high) == pytest.approx((expected.low, expected.high), abs=1e-6)
 
 
 def test_what_never_happens_is_counted_and_left_out_of_the_mean() -> None:

@@ -58,7 +58,7 @@ def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer
         _solve_until_interrupted(optimizer, signaling)
 
 
-def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optimizer) -> None:
+def test_nothing_is_started_after_an_interrupt_that_was_swallowed(optimizer: Optimizer) -> None:
     study = optimizer.study
     simulator = Simulator(resolve_study(study).functions)
     screen = FeasibilityScreen(optimizer)
@@ -74,9 +74,9 @@ def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optim
 
 def _statuses() -> set[str]:
     """Return the statuses in CasADi's interface to IPOPT, read off the library itself."""
-    found = sorted(Path(casadi.__file__).parent.glob("*casadi_nlpsol_ipopt*"))
-    assert found, "CasADi keeps its interface to IPOPT elsewhere: look there"
-    words = re.findall(rb"\0([A-Z][A-Za-z]+(?:_[A-Za-z]+)+)(?=\0)", found[0].read_bytes())
+    libraries = sorted(Path(casadi.__file__).parent.glob("*casadi_nlpsol_ipopt*"))
+    assert libraries, "CasADi keeps its interface to IPOPT elsewhere: look there"
+    words = re.findall(rb"\0([A-Z][A-Za-z]+(?:_[A-Za-z]+)+)(?=\0)", libraries[0].read_bytes())
     return {word.decode() for word in words if not word.decode().isupper()}
 
 
@@ -84,10 +84,10 @@ def test_every_status_of_ipopt_has_words_and_most_a_next_step() -> None:
     statuses = _statuses()
     assert {"Solve_Succeeded", "Infeasible_Problem_Detected", "Restoration_Failed"} <= statuses
     assert statuses <= set(MEANINGS)
-    for status, found in MEANINGS.items():
-        assert found.words
-        assert "_" not in found.words
-        assert found.step or status == "Solve_Succeeded"
+    for status, entry in MEANINGS.items():
+        assert entry.words
+        assert "_" not in entry.words
+        assert entry.step or status == "Solve_Succeeded"
     assert "phase of the moon" in meaning("Phase_Of_The_Moon").words
 
 
@@ -122,10 +122,10 @@ solver: {cells: 6, starts: 1}
 @pytest.mark.gate
 def test_a_switch_that_nothing_limits_ends_within_the_horizon() -> None:
     # The least peak of power heats as slowly as it may: the layer barely gets as hot as it must.
-    found = optimize(read_study_text(LATE, "test"))
-    assert found.status == "optimal"
-    assert found.values["response_time"] == pytest.approx(LATEST * HORIZON, rel=2e-3)
-    holds = [limit for limit in found.held if limit.output == "response_time"]
+    solution = optimize(read_study_text(LATE, "test"))
+    assert solution.status == "optimal"
+    assert solution.values["response_time"] == pytest.approx(LATEST * HORIZON, rel=2e-3)
+    holds = [limit for limit in solution.held if limit.output == "response_time"]
     assert holds[0].residual == pytest.approx(0.0, abs=2e-3)
     assert holds[0].shadow_price > 0.0
 
@@ -138,13 +138,13 @@ def test_a_search_beyond_the_horizon_restarts_before_it_searches_lists(monkeypat
     # A random study (20264018) was through its 60 s with the lists of a switch that never ends.
     deadlines: list[Deadline] = []
     monkeypatch.setattr(search, "Deadline", lambda seconds: deadlines.append(Deadline(seconds)) or deadlines[-1])
-    said: list[str] = []
-    found = optimize(read_study_text(LISTED, "test"), said.append)
-    assert found.status == "optimal"
-    assert found.values["response_time"] <= LATEST * HORIZON * (1.0 + 2e-3)
-    again = next(place for place, words in enumerate(said) if "beyond `horizon`" in words)
-    assert not any(" solved" in words for words in said[:again])
-    assert any(" solved" in words for words in said[again:])
+    messages: list[str] = []
+    solution = optimize(read_study_text(LISTED, "test"), messages.append)
+    assert solution.status == "optimal"
+    assert solution.values["response_time"] <= LATEST * HORIZON * (1.0 + 2e-3)
+    again = next(place for place, words in enumerate(messages) if "beyond `horizon`" in words)
+    assert not any(" solved" in words for words in messages[:again])
+    assert any(" solved" in words for words in messages[again:])
     assert len(deadlines) == 1  # the study's time limit is that of both
 
 

@@ -34,7 +34,7 @@ def searches(
     mass: Callable[[float], float] = lambda size: size,
 ) -> tuple[Multistart, list[str]]:
     """Return starts for a number from 1 to 100 that is `own` in the study, and the progress messages."""
-    said: list[str] = []
+    messages: list[str] = []
     table = SimpleNamespace(outputs=(), behind_supplied={"time"})
     model: Any = SimpleNamespace(
         start=np.array([own, 7.0]), index={"size": 0, "other": 1}, table=table, switch_names=["time"]
@@ -47,11 +47,11 @@ def searches(
     free = (Free("size", LOWER, UPPER, 2.0),)
     problem = SimpleNamespace(free=free, events=("time",), simulated=simulated, phases=())
     options = SolverOptions(starts=starts, seed=SEED)
-    return Multistart(cast(Any, problem), model, options, said.append), said
+    return Multistart(cast(Any, problem), model, options, messages.append), messages
 
 
-def sizes(found: Multistart) -> list[float]:
-    points = list(found.points())
+def sizes(search: Multistart) -> list[float]:
+    points = list(search.points())
     assert all(point[1] == 7.0 for point in points)  # what is not free stays as the study has it
     return [float(point[0]) for point in points]
 
@@ -64,19 +64,19 @@ def drawn(count: int) -> np.ndarray:
 
 @pytest.mark.parametrize("starts", [1, 4])
 def test_the_study_s_start_comes_first_and_others_are_log_even(starts: int) -> None:
-    found, said = searches(starts)
-    assert sizes(found) == pytest.approx([2.0, *drawn(starts - 1)])
-    assert found.passed_over == {"switch never ends": 0, "no such module": 0}
-    assert said == []
+    search, messages = searches(starts)
+    assert sizes(search) == pytest.approx([2.0, *drawn(starts - 1)])
+    assert search.passed_over == {"switch never ends": 0, "no such module": 0}
+    assert messages == []
 
 
 def test_points_whose_switch_never_ends_are_skipped_and_counted() -> None:
-    found, said = searches(3, own=2.0, takes=lambda size: np.inf if size < 10.0 else size)
+    search, messages = searches(3, own=2.0, takes=lambda size: np.inf if size < 10.0 else size)
     ends = [size for size in drawn(50) if size >= 10.0][:3]
     tried = 1 + list(drawn(50)).index(ends[-1]) + 1
-    assert sizes(found) == pytest.approx(ends)
-    assert found.passed_over == {"switch never ends": tried - 3, "no such module": 0}
-    assert said == ["looking for a start: the switch of the study's own never ends, or takes no time"]
+    assert sizes(search) == pytest.approx(ends)
+    assert search.passed_over == {"switch never ends": tried - 3, "no such module": 0}
+    assert messages == ["looking for a start: the switch of the study's own never ends, or takes no time"]
 
 
 def test_points_without_a_module_are_skipped_unsimulated() -> None:
@@ -86,20 +86,20 @@ def test_points_without_a_module_are_skipped_unsimulated() -> None:
         simulated.append(size)
         return size
 
-    found, _ = searches(4, takes=takes, mass=lambda size: np.nan if size < 10.0 else size)
+    search, _ = searches(4, takes=takes, mass=lambda size: np.nan if size < 10.0 else size)
     whole = [size for size in drawn(50) if size >= 10.0][:3]
-    assert sizes(found) == pytest.approx([2.0, *whole])
-    assert found.passed_over == {"switch never ends": 0, "no such module": list(drawn(50)).index(whole[-1]) + 1 - 3}
+    assert sizes(search) == pytest.approx([2.0, *whole])
+    assert search.passed_over == {"switch never ends": 0, "no such module": list(drawn(50)).index(whole[-1]) + 1 - 3}
     assert simulated == pytest.approx([2.0, *whole])  # the study's own once
 
 
 def test_where_no_point_will_do_the_search_begins_at_the_study_s_own() -> None:
-    found, _ = searches(2, takes=lambda _: np.inf)
-    assert sizes(found) == [2.0, 2.0]
-    assert found.passed_over["switch never ends"] == 1 + 2 * MAX_DRAWS
-    found, _ = searches(2, mass=lambda _: np.nan)
-    assert sizes(found) == [2.0, 2.0]
-    assert found.passed_over["no such module"] == MAX_DRAWS
+    search, _ = searches(2, takes=lambda _: np.inf)
+    assert sizes(search) == [2.0, 2.0]
+    assert search.passed_over["switch never ends"] == 1 + 2 * MAX_DRAWS
+    search, _ = searches(2, mass=lambda _: np.nan)
+    assert sizes(search) == [2.0, 2.0]
+    assert search.passed_over["no such module"] == MAX_DRAWS
 
 
 def test_a_point_that_simulates_replaces_a_start_that_does_not() -> None:
@@ -108,13 +108,13 @@ def test_a_point_that_simulates_replaces_a_start_that_does_not() -> None:
             raise SimulationError("it cannot be simulated")
         return size if size < 40.0 else np.inf
 
-    found, said = searches(2, own=2.0, takes=takes)
-    first, second = sizes(found)
+    search, messages = searches(2, own=2.0, takes=takes)
+    first, second = sizes(search)
     assert 10.0 <= first < 40.0
     assert second == pytest.approx(next(size for size in drawn(50) if 10.0 <= size < 40.0))
-    assert found.model.start[0] == first
-    assert found.cycle["time"] == first
-    assert said == ["looking for a start: the study's own cannot be simulated"]
+    assert search.model.start[0] == first
+    assert search.cycle["time"] == first
+    assert messages == ["looking for a start: the study's own cannot be simulated"]
 
 
 def test_where_no_point_can_be_simulated_the_error_says_what_to_do() -> None:
@@ -288,7 +288,7 @@ def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch: pytest
     assert shaken.start.by_neighbor
     tried.clear()
     assert NeighboringOptima(_of_coils(None, tried)).improve([shaken]) == [shaken]
-    assert all(abs(one - 3.5) <= 0.9 for one in tried)
+    assert all(abs(size - 3.5) <= 0.9 for size in tried)
 
 
 @pytest.mark.gate
@@ -304,7 +304,7 @@ def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> Non
     ]
     assert all(run.start.converged for run in (whole, *halves))
     assert min(half.start.objective for half in halves) > 1.01 * whole.start.objective
-    *kept, crossed = NeighboringOptima(optimizer).improve(halves)
-    assert kept == halves
+    *unchanged, crossed = NeighboringOptima(optimizer).improve(halves)
+    assert unchanged == halves
     assert crossed.start.crossed
     assert crossed.start.objective < (1.0 + 1e-4) * whole.start.objective

@@ -31,7 +31,7 @@ class Solved:
         self.study = read_study_text(text, "test")
         self.built: list[tuple[Optimizer, list[Run]]] = []
         self.solution: Solution = optimize(
-            self.study, keep=lambda *kept: self.built.append(kept), objectives=objectives
+            self.study, keep=lambda *given: self.built.append(given), objectives=objectives
         )
         assert self.solution.status == "optimal"
 
@@ -40,12 +40,12 @@ class Solved:
 
     def alone(self, minimize: str, *more: Requirement, begin: Mapping[str, float] | None = None) -> float:
         """Return the least of an output by a search of its own, from the study's start with other numbers."""
-        asked = {
+        update = {
             "minimize": {minimize: 1.0},
             "require": (*self.study.require, *more),
             "module": {**self.study.module, **(begin or {})},
         }
-        return optimize(self.study.model_copy(update=asked)).values[minimize]
+        return optimize(self.study.model_copy(update=update)).values[minimize]
 
 
 # 2.5 A: at 1.5 A the three outputs barely conflict, which leaves no front.
@@ -76,8 +76,8 @@ class Notes:
         self.recalled += number in self.known
         return self.known.get(number)
 
-    def keep(self, number: int, _: Objective, found: Point | Failure) -> None:
-        self.known[number] = found
+    def keep(self, number: int, _: Objective, point: Point | Failure) -> None:
+        self.known[number] = point
 
 
 @pytest.fixture(scope="module")
@@ -99,8 +99,8 @@ def _numbers(front: Front) -> list[tuple[float, ...]]:
 def _beats_itself(front: Front) -> bool:
     """Return whether a point is as good as another in everything."""
     return any(
-        all(mine >= theirs for mine, theirs in zip(one, other, strict=True))
-        for one, other in itertools.permutations(_numbers(front), 2)
+        all(mine >= theirs for mine, theirs in zip(first, other, strict=True))
+        for first, other in itertools.permutations(_numbers(front), 2)
     )
 
 
@@ -144,8 +144,8 @@ def test_a_front_of_three_goes_with_the_front_of_two(pair: Front, triple: Front)
     for output in (TIME, MASS):
         ends = [min(point.values[output] for point in front.points) for front in (pair, triple)]
         assert ends[1] == pytest.approx(ends[0], rel=2e-3)
-    for one, other in ((pair, triple), (triple, pair)):
-        for point in one.points:
+    for traced, other in ((pair, triple), (triple, pair)):
+        for point in traced.points:
             for there in other.points:
                 assert not all(there.values[name] < point.values[name] * 0.995 for name in (TIME, MASS, SIZE))
 
@@ -190,7 +190,7 @@ def test_what_can_be_traded_does_not_change_the_optimum(solved: Solved) -> None:
 @pytest.mark.gate
 def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved, noted: tuple[Front, Notes]) -> None:
     whole, notes = noted[0], Notes()
-    notes.known = {number: found for number, found in noted[1].known.items() if number < 6}
+    notes.known = {number: point for number, point in noted[1].known.items() if number < 6}
     again = trace_front(solved.trade(notes), (TIME, MASS, SIZE), 9)
     assert notes.recalled == 6
     assert _numbers(again) == _numbers(whole)
@@ -232,7 +232,7 @@ def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(
     front = completed(trace_front(trade, (TIME, MASS), 4), trade)
     assert front.notes[0] == "an end has no design"
     assert [failure.where for failure in front.failures] == [
-        f"least {one}, then {other}" for one, other in ((TIME, MASS), (MASS, TIME)) if one in lost
+        f"least {output}, then {other}" for output, other in ((TIME, MASS), (MASS, TIME)) if output in lost
     ]
     assert len(front.points) == 2 - len(lost)
     table = table_for(solved.study.mode)
@@ -241,7 +241,7 @@ def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(
     assert reported["in_words"][0] == "An end has no design."
 
 
-def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:
+def test_outputs_that_do_not_conflict_are_one_point() -> None:
     # A smaller rotor is both lighter and smaller, and there is nothing else to choose.
     text = COARSE.replace("  wire_diameter: [2 mm, 3 mm]\n", "").replace("  pcl_thickness: [0.6 mm, 2 mm]\n", "")
     text = text.replace("module:\n", "module:\n  wire_diameter: 2.9 mm\n")
@@ -251,8 +251,8 @@ def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:
     assert front.knee is None
 
 
-@pytest.mark.parametrize("asked", [5, 9])
-def test_points_that_could_not_be_told_apart_are_left_out_and_that_is_said(asked: int) -> None:
+@pytest.mark.parametrize("points", [5, 9])
+def test_points_closer_than_the_tolerance_are_left_out_and_counted(points: int) -> None:
     """Mass rises by 1.1 % along the front, stiffness falls by 1.2: of points 0.2 % apart it holds six, not nine.
 
     Nothing here depends on a switch, so it is quick. The coils alone bend: leg and tang as drawn make it 1.9 %.
@@ -261,18 +261,18 @@ def test_points_that_could_not_be_told_apart_are_left_out_and_that_is_said(asked
     text += "vary: {coil_count: [4, 4.05]}\n"
     outputs = ("springs_mass", "spring_stiffness")
     solved = Solved(f"{text}minimize: {{springs_mass: 1, spring_stiffness: 1}}\n", outputs)
-    front = trace_front(solved.trade(), outputs, asked)
+    front = trace_front(solved.trade(), outputs, points)
     numbers = np.array(_numbers(front))
     assert np.all(np.max(np.abs(np.diff(numbers, axis=0)) / numbers[1:], axis=1) > 2e-3)
     count = len(front.points)
     close = f"more points than {count} would be closer than the simulation tells designs apart"
-    assert (close in front.notes) == (count < asked) == (asked == 9)
+    assert (close in front.notes) == (count < points) == (points == 9)
     assert not any("jump" in note for note in front.notes)
     assert count >= 5
 
 
 @pytest.mark.slow
-def test_listed_sizes_stay_those_of_the_optimum_and_that_is_said() -> None:
+def test_listed_sizes_stay_those_of_the_optimum_and_the_report_says_so() -> None:
     listed = Solved(SHEAR.replace("wire_diameter: [2 mm, 3 mm]", "wire_diameter: {choose: [2.92 mm, 3 mm]}"))
     front = trace_front(listed.trade(), (TIME, MASS), 3)
     assert {point.values["wire_diameter"] for point in front.points} == {listed.solution.values.get(

@@ -18,11 +18,11 @@ QUARTER = np.array([[1.0 - np.sin(a), 1.0 - np.cos(a)] for a in np.linspace(0.0,
 
 @given(st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5), st.integers(0, 5)), min_size=1, max_size=8))
 def test_kept_points_are_those_no_other_is_better_than(rows: list[tuple[int, int, int]]) -> None:
-    kept = [rows[i] for i in shape.efficient(np.array(rows, dtype=float))]
-    assert len(set(kept)) == len(kept)
+    front = [rows[i] for i in shape.efficient(np.array(rows, dtype=float))]
+    assert len(set(front)) == len(front)
     for row in rows:
         beaten = any(o != row and all(x <= y for x, y in zip(o, row, strict=True)) for o in rows)
-        assert (row in kept) == (not beaten)
+        assert (row in front) == (not beaten)
 
 
 def test_knees_lie_half_way_or_nowhere() -> None:
@@ -63,7 +63,7 @@ def test_every_output_falls_alike_along_the_line_through_a_place() -> None:
             assert bound.residual(end) == pytest.approx(0.0, abs=1e-12)
             lower = {name: end[name] - 0.3 * size for name, size in zip(names, frame.ranges, strict=True)}
             assert bound.residual(lower) == pytest.approx(0.0, abs=1e-12)
-            name = next(one for one in names[1:] if one in bound.factors)
+            name = next(output for output in names[1:] if output in bound.factors)
             assert bound.residual({**end, name: 1.01 * end[name]}) > 0.0
 
 
@@ -90,9 +90,9 @@ def test_the_corners_of_a_hull_are_those_of_qhull(points: list[tuple[int, int]])
     places = np.array(points, dtype=float)
     assume(np.linalg.matrix_rank(places - places[0]) == 2)
     expected = {points[i] for i in ConvexHull(places).vertices}
-    found = [(int(x), int(y)) for x, y in shape._hull(places)]
-    assert set(found) == expected
-    assert len(found) == len(expected)
+    corners = [(int(x), int(y)) for x, y in shape._hull(places)]
+    assert set(corners) == expected
+    assert len(corners) == len(expected)
 
 
 FALLING = [(1.0, 10.0), (5.0, 2.0)]  # y = 12 - 2 x
@@ -100,30 +100,30 @@ FLAT = [(2.0, 5.0), (6.0, 4.0)]  # y = 5.5 - x / 4
 
 
 def test_two_lines_cross_where_their_equations_say() -> None:
-    found = leads({"falling": FALLING, "flat": FLAT})
+    ranges = leads({"falling": FALLING, "flat": FLAT})
     # 12 - 2 x = 5.5 - x / 4 at x = 26/7; below 2 only one has anything.
-    assert [(lead.best, lead.alone) for lead in found] == [("falling", True), ("flat", False), ("falling", False)]
-    assert found[0].lower == 1.0
-    assert found[0].upper == 2.0
-    assert found[1].upper == pytest.approx(26.0 / 7.0)
-    assert math.isinf(found[2].upper)
+    assert [(lead.best, lead.alone) for lead in ranges] == [("falling", True), ("flat", False), ("falling", False)]
+    assert ranges[0].lower == 1.0
+    assert ranges[0].upper == 2.0
+    assert ranges[1].upper == pytest.approx(26.0 / 7.0)
+    assert math.isinf(ranges[2].upper)
     # At x = 2 the one has 8, the other 5; from 6 on 2 against 4.
-    assert found[1].most == pytest.approx(8.0 / 5.0)
-    assert found[1].least == pytest.approx(1.0)
-    assert found[2].most == pytest.approx(4.25 / 2.0)
+    assert ranges[1].most == pytest.approx(8.0 / 5.0)
+    assert ranges[1].least == pytest.approx(1.0)
+    assert ranges[2].most == pytest.approx(4.25 / 2.0)
 
 
 def test_fronts_lead_from_their_first_point_on() -> None:
     assert reached(FALLING, 0.99) == math.inf
     assert reached(FALLING, 3.0) == pytest.approx(6.0)
     assert reached(FALLING, 50.0) == 2.0
-    found = leads({"one": FALLING, "other": list(reversed(FALLING))})
-    assert [lead.best for lead in found] == [None]
-    found = leads({"falling": FALLING, "flat": FLAT, "low": [(3.0, 1.0)]})
-    assert [lead.best for lead in found] == ["falling", "flat", "low"]
-    assert found[2].least == pytest.approx(2.0)  # against the next best, which ends at 2
-    found = leads({"point": [(2.0, 3.0)]})
-    assert [(lead.lower, lead.upper, lead.best, lead.alone) for lead in found] == [(2.0, math.inf, "point", True)]
+    ranges = leads({"one": FALLING, "other": list(reversed(FALLING))})
+    assert [lead.best for lead in ranges] == [None]
+    ranges = leads({"falling": FALLING, "flat": FLAT, "low": [(3.0, 1.0)]})
+    assert [lead.best for lead in ranges] == ["falling", "flat", "low"]
+    assert ranges[2].least == pytest.approx(2.0)  # against the next best, which ends at 2
+    ranges = leads({"point": [(2.0, 3.0)]})
+    assert [(lead.lower, lead.upper, lead.best, lead.alone) for lead in ranges] == [(2.0, math.inf, "point", True)]
 
 
 CURVES = st.lists(st.tuples(st.floats(1.0, 9.0), st.floats(1.0, 9.0)), min_size=1, max_size=5, unique_by=lambda p: p[0])
@@ -135,10 +135,10 @@ def _front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 @given(CURVES, CURVES, st.floats(1.0, 12.0))
-def test_who_is_said_to_lead_at_a_limit_is_who_has_less_there(
-    one: list[tuple[float, float]], other: list[tuple[float, float]], limit: float
+def test_the_leader_at_a_limit_is_the_front_with_less_there(
+    first: list[tuple[float, float]], other: list[tuple[float, float]], limit: float
 ) -> None:
-    curves = {"one": _front(one), "other": _front(other)}
+    curves = {"one": _front(first), "other": _front(other)}
     here = [lead for lead in leads(curves) if lead.lower <= limit < lead.upper]
     values = {label: reached(curve, limit) for label, curve in curves.items()}
     if not here:
@@ -151,11 +151,11 @@ def test_who_is_said_to_lead_at_a_limit_is_who_has_less_there(
 
 @given(CURVES, CURVES)
 def test_ranges_join_without_gaps_and_do_not_depend_on_the_order(
-    one: list[tuple[float, float]], other: list[tuple[float, float]]
+    first: list[tuple[float, float]], other: list[tuple[float, float]]
 ) -> None:
-    found = leads({"one": _front(one), "other": _front(other)})
-    assert math.isinf(found[-1].upper)
-    assert all(a.upper == b.lower for a, b in itertools.pairwise(found))
-    turned = leads({"other": _front(other), "one": _front(one)})
-    assert [lead.best for lead in turned] == [lead.best for lead in found]
-    assert [lead.lower for lead in turned] == pytest.approx([lead.lower for lead in found])
+    ranges = leads({"one": _front(first), "other": _front(other)})
+    assert math.isinf(ranges[-1].upper)
+    assert all(a.upper == b.lower for a, b in itertools.pairwise(ranges))
+    turned = leads({"other": _front(other), "one": _front(first)})
+    assert [lead.best for lead in turned] == [lead.best for lead in ranges]
+    assert [lead.lower for lead in turned] == pytest.approx([lead.lower for lead in ranges])

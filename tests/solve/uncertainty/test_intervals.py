@@ -27,7 +27,7 @@ from tvimdesign.study import read_study_text, standard_tolerances
 
 TABLE = table_for("shear")
 ALGEBRAIC = "impedance_range"
-ASKED = (ALGEBRAIC, "module_mass", "softening_time", "stiffening_time")
+OUTPUTS = (ALGEBRAIC, "module_mass", "softening_time", "stiffening_time")
 
 
 def unknown(name: str, low: float, high: float, value: float = math.nan) -> UnmeasuredInput:
@@ -42,7 +42,7 @@ def module() -> ResolvedModule:
 
 @cache
 def model() -> UncertaintyModel:
-    return UncertaintyModel(module(), ASKED)
+    return UncertaintyModel(module(), OUTPUTS)
 
 
 def rows(columns: NDArray[np.float64], names: list[str]) -> NDArray[np.float64]:
@@ -54,7 +54,7 @@ def rows(columns: NDArray[np.float64], names: list[str]) -> NDArray[np.float64]:
 
 
 @cache
-def found() -> DesignUncertainty:
+def uncertainty() -> DesignUncertainty:
     return model().at(module(), 16, 512)
 
 
@@ -74,11 +74,11 @@ def simulated(output: str, **changes: float) -> float:
 @pytest.mark.gate
 def test_the_ends_are_those_of_a_plain_loop_through_the_same_modules() -> None:
     looped = []
-    for column in draw(found().unmeasured, 512, module().study.solver.seed).T:
-        moved = {one.name: float(value) for one, value in zip(found().unmeasured, column, strict=True)}
+    for column in draw(uncertainty().unmeasured, 512, module().study.solver.seed).T:
+        moved = {assumed.name: float(value) for assumed, value in zip(uncertainty().unmeasured, column, strict=True)}
         looped.append(float(TABLE.evaluate({**module().values, **moved}, [ALGEBRAIC])[ALGEBRAIC]))
     low, high = np.quantile(looped, [0.025, 0.975], method="inverted_cdf")
-    interval = found().intervals[ALGEBRAIC]
+    interval = uncertainty().intervals[ALGEBRAIC]
     assert (interval.low, interval.high) == pytest.approx((low, high), rel=1e-9)
     assert interval.low < interval.nominal < interval.high
 
@@ -86,16 +86,20 @@ def test_the_ends_are_those_of_a_plain_loop_through_the_same_modules() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("output", ["softening_time", "stiffening_time"])
 def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output: str) -> None:
-    interval = found().intervals[output]
-    moved = [one for one in unmeasured_inputs(module()) if one.name in {s.moved.name for s in interval.swings}]
+    interval = uncertainty().intervals[output]
+    moved = [
+        assumed for assumed in unmeasured_inputs(module()) if assumed.name in {s.moved.name for s in interval.swings}
+    ]
     points = qmc.LatinHypercube(len(moved), rng=3).random(48)
     looped = [
-        simulated(output, **{one.name: float(one.ppf(share)) for one, share in zip(moved, point, strict=True)})
+        simulated(
+            output, **{assumed.name: float(assumed.ppf(share)) for assumed, share in zip(moved, point, strict=True)}
+        )
         for point in points
     ]
     # Of 48, the quartiles are sure to a tenth; between the ends lie nearly all.
-    drawn = draw(found().unmeasured, 512, module().study.solver.seed)
-    kernel = rows(drawn, [one.name for one in found().unmeasured])[model().outputs.index(output)]
+    drawn = draw(uncertainty().unmeasured, 512, module().study.solver.seed)
+    kernel = rows(drawn, [assumed.name for assumed in uncertainty().unmeasured])[model().outputs.index(output)]
     for share in (0.25, 0.5, 0.75):
         assert np.quantile(looped, share, method="lower") == pytest.approx(np.quantile(kernel, share), rel=0.15)
     inside = np.mean([interval.low <= value <= interval.high for value in looped])
@@ -105,14 +109,14 @@ def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output: str) ->
 @pytest.mark.gate
 @pytest.mark.parametrize("place", [0, 1, 2])
 def test_one_at_a_time_is_what_a_simulation_says_at_both_ends(place: int) -> None:
-    swing = found().intervals["softening_time"].swings[place]
+    swing = uncertainty().intervals["softening_time"].swings[place]
     for end, expected in ((swing.moved.low, swing.at_low), (swing.moved.high, swing.at_high)):
         assert simulated("softening_time", **{swing.moved.name: end}) == pytest.approx(expected, rel=0.01)
 
 
 @pytest.mark.gate
 def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
-    interval = found().intervals["softening_time"]
+    interval = uncertainty().intervals["softening_time"]
     half = interval.to_halve
     assert bool(half) == (sum(interval.shares.values()) >= 0.75)  # half the width leaves a quarter of the variance
     assert not half or interval.first in half
@@ -120,10 +124,10 @@ def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
     assert interval.high - interval.low > 0.5 * interval.nominal
 
     def width(known: tuple[str, ...]) -> float:
-        rest = [one for one in found().unmeasured if one.name not in known]
-        columns = draw(rest, 512, 11)
+        unknown_inputs = [assumed for assumed in uncertainty().unmeasured if assumed.name not in known]
+        columns = draw(unknown_inputs, 512, 11)
         row = model().outputs.index("softening_time")
-        low, high = np.quantile(rows(columns, [one.name for one in rest])[row], [0.025, 0.975])
+        low, high = np.quantile(rows(columns, [assumed.name for assumed in unknown_inputs])[row], [0.025, 0.975])
         return float(high - low)
 
     every = width(())
@@ -137,14 +141,14 @@ def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
 def test_shares_are_those_of_a_sum() -> None:
     inputs = [unknown("a", 0.0, 3.0), unknown("b", 0.0, 1.0), unknown("c", 10.0, 10.5)]
     drawn = draw(inputs, 1024, 1)
-    (one,) = intervals(lambda x: x.sum(axis=0, keepdims=True), inputs, drawn, drawn.sum(axis=0, keepdims=True), 0.0)
+    (whole,) = intervals(lambda x: x.sum(axis=0, keepdims=True), inputs, drawn, drawn.sum(axis=0, keepdims=True), 0.0)
     # Variances of even distributions: width squared over twelve.
     for name, width in (("a", 3.0), ("b", 1.0), ("c", 0.5)):
-        assert one.shares.get(name, 0.0) == pytest.approx(width**2 / 10.25, abs=0.05)
-    assert one.first == "a"
-    assert one.to_halve == ("a",)
-    assert one.one_at_a_time == (10.75, 13.75)
-    assert [swing.moved.name for swing in one.swings] == ["a", "b", "c"]
+        assert whole.shares.get(name, 0.0) == pytest.approx(width**2 / 10.25, abs=0.05)
+    assert whole.first == "a"
+    assert whole.to_halve == ("a",)
+    assert whole.one_at_a_time == (10.75, 13.75)
+    assert [swing.moved.name for swing in whole.swings] == ["a", "b", "c"]
 
 
 def test_what_is_known_by_its_order_only_is_drawn_evenly_in_its_logarithm() -> None:
@@ -162,11 +166,11 @@ def test_what_may_never_happen_has_no_upper_end() -> None:
     def late(x: np.ndarray) -> np.ndarray:
         return np.where(x < 0.9, x, np.inf)
 
-    (one,) = intervals(late, inputs, drawn, late(drawn), 100.0)
-    assert math.isinf(one.high)
-    assert one.low == pytest.approx(0.025, abs=0.01)
-    assert one.first == "a"
-    assert one.swings[0].size == math.inf
+    (interval,) = intervals(late, inputs, drawn, late(drawn), 100.0)
+    assert math.isinf(interval.high)
+    assert interval.low == pytest.approx(0.025, abs=0.01)
+    assert interval.first == "a"
+    assert interval.swings[0].size == math.inf
 
 
 def test_noise_has_no_share_and_even_steps_all() -> None:
@@ -185,8 +189,8 @@ def test_noise_has_no_share_and_even_steps_all() -> None:
 
 def test_a_value_that_the_study_sets_or_that_is_measured_is_not_moved() -> None:
     own = read_study_text(SHEAR.replace("module:\n", "module:\n  hot_contact: 10000 W/m^2/K\n"), "a test")
-    names = {one.name for one in unmeasured_inputs(resolve_study(own))}
-    assert "hot_contact" in {one.name for one in unmeasured_inputs(module())}
+    names = {assumed.name for assumed in unmeasured_inputs(resolve_study(own))}
+    assert "hot_contact" in {assumed.name for assumed in unmeasured_inputs(module())}
     assert "hot_contact" not in names
     record = module().values["peltier_module"]
     ends = {"exactly": (None, None), "to its interval": (0.020, 0.022)}
@@ -194,7 +198,7 @@ def test_a_value_that_the_study_sets_or_that_is_measured_is_not_moved() -> None:
         entry = replace(record.entries["seebeck"], value=0.021, status="measured", low=low, high=high)
         changed = replace(record, entries={**record.entries, "seebeck": entry})
         values = {**module().values, "peltier_module": changed, "peltier_seebeck": 0.021}
-        moved = {one.name: one for one in unmeasured_inputs(replace(module(), values=values))}
+        moved = {assumed.name: assumed for assumed in unmeasured_inputs(replace(module(), values=values))}
         assert ("peltier_seebeck" in moved) == (known == "to its interval")
     assert (moved["peltier_seebeck"].low, moved["peltier_seebeck"].high) == (0.020, 0.022)
 
@@ -209,7 +213,8 @@ def test_what_varies_and_what_is_not_known_are_never_one_yield() -> None:
 @pytest.mark.slow
 def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
     # A softening limit in the middle of what the time may be is kept by about half.
-    middle = float(np.median([found().intervals["softening_time"].low, found().intervals["softening_time"].high]))
+    interval = uncertainty().intervals["softening_time"]
+    middle = float(np.median([interval.low, interval.high]))
     text = SHEAR.replace("require:\n", f'require:\n  softening_time: "<= {middle:.4g} s"\n')
     resolved = resolve_study(read_study_text(text, "a test"))
     held = UncertaintyModel(resolved, ["softening_time"]).at(resolved, 4, 256).held
@@ -217,18 +222,21 @@ def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
     times = [
         simulated(
             "softening_time",
-            **{one.name: float(one.ppf(share)) for one, share in zip(found().unmeasured, point, strict=True)},
+            **{
+                assumed.name: float(assumed.ppf(share))
+                for assumed, share in zip(uncertainty().unmeasured, point, strict=True)
+            },
         )
-        for point in qmc.LatinHypercube(len(found().unmeasured), rng=5).random(40)
+        for point in qmc.LatinHypercube(len(uncertainty().unmeasured), rng=5).random(40)
     ]
     assert held[name] == pytest.approx(np.mean(np.array(times) <= middle), abs=0.2)
 
 
 def test_intervals_are_frozen_and_the_fewest_inputs_halve_them() -> None:
-    (found,) = intervals(lambda x: x, [unknown("a", 0.0, 1.0)], np.array([[0.2, 0.8]]), np.array([[0.2, 0.8]]), 1.0)
-    for one, name in ((found, "low"), (found.swings[0], "at_low")):
+    (interval,) = intervals(lambda x: x, [unknown("a", 0.0, 1.0)], np.array([[0.2, 0.8]]), np.array([[0.2, 0.8]]), 1.0)
+    for frozen, name in ((interval, "low"), (interval.swings[0], "at_low")):
         with pytest.raises(FrozenInstanceError):
-            setattr(one, name, 0.0)
+            setattr(frozen, name, 0.0)
 
     def of(*shares: float) -> tuple[str, ...]:
         return Interval(0.0, 0.0, 1.0, (), dict(zip("abc", shares, strict=False))).to_halve

@@ -35,13 +35,13 @@ def resolved() -> ResolvedModule:
 
 
 @pytest.fixture(scope="module")
-def found(resolved: ResolvedModule) -> OutputSensitivities:
+def sensitivities(resolved: ResolvedModule) -> OutputSensitivities:
     return output_sensitivities(resolved, [*OF_CYCLE, *OF_GEOMETRY])
 
 
-def _logarithmic(found: OutputSensitivities) -> dict[tuple[str, str], float]:
-    shares = found.derivatives * found.at / found.values[:, None]
-    places = itertools.product(enumerate(found.outputs), enumerate(found.variables))
+def _logarithmic(sensitivities: OutputSensitivities) -> dict[tuple[str, str], float]:
+    shares = sensitivities.derivatives * sensitivities.at / sensitivities.values[:, None]
+    places = itertools.product(enumerate(sensitivities.outputs), enumerate(sensitivities.variables))
     return {(output, variable): float(shares[i, j]) for (i, output), (j, variable) in places}
 
 
@@ -54,11 +54,11 @@ def _simulated(resolved: ResolvedModule, name: str, wanted: Sequence[str], share
         inputs[model.index[name]] *= factor
         ends.append(model.values(inputs, simulator.run(inputs).values))
     below, above = ends
-    return {one: float(np.log(above[one] / below[one]) / np.log((1.0 + share) / (1.0 - share))) for one in wanted}
+    return {name: float(np.log(above[name] / below[name]) / np.log((1.0 + share) / (1.0 - share))) for name in wanted}
 
 
-def test_powers_of_textbook_formulae_come_back(found: OutputSensitivities, resolved: ResolvedModule) -> None:
-    by = _logarithmic(found)
+def test_powers_of_textbook_formulae_come_back(sensitivities: OutputSensitivities, resolved: ResolvedModule) -> None:
+    by = _logarithmic(sensitivities)
     assert by["spring_stiffness", "wire_diameter"] == pytest.approx(4.0, abs=0.01)  # E d^4 / (64 D n)
     assert by["layer_strain", "pcl_thickness"] == pytest.approx(-1.0, rel=1e-12)  # r theta / t
     assert by["layer_strain", "pcl_outer_radius"] == pytest.approx(1.0, rel=1e-12)
@@ -71,9 +71,9 @@ def test_powers_of_textbook_formulae_come_back(found: OutputSensitivities, resol
 
 @pytest.mark.parametrize("name", ["pcl_thickness", "pcl_outer_radius", "current", "cooling_current", "core_radius"])
 def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(
-    name: str, found: OutputSensitivities, resolved: ResolvedModule
+    name: str, sensitivities: OutputSensitivities, resolved: ResolvedModule
 ) -> None:
-    by = _logarithmic(found)
+    by = _logarithmic(sensitivities)
     shown = _simulated(resolved, name, OF_CYCLE)
     for output in OF_CYCLE:
         assert by[output, name] == pytest.approx(shown[output], rel=3e-3, abs=3e-3), output
@@ -81,19 +81,19 @@ def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(
 
 def test_what_never_happens_is_left_out_by_name() -> None:
     weak = _rig("mode: shear\nmodule: {current: 0.2 A}\n")
-    found = output_sensitivities(weak, ["response_time", "cycle_time", "module_mass"])
-    assert found.outputs == ("module_mass",)
-    assert found.left_out == ("response_time", "cycle_time")
-    assert np.all(np.isfinite(found.derivatives))
+    changes = output_sensitivities(weak, ["response_time", "cycle_time", "module_mass"])
+    assert changes.outputs == ("module_mass",)
+    assert changes.left_out == ("response_time", "cycle_time")
+    assert np.all(np.isfinite(changes.derivatives))
 
 
 def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -> None:
     # A profile divides the time its stage takes, so the current is no one number there.
     driven = ResolvedModule(resolved.study, resolved.values, {"stiffening": CurrentProfile.constant(-0.5)})
-    found = output_sensitivities(driven, ["response_time", "stiffening_time", "module_mass"])
-    assert found.left_out == ("stiffening_time",)
-    assert "cooling_current" not in found.variables
-    assert "current" in found.variables
+    changes = output_sensitivities(driven, ["response_time", "stiffening_time", "module_mass"])
+    assert changes.left_out == ("stiffening_time",)
+    assert "cooling_current" not in changes.variables
+    assert "current" in changes.variables
 
 
 @pytest.mark.parametrize("name", ["block_height", "pcl_outer_radius"])

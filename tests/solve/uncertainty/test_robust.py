@@ -51,14 +51,14 @@ UNMEASURED = ALGEBRAIC.replace("springs_mass", "module_mass").replace(
 
 def _solved(text: str) -> tuple[StudyResult, Spread]:
     study = read_study_text(text, "a test")
-    found = answer(study)
-    assert found.design.status == "optimal"
-    analysis = Tolerancing(resolve_design(found.design), lambda _: None)
-    return found, analysis.analyse(1 << 14, 1)
+    result = answer(study)
+    assert result.design.status == "optimal"
+    analysis = Tolerancing(resolve_design(result.design), lambda _: None)
+    return result, analysis.analyse(1 << 14, 1)
 
 
 def _share(spread: Spread, output: str) -> float:
-    return next(kept.share.share for kept in spread.limit_yields if kept.limit.output == output)
+    return next(limit.share.share for limit in spread.limit_yields if limit.limit.output == output)
 
 
 @pytest.mark.slow
@@ -75,8 +75,8 @@ def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price() -> None:
 
 def _together(study: str, seed: int) -> float:
     """Return the yield of a study's optimum over modules drawn apart from those of the search."""
-    found = answer(read_study_text(study, "a test"))
-    return Tolerancing(resolve_design(found.design), lambda _: None).analyse(1 << 13, seed).together.share
+    result = answer(read_study_text(study, "a test"))
+    return Tolerancing(resolve_design(result.design), lambda _: None).analyse(1 << 13, seed).together.share
 
 
 @pytest.mark.slow
@@ -98,34 +98,34 @@ def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
     # A uniform tolerance ends at 1.73 deviations: 2.33 of them keep every module, at a price nobody asked for.
     uniform = ALGEBRAIC.replace("0.05 mm", "{plus_minus: 0.12 mm, distribution: uniform}", 1)
     sigma, all_kept = _solved(f"{uniform}robust: {{sigma: {NormalDist().inv_cdf(0.99):.6f}}}\n")
-    asked, spread = _solved(f"{uniform}robust: {{yield: 99 %}}\n")
+    margined, spread = _solved(f"{uniform}robust: {{yield: 99 %}}\n")
     assert _share(all_kept, "spring_stiffness") == 1.0
     assert _share(spread, "spring_stiffness") == pytest.approx(0.993, abs=3e-3)
-    assert asked.design.values["springs_mass"] < 0.97 * sigma.design.values["springs_mass"]
+    assert margined.design.values["springs_mass"] < 0.97 * sigma.design.values["springs_mass"]
 
 
 @pytest.mark.slow
 def test_each_limit_is_met_in_as_many_plausible_cases_as_asked() -> None:
     held = []
-    for asked in ("yield: 95 %", "yield: 95 %, plausible: 90 %"):
-        study = read_study_text(UNMEASURED + f"robust: {{{asked}}}\n", "a test")
-        found = answer(study)
-        assert found.design.status == "optimal"
-        held.append(Uncertainty(study).data(found.design)["held"].get("retainer_thread_margin >=", 1.0))
+    for target in ("yield: 95 %", "yield: 95 %, plausible: 90 %"):
+        study = read_study_text(UNMEASURED + f"robust: {{{target}}}\n", "a test")
+        result = answer(study)
+        assert result.design.status == "optimal"
+        held.append(Uncertainty(study).data(result.design)["held"].get("retainer_thread_margin >=", 1.0))
     assert held[0] < 0.5
     assert held[1] == pytest.approx(0.9, abs=0.02)
 
 
 @pytest.mark.gate
-def test_what_a_yield_costs_is_told() -> None:
-    asked, _ = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
+def test_what_a_yield_costs_is_reported() -> None:
+    margined, _ = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
     plain, _ = _solved(ALGEBRAIC)
-    reached = yield_of(asked)
+    reached = yield_of(margined)
     assert reached.nominal["springs_mass"] == pytest.approx(plain.design.values["springs_mass"], rel=1e-6)
     assert reached.nominal_together == pytest.approx(0.5, abs=0.02)
     assert 0.9 <= reached.together <= min(reached.shares.values())
-    (line,) = changes(asked, reached.nominal, asked.design.values, read_study_text(ALGEBRAIC, "a test").table)
-    share = 100.0 * (asked.design.values["springs_mass"] / plain.design.values["springs_mass"] - 1.0)
+    (line,) = changes(margined, reached.nominal, margined.design.values, read_study_text(ALGEBRAIC, "a test").table)
+    share = 100.0 * (margined.design.values["springs_mass"] / plain.design.values["springs_mass"] - 1.0)
     assert line.endswith(f"({share:+.2g} %)")
 
 
@@ -133,18 +133,18 @@ def test_what_a_yield_costs_is_told() -> None:
 def test_an_unreachable_yield_names_the_limit_and_the_tolerance() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{yield: 95 %}}\n", "a test")
-    found = answer(study)
-    assert found.has_design
-    assert found.design.status == "below_yield"
-    assert verdict(found, {}, []).kind == "margins_missed"
-    said = below_yield(found)
-    assert "no design found with a yield of 95 %" in said
+    result = answer(study)
+    assert result.has_design
+    assert result.design.status == "below_yield"
+    assert verdict(result, {}, []).kind == "margins_missed"
+    message = below_yield(result)
+    assert "no design found with a yield of 95 %" in message
     # d^4 with 0.05 mm at 2 mm against D with the coil's 2 to 3 %: the wire carries most of it.
-    assert "spring_stiffness" in said
-    assert "its spread is of wire_diameter" in said
-    assert re.search("At these sizes (no tolerance alone gives 95 %: )?(wire|coil) diameter with", said)
-    data = {"parts_yield": {"share": yield_of(found).together}, "tolerances": "study"}
-    (fact,) = _manufacturing(found, data)
+    assert "spring_stiffness" in message
+    assert "its spread is of wire_diameter" in message
+    assert re.search("At these sizes (no tolerance alone gives 95 %: )?(wire|coil) diameter with", message)
+    data = {"parts_yield": {"share": yield_of(result).together}, "tolerances": "study"}
+    (fact,) = _manufacturing(result, data)
     assert re.match(r"\d+ of 100 modules meet every limit, [\d.]+ % meet ", fact.parts[0])
     assert "±" in fact.parts[1]
 
@@ -156,16 +156,16 @@ def test_every_point_of_a_front_has_the_optimum_s_margin_on_times() -> None:
     # Its optimum is far from the limit on the time, where the time spreads less: that margin is too small for others.
     study = study.model_copy(update={"minimize": {"peak_power": 1.0, "response_time": 10.0}})
     built: list[tuple[Optimizer, list[Run]]] = []
-    solution = optimize(study, keep=lambda *kept: built.append(kept), objectives=objectives)
+    solution = optimize(study, keep=lambda *solved: built.append(solved), objectives=objectives)
     front = trace_front(Tradeoff(study, solution, *built[0]), objectives, 3)
     assert len(front.points) == 3
-    optimizer, asked = built[0][0], NormalDist().cdf(1.5)
+    optimizer, target = built[0][0], NormalDist().cdf(1.5)
     shares = [drawn.shares for drawn in map(yields_of(optimizer).at, _inputs(optimizer, front))]
-    assert min(min(one.values()) for one in shares) >= asked - 0.015
+    assert min(min(share.values()) for share in shares) >= target - 0.015
     # The least power takes the longest: it rests on the limit on the time, away from it by what that spreads there.
-    assert shares[0]["response_time <="] == pytest.approx(asked, abs=0.015)
+    assert shares[0]["response_time <="] == pytest.approx(target, abs=0.015)
     assert shares[-1]["response_time <="] == 1.0
-    assert kept_at(optimizer, front)[-1] == pytest.approx(asked, abs=0.02)
+    assert kept_at(optimizer, front)[-1] == pytest.approx(target, abs=0.02)
 
 
 def _inputs(optimizer: Optimizer, front: Front) -> list[NDArray[np.float64]]:
@@ -186,12 +186,12 @@ def test_the_yield_is_of_limits_that_the_module_has() -> None:
 
 
 @pytest.mark.gate
-def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
+def test_more_deviations_than_a_band_has_room_for_are_reported() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
-    found = answer(study)
-    assert not found.has_design
-    assert "(`robust`): ask for fewer, or spread less" in complaint(found, study.table)
+    result = answer(study)
+    assert not result.has_design
+    assert "(`robust`): ask for fewer, or spread less" in complaint(result, study.table)
 
 
 def test_few_modules_reveal_a_low_yield_and_more_continue_them() -> None:
@@ -214,11 +214,11 @@ def test_the_best_design_with_margins_wins(monkeypatch: pytest.MonkeyPatch) -> N
     def run(objective: float) -> Any:
         return SimpleNamespace(start=SimpleNamespace(objective=objective, converged=True), inputs=None, unknowns=None)
 
-    def found(optimizer: Any, *_: object) -> robust.Robust:
+    def with_margins(optimizer: Any, *_: object) -> robust.Robust:
         drawn.append(optimizer.name)
         return robust.Robust(run(margined[optimizer.name]), {}, 0.96, reached=True)
 
-    monkeypatch.setattr(robust, "_robust", found)
+    monkeypatch.setattr(robust, "_robust", with_margins)
     monkeypatch.setattr(robust, "same_optimum", lambda *_: False)
     candidates: Any = [
         (SimpleNamespace(name=name, margins={}, deadline=NEVER, solve=lambda *_, n=name, **__: run(margined[n])),
@@ -251,16 +251,16 @@ def _tightened(residuals: Callable[[Array, Array], Array]) -> TightenedTolerance
     columns = np.random.default_rng(3).standard_normal((2, MODULES))
     contributors = [Contributor(name, 0.0, 3.0) for name in ("current", "pcl_thickness")]
     drawn = Drawn((A,), residuals(*columns)[None], ("current", "pcl_thickness"), columns)
-    found = tightened(drawn, contributors, 0.95)
-    assert found is not None
-    return found
+    tightening = tightened(drawn, contributors, 0.95)
+    assert tightening is not None
+    return tightening
 
 
 def test_the_tolerance_that_needs_least_tightening_is_found() -> None:
     inverse = NormalDist().inv_cdf(0.95)
-    one = _tightened(lambda first, _: first - 1.0)  # 84 % at a deviation of 1; 95 % at 1/1.645
-    assert (one.name, one.share) == ("current", pytest.approx(0.95, abs=2e-3))
-    assert one.to == pytest.approx(3.0 / inverse, rel=0.05)
+    tightening = _tightened(lambda first, _: first - 1.0)  # 84 % at a deviation of 1; 95 % at 1/1.645
+    assert (tightening.name, tightening.share) == ("current", pytest.approx(0.95, abs=2e-3))
+    assert tightening.to == pytest.approx(3.0 / inverse, rel=0.05)
     both = _tightened(lambda first, second: 0.3 * first + second - 1.0)
     assert both.name == "pcl_thickness"
     assert both.to == pytest.approx(3.0 * ((1.0 / inverse) ** 2 - 0.3**2) ** 0.5, rel=0.05)

@@ -44,7 +44,7 @@ def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(
 ) -> None:
     spread = "tolerances: {preload_angle: {row: free_angle_tolerance, adjusted_to: 1 deg}}"
     module = resolved(f"{spread}\nrequire: {{preload_margin: '>= 0 rad'}}\n")
-    angle = next(one for one in contributors_of(module) if one.name == "preload_angle")
+    angle = next(contributor for contributor in contributors_of(module) if contributor.name == "preload_angle")
     assert np.degrees(angle.plus_minus) == pytest.approx(18.7, abs=0.05)  # +-18.7 deg of grade 2 against +-5.96 deg
     preload = Tolerancing(module, _silent).preload(1 << 12, 1)
     assert preload.over_stroke == pytest.approx(3.14, abs=0.01)
@@ -63,29 +63,29 @@ def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(
 
 def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(resolved: Callable[[str], ResolvedModule]) -> None:
     text = "tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: %s, adjusted_to: 2 deg}}\n"
-    for said, adjusted, expected in (
+    for adjustable, adjusted, expected in (
         ("true", None, 2.0),
         ("false", None, 5.0),
         ("false", True, 2.0),
         ("true", False, 5.0),
     ):
-        (one,) = contributors_of(resolved(text % said), adjusted)
-        assert np.degrees(one.plus_minus) == pytest.approx(expected)
+        (contributor,) = contributors_of(resolved(text % adjustable), adjusted)
+        assert np.degrees(contributor.plus_minus) == pytest.approx(expected)
     assert contributors_of(resolved("tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: true}}\n")) == []
 
 
 def _differences(module: ResolvedModule, output: str) -> tuple[float, float]:
     """Shift of the mean and standard deviation, by differences of the table's own floats."""
     shift = variance = 0.0
-    for one in contributors_of(module):
-        step = 0.2 * one.plus_minus
+    for contributor in contributors_of(module):
+        step = 0.2 * contributor.plus_minus
 
-        def at(value: float, name: str = one.name) -> float:
+        def at(value: float, name: str = contributor.name) -> float:
             return float(module.table.evaluate({**module.values, name: value}, [output])[output])
 
-        low, here, high = (at(one.nominal + k * step) for k in (-1, 0, 1))
-        variance += ((high - low) / (2.0 * step) * one.deviation) ** 2
-        shift += 0.5 * (high - 2.0 * here + low) / step**2 * one.deviation**2
+        low, here, high = (at(contributor.nominal + k * step) for k in (-1, 0, 1))
+        variance += ((high - low) / (2.0 * step) * contributor.deviation) ** 2
+        shift += 0.5 * (high - 2.0 * here + low) / step**2 * contributor.deviation**2
     return shift, float(np.sqrt(variance))
 
 
@@ -104,14 +104,14 @@ def test_one_input_gives_a_yield_that_can_be_worked_out(resolved: Callable[[str]
     module = resolved("tolerances: {spring_density: 9 %}\nrequire: {springs_mass: '<= 1 kg'}\n")
     mass = float(module.quantity("springs_mass"))
     text = f"tolerances: {{spring_density: 9 %}}\nrequire: {{springs_mass: '<= {1.03 * mass:.17g} kg'}}\n"
-    found = Tolerancing(resolved(text), _silent).analyse(1 << 14, 1)
-    (kept,) = [one for one in found.limit_yields if one.limit.output == "springs_mass"]
-    assert kept.share.share == pytest.approx(0.841345, abs=5e-4)  # one standard deviation
-    assert kept.capability == pytest.approx(1.0 / 3.0, rel=1e-3)
-    i = found.outputs.index("springs_mass")
-    assert found.deviation[i] == pytest.approx(0.03 * mass, rel=1e-9)
-    assert found.worst.high[i] == pytest.approx(1.09 * mass, rel=1e-9)
-    assert found.total[i, 0] == pytest.approx(1.0, abs=0.02)
+    spread = Tolerancing(resolved(text), _silent).analyse(1 << 14, 1)
+    (satisfied,) = [limit for limit in spread.limit_yields if limit.limit.output == "springs_mass"]
+    assert satisfied.share.share == pytest.approx(0.841345, abs=5e-4)  # one standard deviation
+    assert satisfied.capability == pytest.approx(1.0 / 3.0, rel=1e-3)
+    i = spread.outputs.index("springs_mass")
+    assert spread.deviation[i] == pytest.approx(0.03 * mass, rel=1e-9)
+    assert spread.worst.high[i] == pytest.approx(1.09 * mass, rel=1e-9)
+    assert spread.total[i, 0] == pytest.approx(1.0, abs=0.02)
 
 
 @pytest.mark.gate
@@ -127,7 +127,7 @@ def test_the_same_bits_for_any_number_of_workers(resolved: Callable[[str], Resol
     assert alone.together == shared.together
 
 
-def test_where_nothing_spreads_that_is_said(resolved: Callable[[str], ResolvedModule]) -> None:
+def test_where_nothing_spreads_the_report_says_so(resolved: Callable[[str], ResolvedModule]) -> None:
     with pytest.raises(InputError, match="nothing spreads; give `tolerances: standard`"):
         Tolerancing(resolved("tolerances: {current: 0 A}\n"), _silent)
     text = "tolerances: {structure_service_temperature: 5 K}\nrequire: {spring_stiffness: '>= 1 N.m/rad'}\n"
@@ -135,7 +135,7 @@ def test_where_nothing_spreads_that_is_said(resolved: Callable[[str], ResolvedMo
         Tolerancing(resolved(text), _silent)
 
 
-def _asked(module: ResolvedModule) -> list[str]:
+def _outputs(module: ResolvedModule) -> list[str]:
     """Return the outputs an analysis would ask for, without compiling anything."""
     analysis = object.__new__(Tolerancing)
     analysis.resolved = module
@@ -145,11 +145,11 @@ def _asked(module: ResolvedModule) -> list[str]:
 
 def test_without_requirements_the_spread_of_the_switch_is_reported(resolved: Callable[[str], ResolvedModule]) -> None:
     module = resolved("tolerances: {pcl_thickness: 0.05 mm}\n")
-    asked = set(_asked(module))
-    assert {"module_mass", "softening_time", "joint_stiffness@cold"} <= asked
+    outputs = set(_outputs(module))
+    assert {"module_mass", "softening_time", "joint_stiffness@cold"} <= outputs
     # What comes after the switch takes ten times as long; the springs do not hang on the layer's thickness.
-    assert not asked & {"stiffening_time", "frozen_time", "cycle_time", "spring_rate"}
-    assert all(module.table.output(name).headline for name in asked)
+    assert not outputs & {"stiffening_time", "frozen_time", "cycle_time", "spring_rate"}
+    assert all(module.table.output(name).headline for name in outputs)
 
 
 RECORD = """title: "bench module"
@@ -171,23 +171,23 @@ def module(tmp_path: Path) -> ResolvedModule:
 
 
 def test_a_measured_input_knows_its_range_before_and_others_have_none(module: ResolvedModule) -> None:
-    inputs = {one.name: one for one in unmeasured_inputs(module)}
+    inputs = {assumed.name: assumed for assumed in unmeasured_inputs(module)}
     handbook = Catalog().record("heat_paths", "handbook").entry("rotor_contact")
     measured = inputs["rotor_contact"]
     assert (measured.low, measured.high, measured.status) == (3000.0, 5000.0, "measured")
     assert measured.before == (handbook.low, handbook.high)
-    assert [name for name, one in inputs.items() if one.before is not None] == ["rotor_contact"]
-    (before,) = [one for one in before_measuring(list(inputs.values())) if one.name == "rotor_contact"]
+    assert [name for name, assumed in inputs.items() if assumed.before is not None] == ["rotor_contact"]
+    (before,) = [assumed for assumed in before_measuring(list(inputs.values())) if assumed.name == "rotor_contact"]
     assert (before.low, before.high) == (handbook.low, handbook.high)
     module = resolve_study(read_study(study_path("paper_reconstructed")))
-    assert all(one.before is None for one in unmeasured_inputs(module))
+    assert all(assumed.before is None for assumed in unmeasured_inputs(module))
 
 
 @pytest.mark.slow
 def test_the_interval_was_wider_before(module: ResolvedModule) -> None:
-    found = UncertaintyModel(module, ["softening_time"]).at(module, 1 << 5, 1 << 7)
-    low, high = found.before["softening_time"]
-    now = found.intervals["softening_time"]
+    uncertainty = UncertaintyModel(module, ["softening_time"]).at(module, 1 << 5, 1 << 7)
+    low, high = uncertainty.before["softening_time"]
+    now = uncertainty.intervals["softening_time"]
     assert now.high - now.low < high - low
 
 
@@ -204,7 +204,7 @@ def freezing_module() -> ResolvedModule:
 
 
 def test_half_time_and_slope_of_freezing_move_without_their_dependents(freezing_module: ResolvedModule) -> None:
-    names = {one.name for one in unmeasured_inputs(freezing_module)}
+    names = {assumed.name for assumed in unmeasured_inputs(freezing_module)}
     assert names >= KINETICS
     assert "pcl_zero_shear_viscosity" in names
     # With K_g these would be counted twice: only the pair of K_g and T_m0 is known.
@@ -222,7 +222,7 @@ def test_freezing_time_is_an_interval_until_a_user_fits_his_own(freezing_module:
     steep = swings["pcl_nucleation_constant"]
     assert 0.0 < steep.at_high < steep.at_low  # a steeper slope below the reference freezes sooner
     own = replace(freezing_module, values={**freezing_module.values, "pcl_crystallization_half_time": 60.0})
-    assert "pcl_crystallization_half_time" not in {one.name for one in unmeasured_inputs(own)}
+    assert "pcl_crystallization_half_time" not in {assumed.name for assumed in unmeasured_inputs(own)}
 
 
 @pytest.mark.gate
