@@ -72,8 +72,8 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     assert {"drawings/link_cut.dxf", "drawings/retainer_cut.dxf"} <= cut
     expected |= cut
     assert set(report.files) == expected
-    found = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}
-    assert found == set(report.files)
+    files = {path.relative_to(report.folder).as_posix() for path in report.folder.rglob("*") if path.is_file()}
+    assert files == set(report.files)
     names = {step.partition(", ")[2] for step in steps}  # beside its number among all
     assert {f"drawing: {kind}" for kind in ("housing", "rotor", "spring right")} <= names
 
@@ -187,16 +187,16 @@ def test_colours_are_written_in_the_order_of_their_parts() -> None:
         )
 
     head, end = "#1 = A();\n#2 = B();\n", "ENDSEC;\n"
-    one = in_fixed_order(head + block(3, 2) + block(5, 1) + end)
+    ordered = in_fixed_order(head + block(3, 2) + block(5, 1) + end)
     other = in_fixed_order(head + block(3, 1) + block(5, 2) + end)
-    assert one == other
-    assert one.startswith(head + "#3 = MECHANICAL")
-    assert "#4),#1);" in one
-    assert one.endswith(end)
+    assert ordered == other
+    assert ordered.startswith(head + "#3 = MECHANICAL")
+    assert "#4),#1);" in ordered
+    assert ordered.endswith(end)
     styles, colour = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION", "COLOUR_RGB('',0.3);\n"
-    one = in_fixed_order(f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}")
+    ordered = in_fixed_order(f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}")
     other = in_fixed_order(f"{head}#3 = {styles}('',(#4),#2);\n#4 = {colour}#5 = {styles}('',(#4),#1);\n{end}")
-    assert one == other == f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}"
+    assert ordered == other == f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}"
 
 
 def test_a_name_in_any_script_survives_step(tmp_path: Path) -> None:
@@ -236,9 +236,9 @@ def test_a_child_that_reports_progress_gets_more_time(monkeypatch: pytest.Monkey
     for more, ends in (("", True), ("while True: pass", False)):
         child = subprocess.Popen([sys.executable, "-S", "-c", says + more], stdout=subprocess.PIPE, text=True)
         try:
-            said: queue.Queue[str | None] = queue.Queue()
-            read_lines(child, said.put)
-            heard = _messages(said, ProcessorLimit(child.pid, 2.5))  # eight steps are 3.2 s
+            lines: queue.Queue[str | None] = queue.Queue()
+            read_lines(child, lines.put)
+            heard = _messages(lines, ProcessorLimit(child.pid, 2.5))  # eight steps are 3.2 s
             assert [next(heard)["progress"] for _ in range(8)] == list(range(8))
             with pytest.raises(StopIteration if ends else ProcessorTimeError):
                 next(heard)
@@ -268,14 +268,14 @@ def tally(mode: str, count: int) -> random_designs.Tally:
 @pytest.mark.slow
 @pytest.mark.parametrize(("mode", "count"), [("shear", 12), ("compression", 8)])
 def test_designs_of_either_mode_that_keep_the_rules_are_sound(mode: str, count: int) -> None:
-    found = tally(mode, count)
-    assert found.failed == []
-    assert found.built == count
-    assert found.refused["rotor_spring_gap"] > 0
+    counted = tally(mode, count)
+    assert counted.failed == []
+    assert counted.built == count
+    assert counted.refused["rotor_spring_gap"] > 0
 
 
 @pytest.mark.slow
-def test_a_design_that_is_not_sound_is_told() -> None:
+def test_a_design_with_a_fault_is_reported() -> None:
     draws = random_designs.Draws(read_study(study_path("wrist_joint")), seed=20)
     good = next(draws.keeping_rules(1, random_designs.Tally()))
     bad = good.model_copy(update={"values": good.values | {"housing_volume": 1.01 * good.value("housing_volume")}})
@@ -284,7 +284,7 @@ def test_a_design_that_is_not_sound_is_told() -> None:
 
 
 @pytest.mark.slow
-def test_slivers_are_told_where_a_process_makes_but_thick_walls() -> None:
+def test_slivers_are_reported_where_a_process_makes_only_thick_walls() -> None:
     draws = random_designs.Draws(read_study(study_path("wrist_compression")), seed=20)
     good = next(draws.keeping_rules(1, random_designs.Tally()))
     assert random_designs.slivers(good) == []
@@ -294,22 +294,22 @@ def test_slivers_are_told_where_a_process_makes_but_thick_walls() -> None:
 
 def test_random_choices_are_refused_by_name_or_satisfy_the_rules() -> None:
     drawn = [random_choices.drawn(index, 3, inspect=True) for index in range(12)]
-    ended = [one for one in drawn if isinstance(one, random_choices.Ended)]
+    ended = [choice for choice in drawn if isinstance(choice, random_choices.Ended)]
     assert len(ended) < len(drawn)
-    assert {one.by for one in ended} <= {row.name for mode in STUDIES for row in table_for(mode).quantities}
+    assert {choice.by for choice in ended} <= {row.name for mode in STUDIES for row in table_for(mode).quantities}
 
 
 @pytest.mark.slow
 def test_modules_of_random_choices_are_sound() -> None:
-    built = [one for one in random_choices.run(range(12), 3, inspect=True, hands=1) if one.how == "built"]
+    built = [choice for choice in random_choices.run(range(12), 3, inspect=True, hands=1) if choice.how == "built"]
     assert built
-    assert [fault for one in built for fault in one.faults] == []
+    assert [fault for choice in built for fault in choice.faults] == []
 
 
 def test_a_draw_that_is_in_the_file_is_not_drawn_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "draws.jsonl"
     ended = [random_choices.Ended(index, 1, False, "built", faults=["a gap"] * index) for index in range(2)]
-    file.write_text("".join(json.dumps(one._asdict()) + "\n" for one in ended))
+    file.write_text("".join(json.dumps(choice._asdict()) + "\n" for choice in ended))
     assert random_choices.main(["--draws", "2", "--out", str(file)]) == 1
     assert "2 draws: 0 refused by the reader, 0 without" in (printed := capsys.readouterr().out)
     assert "draw 1 of seed 1: a gap" in printed

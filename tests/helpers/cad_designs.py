@@ -94,18 +94,18 @@ CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
 
 
 def given(overrides: Mapping[str, float | str], mode: str) -> dict[str, Any]:
-    """Every input and choice of a mode at its default, but for the overrides."""
+    """Return the inputs and choices of a mode at their defaults, but for the overrides."""
     study = read_study_text(f"mode: {mode}\n", "a test").model_copy(update={"module": dict(overrides)})
     return resolve(study)
 
 
 def design_of(name: str, overrides: Mapping[str, float | str], mode: str = "shear") -> Design:
-    """A design with every row of the geometry."""
+    """Return a design with every row of the geometry."""
     return _of_the_geometry(name, given(overrides, mode), mode)
 
 
 def as_it_starts(study: Study) -> Design:
-    """The geometry of a study where its search begins: no cycle, no search."""
+    """Return the geometry of a study where its search begins: no cycle, no search."""
     return _of_the_geometry(study.name, resolve(study), study.mode)
 
 
@@ -159,7 +159,7 @@ class Made(NamedTuple):
 
 
 def random_blocks(seed: int) -> Design:
-    """The first design of the compression module that keeps the rules, among random ones."""
+    """Return the first design of the compression module that keeps the rules, among random ones."""
     draw = np.random.default_rng(seed).uniform
     while True:
         inner, stroke = draw(9.0, 24.0), draw(0.03, 0.16)
@@ -184,9 +184,9 @@ def random_blocks(seed: int) -> Design:
         small = {name: value for name, value in WRIST.items() if "screw" in name or name == "notch_width"}
         overrides = small | {name: value * MM for name, value in lengths.items()} | numbers
         with np.errstate(invalid="ignore"):
-            found = design_of(f"random {seed}", overrides, "compression")
-        if broken_rules(found) == [] and all(np.isfinite(value) for value in found.values.values()):
-            return found
+            design = design_of(f"random {seed}", overrides, "compression")
+        if broken_rules(design) == [] and all(np.isfinite(value) for value in design.values.values()):
+            return design
 
 
 def all_checks(design: Design, drawn: Mapping[str, Any], say: Callable[[str], None] = lambda _: None) -> list[Any]:
@@ -195,7 +195,7 @@ def all_checks(design: Design, drawn: Mapping[str, Any], say: Callable[[str], No
     from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 
     dims = dimensions(design)
-    found = rest_checks(design, dims, drawn)
+    checks = rest_checks(design, dims, drawn)
     for share in POSITIONS:
-        found += clearance_checks(dims, drawn, share, say)
-    return found
+        checks += clearance_checks(dims, drawn, share, say)
+    return checks

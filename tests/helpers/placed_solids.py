@@ -21,7 +21,7 @@ def placed_solids(dims: Dimensions, kinds: Iterable[str]) -> dict[str, cq.Solid]
 def assert_sound(design: Design, placed: dict[str, cq.Solid], sizes: Iterable[str]) -> None:
     """Assert that a design satisfies its rules, its solids have their sizes, and none cuts another."""
     assert broken_rules(design) == []
-    found = {check.name: check for check in size_checks(design, placed) if check.name in {*sizes}}
-    assert sorted(found) == sorted(sizes)
-    assert [check.text for check in found.values() if not check.ok] == []
+    checks = {check.name: check for check in size_checks(design, placed) if check.name in {*sizes}}
+    assert sorted(checks) == sorted(sizes)
+    assert [check.text for check in checks.values() if not check.ok] == []
     assert [check.text for check in interference_checks(placed, "here") if not check.ok] == []

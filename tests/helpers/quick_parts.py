@@ -14,9 +14,9 @@ _whole = plan.build_plan
 
 
 def quick_plan(dims: Dimensions) -> list[Work]:
-    """The pieces of work without inspections, and with the interferences at one end of the stroke."""
+    """Return the pieces of work without inspections, and with the interferences at one end of the stroke."""
     left_out = ("inspect_", "interference_")
-    return [one for one in _whole(dims) if not one.name.startswith(left_out) or one.name == "interference_2"]
+    return [work for work in _whole(dims) if not work.name.startswith(left_out) or work.name == "interference_2"]
 
 
 if __name__ == "__main__":

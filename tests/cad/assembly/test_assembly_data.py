@@ -28,7 +28,7 @@ def dims() -> Dimensions:
 
 
 @pytest.fixture(scope="module")
-def told(dims: Dimensions) -> dict[str, Any]:
+def data(dims: Dimensions) -> dict[str, Any]:
     """Return the data of the paper's module; springs and a housing stand for all its parts."""
     meshes = {kind: spring_mesh(coil) for kind, coil in installed_coils(dims).items()}
     placed = {name: Instance(meshes[name.rpartition("_")[0]], np.eye(4)) for name in spring_locations(dims)}
@@ -36,28 +36,28 @@ def told(dims: Dimensions) -> dict[str, Any]:
     placed["housing"] = Instance(Mesh(np.array([v.toTuple() for v in box[0]]), np.array(box[1])), np.eye(4))
     kinds = {"housing": 1, **dict.fromkeys(SPRINGS, 2)}
     items = [Item(kind, count, kind == "housing", "", f"what {kind} is of", 10.0, ()) for kind, count in kinds.items()]
-    found: dict[str, Any] = json.loads(assembly_data(design_of("paper", {}), dims, items, placed))
-    return found
+    page_data: dict[str, Any] = json.loads(assembly_data(design_of("paper", {}), dims, items, placed))
+    return page_data
 
 
-def test_parts_have_their_kind_and_steps_come_from_their_side(told: dict[str, Any]) -> None:
-    parts = {part["name"]: part for part in told["parts"]}
+def test_parts_have_their_kind_and_steps_come_from_their_side(data: dict[str, Any]) -> None:
+    parts = {part["name"]: part for part in data["parts"]}
     assert {part["kind"] for part in parts.values()} == {"housing", *SPRINGS}
     assert not any(part["turns"] for part in parts.values())  # neither housing nor springs turn with the rotor
     assert parts["spring_right_1"]["lift"] > parts["housing"]["lift"]
     place = ({"part": "pcl_arc", "from": "above"}, {"part": "rotor", "from": "above"}, {"part": "nut", "from": "below"})
-    found = brought(WrittenStep("Set the rotor.", place), ["rotor", "pcl_arc_1", "pcl_arc_2", "link"])
-    assert found == {"text": "Set the rotor.", "parts": ["pcl_arc_1", "pcl_arc_2", "rotor"], "from": "above"}
+    step = brought(WrittenStep("Set the rotor.", place), ["rotor", "pcl_arc_1", "pcl_arc_2", "link"])
+    assert step == {"text": "Set the rotor.", "parts": ["pcl_arc_1", "pcl_arc_2", "rotor"], "from": "above"}
     assert brought(WrittenStep("Look.", ()), ["rotor"]) == {"text": "Look.", "parts": [], "from": ""}
 
 
 @pytest.mark.parametrize("kind", SPRINGS)
 def test_a_wound_spring_lies_on_the_wire_that_the_kernel_sweeps(
-    told: dict[str, Any], dims: Dimensions, kind: str
+    data: dict[str, Any], dims: Dimensions, kind: str
 ) -> None:
     mirror = np.array([1.0, 1.0 if kind == "spring_right" else -1.0, 1.0])
     mesh = spring_mesh(installed_coils(dims)[kind]).vertices * mirror
-    for share, flat in zip(SHARES, told["wires"]["moved"][kind], strict=True):
+    for share, flat in zip(SHARES, data["wires"]["moved"][kind], strict=True):
         moved = np.array(flat).reshape(-1, 3)
         rings = mesh[: RING * len(moved)].reshape(-1, RING, 3).mean(axis=1) + moved
         wire = cq.Wire.assembleEdges(wire_edges(installed_coils(dims, share * dims.stroke)[kind]))

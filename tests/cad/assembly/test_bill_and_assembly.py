@@ -86,16 +86,18 @@ def test_springs_seats_and_screws_are_ordered_by_number_and_fit() -> None:
     assert left.startswith("Torsion spring T10180, wire 0.51 mm, 6 mm outside")
     assert "(Central Springs), wound left" in left
     assert "wound right" in right
-    (line,) = (one for one in spring_lines(design, dimensions(design), _titles(design)) if one.name == "from stock")
+    (line,) = (
+        spring for spring in spring_lines(design, dimensions(design), _titles(design)) if spring.name == "from stock"
+    )
     assert (line.value, line.note.split(";")[0]) == ("Torsion spring T10180", "Central Springs")
     design = design_of("milled", BEARING_BLOCKS, "compression")
-    found = fits(design, dimensions(design))
+    seats = fits(design, dimensions(design))
     # Bearing 6802: 24 mm outside in H6, 15 mm inside on h5.
-    assert found["bearing_outer"] == "housing ⌀24 H6"
-    assert found["bearing_inner"] == "rotor ⌀15 h5"
-    assert {"rotor ⌀2 H7", "link ⌀2 H7"} == set(found["link_dowel"].split(", "))
-    assert "thread_locker" in [one.kind for one in beside(design, {})]
-    assert "thread_locker" not in [one.kind for one in beside(design_of("paper", {}), {})]
+    assert seats["bearing_outer"] == "housing ⌀24 H6"
+    assert seats["bearing_inner"] == "rotor ⌀15 h5"
+    assert {"rotor ⌀2 H7", "link ⌀2 H7"} == set(seats["link_dowel"].split(", "))
+    assert "thread_locker" in [item.kind for item in beside(design, {})]
+    assert "thread_locker" not in [item.kind for item in beside(design_of("paper", {}), {})]
     design = design_of("paper", {"link_screw_length": 16e-3, "link_dowel_length": 10e-3})
     titles = _titles(design)
     assert titles["link_screw"] == "Button head screw ISO 7380-1 - M3 x 16 - A2-70"
@@ -153,10 +155,10 @@ def test_drafts_have_the_volumes_of_formulas_and_change_nothing_exact() -> None:
     with drawn_by(KERNEL):
         cylinder(5.0, 0.0, 1.0)
     assert cylinder(5.0, 0.0, 1.0).Volume() == pytest.approx(25.0 * pi, rel=1e-9)
-    asked = (10.0, 3.0, 25.0, 2.0, [0.0, 2.0 * pi / 3.0, 4.0 * pi / 3.0], (0.0, 5.0))
+    sizes = (10.0, 3.0, 25.0, 2.0, [0.0, 2.0 * pi / 3.0, 4.0 * pi / 3.0], (0.0, 5.0))
     with drawn_by(KERNEL):
-        draft = spoked_disc(*asked)
-    assert _volume(draft) == pytest.approx(spoked_disc(*asked).Volume(), rel=0.01)
+        draft = spoked_disc(*sizes)
+    assert _volume(draft) == pytest.approx(spoked_disc(*sizes).Volume(), rel=0.01)
     with drawn_by(KERNEL), pytest.raises(GeometryError, match="do not fit"):
         rounded(block((0.0, 4.0), 4.0, 0.0, 2.0), 3.0)
 

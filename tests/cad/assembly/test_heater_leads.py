@@ -44,16 +44,16 @@ def listed(design: Design) -> dict[str, str]:
 
 @pytest.mark.parametrize(("changes", "mode"), [({}, "shear"), (TILES, "shear"), ({}, "compression")])
 def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, Any], mode: str) -> None:
-    found = listed(switched(changes, mode=mode))
-    cutout = found["thermal_cutout"]
+    items = listed(switched(changes, mode=mode))
+    cutout = items["thermal_cutout"]
     assert cutout.startswith("Does not fit: it opens above the 60 °C that the structure bears")
     # No listed type opens below 60 °C, and that which stays closed at 105.2 °C opens at 122 °C.
     assert "choose parts that bear 122 °C. Not to be ordered: Thermal cut-out 5MA3" in cutout
     assert "5MA3SPF121019340: opens from 112 to 122 °C; the heater has 105.2 °C at most" in cutout
     assert "holds 94 °C for a week at its rated current, less than the heater's peak: ask the maker" in cutout
     assert "it opens above the 60 °C that the structure bears; it opens above the 120 °C that the heater" in cutout
-    assert found["thermistor"].startswith("Thermistor, for 120 °C")
-    assert "for 2.1 A and 120 °C" in found["heater_wire"]
+    assert items["thermistor"].startswith("Thermistor, for 120 °C")
+    assert "for 2.1 A and 120 °C" in items["heater_wire"]
 
 
 def test_cut_outs_and_beads_say_only_what_they_can() -> None:
@@ -127,12 +127,12 @@ def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out() -> None:
     design = switched({"process": "print_pei_1010"}, hottest=101.0)
     assert "was not switched" in heater_leads.set_points_in_words(design)
     design.values["sensed_temperature"] = 100.0 + ZERO_CELSIUS
-    said = heater_leads.set_points_in_words(design)
-    assert "B57862S0103F040" in said
-    assert "heating ends at 100 °C (0.68 kohm, 0.21 V at the divider), as in the simulation, and" in said
+    message = heater_leads.set_points_in_words(design)
+    assert "B57862S0103F040" in message
+    assert "heating ends at 100 °C (0.68 kohm, 0.21 V at the divider), as in the simulation, and" in message
     # What stays closed at 101 °C opens from 112 °C: half the 11 K that the heater has, above the bead.
-    assert "emergency stop at 106 °C (" in said
-    assert said.endswith("below the 112 °C where the cut-out may open")
+    assert "emergency stop at 106 °C (" in message
+    assert message.endswith("below the 112 °C where the cut-out may open")
     design = switched(foil, hottest=85.6)  # opens from 94 °C
     design.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
     assert "emergency stop at 88.4 °C (" in heater_leads.set_points_in_words(design)
@@ -165,10 +165,10 @@ def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(
     bead: tuple[float, float], heater: str, number: str | None
 ) -> None:
     sizes = {"thermistor_diameter": 1e-3 * bead[0], "thermistor_length": 1e-3 * bead[1]}
-    said = heater_leads.thermistor_in_words(switched({"peltier_module": heater, **sizes}))
-    named = [one.number for one in heater_leads.thermistors() if one.number in said]
+    text = heater_leads.thermistor_in_words(switched({"peltier_module": heater, **sizes}))
+    named = [thermistor.number for thermistor in heater_leads.thermistors() if thermistor.number in text]
     assert named == ([number] if number else [])
-    assert "needs its own table in the controller" in said
+    assert "needs its own table in the controller" in text
 
 
 def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
@@ -190,7 +190,7 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
     assert "polyimide_film" in listed(switched({}))
     assert "polyimide_film" not in listed(switched({"heater_fuse": "none"}))
     design = switched({})
-    (release,) = (one for one in fixtures(design, {}) if not one.fixture)
+    (release,) = (bought for bought in fixtures(design, {}) if not bought.fixture)
     assert (release.kind, release.made) == ("mould_release", False)
     design = switched(TILES)
     (item,) = bill(design, _titles(design), {"spreader_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
@@ -198,11 +198,11 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
     area = 1e6 * design.values["heater_count"] * design.values["peltier_area"]
     assert f"over {area:.4g} mm² in all" in listed(design)["heat_conducting_adhesive"]
     design = design_of("lined", {"liner_material": "peek", "adhesive_density": 1040.0})
-    (item,) = (one for one in beside(design, {}) if one.kind == "liner_adhesive")
+    (item,) = (bought for bought in beside(design, {}) if bought.kind == "liner_adhesive")
     area, film = design.values["pcl_area"], 0.1e-3  # `liner_film`; a liner covers its arc
     assert item.mass == pytest.approx(1e3 * 1040.0 * area * film, rel=0.05)
     other = design.model_copy(update={"choices": design.choices | {"tang_adhesive": "another"}})
-    (item,) = (one for one in beside(other, {}) if one.kind == "liner_adhesive")
+    (item,) = (bought for bought in beside(other, {}) if bought.kind == "liner_adhesive")
     assert item.mass == 0.0
 
 

@@ -87,13 +87,14 @@ def test_seats_and_threads_have_fits_where_milled() -> None:
     assert seat.drawn == pytest.approx(24.1)  # 6802 has 24 mm, and the study a gap of 0.05 mm to each side
     mode, overrides = CASES["paper"]
     design = design_of("paper", overrides, mode)
-    asked = drawing_requirements("rotor", dimensions(design), design.choices)
+    requirements = drawing_requirements("rotor", dimensions(design), design.choices)
     # Reamed, in a print too; the core goes into the bore with the play that is in the sizes as drawn.
-    assert [(seat.about, seat.fit) for seat in asked.seats] == [("core in the bore", "h9"), ("dowel pins", "H7")]
-    assert asked.seats[0].size == asked.seats[0].drawn
-    assert [(one.screw, one.made) for one in asked.threads] == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
+    assert [(seat.about, seat.fit) for seat in requirements.seats] == [("core in the bore", "h9"), ("dowel pins", "H7")]
+    assert requirements.seats[0].size == requirements.seats[0].drawn
+    threads = [(thread.screw, thread.made) for thread in requirements.threads]
+    assert threads == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
     reported = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
-    words = [one["about"] for part in ("seats", "threads") for group in reported[part].values() for one in group]
+    words = [entry["about"] for part in ("seats", "threads") for group in reported[part].values() for entry in group]
     assert max(map(len, words)) <= 21  # what the table has room for
     assert {*reported["seats"], *reported["threads"]} <= {kind for kind, making in PRODUCTION.items() if making.drawn}
 
@@ -106,14 +107,14 @@ def test_seats_and_threads_have_fits_where_milled() -> None:
 def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind: str, about: str, size: str) -> None:
     design = design_of("printed", BEARINGS | {"process": "print_pc"}, "shear")
     dims = dimensions(design)
-    asked = drawing_requirements(kind, dims, design.choices)
-    seat = next(seat for seat in asked.seats if seat.about == about)
+    requirements = drawing_requirements(kind, dims, design.choices)
+    seat = next(seat for seat in requirements.seats if seat.about == about)
     assert (seat.form, seat.frames) == ("reamed or eased to size", ())
-    assert not any("run-out" in note for note in asked.notes)
+    assert not any("run-out" in note for note in requirements.notes)
     solid, what = drawn_part(dims, kind), product(design, kind)
-    document = part_sheet(kind, solid, what, design.name, asked).document
+    document = part_sheet(kind, solid, what, design.name, requirements).document
     no_text_lies_on_another(kind, document)
-    loose = part_sheet(kind, solid, what, design.name, replace(asked, seats=[])).document
+    loose = part_sheet(kind, solid, what, design.name, replace(requirements, seats=[])).document
     numbers = [
         text for sheet in (document, loose) for text in texts(sheet) if re.fullmatch(rf"{kind}-[0-9a-f]{{8}}", text)
     ]
@@ -122,46 +123,46 @@ def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind: s
     assert size.removeprefix("⌀").split()[1] in fits(design, dims)[seat.mates]
 
 
-def test_drawings_of_a_milled_module_tell_fits_threads_and_edges() -> None:
-    said = {}
+def test_drawings_of_a_milled_module_have_fits_threads_and_edges() -> None:
+    lines = {}
     for kind, design in (("motor_housing", milled(DRIVEN, "shear")), ("rotor", milled(BEARING_BLOCKS, "compression"))):
         sheet = sheet_of(design, kind, drawn_part(dimensions(design), kind))
         document = ezdxf.read(io.StringIO(sheet.dxf().decode()))
         assert document.audit().errors == []
         no_text_lies_on_another(kind, document)
-        said[kind] = texts(document)
-        dimensioned = [one.dxf.text for one in document.modelspace().query("DIMENSION")]
+        lines[kind] = texts(document)
+        dimensioned = [dimension.dxf.text for dimension in document.modelspace().query("DIMENSION")]
         assert {"motor_housing": "⌀24 H6", "rotor": "⌀15 h5"}[kind] in dimensioned
     # Bearing 6802: 15 x 24 mm; ISO 286-2: H6 at 24 mm is +13 / 0, h5 at 15 mm is 0 / -8; IT5 9 and 8.
-    assert {"B", "⌀24 H6", "+13 / 0", "24.000 to 24.013", "0.0045", "0.009", "⌀0.009 CZ"} <= set(said["motor_housing"])
-    assert {"B", "⌀15 h5", "0 / -8", "14.992 to 15.000", "0.004", "0.008", "⌀0.008 CZ"} <= set(said["rotor"])
+    assert {"B", "⌀24 H6", "+13 / 0", "24.000 to 24.013", "0.0045", "0.009", "⌀0.009 CZ"} <= set(lines["motor_housing"])
+    assert {"B", "⌀15 h5", "0 / -8", "14.992 to 15.000", "0.004", "0.008", "⌀0.008 CZ"} <= set(lines["rotor"])
     # ISO 6410-1 writes thread and length, then hole and depth.
-    assert any(text.startswith("4× thread M3-6H × ") and " / ⌀2.5 × " in text for text in said["rotor"])
-    assert any(text.startswith("thread M4-6H × ") for text in said["rotor"])
-    assert "Sizes ISO 2768-1 m; ISO 22081" in said["rotor"]  # which stands where ISO 2768-2 stood
-    assert not any("2768-2" in text for text in said["rotor"])
-    assert any("ISO 13715" in text for text in said["rotor"])
-    assert not any(text.startswith("Printing") for text in said["rotor"])
+    assert any(text.startswith("4× thread M3-6H × ") and " / ⌀2.5 × " in text for text in lines["rotor"])
+    assert any(text.startswith("thread M4-6H × ") for text in lines["rotor"])
+    assert "Sizes ISO 2768-1 m; ISO 22081" in lines["rotor"]  # which stands where ISO 2768-2 stood
+    assert not any("2768-2" in text for text in lines["rotor"])
+    assert any("ISO 13715" in text for text in lines["rotor"])
+    assert not any(text.startswith("Printing") for text in lines["rotor"])
 
 
 def test_holes_beside_threads_and_dowels_are_none() -> None:
     mode, overrides = CASES["wrist"]
     design = design_of("wrist", overrides, mode)  # its keys' pockets are 2.5 mm wide, as the hole for the retainer's M3
-    found = upright_cylinders(drawn_part(dimensions(design), "rotor"))
-    asked = drawing_requirements("rotor", dimensions(design), design.choices)
-    wide = [one for one in found if one.concave and one.radius == pytest.approx(1.25)]
-    assert {one.is_central for one in wide} == {True, False}
-    assert all((asked.thread(one) is not None) == one.is_central for one in wide)
+    cylinders = upright_cylinders(drawn_part(dimensions(design), "rotor"))
+    requirements = drawing_requirements("rotor", dimensions(design), design.choices)
+    wide = [hole for hole in cylinders if hole.concave and hole.radius == pytest.approx(1.25)]
+    assert {hole.is_central for hole in wide} == {True, False}
+    assert all((requirements.thread(hole) is not None) == hole.is_central for hole in wide)
     mode, overrides = CASES["paper"]
     design = design_of("paper", {**overrides, "key_diameter": 2e-3, "link_dowel": "iso_8734_2"}, mode)
     dims = dimensions(design)
-    found = upright_cylinders(drawn_part(dims, "rotor"))
-    asked = drawing_requirements("rotor", dims, design.choices)
-    wide = [one for one in found if one.concave and one.radius == pytest.approx(0.5 * dims.link_dowel_diameter)]
-    seats = [one for one in wide if asked.seat(one)]
+    cylinders = upright_cylinders(drawn_part(dims, "rotor"))
+    requirements = drawing_requirements("rotor", dims, design.choices)
+    wide = [hole for hole in cylinders if hole.concave and hole.radius == pytest.approx(0.5 * dims.link_dowel_diameter)]
+    seats = [hole for hole in wide if requirements.seat(hole)]
     # The others are pockets that the PCL's keys are in, below the rotor.
     assert len(wide) > len(seats) == dims.count("dowels_fitted")
-    assert all(one.top == pytest.approx(dims.link_bottom_level) for one in seats)
+    assert all(seat.top == pytest.approx(dims.link_bottom_level) for seat in seats)
 
 
 @pytest.mark.parametrize("case", ["tiles", "tiles in vanes", "paper", "blocks"])
@@ -170,17 +171,17 @@ def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case: str) -> None:
     design = design_of(case, overrides, mode)
     dims = dimensions(design)
     sheet = sheet_of(design, "heater", drawn_part(dims, "heater"))
-    said = [one.dxf.text for one in sheet.document.modelspace().query("TEXT")]
+    lines = [text.dxf.text for text in sheet.document.modelspace().query("TEXT")]
     is_whole = case.startswith("tiles")
-    assert ("nominal sizes; limits as the maker's" in said) == is_whole
-    assert any("+0 / −0.1" in text for text in said) != is_whole  # the others are ordered to their outline
-    assert not any("axis" in text or "middle at" in text for text in said)
+    assert ("nominal sizes; limits as the maker's" in lines) == is_whole
+    assert any("+0 / −0.1" in text for text in lines) != is_whole  # the others are ordered to their outline
+    assert not any("axis" in text or "middle at" in text for text in lines)
     if is_whole:
-        assert not any("°" in text or "Azimuth" in text for text in said)
+        assert not any("°" in text or "Azimuth" in text for text in lines)
         # Four of the sides; a plate that bears the leads stands beyond the other.
         flats = {"tiles": {"10 wide, h 0 to 3.2 (3.2)", "18 wide, h 0 to 1.6 (1.6)", "20 wide, h 1.6 to 3.2 (1.6)"},
                  "tiles in vanes": {"3.8 wide, h 0 to 15 (15)", "15 wide, h 0 to 15 (15)"}}  # fmt: skip
-        assert {text.removeprefix("flats ") for text in said if text.startswith("flats ")} == flats[case]
+        assert {text.removeprefix("flats ") for text in lines if text.startswith("flats ")} == flats[case]
 
 
 @pytest.mark.gate
@@ -192,9 +193,9 @@ def test_every_seat_is_a_face_of_its_part() -> None:
     ):
         design = milled(case, mode)
         for kind in kinds:
-            asked = drawing_requirements(kind, dimensions(design), design.choices)
-            there = {asked.seat(one) for one in upright_cylinders(drawn_part(dimensions(design), kind))}
-            assert set(asked.seats) <= there, kind
+            requirements = drawing_requirements(kind, dimensions(design), design.choices)
+            there = {requirements.seat(hole) for hole in upright_cylinders(drawn_part(dimensions(design), kind))}
+            assert set(requirements.seats) <= there, kind
 
 
 FRAME = 10.0  # mm from the paper's edge
@@ -236,7 +237,7 @@ MM = 72.0 / 25.4
 def content(sheet: DrawingSheet) -> list[str]:
     """Return the lines of the page's content."""
     data = sheet.pdf()
-    streams = [data[found.end() :] for found in re.finditer(rb"stream\n", data)]
+    streams = [data[start.end() :] for start in re.finditer(rb"stream\n", data)]
     for stream in streams:
         with suppress(zlib.error):
             if "/DeviceRGB CS" in (text := zlib.decompressobj().decompress(stream).decode()):

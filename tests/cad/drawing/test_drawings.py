@@ -39,9 +39,9 @@ Solids = dict[str, cq.Solid]
 
 
 def sheet_of(design: Design, kind: str, solid: cq.Solid) -> DrawingSheet:
-    asked = drawing_requirements(kind, dimensions(design), design.choices)
+    requirements = drawing_requirements(kind, dimensions(design), design.choices)
     what = product(design, kind if kind in KINDS else "housing")  # a fixture is of what the housing is of
-    return part_sheet(kind, solid, what, design.name, asked)
+    return part_sheet(kind, solid, what, design.name, requirements)
 
 
 @pytest.fixture(scope="module", params=["paper", "blocks"])
@@ -66,8 +66,8 @@ def texts(document: Drawing) -> list[str]:
 def measured(document: Drawing) -> list[float]:
     """Return what the dimensions measure; of an ordinate the height over the lowest face."""
     dimensions_drawn = document.modelspace().query("DIMENSION")
-    found = [one.get_measurement() if isinstance(one, Dimension) else 0.0 for one in dimensions_drawn]
-    return [one.y if isinstance(one, Vec3) else float(one) for one in found]
+    sizes = [dimension.get_measurement() if isinstance(dimension, Dimension) else 0.0 for dimension in dimensions_drawn]
+    return [size.y if isinstance(size, Vec3) else float(size) for size in sizes]
 
 
 def test_drawings_dimension_call_out_and_title_the_design(
@@ -86,9 +86,9 @@ def test_drawings_dimension_call_out_and_title_the_design(
                      mm["retainer_thickness"]],
     }  # fmt: skip
     for kind, sizes in expected.items():
-        found = np.array(measured(drawings[kind]))
+        drawn_sizes = np.array(measured(drawings[kind]))
         for size in sizes:
-            assert np.min(np.abs(found - size)) < 1e-4, f"{kind}: {size} is not among {found}"
+            assert np.min(np.abs(drawn_sizes - size)) < 1e-4, f"{kind}: {size} is not among {drawn_sizes}"
     radius = 2e3 * design.values["placement_radius"]
     figure = f"{radius:.2f}".rstrip("0").rstrip(".")
     assert f"4× hole ⌀3.4, on ⌀{figure} every 90° from 45°, h 0 to 10 (10)" in texts(drawings["housing"])
@@ -98,11 +98,11 @@ def test_drawings_dimension_call_out_and_title_the_design(
     )
     assert any(text.startswith("4× hole ⌀3.4") and text.endswith("through") for text in texts(drawings["link"]))
     for kind in DRAWN:
-        said = set(texts(drawings[kind]))
+        lines = set(texts(drawings[kind]))
         mass = 1e3 * design.values[KINDS[kind].volume] * design.values["structure_density"]
-        assert {kind, "petg", design.name, f"{mass:.2f} g", "A – A"} <= said
-        assert said & {"A3, first angle", "A2, first angle"}
-        assert any("ISO 2768-1 m" in text for text in said)  # a print that is milled instead
+        assert {kind, "petg", design.name, f"{mass:.2f} g", "A – A"} <= lines
+        assert lines & {"A3, first angle", "A2, first angle"}
+        assert any("ISO 2768-1 m" in text for text in lines)  # a print that is milled instead
     for document in drawings.values():
         assert document.audit().errors == []
         assert document.header["$INSUNITS"] == 4
@@ -117,8 +117,8 @@ def test_a_sheet_has_number_revision_true_size_and_no_date(module: tuple[Design,
     numbers = set()
     for solid in (solids["retainer"], solids["retainer"], solids["retainer"].scale(1.01)):
         drawn = ezdxf.read(io.StringIO(sheet_of(design, "retainer", solid).dxf().decode()))
-        said = texts(drawn)
-        fields = {said[at]: said[at + 1] for at in range(len(said) - 1)}
+        lines = texts(drawn)
+        fields = {lines[at]: lines[at + 1] for at in range(len(lines) - 1)}
         assert (fields["Revision"], fields["Date"]) == ("A", "of approval")
         assert re.fullmatch(r"retainer-[0-9a-f]{8}", fields["Number"])
         numbers.add(fields["Number"])
@@ -141,7 +141,7 @@ def test_the_fork_s_sheet_has_its_legs_as_drawn_with_their_tolerance() -> None:
     # Chord of the section of a leg along the middle of its contact with the stops, measured on the solid.
     radius, level = dims.stop_contact_radius, 0.5 * dims.rotor_top_level
     ring = cq.Solid.makeTorus(radius, 0.01, cq.Vector(0, 0, level))
-    leg = max(solid.intersect(ring).Solids(), key=lambda one: one.Center().y)
+    leg = max(solid.intersect(ring).Solids(), key=lambda body: body.Center().y)
     width = leg.Volume() / (math.pi * 0.01**2)
     note = next(text for text in sheet_texts if text.startswith("Legs "))
     drawn, along, under = map(float, re.findall(r"(?:Legs |R|−)([\d.]+)", note))
@@ -188,7 +188,7 @@ def test_views_figures_and_letters_are_laid_out() -> None:
     sheet.title_block("pad", [[Field("Material", "Thermoelectric module " * 4), Field("Module", "An elbow")]])
     no_text_lies_on_another("pad", sheet.document)
     long, short = (
-        next(one for one in sheet.space.query("TEXT") if one.dxf.text.startswith(begin))
+        next(text for text in sheet.space.query("TEXT") if text.dxf.text.startswith(begin))
         for begin in ("Thermo", "An elbow")
     )
     assert short.dxf.width == 1.0
@@ -237,17 +237,19 @@ def test_the_spring_s_sheet_is_drawn_at_true_size() -> None:
         dims = dimensions(design)
         lines = spring_lines(design, dims, TITLES)
         document = ezdxf.read(io.StringIO(spring_sheet(design, dims, lines).dxf().decode()))
-        found = measured(document)
+        sizes = measured(document)
         for size in (dims.coil_diameter - dims.wire_diameter, dims.coil_diameter, dims.leg_length, dims.tang_length):
-            assert np.min(np.abs(np.array(found) - size)) < 1e-4, (case, size)
+            assert np.min(np.abs(np.array(sizes) - size)) < 1e-4, (case, size)
         assert document.audit().errors == []
 
 
 def test_the_bill_counts_and_weighs_the_module(module: tuple[Design, Solids]) -> None:
     design, solids = module
     items = bill(design, TITLES, place(dimensions(design), solids))
-    assert sum(one.quantity * one.mass for one in items) == pytest.approx(1e3 * design.values["module_mass"], rel=1e-4)
-    count = {one.kind: one.quantity for one in items}
+    assert sum(line.quantity * line.mass for line in items) == pytest.approx(
+        1e3 * design.values["module_mass"], rel=1e-4
+    )
+    count = {line.kind: line.quantity for line in items}
     assert (count["housing"], count["spring_left"], count["spring_right"]) == (1, 2, 2)
     rows = list(csv.DictReader(io.StringIO(bill_csv(items).decode("utf-8-sig"))))
     springs = next(row for row in rows if row["part"] == "spring_left")
@@ -263,10 +265,10 @@ def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     design = design_of("fed", {})
     switch = {"peak_voltage": 3.21, "stiffening_peak_voltage": -4.01, "peak_current": 1.5, "cooling_current": 0.2}
     fed = design.model_copy(update={"values": design.values | switch | {"stiffening_peak_current": math.nan}})
-    supply, driver = (one for one in beside(fed, {}) if one.kind in ("supply", "driver"))
+    supply, driver = (item for item in beside(fed, {}) if item.kind in ("supply", "driver"))
     assert driver.title.startswith("H-bridge, current controlled both ways round, ")
-    assert all("at least 4.1 V and 1.5 A" in one.title for one in (supply, driver))
-    assert [one.kind for one in beside(design, {}) if one.kind in ("supply", "driver")] == []
+    assert all("at least 4.1 V and 1.5 A" in source.title for source in (supply, driver))
+    assert [item.kind for item in beside(design, {}) if item.kind in ("supply", "driver")] == []
     limited = {**fed.study, "require": [{"output": "peak_voltage", "sense": "<=", "limit": 24.0}]}
     supply, driver = (
         item for item in beside(fed.model_copy(update={"study": limited}), {}) if item.kind in ("supply", "driver")

@@ -39,7 +39,7 @@ DESIGNS = [
 ]
 
 
-def told(solid: cq.Shape) -> list[str]:
+def described(solid: cq.Shape) -> list[str]:
     return [row.text for row in feature_rows(solid.Solids()[0], BARE)]
 
 
@@ -52,7 +52,7 @@ def test_rows_have_width_depth_and_azimuth_of_pockets_and_holes() -> None:
     holes = [cylinder(2.0, 0.0, 10.0, place) for place in ((24.0, 24.0), (-24.0, 24.0), (-24.0, -24.0), (24.0, -24.0))]
     beside = block((-3.0, 3.0), 5.0, 8.0, 10.0).moved(cq.Location(cq.Vector(0.0, 30.0, 0.0)))
     plate = cylinder(40.0, 0.0, 10.0).cut(*pockets, *notches, *holes, beside)
-    assert sorted(told(plate)) == sorted((
+    assert sorted(described(plate)) == sorted((
         "3× pocket R12 to R20, 60° between ends, middle every 120° from 30°, h 7 to 10 (3)",
         "2× slot 8 wide, mid-plane through the axis, every 180° from 0°, h 0 to 4 (4)",
         "4× hole ⌀4, on ⌀67.88 every 90° from 45°, through",
@@ -68,7 +68,7 @@ def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
     pocket = turned(sector(12.0, 30.0, pi / 3.0, 7.0, 10.0), pi / 6.0)
     x, y = 20.0 * cos(pi / 3.0), 20.0 * sin(pi / 3.0)
     disc = cylinder(40.0, 0.0, 10.0).cut(pocket, cylinder(3.0, 0.0, 10.0, (x, y)))
-    walls = [text for text in told(disc) if text.startswith("wall")]
+    walls = [text for text in described(disc) if text.startswith("wall")]
     assert sorted(walls) == [
         "wall through the axis, R12 to R17 at 60°, faces clockwise, h 7 to 10 (3)",
         "wall through the axis, R12 to R30 at 0°, faces counter-clockwise, h 7 to 10 (3)",
@@ -78,14 +78,14 @@ def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
     corners = [(8.0 * cos(2.0 * pi * corner / 3.0), 8.0 * sin(2.0 * pi * corner / 3.0)) for corner in range(3)]
     prism = cq.Workplane().polyline(corners).close().extrude(5.0).val()
     assert isinstance(prism, cq.Solid)
-    assert told(prism) == ["3× wall 4 from the axis, faces outwards every 120° from 60°, h 0 to 5 (5)"]
+    assert described(prism) == ["3× wall 4 from the axis, faces outwards every 120° from 60°, h 0 to 5 (5)"]
     pit = cylinder(20.0, 0.0, 10.0).cut(prism)
-    assert told(pit) == ["3× wall 4 from the axis, faces inwards every 120° from 0°, h 0 to 5 (5)"]
+    assert described(pit) == ["3× wall 4 from the axis, faces inwards every 120° from 0°, h 0 to 5 (5)"]
     # A rib from x 5 to 20 and y -20 to 20 that a notch breaks at y 4 to 6: flats of two lengths.
     notch = block((4.0, 21.0), 2.0, 0.0, 4.0).moved(cq.Location(cq.Vector(0.0, 5.0, 0.0)))
     ribs = cylinder(40.0, -2.0, 0.0).fuse(block((5.0, 20.0), 40.0, 0.0, 4.0).cut(notch))
     alike = "flats 15 wide, mid-plane 12.5 from the axis, square to azimuths at 0°"
-    assert sorted(text for text in told(ribs) if text.startswith(alike)) == [
+    assert sorted(text for text in described(ribs) if text.startswith(alike)) == [
         # At x = 20: y from 4 to -20, and from 6 to 20.
         f"{alike}, R20.4 to R28.28, h 2 to 6 (4)",
         f"{alike}, R20.88 to R28.28, h 2 to 6 (4)",
@@ -96,8 +96,8 @@ def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
     ]
     wall = cylinder(34.0, 0.0, 9.0).cut(cylinder(30.0, 1.0, 9.0), *grooves)
     vanes = [turned(sector(12.0, 20.0, 1.5, 0.5, 5.0), azimuth) for azimuth in (0.0, pi)]
-    told_of_vanes = [text for text in told(wall.fuse(*vanes)) if "between ends" in text]
-    assert told_of_vanes == ["2× vane R12 to R20, 85.94° between ends, middle every 180° from 0°, h 1 to 5 (4)"]
+    of_vanes = [text for text in described(wall.fuse(*vanes)) if "between ends" in text]
+    assert of_vanes == ["2× vane R12 to R20, 85.94° between ends, middle every 180° from 0°, h 1 to 5 (4)"]
 
 
 @pytest.mark.slow
@@ -113,20 +113,20 @@ def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Ma
         if kind in fixtures or PRODUCTION[kind].drawn:
             rows = feature_rows(solid, drawing_requirements(kind, dims, design.choices))
             document = ezdxf.read(io.StringIO(sheet_of(design, kind, solid).dxf().decode()))
-            said = texts(document)
-            assert all(row.text in said for row in rows), kind
+            lines = texts(document)
+            assert all(row.text in lines for row in rows), kind
             assert len({row.text for row in rows}) == len(rows), kind
             for index, row in enumerate(rows, start=1):
-                assert said.count(str(index)) >= (2 if row.points else 1), (
+                assert lines.count(str(index)) >= (2 if row.points else 1), (
                     f"{kind}: {row.text} has no number in the plan"
                 )
-            faces_are_told(kind, solid, rows, document)
+            check_faces(kind, solid, rows, document)
             no_text_lies_on_another(kind, document)
             no_leader_crosses_another(kind, document)
             no_number_lies_on_a_section_s_mark(kind, document)
 
 
-def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document: Drawing) -> None:
+def check_faces(kind: str, solid: cq.Solid, rows: list[FeatureRow], document: Drawing) -> None:
     """Compare every upright face with the figures in the rows' texts, those about the axis against dimensions."""
     lowest, dimensioned = solid.BoundingBox().zmin, measured(document)
     for face in solid.Faces():
@@ -139,16 +139,14 @@ def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document:
             from_axis = hypot(place.X(), place.Y())
             if from_axis < 1e-6 and min(abs(2.0 * radius - size) for size in dimensioned) < 1e-4:
                 continue
-            assert any(cylinder_is_told(row, radius, from_axis) for row in level), (
-                f"{kind}: cylinder R{radius} {heights}"
-            )
+            assert any(has_cylinder(row, radius, from_axis) for row in level), f"{kind}: cylinder R{radius} {heights}"
         elif abs(face.normalAt().z) < 1e-9:
-            assert any(wall_is_told(row, face) for row in level) or width_is_told(rows, face, solid), (
+            assert any(has_wall(row, face) for row in level) or has_width(rows, face, solid), (
                 f"{kind}: wall at {face.Center()} {heights}"
             )
 
 
-def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
+def has_cylinder(row: FeatureRow, radius: float, from_axis: float) -> bool:
     sizes = {f"⌀{figure(2.0 * radius)}", f"R{figure(radius)}"}
     is_sized = any(re.search(rf"{re.escape(size)}(?![\d.])", row.size) for size in sizes)
     if row.what in ("corners", "pocket", "vane", "sector") or from_axis < 1e-6:
@@ -156,7 +154,7 @@ def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
     return is_sized and (f"on ⌀{figure(2.0 * from_axis)} " in row.place or row.place.startswith(("x ", "over")))
 
 
-def width_is_told(rows: list[FeatureRow], face: cq.Face, solid: cq.Solid) -> bool:
+def has_width(rows: list[FeatureRow], face: cq.Face, solid: cq.Solid) -> bool:
     """Return whether rows without a place, as of what is bought, tell how wide the part is across all of a face."""
     normal, lowest = face.normalAt(), solid.BoundingBox().zmin
     reached, end = (level - lowest for level in (face.BoundingBox().zmin, face.BoundingBox().zmax))
@@ -170,14 +168,14 @@ def width_is_told(rows: list[FeatureRow], face: cq.Face, solid: cq.Solid) -> boo
     return abs(reached - end) < 1e-3
 
 
-def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
+def has_wall(row: FeatureRow, face: cq.Face) -> bool:
     middle, normal = face.Center(), face.normalAt()
     offset = middle.x * normal.x + middle.y * normal.y
     if row.what in ("pocket", "vane", "sector"):
         (between,) = re.findall(r"([\d.]+)° between ends", row.size)
         azimuth = degrees(atan2(middle.y, middle.x))
         return any(
-            abs(abs((azimuth - one + 180.0) % 360.0 - 180.0) - 0.5 * float(between)) < 0.02 for one in row.azimuths
+            abs(abs((azimuth - wall + 180.0) % 360.0 - 180.0) - 0.5 * float(between)) < 0.02 for wall in row.azimuths
         )
     if row.what in ("slot", "flats"):
         (width,) = re.findall(r"([\d.]+) wide", row.size)
@@ -193,8 +191,8 @@ def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
 
 
 def no_leader_crosses_another(kind: str, document: Drawing) -> None:
-    lines = [one for one in document.modelspace().query("LINE") if one.dxf.layer == "DIMENSION"]
-    ends = [((one.dxf.start.x, one.dxf.start.y), (one.dxf.end.x, one.dxf.end.y)) for one in lines]
+    lines = [line for line in document.modelspace().query("LINE") if line.dxf.layer == "DIMENSION"]
+    ends = [((line.dxf.start.x, line.dxf.start.y), (line.dxf.end.x, line.dxf.end.y)) for line in lines]
     for (start, end), (other, far) in combinations(ends, 2):
         along, across = (end[0] - start[0], end[1] - start[1]), (far[0] - other[0], far[1] - other[1])
         turn = along[0] * across[1] - along[1] * across[0]
@@ -208,12 +206,12 @@ def no_leader_crosses_another(kind: str, document: Drawing) -> None:
 def no_number_lies_on_a_section_s_mark(kind: str, document: Drawing) -> None:
     """Circles around numbers against straight strokes and arrows: a plan's own outlines are chains."""
     space = document.modelspace()
-    strokes = [(one.dxf.start, one.dxf.end) for one in space.query("LINE") if one.dxf.layer in ("OUTLINE", "FINE")]
-    arrows = [(one.dxf.vtx0, one.dxf.vtx2) for one in space.query("SOLID")]
+    strokes = [(line.dxf.start, line.dxf.end) for line in space.query("LINE") if line.dxf.layer in ("OUTLINE", "FINE")]
+    arrows = [(solid.dxf.vtx0, solid.dxf.vtx2) for solid in space.query("SOLID")]
     # The wider circles of the layer; the others are the leaders' ends.
-    circles = [one.dxf for one in space.query("CIRCLE") if one.dxf.layer == "DIMENSION"]
-    largest = max((one.radius for one in circles), default=0.0)
-    for circle in (one for one in circles if one.radius == largest):
+    circles = [entity.dxf for entity in space.query("CIRCLE") if entity.dxf.layer == "DIMENSION"]
+    largest = max((arrowhead.radius for arrowhead in circles), default=0.0)
+    for circle in (arrowhead for arrowhead in circles if arrowhead.radius == largest):
         for start, end in (*strokes, *arrows):
             share = min(1.0, max(0.0, (circle.center - start).dot(end - start) / (end - start).magnitude ** 2))
             gap = circle.center.distance(start.lerp(end, share)) - circle.radius
@@ -242,8 +240,8 @@ def test_a_housing_with_vanes_is_cut_through_the_middle_of_a_vane() -> None:
     dims = dimensions(design)
     solid = drawn_part(dims, "housing")
     document = ezdxf.read(io.StringIO(sheet_of(design, "housing", solid).dxf().decode()))
-    hatched = [one for one in document.modelspace().query("HATCH") if isinstance(one, Hatch)]
-    paths = [path for one in hatched for path in one.paths.paths if isinstance(path, PolylinePath)]
+    hatched = [hatch for hatch in document.modelspace().query("HATCH") if isinstance(hatch, Hatch)]
+    paths = [path for hatch in hatched for path in hatch.paths.paths if isinstance(path, PolylinePath)]
     loops = [path.vertices for path in paths]
     # The rotor's vanes are drawn on x, the housing's in the middle between them.
     through_vane = (*section(solid).cut, *half_section(solid, pi / dims.count("vane_count")).cut)
@@ -261,30 +259,30 @@ def area(corners: Sequence[Sequence[float]]) -> float:
     return abs(0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
 
-def test_one_height_is_told_alike_wherever_it_stands() -> None:
+def test_one_height_reads_alike_wherever_it_stands() -> None:
     # A half is rounded up, and what two faces make of 23.155 differs by less than a nanometre.
     assert {figure(23.155), figure(23.155 - 1e-9), figure(23.155 + 1e-9)} == {"23.16"}
     assert figure(-0.001) == "0"
     design = design_of("heights", CASES["paper"][1])
     solid = drawn_part(dimensions(design), "rotor")
     document = ezdxf.read(io.StringIO(sheet_of(design, "rotor", solid).dxf().decode()))
-    said = {one.dxf.text for one in document.modelspace().query("DIMENSION")}
-    told_of = {height for text in texts(document) for height in re.findall(r"h ([\d.]+) to ([\d.]+) \(", text)}
-    assert told_of
+    dimensioned = {dimension.dxf.text for dimension in document.modelspace().query("DIMENSION")}
+    heights = {height for text in texts(document) for height in re.findall(r"h ([\d.]+) to ([\d.]+) \(", text)}
+    assert heights
     dims = dimensions(design)
     # Core and pins are round from the end of their fillet on, which no flat face lies at.
     fillet = figure(dims.rotor_top_level + dims.foot_fillet - dims.core_bottom_level)
-    assert {height for pair in told_of for height in pair} - {fillet} <= said
+    assert {height for pair in heights for height in pair} - {fillet} <= dimensioned
 
 
 def test_hidden_lines_are_dashed_along_circles_and_corners() -> None:
     design = design_of("hidden", BEARINGS)
     solid = drawn_part(dimensions(design), "housing")
     document = ezdxf.read(io.StringIO(sheet_of(design, "housing", solid).dxf().decode()))
-    hidden = [one for one in document.modelspace() if one.dxf.layer == "HIDDEN"]
+    hidden = [entity for entity in document.modelspace() if entity.dxf.layer == "HIDDEN"]
     assert document.layers.get("HIDDEN").dxf.linetype == "HIDDEN"
-    assert sum(one.dxftype() in ("CIRCLE", "ARC") for one in hidden) >= 4  # the feet, at the least
-    assert all(one.dxf.flags & 128 for one in hidden if one.dxftype() == "LWPOLYLINE")
+    assert sum(line.dxftype() in ("CIRCLE", "ARC") for line in hidden) >= 4  # the feet, at the least
+    assert all(line.dxf.flags & 128 for line in hidden if line.dxftype() == "LWPOLYLINE")
 
 
 def test_threads_are_drawn_by_iso_6410_and_placed_by_half_their_play() -> None:
@@ -292,10 +290,10 @@ def test_threads_are_drawn_by_iso_6410_and_placed_by_half_their_play() -> None:
     dims = dimensions(design)
     solid = drawn_part(dims, "rotor")
     document = ezdxf.read(io.StringIO(sheet_of(design, "rotor", solid).dxf().decode()))
-    arcs = [one for one in document.modelspace().query("ARC") if one.dxf.layer == "FINE"]
-    threads = [one.dxf for one in arcs if (one.dxf.end_angle - one.dxf.start_angle) % 360.0 == pytest.approx(270.0)]
+    arcs = [arc for arc in document.modelspace().query("ARC") if arc.dxf.layer == "FINE"]
+    threads = [arc.dxf for arc in arcs if (arc.dxf.end_angle - arc.dxf.start_angle) % 360.0 == pytest.approx(270.0)]
     screw = dims.link_screw_diameter
-    assert sum(one.radius == pytest.approx(0.5 * screw) for one in threads) == 4
+    assert sum(arc.radius == pytest.approx(0.5 * screw) for arc in threads) == 4
     play = dims.link_screw_clearance - screw
     rows = feature_rows(solid, drawing_requirements("rotor", dims, design.choices))
     (frame,) = next(row.frames for row in rows if row.asks == "link's screws")

@@ -46,12 +46,12 @@ def cup() -> cq.Solid:
 
 
 def test_upright_cylinders_are_read_off_a_solid_and_its_mirror() -> None:
-    found = [(one.radius, one.x, one.bottom, one.top, one.concave) for one in upright_cylinders(bracket())]
-    assert found == [(2, 30, 11, 15, True), (3, 10, 5, 15, True), (4, 20, 15, 21, False)]
-    assert all(one.is_round and not one.is_central for one in upright_cylinders(bracket()))
+    cylinders = [(face.radius, face.x, face.bottom, face.top, face.concave) for face in upright_cylinders(bracket())]
+    assert cylinders == [(2, 30, 11, 15, True), (3, 10, 5, 15, True), (4, 20, 15, 21, False)]
+    assert all(face.is_round and not face.is_central for face in upright_cylinders(bracket()))
     assert levels(bracket()) == [5, 11, 15, 21]
     mirrored = bracket().mirror("XZ").Solids()[0]
-    assert [one.concave for one in upright_cylinders(mirrored)] == [True, True, False]
+    assert [face.concave for face in upright_cylinders(mirrored)] == [True, True, False]
     (arc,) = upright_cylinders(cut_in_half())
     assert arc.span == pytest.approx(pi)
     assert cos(arc.middle) == pytest.approx(-1.0)
@@ -59,13 +59,13 @@ def test_upright_cylinders_are_read_off_a_solid_and_its_mirror() -> None:
 
 
 def test_holes_are_empty_also_beside_faces_that_would_cut_them() -> None:
-    assert [one.radius for one in holes(bracket())] == [2, 3]
+    assert [hole.radius for hole in holes(bracket())] == [2, 3]
     assert holes(cup()) == []
     # A slot's walls and floor, a pin's round face and a level edge all end before the hole.
     slot = cq.Solid.makeBox(4, 12, 5, cq.Vector(6, 9, 5)).rotate(cq.Vector(8, 15, 0), cq.Vector(8, 15, 1), 30)
     pin = cq.Solid.makeCylinder(14, 3, cq.Vector(20, 36, 10)).intersect(BLOCK.translate(cq.Vector(0, 0, 10)))
     part = bored(pin).cut(slot).Solids()[0]
-    assert [one.radius for one in holes(part)] == [8]
+    assert [hole.radius for hole in holes(part)] == [8]
 
 
 BLOCK = cq.Solid.makeBox(40, 30, 10)
@@ -93,7 +93,7 @@ def test_what_stands_in_a_hole_is_found_whatever_its_faces(name: str) -> None:
     part = bored(*inside) if inside else bored(cq.Solid.makeBox(1, 1, 1, cq.Vector(0, 0, 10)))
     plug = cq.Solid.makeCylinder(7.99, 10, cq.Vector(20, 15, 0))
     assert (plug.intersect(part).Volume() < 1e-6) == empty  # the kernel's word
-    assert any(one.radius == 8 and (one.bottom, one.top) == (0, 10) for one in holes(part)) == empty
+    assert any(hole.radius == 8 and (hole.bottom, hole.top) == (0, 10) for hole in holes(part)) == empty
 
 
 def test_holes_are_wider_and_parts_lie_on_their_side_in_print() -> None:
@@ -102,7 +102,7 @@ def test_holes_are_wider_and_parts_lie_on_their_side_in_print() -> None:
     less = pi * ((3.15**2 - 3.0**2) * 10 + (2.15**2 - 2.0**2) * 4)
     # The hole across goes through the middle of no upright one.
     assert part.Volume() - printed.Volume() == pytest.approx(less, rel=1e-6)
-    assert [one.radius for one in holes(printed)] == [2.15, 3.15]
+    assert [hole.radius for hole in holes(printed)] == [2.15, 3.15]
     assert print_files.as_printed(part, UP, 0.0).Volume() == pytest.approx(part.Volume(), rel=1e-12)
     up, over = print_files.as_printed(bracket(), UP, 0.0), print_files.as_printed(bracket(), OVER, 0.0)
     assert (up.BoundingBox().zmin, over.BoundingBox().zmin) == pytest.approx((0.0, 0.0), abs=1e-9)
@@ -121,7 +121,7 @@ def test_every_kind_says_how_it_is_come_by() -> None:
         ("tiles", TILES | {"thermistor_diameter": 1.1e-3, "liner_material": "peek", "liner_thickness": 0.8e-3}),
     )
     dims = [dimensions(design_of(*case)) for case in cases]
-    kinds = {kind for one in dims for kind in MODULES[one.mode].kinds(one)}
+    kinds = {kind for dims_of in dims for kind in MODULES[dims_of.mode].kinds(dims_of)}
     assert kinds == set(PRODUCTION) == set(KINDS)
     assert all(making.why for making in PRODUCTION.values())
 
@@ -163,8 +163,8 @@ def test_print_files_have_unit_name_material_and_the_part() -> None:
     assert thing is not None
     assert base.attrib == {"name": "PETG", "displaycolor": "#FF8000"}
     assert thing.attrib["name"] == "bracket & <foot>"
-    points = np.array([[float(one.attrib[axis]) for axis in "xyz"] for one in root.iterfind(".//m:vertex", space)])
-    corners = [[int(one.attrib[key]) for key in ("v1", "v2", "v3")] for one in root.iterfind(".//m:triangle", space)]
+    points = np.array([[float(point.attrib[axis]) for axis in "xyz"] for point in root.iterfind(".//m:vertex", space)])
+    corners = [[int(face.attrib[key]) for key in ("v1", "v2", "v3")] for face in root.iterfind(".//m:triangle", space)]
     read = trimesh.Trimesh(points, corners)
     assert read.is_watertight
     assert read.volume == pytest.approx(body.volume, rel=1e-6)
@@ -224,9 +224,9 @@ def test_its_overhangs_are_those_that_the_print_text_tells(mode: str, changes: d
     assert warned(levels[:1])
     assert warned(levels[1:])
     assert warned(((dims.rotor_top_level, dims.rotor_top_level), levels[1]))
-    said = PRODUCTION["rotor"].why
-    assert "under the pins" in said
-    assert "supports from the bed" in said
+    why = PRODUCTION["rotor"].why
+    assert "under the pins" in why
+    assert "supports from the bed" in why
 
 
 @pytest.mark.parametrize(("worst", "meshed"), [(CHORD, True), (0.0, False)])

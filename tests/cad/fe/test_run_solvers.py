@@ -29,11 +29,11 @@ def test_solvers_are_run_on_both_meshes_or_refused(tmp_path: Path) -> None:
         "import json, sys; from pathlib import Path\n"
         "Path(sys.argv[3]).write_text(json.dumps({'link': float(sys.argv[5]), 'field': float('--field' in sys.argv)}))",
     )
-    said: list[str] = []
-    found = run_solvers.run_solvers(["link", "joint"], tmp_path, tmp_path, python, said.append)
-    assert found["link"].fine == {"link": 1.0, "field": 1.0}
-    assert found["joint"].coarse == {"link": run_solvers.COARSER, "field": 0.0}
-    assert len(said) == 4
+    messages: list[str] = []
+    results = run_solvers.run_solvers(["link", "joint"], tmp_path, tmp_path, python, messages.append)
+    assert results["link"].fine == {"link": 1.0, "field": 1.0}
+    assert results["joint"].coarse == {"link": run_solvers.COARSER, "field": 0.0}
+    assert len(messages) == 4
 
 
 @pytest.mark.parametrize("does", ["print('NOT ALL FACES'); import sys", "raise SystemExit('no mesh')"])

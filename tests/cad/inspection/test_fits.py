@@ -128,16 +128,16 @@ def test_only_parts_that_may_meet_are_compared_with_the_same_result() -> None:
     ring = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
     solids = {"housing": ring, "link_screw_1": cylinder(2.0, 30.0), "rotor": cylinder(3.5, 30.0)}
     bodies = PlacedBodies({name: at(solid, 0.0) for name, solid in solids.items()})
-    asked: list[tuple[str, str]] = []
+    compared: list[tuple[str, str]] = []
 
     def apart(first: str, second: str) -> bool:
-        asked.append((first, second))
+        compared.append((first, second))
         return bodies.apart(first, second)
 
     plain, quick = (list(interference_checks(solids, "at rest", **more)) for more in ({}, {"apart": apart}))
     assert plain == quick
     assert [check.ok for check in quick] == [True, False, False, True]
-    assert len(asked) == 3
+    assert len(compared) == 3
 
 
 @pytest.mark.parametrize("cut", [None, 1, 2, 3])
@@ -147,9 +147,9 @@ def test_the_copy_that_cuts_a_part_is_found_among_all(cut: int | None) -> None:
         x, y = 25.0 * np.cos(2.0 * number), 25.0 * np.sin(2.0 * number)
         nearer = 0.9 if number == cut else 1.0  # the others touch it along a line
         solids[f"pcl_arc_{number}"] = cylinder(5.0).translate((float(nearer * x), float(nearer * y), 0.0))
-    found = {check.name: check for check in interference_checks(solids, "at rest")}
+    checks = {check.name: check for check in interference_checks(solids, "at rest")}
     for number in (1, 2, 3):
-        check = found[f"housing | pcl_arc_{number} at rest"]
+        check = checks[f"housing | pcl_arc_{number} at rest"]
         assert check.ok == (number != cut)
         alone = solids["housing"].intersect(solids[f"pcl_arc_{number}"]).Volume()
         assert check.value == pytest.approx(alone, rel=1e-9)
@@ -206,9 +206,9 @@ def _along(origin: Array, way: Array, corners: Array) -> float:
 
 def test_no_point_of_the_surface_is_further_from_a_sample_than_the_spacing() -> None:
     triangles = Triangles(solid_mesh(one_solid(box(23.0, 11.0, 5.0))))
-    found = samples(triangles, 1.5)
-    assert found.area.sum() == pytest.approx(2.0 * (23.0 * 11.0 + 23.0 * 5.0 + 11.0 * 5.0))
-    asked = np.random.default_rng(2).uniform(-0.5, 0.5, (300, 2)) * [23.0, 11.0]
-    top = found.point[found.normal[:, 2] > 0.9][:, :2]
-    away = np.linalg.norm(asked[:, None, :] - top[None, :, :], axis=2).min(axis=1)
+    points = samples(triangles, 1.5)
+    assert points.area.sum() == pytest.approx(2.0 * (23.0 * 11.0 + 23.0 * 5.0 + 11.0 * 5.0))
+    places = np.random.default_rng(2).uniform(-0.5, 0.5, (300, 2)) * [23.0, 11.0]
+    top = points.point[points.normal[:, 2] > 0.9][:, :2]
+    away = np.linalg.norm(places[:, None, :] - top[None, :, :], axis=2).min(axis=1)
     assert away.max() < 1.5

@@ -35,13 +35,13 @@ print(few, sum(name.startswith("vtkmodules.") for name in sys.modules), vtk.vtkV
 
 @pytest.mark.gate
 def test_vtk_is_not_loaded_whole_with_the_kernel_and_can_be_afterwards() -> None:
-    said = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True).stdout
-    few, whole, version = (int(word) for word in said.split())
+    counts = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True).stdout
+    few, whole, version = (int(word) for word in counts.split())
     assert few < 0.4 * whole
     assert version >= 9
 
 
-def test_a_process_that_is_never_told_what_to_make_is_gone_with_its_owner() -> None:
+def test_a_worker_that_is_never_given_a_job_ends_with_its_owner() -> None:
     with PartsProcess() as waiting:
         process = psutil.Process(waiting.process)
         assert process.is_running()
@@ -55,11 +55,11 @@ def test_small_parts_come_first_then_pictures_then_makers_files() -> None:
     makers = {work.name for work in plan if work.turn is Turn.LATE}
     assert makers == {f"{name}_for_makers" for name in plan[0].needs}
     kinds = set(plan[0].needs)
-    begun = [work.name for work in sorted(plan, key=lambda work: work.turn) if not work.needs]
-    assert begun[0] == "housing"
-    assert begun[1] not in {"housing", "rotor"}
-    assert set(begun[: len(kinds)]) == kinds  # all others wait for the parts
-    assert begun[len(kinds) - 1] == "rotor"
+    order = [work.name for work in sorted(plan, key=lambda work: work.turn) if not work.needs]
+    assert order[0] == "housing"
+    assert order[1] not in {"housing", "rotor"}
+    assert set(order[: len(kinds)]) == kinds  # all others wait for the parts
+    assert order[len(kinds) - 1] == "rotor"
     plan = build_plan(dimensions(design_of("toy", {})))
     needed = {name for work in plan for name in work.needs if work.name != "plates"}
     late = {work.name for work in plan if work.turn is Turn.LATE}
@@ -78,26 +78,26 @@ DENSITY = 1270.0
 
 
 def test_inertias_are_the_textbook_s_and_halves_make_the_whole() -> None:
-    found = of_solid(cq.Solid.makeBox(30.0, 20.0, 10.0, cq.Vector(5.0, 0.0, 0.0)), DENSITY)
+    properties = of_solid(cq.Solid.makeBox(30.0, 20.0, 10.0, cq.Vector(5.0, 0.0, 0.0)), DENSITY)
     mass, (a, b, c) = DENSITY * 6e-6, (0.03, 0.02, 0.01)
-    assert found.mass == pytest.approx(mass)
-    np.testing.assert_allclose(found.centre, [0.02, 0.01, 0.005])
+    assert properties.mass == pytest.approx(mass)
+    np.testing.assert_allclose(properties.centre, [0.02, 0.01, 0.005])
     np.testing.assert_allclose(
-        found.inertia, np.diag([b**2 + c**2, a**2 + c**2, a**2 + b**2]) * mass / 12.0, atol=1e-15
+        properties.inertia, np.diag([b**2 + c**2, a**2 + c**2, a**2 + b**2]) * mass / 12.0, atol=1e-15
     )
-    found, mesh = of_solid(_wedge(), DENSITY), solid_mesh(_wedge())
+    properties, mesh = of_solid(_wedge(), DENSITY), solid_mesh(_wedge())
     body = trimesh.Trimesh(mesh.vertices * 1e-3, mesh.faces)
     body.density = DENSITY
-    assert found.mass == pytest.approx(body.mass, rel=1e-6)
-    np.testing.assert_allclose(found.centre, body.center_mass, rtol=1e-6)
-    np.testing.assert_allclose(found.inertia, body.moment_inertia, rtol=1e-6)
-    assert np.all(np.abs(found.inertia) > 1e-11)
+    assert properties.mass == pytest.approx(body.mass, rel=1e-6)
+    np.testing.assert_allclose(properties.centre, body.center_mass, rtol=1e-6)
+    np.testing.assert_allclose(properties.inertia, body.moment_inertia, rtol=1e-6)
+    assert np.all(np.abs(properties.inertia) > 1e-11)
     halves = [cq.Solid.makeBox(15.0, 20.0, 10.0, cq.Vector(at, 3.0, -4.0)) for at in (0.0, 15.0)]
     whole = of_solid(cq.Solid.makeBox(30.0, 20.0, 10.0, cq.Vector(0.0, 3.0, -4.0)), DENSITY)
-    found = together(of_solid(half, DENSITY) for half in halves)
-    assert found.mass == pytest.approx(whole.mass)
-    np.testing.assert_allclose(found.centre, whole.centre)
-    np.testing.assert_allclose(found.inertia, whole.inertia, atol=1e-15)
+    properties = together(of_solid(half, DENSITY) for half in halves)
+    assert properties.mass == pytest.approx(whole.mass)
+    np.testing.assert_allclose(properties.centre, whole.centre)
+    np.testing.assert_allclose(properties.inertia, whole.inertia, atol=1e-15)
 
 
 def _wedge() -> cq.Solid:

@@ -110,12 +110,12 @@ def test_work_is_done_in_order_and_only_what_changed_again(run: Run) -> None:
 
 
 def test_work_that_nothing_needs_is_started_last(tmp_path: Path) -> None:
-    begun: list[str] = []
+    order: list[str] = []
     late = replace(STACK, turn=Turn.LATE)
     subject = TrackedDesign(design_of("toy", {}), TITLES)
-    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), begun.append, workers=1)
+    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), order.append, workers=1)
     done = workshop.do([PLATE, late, Work(name="layer", do=thickness)])
-    assert begun == ["1 of 3, plate", "2 of 3, layer", "3 of 3, stack"]
+    assert order == ["1 of 3, plate", "2 of 3, layer", "3 of 3, stack"]
     assert list(done.results) == ["plate", "stack", "layer"]
 
 
@@ -170,7 +170,7 @@ if hasattr(os, "getuid") and os.getuid() == 0:  # only root gives files away
 
 
 @pytest.mark.parametrize("name", DAMAGE)
-def test_what_is_kept_and_damaged_is_made_anew(run: Run, name: str) -> None:
+def test_a_damaged_file_in_the_cache_is_made_again(run: Run, name: str) -> None:
     first = run(PLATE, STACK)
     DAMAGE[name](first.results["plate"].folder)
     again = run(PLATE, STACK)
@@ -180,7 +180,7 @@ def test_what_is_kept_and_damaged_is_made_anew(run: Run, name: str) -> None:
     assert set(run(PLATE, STACK).reused) == {"plate", "stack"}
 
 
-def test_a_damaged_result_is_told(tmp_path: Path) -> None:
+def test_a_damaged_result_is_reported(tmp_path: Path) -> None:
     subject, store = TrackedDesign(design_of("toy", {}), {}), Cache(tmp_path)
     done = WorkerPool(subject, store, lambda _: None).do([PLATE])
     (done.results["plate"].folder / "trace.json").write_text("{}")
@@ -214,7 +214,7 @@ def test_a_child_does_several_pieces_and_a_dead_one_is_replaced(tmp_path: Path) 
     by = {name: text(done, name) for name in "abcd"}
     assert by["a"] == by["b"] != by["c"] == by["d"]
     assert str(os.getpid()) not in by.values()
-    assert not any(psutil.pid_exists(int(one)) for one in by.values())
+    assert not any(psutil.pid_exists(int(number)) for number in by.values())
 
 
 @pytest.mark.gate
@@ -351,18 +351,18 @@ def test_a_second_making_takes_over_everything_and_gives_the_same_files(
 
 
 def test_files_are_handed_out_while_the_next_piece_of_work_is_done(tmp_path: Path) -> None:
-    told: list[str] = []
+    messages: list[str] = []
 
     def made(result: Result) -> None:
-        told.append(f"made {result.folder.parent.name}")
+        messages.append(f"made {result.folder.parent.name}")
 
     subject = TrackedDesign(design_of("toy", {}), TITLES)
-    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), told.append, workers=1, made=made)
+    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), messages.append, workers=1, made=made)
     workshop.do([PLATE, Work(name="layer", do=thickness)])
-    assert told == ["1 of 2, plate", "2 of 2, layer", "made plate", "made layer"]
-    told.clear()
+    assert messages == ["1 of 2, plate", "2 of 2, layer", "made plate", "made layer"]
+    messages.clear()
     workshop.do([PLATE, Work(name="layer", do=thickness)])
-    assert told == ["made plate", "made layer"]
+    assert messages == ["made plate", "made layer"]
 
 
 def test_children_collect_garbage_though_who_forks_them_does_not(run: Run) -> None:

@@ -32,7 +32,7 @@ MM = 1e-3
 
 
 @pytest.fixture(scope="module")
-def rest(blocks: Design) -> dict[str, cq.Solid]:
+def at_rest(blocks: Design) -> dict[str, cq.Solid]:
     """Return the parts at rest; tests replace parts in copies of it."""
     return build(blocks)
 
@@ -68,32 +68,32 @@ def failed(parts: dict[str, cq.Solid], among: str) -> set[str]:
     ],
 )  # fmt: skip
 def test_vanes_blocks_and_pads_stand_where_the_drawing_in_words_says(
-    rest: dict[str, cq.Solid], degrees: float, level: float, expected: str | None
+    at_rest: dict[str, cq.Solid], degrees: float, level: float, expected: str | None
 ) -> None:
-    assert holders(rest, at(18.5, degrees, level)) == ([expected] if expected else [])
+    assert holders(at_rest, at(18.5, degrees, level)) == ([expected] if expected else [])
 
 
-def test_blocks_are_squeezed_into_the_room_of_the_quantity(rest: dict[str, cq.Solid], blocks: Design) -> None:
-    housing = rest["housing"]
+def test_blocks_are_squeezed_into_the_room_of_the_quantity(at_rest: dict[str, cq.Solid], blocks: Design) -> None:
+    housing = at_rest["housing"]
     # Half of 11 mm of width: from 15.75 to 21.25 mm.
     inside = [housing.isInside(at(radius, 30.0, 5.0)) for radius in (13.1, 15.6, 15.9, 21.1, 21.4, 23.9)]
     assert inside == [True, True, False, False, True, True]
-    assert sum(name.startswith("pcl_block") for name in rest) == 12
-    assert sum(kind_of(name) == "heater" for name in rest) == 12
+    assert sum(name.startswith("pcl_block") for name in at_rest) == 12
+    assert sum(kind_of(name) == "heater" for name in at_rest) == 12
     # Springs of 12.02 mm and wire of 2.413 mm at 57 mm reach in to 48.09 mm, and 1 mm is to stay.
     outer = 57.0 - 8.914 - 1.0 - 1e3 * blocks.values["squeezed_block_gap"]
     bulged = sector(13.0, outer, 4.0 / 18.5 - 0.124, 0.4, 12.364)  # up to the stops, 0.02 rad beyond the stroke
-    assert bulged.Volume() == pytest.approx(rest["pcl_block_1"].Volume(), rel=1e-4)
+    assert bulged.Volume() == pytest.approx(at_rest["pcl_block_1"].Volume(), rel=1e-4)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(
-    blocks: Design, rest: dict[str, cq.Solid], side: float
+    blocks: Design, at_rest: dict[str, cq.Solid], side: float
 ) -> None:
     angle = side * 0.104
     parts = build(blocks, angle)
     ahead, behind = ("pcl_block_1", "pcl_block_2") if side > 0.0 else ("pcl_block_2", "pcl_block_1")
-    whole = rest["pcl_block_1"].Volume()
+    whole = at_rest["pcl_block_1"].Volume()
     # 4 mm at 18.5 mm are 0.21622 rad; the vane takes 0.104 of them.
     assert parts[ahead].Volume() == pytest.approx(whole * (1.0 - 0.104 / (4.0 / 18.5)), rel=1e-9)
     assert parts[behind].Volume() == pytest.approx(whole, rel=1e-9)
@@ -106,24 +106,25 @@ def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(
 
 
 @pytest.mark.gate
-def test_blocks_that_do_not_fit_are_found_and_named(rest: dict[str, cq.Solid], blocks: Design) -> None:
-    moved = rest | {"rotor": turned(rest["rotor"], 0.01)}
+def test_blocks_that_do_not_fit_are_found_and_named(at_rest: dict[str, cq.Solid], blocks: Design) -> None:
+    moved = at_rest | {"rotor": turned(at_rest["rotor"], 0.01)}
     assert {f"rotor | pcl_block_{index} here" for index in range(1, 12, 2)} <= failed(moved, "rotor pcl_block")
     moved = build(blocks, 0.05)
-    stiff = moved | {name: solid for name, solid in rest.items() if name.startswith("pcl_block")}
+    stiff = moved | {name: solid for name, solid in at_rest.items() if name.startswith("pcl_block")}
     assert {f"rotor | pcl_block_{index} here" for index in range(1, 12, 2)} == failed(stiff, "rotor pcl_block")
     dims = dimensions(blocks)
     wide = sector(dims.pcl_inner_radius, dims.placement_radius, 0.1, dims.running_clearance, dims.vane_height)
     assert any(
-        name.startswith("pcl_block_1 | spring") for name in failed(rest | {"pcl_block_1": wide}, "pcl_block_1 spring")
+        name.startswith("pcl_block_1 | spring")
+        for name in failed(at_rest | {"pcl_block_1": wide}, "pcl_block_1 spring")
     )
     with pytest.raises(GeometryError, match=r"pcl_block: of 0\.2162 rad, the rotor's vane takes 0\.3 rad"):
         build(blocks, 0.3)
 
 
 @pytest.mark.slow
-def test_a_housing_vane_in_a_pad_is_found(rest: dict[str, cq.Solid]) -> None:
-    moved = rest | {"housing": turned(rest["housing"], 0.01)}
+def test_a_housing_vane_in_a_pad_is_found(at_rest: dict[str, cq.Solid]) -> None:
+    moved = at_rest | {"housing": turned(at_rest["housing"], 0.01)}
     assert {f"housing | heater_{index} here" for index in range(1, 12, 2)} <= failed(moved, "housing heater")
 
 
@@ -142,7 +143,7 @@ def test_what_cannot_be_drawn_names_the_part(blocks: Design, row: str, value: fl
         build(design)
 
 
-def test_corners_of_slots_and_pockets_have_room_for_cutters_and_pads(rest: dict[str, cq.Solid]) -> None:
+def test_corners_of_slots_and_pockets_have_room_for_cutters_and_pads(at_rest: dict[str, cq.Solid]) -> None:
     width = POCKET_WIDTH * 1.5
     pocket = rounded(block((0.0, 10.0), width, 0.0, 4.0), 1.5)
     assert pocket.isValid()
@@ -150,7 +151,7 @@ def test_corners_of_slots_and_pockets_have_room_for_cutters_and_pads(rest: dict[
     with pytest.raises(GeometryError, match="choose a smaller corner_radius"):
         rounded(block((0.0, 10.0), 3.0, 0.0, 4.0), 1.5)
     # It ended where the corner of the slot above stands, half a micrometre beside it: no mesh was found of that.
-    assert min(edge.Length() for edge in rest["housing"].Edges()) > 0.04
+    assert min(edge.Length() for edge in at_rest["housing"].Edges()) > 0.04
     design = design_of("deep corners", {"corner_radius": 1.0 * MM, "slot_corner_offset": -0.5 * MM}, "compression")
     drawn = drawn_parts(dimensions(design))
     volume = next(check for check in size_checks(design, drawn) if check.name == "housing_volume")
@@ -279,11 +280,11 @@ def test_tiles_touch_spreaders_and_seats_over_their_ways_out(name: str) -> None:
 def behind(tile: cq.Solid, housing: cq.Solid, depth: float = 0.01) -> float:
     """Return area [mm^2] of a tile's two large faces that the housing lies behind, to a sliver's depth."""
     faces = sorted(tile.Faces(), key=lambda face: face.Area())[-2:]
-    found = 0.0
+    volume = 0.0
     for face in faces:
         sliver = cq.Solid.extrudeLinear(face.outerWire(), [], face.normalAt() * depth)
-        found += sum(part.Volume() for part in sliver.intersect(housing).Solids()) / depth
-    return found
+        volume += sum(part.Volume() for part in sliver.intersect(housing).Solids()) / depth
+    return volume
 
 
 @pytest.mark.gate
@@ -310,17 +311,17 @@ def test_adhesive_and_a_thermistor_for_each_spreader_are_in_the_list() -> None:
 
 
 @pytest.mark.parametrize(
-    ("mode", "wiring", "said"),
+    ("mode", "wiring", "message"),
     [
         ("shear", "series", "in series"),
         ("shear", "arcs_parallel", "arcs in parallel"),
         ("compression", "vanes_parallel", "vanes in parallel"),
     ],
 )
-def test_the_supply_is_for_the_pads_as_they_are_wired(mode: str, wiring: str, said: str) -> None:
+def test_the_supply_is_for_the_pads_as_they_are_wired(mode: str, wiring: str, message: str) -> None:
     design = design_of("wired", {"shear": TILES, "compression": VANE_TILES}[mode] | {"heater_wiring": wiring}, mode)
     design.values.update(peak_voltage=9.0, peak_current=2.0)
-    assert said in next(item.title for item in beside(design, {}) if item.kind == "supply")
+    assert message in next(item.title for item in beside(design, {}) if item.kind == "supply")
 
 
 @in_vanes

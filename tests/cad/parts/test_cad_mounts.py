@@ -55,10 +55,10 @@ def test_a_motor_goes_together_in_order_and_its_screws_hold(case: str) -> None:
     design = design_of(case, overrides, mode)
     dims = dimensions(design)
     drawn = drawn_parts(dims)
-    found = {check.name: check for check in module_checks(design, dims, drawn)}
-    assert [check.text for check in found.values() if check.level != "pass"] == []
+    checks = {check.name: check for check in module_checks(design, dims, drawn)}
+    assert [check.text for check in checks.values() if check.level != "pass"] == []
     drivers = [f"mount_screw_{index + 1}: driver" for index in range(int(dims.spring_count))]
-    assert {"motor_screw: driver", "motor_screw: thread", "mount_screw: thread", *drivers} <= set(found)
+    assert {"motor_screw: driver", "motor_screw: thread", "mount_screw: thread", *drivers} <= set(checks)
     for kind in ("motor_hub", "motor_housing", "motor_retainer"):
         failed = [check.text for check in part_checks(design, dims, kind, drawn[kind]) if check.level == "failure"]
         assert failed == [], kind
@@ -68,8 +68,8 @@ def test_a_motor_goes_together_in_order_and_its_screws_hold(case: str) -> None:
 def test_a_rotor_that_does_not_clear_its_stator_is_found() -> None:
     design = design_of("driven", DRIVEN)
     wide = design.model_copy(update={"values": design.values | {"motor_rotor_radius": 25.0e-3}})
-    found = [check.name for check in interference_checks(build(wide), "at rest") if not check.ok]
-    assert found == ["motor_rotor | motor_stator at rest"]
+    failed = [check.name for check in interference_checks(build(wide), "at rest") if not check.ok]
+    assert failed == ["motor_rotor | motor_stator at rest"]
 
 
 @pytest.mark.slow
@@ -154,14 +154,14 @@ def test_free_spring_is_the_wire_of_the_model_and_reaches_its_pin(design: Design
 def test_winding_keeps_the_wire_and_the_tang(design: Design) -> None:
     dims = dimensions(design)
     wire = dims.coil_count * hypot(pi * dims.coil_diameter, dims.coil_pitch)
-    rest = installed_coil(dims)
-    assert rest.turns == pytest.approx(dims.coil_count + dims.preload_angle / (2.0 * pi), rel=1e-12)
+    installed = installed_coil(dims)
+    assert installed.turns == pytest.approx(dims.coil_count + dims.preload_angle / (2.0 * pi), rel=1e-12)
     for angle in np.linspace(-dims.stroke, dims.stroke, 5):
         moved = installed_coil(dims, angle)
         assert moved.turns * hypot(pi * moved.diameter, moved.pitch) == pytest.approx(wire, rel=1e-12)
-        assert sin(moved.start_azimuth - rest.start_azimuth) == pytest.approx(0.0, abs=1e-12)
-        assert (moved.turns > rest.turns) == (angle < 0.0)
-    assert rest.end_level == pytest.approx(1e3 * design.values["coil_end_level"], abs=1e-3)
+        assert sin(moved.start_azimuth - installed.start_azimuth) == pytest.approx(0.0, abs=1e-12)
+        assert (moved.turns > installed.turns) == (angle < 0.0)
+    assert installed.end_level == pytest.approx(1e3 * design.values["coil_end_level"], abs=1e-3)
 
 
 def test_leg_lies_against_its_pin_on_the_winding_side(design: Design) -> None:
@@ -284,13 +284,13 @@ def test_liners_lie_in_the_rotor_a_film_from_its_recess_and_turn_with_it(
         polymer = "pcl_arc" if mode == "shear" else "pcl_block"
         assert len(liners) == sum(kind_of(name) == polymer for name in placed)
         volume = 1e9 * design.values["liner_volume"]
-        assert sum(one.Volume() for one in liners) == pytest.approx(volume, rel=1e-6)
-        polar = sum(_polar(one) for one in liners)
+        assert sum(liner.Volume() for liner in liners) == pytest.approx(volume, rel=1e-6)
+        polar = sum(_polar(liner) for liner in liners)
         assert polar * design.values["liner_density"] * 1e-15 == pytest.approx(design.values["liner_inertia"], rel=1e-5)
         assert placed["rotor"].Volume() == pytest.approx(1e9 * design.values["rotor_volume"], rel=1e-5)
-        for one in liners:
-            assert between(one, placed["rotor"]) == 0.0
-            assert between(one, placed["housing"]) == 0.0
+        for liner in liners:
+            assert between(liner, placed["rotor"]) == 0.0
+            assert between(liner, placed["housing"]) == 0.0
     bare = design_of("bare", {name: value for name, value in changes.items() if "liner" not in name}, mode)
     recess = 1e9 * (bare.values["rotor_volume"] - design.values["rotor_volume"])
     wider = _wider(design) if mode == "shear" else 1.0
@@ -383,7 +383,7 @@ def test_it_touches_what_heats_the_block_and_cuts_nothing(changes: Mapping[str, 
     placed, dims = standing(design), dimensions(design)
     bead = placed["thermistor_1"]
     assert bead.distance(placed[touched]) == pytest.approx(0.0, abs=1e-6)
-    assert min(bead.distance(one) for name, one in placed.items() if name.startswith("pcl_block")) < 0.5
+    assert min(bead.distance(part) for name, part in placed.items() if name.startswith("pcl_block")) < 0.5
     assert_sound(design, placed, ("housing_volume", "housing_inertia", "thermistor_volume"))
     below = cq.Solid.makeCylinder(0.5 * dims.thermistor_diameter, 20.0, bead.Center() - cq.Vector(0, 0, 21.3))
     assert below.intersect(placed["housing"]).Volume() == pytest.approx(0.0, abs=1e-6)

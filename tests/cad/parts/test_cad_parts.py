@@ -95,22 +95,22 @@ def test_a_wrong_model_is_found(paper: Design, row: str) -> None:
     assert not all(check.ok for check in size_checks(wrong, build(paper)))
 
 
-def with_rotor(one: str, other: str) -> bool:
+def with_rotor(first: str, other: str) -> bool:
     """Return the pairs with the rotor: booleans of all pairs take three times as long."""
-    return "rotor" in (one, other)
+    return "rotor" in (first, other)
 
 
 @pytest.mark.gate
 def test_legs_pins_and_cores_in_the_way_are_found(paper: Design) -> None:
     parts = build(paper)
     ahead = build(paper, -0.02)["rotor"]  # the rotor winds the right-hand springs, which stay behind
-    found = [check for check in interference_checks(parts | {"rotor": ahead}, "here", with_rotor) if not check.ok]
-    springs = {check.name for check in found if "spring" in check.name}
+    checks = [check for check in interference_checks(parts | {"rotor": ahead}, "here", with_rotor) if not check.ok]
+    springs = {check.name for check in checks if "spring" in check.name}
     assert springs == {"rotor | spring_right_1 here", "rotor | spring_right_3 here"}
     design = design_of("fat core", {"core_radius": 0.021, "leg_overhang": 0.02})
     assert "leg_core_gap" in broken_rules(design)
-    found = [check for check in interference_checks(build(design), "at rest", with_rotor) if not check.ok]
-    assert any(check.name.startswith("rotor | spring") for check in found)
+    checks = [check for check in interference_checks(build(design), "at rest", with_rotor) if not check.ok]
+    assert any(check.name.startswith("rotor | spring") for check in checks)
 
 
 @pytest.mark.parametrize(
@@ -156,11 +156,11 @@ def test_pockets_and_windows_have_the_corners_the_process_leaves(process: str, r
     corners = [face for face in housing.Faces() if face.geomType() == "CYLINDER" and face.Area() < 12.0]
     radii = [face._geomAdaptor().Cylinder().Radius() for face in corners]
     # Four arcs, each with a pocket and a window of four corners.
-    assert len([found for found in radii if found == pytest.approx(radius, rel=1e-6)]) == 32
+    assert len([corner for corner in radii if corner == pytest.approx(radius, rel=1e-6)]) == 32
     assert not [check for check in size_checks(design, build(design)) if not check.ok]
 
 
-def test_parts_that_cut_each_other_are_told_with_volume_and_place() -> None:
+def test_parts_that_cut_each_other_are_reported_with_volume_and_place() -> None:
     block, other = cq.Solid.makeBox(10, 10, 10), cq.Solid.makeBox(10, 10, 10, cq.Vector(8, 6, -4))
     cut, _ = interference_checks({"housing": block, "rotor": other}, "here")
     assert not cut.ok
@@ -176,17 +176,17 @@ def cones(solid: cq.Solid) -> list[cq.Face]:
 @pytest.mark.parametrize("process", ["print_petg", "machine_6061"])
 def test_a_milled_core_has_drill_points_below_its_blind_holes(process: str) -> None:
     dims = dimensions(design_of("points", {"process": process, "corner_radius": 0.5e-3}))
-    found = cones(drawn_part(dims, "rotor"))
+    points = cones(drawn_part(dims, "rotor"))
     if process == "print_petg":
-        assert found == []
+        assert points == []
         return
     # Four screws of the link, the retainer's, and the pins: a cone of 118 degrees is 0.3 diameters high.
-    assert len(found) == 5 + dims.count("dowels_fitted")
-    highest = max(face.BoundingBox().zmax for face in found)
+    assert len(points) == 5 + dims.count("dowels_fitted")
+    highest = max(face.BoundingBox().zmax for face in points)
     tip = dims.core_bottom_level + dims.retainer_screw_depth
     tip += 0.5 * dims.retainer_screw_hole / tan(radians(59.0))
     assert highest == pytest.approx(max(tip, dims.link_bottom_level - dims.link_dowel_depth), abs=1e-6)
-    lowest = min(face.BoundingBox().zmin for face in found)
+    lowest = min(face.BoundingBox().zmin for face in points)
     link_tip = dims.link_bottom_level - dims.link_screw_depth - 0.5 * dims.link_screw_hole / tan(radians(59.0))
     assert lowest == pytest.approx(min(link_tip, dims.core_bottom_level + dims.retainer_screw_depth), abs=1e-6)
 
@@ -210,13 +210,13 @@ def test_volumes_and_inertias_of_milled_parts_count_their_points(changes: dict[s
 def test_the_scale_has_dots_every_thirty_degrees_and_a_mark() -> None:
     dims = dimensions(design_of("scale", BEARINGS))
     is_dot = 0.5 * dims.scale_dot_diameter
-    dots = [one for one in holes(drawn_part(dims, "adjuster")) if one.radius == pytest.approx(is_dot)]
+    dots = [hole for hole in holes(drawn_part(dims, "adjuster")) if hole.radius == pytest.approx(is_dot)]
     tang = atan2(*reversed(installed_coil(dims).tang_position))
-    turns = sorted(round((degrees(atan2(one.y, one.x) - tang) % 360.0), 6) for one in dots)
+    turns = sorted(round((degrees(atan2(dot.y, dot.x) - tang) % 360.0), 6) for dot in dots)
     assert turns == pytest.approx([30.0 * index for index in range(2, 11)])
-    assert min(hypot(one.x, one.y) for one in dots) > 0.5 * (dims.coil_diameter + dims.wire_diameter)
-    assert all(one.top == pytest.approx(0.0) and one.bottom == pytest.approx(-0.4) for one in dots)
-    marks = [one for one in holes(drawn_part(dims, "housing")) if one.radius == pytest.approx(is_dot)]
+    assert min(hypot(dot.x, dot.y) for dot in dots) > 0.5 * (dims.coil_diameter + dims.wire_diameter)
+    assert all(dot.top == pytest.approx(0.0) and dot.bottom == pytest.approx(-0.4) for dot in dots)
+    marks = [hole for hole in holes(drawn_part(dims, "housing")) if hole.radius == pytest.approx(is_dot)]
     assert len(marks) == dims.count("spring_count")
     for azimuth, (x, y) in zip(dims.azimuths("spring_count"), _in_order(marks), strict=True):
         assert (degrees(atan2(y, x) - azimuth) + 180.0) % 360.0 - 180.0 > 0.0
@@ -238,7 +238,7 @@ def test_dots_of_a_scale_leave_no_thin_wall() -> None:
 
 def _in_order(marks: list[Cylinder]) -> list[tuple[float, float]]:
     """Return their places, counted around the axis."""
-    return sorted(((one.x, one.y) for one in marks), key=lambda at: atan2(at[1], at[0]) % 6.283185307179586)
+    return sorted(((mark.x, mark.y) for mark in marks), key=lambda at: atan2(at[1], at[0]) % 6.283185307179586)
 
 
 CAST = {"keyed arc": ("shear", {}), "plain arc": ("shear", {"key_count": 0.0}), "block": ("compression", BLOCKS)}
@@ -309,14 +309,14 @@ def placed(dims: Dimensions) -> dict[str, cq.Solid]:
 def test_pins_fill_their_holes_have_their_size_and_go_in_last(
     design: Design, placed: dict[str, cq.Solid], dims: Dimensions
 ) -> None:
-    found = {check.name: check for check in size_checks(design, placed)}
+    checks = {check.name: check for check in size_checks(design, placed)}
     wanted = ("link_dowel_volume", "rotor_volume", "link_volume", "rotor_inertia", "parts_inertia", "module_mass")
-    assert {name: found[name].ok for name in wanted} == dict.fromkeys(wanted, True)
-    assert max(abs(found[name].value) for name in wanted[:4]) < 1e-9
+    assert {name: checks[name].ok for name in wanted} == dict.fromkeys(wanted, True)
+    assert max(abs(checks[name].value) for name in wanted[:4]) < 1e-9
     names = [name for name in placed if name.startswith("link_dowel")]
     assert len(names) == dims.count("dowels_fitted")
-    kept = {name: placed[name] for name in placed if name in names or name.startswith(("rotor", "link"))}
-    assert [check.name for check in interference_checks(kept, "here") if not check.ok] == []
+    pinned = {name: placed[name] for name in placed if name in names or name.startswith(("rotor", "link"))}
+    assert [check.name for check in interference_checks(pinned, "here") if not check.ok] == []
     top = dims.link_bottom_level + dims.link_thickness
     for name in names:
         box = placed[name].BoundingBox()
@@ -325,7 +325,7 @@ def test_pins_fill_their_holes_have_their_size_and_go_in_last(
         below = cq.Vector(*placed[name].Center().toTuple()[:2], box.zmin - 0.25)
         assert not placed["rotor"].isInside(below)
         assert placed["rotor"].isInside(below - cq.Vector(0, 0, 0.5))
-    order = [one.name for one in sequence(list(placed))]
+    order = [part.name for part in sequence(list(placed))]
     assert sorted(order) == sorted(placed)
     assert order.index("link") < order.index("link_screw_1") < order.index("link_dowel_1")
 
@@ -349,9 +349,9 @@ def test_prints_and_drawings_leave_holes_to_be_reamed(
         lying = as_printed(placed[kind], PRODUCTION[kind], 0.3, reamed)
         sign = -1.0 if PRODUCTION[kind].down == "top" else 1.0
         at = {(round(x, 6), round(sign * y, 6)) for x, y in reamed}
-        kept = [one for one in holes(lying) if any(hypot(one.x - x, one.y - y) < 1e-4 for x, y in at)]
-        assert [one.radius for one in kept] == pytest.approx([0.5 * dims.link_dowel_diameter] * len(reamed))
-        screws = [one.radius for one in holes(lying) if one not in kept]
+        pin_holes = [hole for hole in holes(lying) if any(hypot(hole.x - x, hole.y - y) < 1e-4 for x, y in at)]
+        assert [pin.radius for pin in pin_holes] == pytest.approx([0.5 * dims.link_dowel_diameter] * len(reamed))
+        screws = [hole.radius for hole in holes(lying) if hole not in pin_holes]
         assert all(abs(radius - 0.5 * dims.link_dowel_diameter) > 0.05 for radius in screws)
     for kind in ("rotor", "link"):
         seat = drawing_requirements(kind, dims, design.choices).seats[-1]
@@ -365,9 +365,9 @@ def test_prints_and_drawings_leave_holes_to_be_reamed(
 def test_the_bill_has_the_pins_and_the_adhesive(design: Design, dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     items = bill(design, {"tang_adhesive": "An epoxy"}, placed)
     extra = beside(design, {"tang_adhesive": "An epoxy"})
-    pins = next(one for one in items if one.kind == "link_dowel")
+    pins = next(item for item in items if item.kind == "link_dowel")
     assert (pins.quantity, pins.made) == (dims.count("dowels_fitted"), False)
-    (adhesive,) = (one for one in extra if one.kind == "tang_adhesive")
+    (adhesive,) = (line for line in extra if line.kind == "tang_adhesive")
     assert adhesive.title == "An epoxy"
     assert adhesive.mass == pytest.approx(1e3 * design.value("tang_adhesive_mass"))
     assert b"tang_adhesive" in bill_csv([*items, *extra])
@@ -377,7 +377,7 @@ def test_screws_alone_and_loose_tangs_have_none_of_it() -> None:
     design = design_of("loose", {"link_fit": "clearance", "tang_hold": "hole"})
     dims = dimensions(design)
     assert "link_dowel" not in drawn_parts(dims)
-    assert [one.kind for one in beside(design, {})] == [
+    assert [item.kind for item in beside(design, {})] == [
         "polymer",
         "heater_adhesive",
         "thermistor",

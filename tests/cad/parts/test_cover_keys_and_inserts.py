@@ -59,8 +59,8 @@ def shared(placed: Mapping[str, cq.Shape], *kinds: str) -> dict[str, float]:
     """Return common volume of the pairs of parts of some kinds that share one [mm^3]."""
     solids = {name: shape.Solids()[0] for name, shape in placed.items()}
 
-    def wanted(one: str, other: str) -> bool:
-        return kind_of(one) in kinds or kind_of(other) in kinds
+    def wanted(first: str, other: str) -> bool:
+        return kind_of(first) in kinds or kind_of(other) in kinds
 
     return {check.name: check.value for check in interference_checks(solids, "here", wanted) if not check.ok}
 
@@ -85,7 +85,7 @@ def test_a_cover_has_its_holes_and_is_found_where_it_is_too_tight(dims: Dimensio
     with_none = Dimensions("shear", {**dims.by_name, **listed, "cover_hole_circles.length": 3.0})
     assert len(with_none.holes("cover_hole_circles")) == 2
     vents = Dimensions("shear", {**with_none.by_name, "cover_hole_circles.2.radius": 1.0})
-    plain, vented = (drawn_part(one, "cover") for one in (dims, vents))
+    plain, vented = (drawn_part(sizes, "cover") for sizes in (dims, vents))
     assert plain.Volume() - vented.Volume() == pytest.approx(3 * pi * dims.cover_height, rel=1e-9)
     first = cq.Vector(30.0 * cos(0.1), 30.0 * sin(0.1), dims.rim_level + 0.5 * dims.cover_height)
     assert plain.isInside(first)
@@ -113,9 +113,9 @@ def test_a_screw_that_is_too_short_for_its_insert_is_found(dims: Dimensions, dra
     }  # fmt: skip
     short = Dimensions("shear", {**dims.by_name, "cover_screw_length": 4.0})
     screw = drawn_part(short, "cover_screw")
-    found = {check.part: check for check in thread_checks(dims, {**drawn, "cover_screw": screw})}["cover_screw"]
-    assert (found.level, found.value) == ("warning", pytest.approx(2.5 / 2.0))  # 4 mm less a cover of 1.5 mm
-    assert found.limit == pytest.approx(2.0)
+    bite = {check.part: check for check in thread_checks(dims, {**drawn, "cover_screw": screw})}["cover_screw"]
+    assert (bite.level, bite.value) == ("warning", pytest.approx(2.5 / 2.0))  # 4 mm less a cover of 1.5 mm
+    assert bite.limit == pytest.approx(2.0)
 
 
 def test_a_cutter_comes_into_every_corner_of_a_milled_housing_with_a_cover() -> None:
@@ -126,9 +126,9 @@ def test_a_cutter_comes_into_every_corner_of_a_milled_housing_with_a_cover() -> 
     assert housing.Volume() * 1e-9 == pytest.approx(design.values["housing_volume"], rel=1e-8)
     checks = corner_checks("housing", housing, dims.corner_radius, dims.corner_depth_ratio)
     assert [check.text for check in checks if check.level != "pass"] == []
-    beside = [one for one in round_corners(housing) if one.radius == pytest.approx(dims.cover_corner_radius)]
+    beside = [corner for corner in round_corners(housing) if corner.radius == pytest.approx(dims.cover_corner_radius)]
     assert len(beside) == 8  # two beside each of four bosses
-    assert {round(one.depth, 6) for one in beside} == {round(dims.rim_level, 6)}
+    assert {round(item.depth, 6) for item in beside} == {round(dims.rim_level, 6)}
 
 
 SPRUNG = ("sprung", "sprung bearings", "sprung blocks")
@@ -161,8 +161,8 @@ def test_parts_around_a_wave_spring_fit_their_quantities(sprung: Sprung) -> None
         assert drawn[kind].Volume() * 1e-9 == pytest.approx(design.values[f"{kind}_volume"], rel=1e-9), kind
     assert all(check.ok for check in size_checks(design, parts))
 
-    def near(one: str, other: str) -> bool:
-        return "preload_spring" in {one, other}
+    def near(first: str, other: str) -> bool:
+        return "preload_spring" in {first, other}
 
     assert [check.text for check in interference_checks(parts, "at rest", near) if not check.ok] == []
     box = parts["preload_spring"].BoundingBox()
@@ -190,7 +190,7 @@ def test_parts_stand_frozen_with_room_to_rise_and_come_in_once(sprung: Sprung) -
     else:
         assert dims.hub_bottom_level - parts["retainer"].BoundingBox().zmax == pytest.approx(growth, abs=1e-6)
     names = list(sprung.parts)
-    order = [one.name for one in sequence(names)]
+    order = [part.name for part in sequence(names)]
     assert sorted(order) == sorted(names)
     seat, above = ("bearing_outer_1", "bearing_inner_1") if sprung.case == "sprung bearings" else ("rotor", "retainer")
     assert order.index("preload_spring") < order.index(seat) < order.index(above)

@@ -30,8 +30,8 @@ def quarter_turn(x: float) -> Array:
 def test_copies_of_a_part_share_their_mappers() -> None:
     mesh = block()
     first, second = (actors(mesh, quarter_turn(x), GREEN) for x in (0.0, 50.0))
-    for one, other in zip(first, second, strict=True):
-        assert one.GetMapper() is other.GetMapper()
+    for actor, other in zip(first, second, strict=True):
+        assert actor.GetMapper() is other.GetMapper()
     assert first[0].GetBounds() == pytest.approx((-3.0, 3.0, -1.0, 3.0, -2.0, 6.0))
     assert second[1].GetBounds() == pytest.approx((47.0, 53.0, -1.0, 3.0, -2.0, 6.0))
 
