@@ -38,7 +38,7 @@ _OPTIONS = {
 
 @dataclass(frozen=True)
 class Chosen:
-    """What Bonmin came to."""
+    """Result of Bonmin."""
 
     success: bool
     objective: float
@@ -50,7 +50,7 @@ class Chosen:
 def best_by_bonmin(study: Study, reference: dict[str, float]) -> Chosen:
     """Solve a study of listed sizes from its optimum between them; in a process of its own.
 
-    Bonmin prints a line for each problem whatever it is told, and may end the interpreter where a problem in its tree
+    Bonmin prints a line for each problem whatever its options, and may end the interpreter where a problem in its tree
     does not converge (so it did with `most-fractional` branching): then there is no success.
     """
     try:
@@ -61,7 +61,7 @@ def best_by_bonmin(study: Study, reference: dict[str, float]) -> Chosen:
 
 
 def _alone(study: Study, reference: dict[str, float]) -> Chosen:
-    """What the process of its own does."""
+    """Solve in a process of its own."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     table = table_for(study.mode)
     relaxation = Relaxation(0, Optimizer(study, reference), {}, discrete_sizes(study, table), SolverEffort())
@@ -85,18 +85,21 @@ def _search(optimizer: Optimizer, sizes: Sizes, near: Run) -> Chosen:
         "discrete": [False] * count + [True] * binaries,
     }  # fmt: skip
     solver = ProgrammeSolver(listed.unknown_count, listed.row_count, settings, "bonmin")
-    begin = [near.unknowns, *(_shares_at(near.unknowns[place], one) for place, one in zip(chosen, values, strict=True))]
+    begin = [
+        near.unknowns,
+        *(_shares_at(near.unknowns[place], value) for place, value in zip(chosen, values, strict=True)),
+    ]
     ends, zeros = optimizer.ends({}, objective), np.zeros(2 * len(chosen))
     optimizer.problem.grids = near.grids
     clock = time.process_time()
-    found = solver(
+    solution = solver(
         listed, NEVER, x0=np.concatenate(begin),
         lbx=np.append(ends["lbx"], np.zeros(binaries)), ubx=np.append(ends["ubx"], np.ones(binaries)),
         lbg=np.append(ends["lbg"], zeros), ubg=np.append(ends["ubg"], zeros),
     )  # fmt: skip
-    unknowns = np.asarray(found["x"]).ravel()
+    unknowns = np.asarray(solution["x"]).ravel()
     choices = {name: float(optimizer.free[places[name]].to_value(unknowns[places[name]])) for name in sizes.names}
-    return Chosen(bool(solver.stats()["success"]), float(found["f"]), choices, time.process_time() - clock)
+    return Chosen(bool(solver.stats()["success"]), float(solution["f"]), choices, time.process_time() - clock)
 
 
 class _Listed:

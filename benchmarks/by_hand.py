@@ -57,30 +57,30 @@ class ByHand:
         return self._rows, self._slopes
 
     def objective(self, logs: Array) -> float:
-        """What is least."""
+        """Return the objective."""
         return float(self._weights @ self._at(logs)[0][:OUTPUTS])
 
     def downhill(self, logs: Array) -> Array:
-        """Its slopes."""
+        """Return its slopes."""
         slopes: Array = self._weights @ self._at(logs)[1][:OUTPUTS]
         return slopes
 
     def room(self, logs: Array) -> Array:
-        """What is left of every limit."""
+        """Return what is left of every limit."""
         return -self._at(logs)[0][OUTPUTS:]
 
     def room_slopes(self, logs: Array) -> Array:
-        """Its slopes."""
+        """Return its slopes."""
         return -self._at(logs)[1][OUTPUTS:]
 
 
 def by_hand(begin: Array, lower: Array, upper: Array) -> tuple[Array, int]:
-    """The best design from a start, and how many designs were worked out."""
+    """Return the best design from a start, and how many designs were worked out."""
     written = ByHand()
-    found = minimize(
+    least = minimize(
         written.objective, np.log(begin), jac=written.downhill, method="SLSQP",
         bounds=Bounds(np.log(lower), np.log(upper), keep_feasible=True),
         constraints={"type": "ineq", "fun": written.room, "jac": written.room_slopes},
         options={"maxiter": 300, "ftol": 1e-9},
     )  # fmt: skip
-    return np.exp(found.x), written.evaluations
+    return np.exp(least.x), written.evaluations

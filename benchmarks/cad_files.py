@@ -63,10 +63,10 @@ def plain(design: Path, out: Path) -> None:
             algorithm.Update()
             algorithm.Hide()
             shapes = HLRBRep_HLRToShape(algorithm)
-            for found in (shapes.VCompound(), shapes.OutLineVCompound(), shapes.HCompound()):
-                if found is not None and not found.IsNull():
-                    BRepLib.BuildCurves3d_s(found)
-                    for edge in cq.Shape.cast(found).Edges():
+            for shape in (shapes.VCompound(), shapes.OutLineVCompound(), shapes.HCompound()):
+                if shape is not None and not shape.IsNull():
+                    BRepLib.BuildCurves3d_s(shape)
+                    for edge in cq.Shape.cast(shape).Edges():
                         points = [edge.positionAt(share / 16).toTuple()[:2] for share in range(17)]
                         document.modelspace().add_lwpolyline(points)
         document.saveas(out / f"{kind}.dxf")
@@ -92,7 +92,7 @@ def files_only(design: Path, out: Path) -> None:
     from tvimdesign.cad.jobs.main import run
 
     every = build_plan.build_plan
-    build_plan.build_plan = lambda dims: [one for one in every(dims) if not one.name.startswith(CHECKS)]
+    build_plan.build_plan = lambda dims: [job for job in every(dims) if not job.name.startswith(CHECKS)]
     run(design, out, 90.0, lambda **_: None)
 
 
@@ -104,7 +104,7 @@ def whole(design: Path, out: Path) -> None:
 
 
 ROWS = {"plain": plain, "files_only": files_only, "whole": whole}
-SAID = {
+LABELS = {
     "plain": "plain calls of the kernel",
     "files_only": "tvimdesign, the files",
     "whole": "tvimdesign, the files and all checks",
@@ -112,13 +112,13 @@ SAID = {
 }
 
 
-def timed(row: str, design: Path, kept: str) -> tuple[float, float]:
+def timed(row: str, design: Path, cache: str) -> tuple[float, float]:
     """Processor and wall time [s] of one row in a fresh process; `kept` is the folder of kept results, or none."""
     with tempfile.TemporaryDirectory() as out:
         before, started = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
         subprocess.run(
             [sys.executable, __file__, "--row", "whole" if row == "again" else row, "--out", out, str(design)],
-            check=True, env={**os.environ, "TVIMDESIGN_CACHE": kept, "PYTHONPATH": str(ROOT)},
+            check=True, env={**os.environ, "TVIMDESIGN_CACHE": cache, "PYTHONPATH": str(ROOT)},
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -138,16 +138,16 @@ def main() -> None:
         ROWS[given.row](given.design, given.out)
         return
     best: dict[str, tuple[float, float]] = {}
-    with tempfile.TemporaryDirectory() as kept:
-        design = given.design or write_design(answer(read_study(STUDY)).design, Path(kept) / "design.json")
-        timed("whole", design, kept)
+    with tempfile.TemporaryDirectory() as cache:
+        design = given.design or write_design(answer(read_study(STUDY)).design, Path(cache) / "design.json")
+        timed("whole", design, cache)
         for _ in range(given.runs):
-            for row in SAID:
-                found = timed(row, design, kept if row == "again" else "")
-                best[row] = min(found, best.get(row, found))
+            for row in LABELS:
+                seconds = timed(row, design, cache if row == "again" else "")
+                best[row] = min(seconds, best.get(row, seconds))
     print("| | processor time, s | over plain | wall time, s |\n|---|---|---|---|")
     for row, (used, wall) in best.items():
-        print(f"| {SAID[row]} | {used:.1f} | {used / best['plain'][0]:.2f} | {wall:.1f} |")
+        print(f"| {LABELS[row]} | {used:.1f} | {used / best['plain'][0]:.2f} | {wall:.1f} |")
 
 
 if __name__ == "__main__":

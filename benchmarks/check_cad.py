@@ -1,7 +1,7 @@
 """Opens the files of a module with programs that did not write them: a slicer, and another build of a CAD kernel.
 
 Every 3MF and STL must be manifold as it is and slice; every STEP part must have the volume its own validation property
-states. Both programs are Debian's packages `prusa-slicer` and `gmsh`; where one is not installed, that is said and the
+states. Both programs are Debian's packages `prusa-slicer` and `gmsh`; if one is missing, a line says so and the
 exit code is 3. The kernel in gmsh is OpenCASCADE too, of another version and build: another kernel is in no package.
 """
 
@@ -57,7 +57,7 @@ def main() -> int:
 
 
 def _slicer(path: Path) -> str:
-    """Why a mesh does not slice as it is; nothing where it does."""
+    """Return why a mesh does not slice as it is; nothing where it does."""
     reported = _run(["prusa-slicer", "--info", str(path)])
     facts = dict(line.split(" = ") for line in reported.splitlines() if " = " in line)
     if facts.get("manifold", "").strip() != "yes":
@@ -77,7 +77,7 @@ def _slicer(path: Path) -> str:
 
 
 def _kernel(path: Path) -> str:
-    """Why another kernel reads another part; nothing where it reads the same volume."""
+    """Return why another kernel reads another part; nothing where it reads the same volume."""
     script = (
         f'SetFactory("OpenCASCADE");\nv() = ShapeFromFile("{path.resolve()}");\n'
         'Printf("solids %g", #v());\nPrintf("volume %.12g", Mass Volume{v(0)});\n'

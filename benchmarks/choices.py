@@ -49,7 +49,7 @@ NAMES = {
 
 
 def fewer(study: Study, most: int) -> Study:
-    """The study with lists of at most so many sizes."""
+    """Return the study with lists of at most so many sizes."""
     vary = {}
     for name, listed in study.vary.items():
         step = -(-len(listed.values) // most) if isinstance(listed, Options) else 1
@@ -59,7 +59,7 @@ def fewer(study: Study, most: int) -> Study:
 
 @dataclass(frozen=True)
 class Clocked:
-    """What one way came to, the best objectives first."""
+    """Result of one way, the best objectives first."""
 
     objectives: list[float]
     work: SolverEffort
@@ -71,8 +71,8 @@ def clocked(relaxation: Relaxation, how: str) -> Clocked:
     relaxation.work = SolverEffort()
     begin = time.process_time()
     if how == "each":
-        begun = Begin(relaxation.optimizer.study, None, (), [relaxation])
-        runs = [run for _, block in enumerated_here(begun) for run in block.runs.values()]
+        start = Begin(relaxation.optimizer.study, None, (), [relaxation])
+        runs = [run for _, block in enumerated_here(start) for run in block.runs.values()]
         objectives = sorted(run.start.objective for run in runs)
     elif how == "bonmin":
         chosen = best_by_bonmin(relaxation.optimizer.study, relaxation.optimizer.reference)
@@ -85,12 +85,12 @@ def clocked(relaxation: Relaxation, how: str) -> Clocked:
 
 
 def compare(study: Study, weights: dict[str, float], ways: Sequence[str]) -> str:
-    """One set of weights: a line for each way; the last of them is what the others are held against."""
-    asked = study.model_copy(update={"minimize": weights})
+    """Compare ways for one set of weights: a line for each, with the last as the reference."""
+    weighted = study.model_copy(update={"minimize": weights})
     table = table_for(study.mode)
-    sizes = discrete_sizes(asked, table)
+    sizes = discrete_sizes(weighted, table)
     begin = time.process_time()
-    relaxation = Relaxation(0, Optimizer(asked), {}, sizes, SolverEffort())
+    relaxation = Relaxation(0, Optimizer(weighted), {}, sizes, SolverEffort())
     relaxation.starts()
     built = time.process_time() - begin
     results = {how: clocked(relaxation, how) for how in ways}
@@ -99,14 +99,17 @@ def compare(study: Study, weights: dict[str, float], ways: Sequence[str]) -> str
         f"minimize {', '.join(f'{name} {weight:g}' for name, weight in weights.items())}: {sizes.count} combinations; "
         f"building and {study.solver.starts} starts took {built:.1f} s"
     ]
-    for how, one in results.items():
-        runs, iterations = one.work.warm + one.work.cold, one.work.warm_iterations + one.work.cold_iterations
+    for how, result in results.items():
+        runs, iterations = (
+            result.work.warm + result.work.cold,
+            result.work.warm_iterations + result.work.cold_iterations,
+        )
         count = int(how) if how.isdigit() else 1
-        pairs = zip(one.objectives[:count], best[:count], strict=False)
+        pairs = zip(result.objectives[:count], best[:count], strict=False)
         equal = all(abs(a / b - 1.0) <= SAME for a, b in pairs)
         lines.append(
             f"  {NAMES[how]:30}{runs:7} runs{iterations:8} iterations{iterations / max(runs, 1):6.1f} each"
-            f"{one.seconds:8.1f} s  {one.objectives[0]:.7f} {'equal' if equal else 'NOT EQUAL'}"
+            f"{result.seconds:8.1f} s  {result.objectives[0]:.7f} {'equal' if equal else 'NOT EQUAL'}"
         )
     return "\n".join(lines)
 

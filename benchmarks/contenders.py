@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 
 
 @dataclass
-class Found:
-    """Where a contender ended."""
+class End:
+    """Result of a contender."""
 
     design: Array
     evaluations: int
@@ -41,7 +41,7 @@ class Contender:
     """One way to the optimum, from a start."""
 
     name: str
-    solve: Callable[[Reference, Array], Found]
+    solve: Callable[[Reference, Array], End]
     starts: int
     """How many of the random starts it is given: fewer where one takes minutes."""
     prepare: Callable[[Reference], object] = lambda _: None
@@ -51,36 +51,36 @@ class Contender:
 # --- tvimdesign ---
 
 
-def by_tvimdesign(_: Reference, begin: Array) -> Found:
+def by_tvimdesign(_: Reference, begin: Array) -> End:
     """Build and solve, as `tvimdesign run` does for one start."""
-    asked = study()
+    sought = study()
     device_functions.STRUCTURES.forget()
-    optimizer = Optimizer(asked)
+    optimizer = Optimizer(sought)
     inputs = optimizer.model.start.copy()
     places = [optimizer.model.index[free.name] for free in optimizer.free]
     inputs[places] = begin
     run = optimizer.solve(begin=inputs)
-    return Found(run.inputs[places], run.start.iterations)
+    return End(run.inputs[places], run.start.iterations)
 
 
 class Built:
-    """The same with everything built, as for the second start and every one after it."""
+    """Contender with everything built, as for the second start and every one after it."""
 
     def __init__(self) -> None:
-        """Nothing is built yet."""
+        """Start with nothing built."""
         self._optimizer: Optimizer | None = None
 
     def build(self, reference: Reference) -> None:
         """Build, and solve once, which is when CasADi builds the solver."""
-        asked = study()
-        self._optimizer = Optimizer(asked)
+        sought = study()
+        self._optimizer = Optimizer(sought)
         self.solve(reference, reference.begin)
 
-    def solve(self, reference: Reference, begin: Array) -> Found:
+    def solve(self, reference: Reference, begin: Array) -> End:
         """From a start."""
         assert self._optimizer is not None
         run = self._optimizer.solve(begin=reference.inputs(begin))
-        return Found(run.inputs[reference.places], run.start.iterations)
+        return End(run.inputs[reference.places], run.start.iterations)
 
 
 BUILT = Built()
@@ -89,16 +89,16 @@ BUILT = Built()
 # --- numba ---
 
 
-def hand_written(reference: Reference, begin: Array) -> Found:
+def hand_written(reference: Reference, begin: Array) -> End:
     """Equations written out for numba, with slopes, and SLSQP."""
-    return Found(*by_hand(begin, reference.lower, reference.upper))
+    return End(*by_hand(begin, reference.lower, reference.upper))
 
 
 # --- scipy ---
 
 
 class Event:
-    """What the switch waits for, as scipy takes it: it ends the integration where it passes zero."""
+    """Event of the switch, as scipy takes it: it ends the integration where it passes zero."""
 
     terminal = True
 
@@ -112,29 +112,29 @@ class Event:
 
 
 def lsoda(tolerance: float) -> Callable[[Reference, Array], float]:
-    """The switch by LSODA with the exact Jacobian, stopped at the event."""
+    """Simulate the switch by LSODA with the exact Jacobian, stopped at the event."""
 
     def cycle(reference: Reference, design: Array) -> float:
         heat = reference.heat(design)
-        found = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="LSODA", jac=heat.jacobian, rtol=tolerance,
+        solved = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="LSODA", jac=heat.jacobian, rtol=tolerance,
                           atol=1e-2 * tolerance, events=Event(heat))  # fmt: skip
-        return float(found.t_events[0][0]) if len(found.t_events[0]) else LONGEST
+        return float(solved.t_events[0][0]) if len(solved.t_events[0]) else LONGEST
 
     return cycle
 
 
 def bdf(reference: Reference, design: Array) -> float:
-    """The switch as most would write it: solve_ivp's BDF at 1e-6, no Jacobian."""
+    """Simulate the switch as most would write it: solve_ivp's BDF at 1e-6, no Jacobian."""
     heat = reference.heat(design)
-    found = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="BDF", rtol=1e-6, atol=1e-8, events=Event(heat))
-    return float(found.t_events[0][0]) if len(found.t_events[0]) else LONGEST
+    solved = solve_ivp(heat.rates, (0.0, LONGEST), heat.start, method="BDF", rtol=1e-6, atol=1e-8, events=Event(heat))
+    return float(solved.t_events[0][0]) if len(solved.t_events[0]) else LONGEST
 
 
 class Once:
     """Objective and residuals in the logarithms of the variables; a design asked for again is not simulated again."""
 
     def __init__(self, reference: Reference, cycle: Callable[[Reference, Array], float]) -> None:
-        """Nothing is simulated yet."""
+        """Start with nothing simulated."""
         self.reference, self.cycle = reference, cycle
         self.evaluations = 0
         self._last: tuple[bytes, Array] | None = None
@@ -149,11 +149,11 @@ class Once:
         return self._last[1]
 
     def objective(self, unknowns: Array) -> float:
-        """What is least."""
+        """Return the objective."""
         return float(self.rows(unknowns)[0])
 
     def room(self, unknowns: Array) -> Array:
-        """What is left of every limit, as SLSQP wants it: not below zero."""
+        """Return what is left of every limit, as SLSQP wants it: not below zero."""
         return -self.rows(unknowns)[1:]
 
     def bounds(self) -> Bounds:
@@ -161,34 +161,34 @@ class Once:
         return Bounds(np.log(self.reference.lower), np.log(self.reference.upper), keep_feasible=True)
 
 
-def slsqp(cycle: Callable[[Reference, Array], float], step: float) -> Callable[[Reference, Array], Found]:
+def slsqp(cycle: Callable[[Reference, Array], float], step: float) -> Callable[[Reference, Array], End]:
     """scipy's SLSQP with its finite differences at a step."""
 
-    def solve(reference: Reference, begin: Array) -> Found:
+    def solve(reference: Reference, begin: Array) -> End:
         once = Once(reference, cycle)
-        found = minimize(
+        optimum = minimize(
             once.objective, np.log(begin), method="SLSQP", bounds=once.bounds(),
             constraints={"type": "ineq", "fun": once.room}, options={"maxiter": 300, "ftol": 1e-9, "eps": step},
         )  # fmt: skip
-        return Found(np.exp(found.x), once.evaluations)
+        return End(np.exp(optimum.x), once.evaluations)
 
     return solve
 
 
-def trust_constr(reference: Reference, begin: Array) -> Found:
+def trust_constr(reference: Reference, begin: Array) -> End:
     """scipy's trust-constr with finite differences and BFGS."""
     once = Once(reference, lsoda(1e-8))
-    found = minimize(
+    optimum = minimize(
         once.objective, np.log(begin), method="trust-constr", bounds=once.bounds(),
         constraints=NonlinearConstraint(once.room, 0.0, np.inf), options={"maxiter": 500, "gtol": 1e-7, "xtol": 1e-9},
     )  # fmt: skip
-    return Found(np.exp(found.x), once.evaluations)
+    return End(np.exp(optimum.x), once.evaluations)
 
 
 # --- OpenMDAO ---
 
 
-def openmdao(reference: Reference, begin: Array) -> Found:
+def openmdao(reference: Reference, begin: Array) -> End:
     """OpenMDAO: the switch and the algebra as components with finite differences, SLSQP as driver."""
     import openmdao.api as om
 
@@ -227,7 +227,7 @@ def openmdao(reference: Reference, begin: Array) -> Found:
     problem.setup()
     problem.set_val("unknowns", np.log(begin))
     problem.run_driver()
-    return Found(np.exp(problem.get_val("unknowns")), count["switches"])
+    return End(np.exp(problem.get_val("unknowns")), count["switches"])
 
 
 # --- AeroSandbox ---
@@ -245,7 +245,7 @@ def arrays_of_casadi() -> Iterator[None]:
 
 
 def along_time(function: Any, arguments: Sequence[Any]) -> Any:
-    """A function's arithmetic on Opti's own variables, every number of it a row over the points in time.
+    """Write a function's arithmetic on Opti's own variables, every number of it a row over the points in time.
 
     So AeroSandbox's users write; as a compiled function, mapped over the points, it takes Opti a fifth longer.
     """
@@ -265,7 +265,7 @@ def along_time(function: Any, arguments: Sequence[Any]) -> Any:
         elif len(given) == 1:
             held[to[0]] = ca.MX.unary(code, held[given[0]])
         else:
-            held[to[0]] = ca.MX.binary(code, *(held[one] for one in given))
+            held[to[0]] = ca.MX.binary(code, *(held[operand] for operand in given))
     return ca.vertcat(*rows)
 
 
@@ -275,7 +275,7 @@ def radau(order: int = 5) -> tuple[Array, Array]:
     return np.array(points), np.asarray(ca.collocation_coeff(points)[1])
 
 
-def aerosandbox(reference: Reference, begin: Array) -> Found:
+def aerosandbox(reference: Reference, begin: Array) -> End:
     """AeroSandbox's Opti with Radau collocation written by its user, from a simulated trajectory.
 
     Its user writes the equations as symbols too, of the kind that CasADi has for numpy's functions; which limits hang
@@ -284,7 +284,7 @@ def aerosandbox(reference: Reference, begin: Array) -> Found:
     import aerosandbox as asb
 
     with arrays_of_casadi():
-        written = reference.written_anew()
+        written = reference.written_again()
         phase, algebra = written.phases["softening"], reference.algebra(written)
         rates, gap, initial = phase.rates, phase.watch([reference.event]), phase.initial
     ca.GlobalOptions.setNumpyMode(0)  # AeroSandbox does not know the symbols of the other mode
@@ -310,13 +310,13 @@ def aerosandbox(reference: Reference, begin: Array) -> Found:
     rows = along_time(algebra, [inputs, ca.exp(log_time)])
     opti.subject_to(rows[1:] <= 0)
     opti.minimize(rows[0])
-    found = opti.solve(verbose=False, max_iter=500)
+    solution = opti.solve(verbose=False, max_iter=500)
     ca.GlobalOptions.setNumpyMode(1)
-    return Found(np.exp(np.asarray(found(logs)).ravel()), found.stats()["iter_count"])
+    return End(np.exp(np.asarray(solution(logs)).ravel()), solution.stats()["iter_count"])
 
 
 def _heated(reference: Reference, begin: Array, columns: int) -> Array:
-    """A simulated trajectory to start the collocation from, which its user needs as much as we do."""
+    """Return a simulated trajectory to start the collocation from, which its user needs as much as we do."""
     inputs = reference.inputs(begin)
     trajectory = Simulator(reference.model).run(inputs, phases=["softening"]).trajectory
     return trajectory.at(np.linspace(0.0, 1.0, columns + 1)[1:])

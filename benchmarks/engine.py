@@ -1,4 +1,4 @@
-"""What the engine takes for a study: recording, an evaluation with its gradient, a solve, and steps.
+"""Time of the engine for a study: recording, an evaluation with its gradient, a solve, and steps.
 
 Processor time, in one process; the interpreter is compiled before (once for an installation). Listed numbers are free
 between their ends, and nothing is sought beside the one start.
@@ -77,21 +77,21 @@ def main() -> None:
     """Print a line for each study."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("studies", nargs="*", default=USUAL, help="names of shipped studies, or `all`")
-    parser.add_argument("--repeats", type=int, default=9, help="evaluations of which the median is told")
-    asked = parser.parse_args()
-    names = sorted(path.stem for path in STUDIES.glob("*.yaml")) if asked.studies == ["all"] else asked.studies
+    parser.add_argument("--repeats", type=int, default=9, help="evaluations, for their median")
+    options = parser.parse_args()
+    names = sorted(path.stem for path in STUDIES.glob("*.yaml")) if options.studies == ["all"] else options.studies
     print(f"{'study':28}{'unknowns':>9}{'recorded s':>11}{'evaluation ms':>15}{'solve s':>9}  steps")
     measure("wrist_joint", 1)  # loads what is compiled
     for name in names:
         try:
-            one = measure(name, asked.repeats)
+            measured = measure(name, options.repeats)
         except TvimError as error:
             print(f"{name:28}{error}")
             continue
-        steps = ", ".join(f"{phase} {count}" for phase, count in one.steps.items())
+        steps = ", ".join(f"{phase} {count}" for phase, count in measured.steps.items())
         print(
-            f"{name:28}{one.unknowns:>9}{one.recorded:>11.2f}{1e3 * one.evaluated:>15.2f}"
-            f"{one.solved:>9.3f}  {steps}; {one.iterations} iterations, {one.status}",
+            f"{name:28}{measured.unknowns:>9}{measured.recorded:>11.2f}{1e3 * measured.evaluated:>15.2f}"
+            f"{measured.solved:>9.3f}  {steps}; {measured.iterations} iterations, {measured.status}",
             flush=True,
         )
 

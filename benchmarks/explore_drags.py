@@ -2,7 +2,7 @@
 
 `python benchmarks/explore_drags.py [STUDY] [--drags 100] [--leak 1000]` prints the median and the ninth of ten of the
 time from sending a drag to its answer, for evaluating and for optimising. With `--leak` as many random drags follow,
-the server's and the worker's memory is read before and after, and the last state is held against a fresh evaluation.
+the server's and the worker's memory is read before and after, and the last state is compared with a fresh evaluation.
 """
 
 from __future__ import annotations
@@ -50,42 +50,42 @@ class Hand:
         self.is_refused = False
         table, known = study.table, given(study)
         self.values = {name: from_si(float(known[name]), table.unit(name))
-                       for name, one in study.vary.items() if isinstance(one, Range)}  # fmt: skip
+                       for name, variable in study.vary.items() if isinstance(variable, Range)}  # fmt: skip
         """Where the last module has the variables, in their units."""
         self.undrawn = ""
         """Why the last draft is none."""
         self.seconds_of: dict[str, int] = {}
-        """Processes whose time of the processor is told, by name."""
+        """Processes whose processor time is reported, by name."""
 
     async def until(self, *, stage: str = "", number: int = 0) -> dict[str, Any]:
-        """The next answer of that number or a later one, and of that stage."""
+        """Return the next answer of that number or a later one, and of that stage."""
         while True:
-            told = await self.socket.receive_json()
-            if told["kind"] == "refused":
-                raise RuntimeError(told["words"])
-            if told["kind"] == "draft":  # the drafter may be quicker than the solver
-                self._keep_draft(told)
-            if told["kind"] != "answer":
+            reply = await self.socket.receive_json()
+            if reply["kind"] == "refused":
+                raise RuntimeError(reply["words"])
+            if reply["kind"] == "draft":  # the drafter may be quicker than the solver
+                self._keep_draft(reply)
+            if reply["kind"] != "answer":
                 continue
-            self.number = max(self.number, told["number"])
-            for name, one in told["shown"].get("variables", {}).items():
-                self.values[name] = one["value"]
-            if told["number"] >= number and (not stage or told["shown"]["stage"] == stage):
-                return dict(told)
+            self.number = max(self.number, reply["number"])
+            for name, variable in reply["shown"].get("variables", {}).items():
+                self.values[name] = variable["value"]
+            if reply["number"] >= number and (not stage or reply["shown"]["stage"] == stage):
+                return dict(reply)
 
     async def drafted(self, number: int) -> str:
-        """Why there is no draft of an answer, or none within `_LONGEST`; nothing where it is drawn."""
+        """Return why there is no draft of an answer, or none within `_LONGEST`; nothing where it is drawn."""
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(_LONGEST):
                 while self.last_draft < number:
-                    told = await self.socket.receive_json()
-                    if told["kind"] == "draft":
-                        self._keep_draft(told)
+                    reply = await self.socket.receive_json()
+                    if reply["kind"] == "draft":
+                        self._keep_draft(reply)
         return self.undrawn if self.last_draft >= number else f"no draft within {_LONGEST:g} s"
 
-    def _keep_draft(self, told: dict[str, Any]) -> None:
-        """A drawing, or the words that say why this design, which breaks limits, has none."""
-        self.last_draft, self.undrawn = max(self.last_draft, told["number"]), told.get("words", "")
+    def _keep_draft(self, draft: dict[str, Any]) -> None:
+        """Note a drawing, or why this infeasible design has none."""
+        self.last_draft, self.undrawn = max(self.last_draft, draft["number"]), draft.get("words", "")
 
     async def wait(self, seconds: float) -> None:
         """Do nothing, as a page does that is only looked at."""
@@ -96,16 +96,16 @@ class Hand:
 
     async def drag(self, message: dict[str, Any]) -> tuple[float, dict[str, Any]]:
         """Seconds to the answer of a drag, and the answer."""
-        asked = self.number + 1
+        number = self.number + 1
         began = time.perf_counter()
         await self.socket.send_json({**message, "final": False})
-        told = await self.until(stage="quick", number=asked)
-        self.is_refused = "values" not in told["shown"]
-        return time.perf_counter() - began, told
+        reply = await self.until(stage="quick", number=number)
+        self.is_refused = "values" not in reply["shown"]
+        return time.perf_counter() - began, reply
 
     def variables(self) -> Iterator[dict[str, Any]]:
         """Drags of variables from where the module has them, and back again from where there is no module."""
-        ranges = {name: one for name, one in self.study.vary.items() if isinstance(one, Range)}
+        ranges = {name: variable for name, variable in self.study.vary.items() if isinstance(variable, Range)}
         while True:
             name = self.random.choice(list(ranges))
             unit, before = self.study.table.unit(name), self.values[name]
@@ -119,17 +119,17 @@ class Hand:
 
     def requirements(self) -> Iterator[dict[str, Any]]:
         """Drags of requirements: each goes to and fro by some percent about what the study asks."""
-        names = list(dict.fromkeys(one.output for one in self.study.require))
+        names = list(dict.fromkeys(limit.output for limit in self.study.require))
         moved = dict.fromkeys(names, 0.0)
         while True:
             name = self.random.choice(names)
             before, at = moved[name], moved[name] + self.random.uniform(-1.0, 1.0) * _STEP
             moved[name] = min(max(at, -0.1), 0.1)
             unit = self.study.table.unit(name)
-            own = [one for one in self.study.require if one.output == name]
-            if moved[name] == before or not any(one.limit for one in own):
+            own = [limit for limit in self.study.require if limit.output == name]
+            if moved[name] == before or not any(limit.limit for limit in own):
                 continue
-            texts = [f"{one.sense} {from_si(one.limit, unit) * (1.0 + moved[name]):.9g} {unit}" for one in own]
+            texts = [f"{limit.sense} {from_si(limit.limit, unit) * (1.0 + moved[name]):.9g} {unit}" for limit in own]
             yield {"kind": "require", "name": name, "texts": [text.removesuffix(" 1") for text in texts]}
 
 
@@ -160,17 +160,17 @@ async def measured(study: Path, drags: int, leak: int, compiled: float) -> None:
 
 
 async def _way(hand: Hand, way: str) -> None:
-    asked = hand.number + 1
+    number = hand.number + 1
     await hand.socket.send_json({"kind": "way", "way": way})
-    await hand.until(stage="exact", number=asked)
+    await hand.until(stage="exact", number=number)
 
 
 async def _timed(hand: Hand, what: str, drags: Iterator[dict[str, Any]], count: int, *, drafts: bool = False) -> None:
     times, without, before = [], Counter[str](), _processor(hand)
     for _ in range(count):
         began = time.perf_counter()
-        _, told = await hand.drag(next(drags))
-        words = told["shown"]["status"] if hand.is_refused else await hand.drafted(told["number"]) if drafts else ""
+        _, reply = await hand.drag(next(drags))
+        words = reply["shown"]["status"] if hand.is_refused else await hand.drafted(reply["number"]) if drafts else ""
         if words:
             without[words] += 1
         else:
@@ -186,19 +186,19 @@ async def _timed(hand: Hand, what: str, drags: Iterator[dict[str, Any]], count: 
 
 def _processor(hand: Hand) -> dict[str, float]:
     """Seconds of the processor that each process has taken, the one of server and client among them."""
-    found = {"server and client": time.process_time()}
+    seconds = {"server and client": time.process_time()}
     for name, number in hand.seconds_of.items():
         times = psutil.Process(number).cpu_times()
-        found[name] = times.user + times.system
-    return found
+        seconds[name] = times.user + times.system
+    return seconds
 
 
 def _memory(server: Server) -> dict[str, float]:
     """Megabytes of the server and of its workers, as Linux counts them."""
     assert server.session is not None
     session = server.session
-    found = {"server": os.getpid(), "solver": session.solver.process, "drafter": session.drafter.process}
-    pages = {name: int(Path(f"/proc/{one}/statm").read_text().split()[1]) for name, one in found.items()}
+    processes = {"server": os.getpid(), "solver": session.solver.process, "drafter": session.drafter.process}
+    pages = {name: int(Path(f"/proc/{process}/statm").read_text().split()[1]) for name, process in processes.items()}
     return {name: count * os.sysconf("SC_PAGE_SIZE") / 1e6 for name, count in pages.items()}
 
 
@@ -215,13 +215,13 @@ async def _leak(hand: Hand, server: Server, walks: dict[str, Iterator[dict[str, 
     while hand.is_refused:  # the last is a module, which can be held against another answer
         await hand.drag(last := next(walks["evaluate"]))
     await hand.socket.send_json({**last, "final": True})
-    told = await hand.until(stage="exact", number=hand.number)
+    reply = await hand.until(stage="exact", number=hand.number)
     after = _memory(server)
     state: State = server.session.history.state
     fresh = read_tree(tree_of(server.session.source.tree, state))
     values = answer(fresh).design.values
     exact = [from_si(values[name], fresh.table.unit(name)) for name in value_names(fresh)]
-    pairs = [(a, b) for a, b in zip(told["shown"]["values"], exact, strict=True) if a is not None]
+    pairs = [(a, b) for a, b in zip(reply["shown"]["values"], exact, strict=True) if a is not None]
     worst = max(abs(a - b) / max(abs(b), 1e-9) for a, b in pairs)
     grown = ", ".join(f"{name} {before[name]:.0f} to {after[name]:.0f} MB" for name in before)
     now = server.session.solver.process, server.session.drafter.process
@@ -238,8 +238,8 @@ def main() -> None:
     parser.add_argument("--drags", type=int, default=100)
     parser.add_argument("--leak", type=int, default=0)
     parser.add_argument("--compiled", type=float, default=COMPILED, help="seconds that kernels are given to compile")
-    asked = parser.parse_args()
-    asyncio.run(measured(asked.study, asked.drags, asked.leak, asked.compiled))
+    options = parser.parse_args()
+    asyncio.run(measured(options.study, options.drags, options.leak, options.compiled))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 """A front of thirty designs by tvimdesign and by pymoo's NSGA-II, side by side in one run, by hypervolume.
 
 Both get the study `reference.yaml` and the same compiled equations. NSGA-II evaluates a whole generation at once
-through the compiled kernels, which is what a good user of it would do, with pymoo's own handling of the limits; its
-best generation counts, and has more designs in it than the front it is held against. One run of it simulates its
+through the compiled kernels, as a good user of it would do, with pymoo's own handling of the limits; its
+best generation counts, and has more designs in it than the front it is compared with. One run of it simulates its
 switches one by one instead, by LSODA. Hypervolumes are of outputs between the ends of tvimdesign's front, up to a tenth
 beyond the far ends, and of both by the kernels' own values. Beside them stand thirty single solves: the goals of the
 front's own points, each sought cold from the study's start.
@@ -37,7 +37,7 @@ POINTS = 30
 BEYOND = 0.1
 """How far beyond the far ends of the front the corner lies that hypervolumes are measured from."""
 SHARES = (0.95, 0.99, 1.0)
-"""Of tvimdesign's hypervolume: when NSGA-II comes to each is told."""
+"""Of tvimdesign's hypervolume: the table shows when NSGA-II comes to each."""
 LOOKS = 1.02
 """Growth of the count of generations from one look at the hypervolume to the next; looking is not timed."""
 
@@ -46,7 +46,7 @@ class ManyDesigns:
     """Outputs and residuals of whole generations, one column a design, by the compiled kernels."""
 
     def __init__(self, reference: Reference, outputs: tuple[str, ...], pace: float) -> None:
-        """Compile. `pace` is about how long a good switch takes [s]: NSGA-II is told what only an optimiser knows."""
+        """Compile. `pace` is about how long a good switch takes [s]: NSGA-II gets what only an optimiser knows."""
         model, names = reference.model, [free.name for free in reference.free]
         self.count = len(outputs)
         self._limits = reference.limits
@@ -68,10 +68,10 @@ class ManyDesigns:
 
 
 class OneByOne:
-    """The same, each switch by LSODA with the exact Jacobian: what most would write who have no kernels."""
+    """Evaluation with each switch by LSODA with the exact Jacobian, as without kernels."""
 
     def __init__(self, reference: Reference, outputs: tuple[str, ...]) -> None:
-        """Nothing is compiled that the reference problem has not compiled."""
+        """Compile nothing that the reference problem has not compiled."""
         self.count = len(outputs)
         self._reference, self._event = reference, outputs.index(reference.event)
         self._others = Quick(reference.model.outputs([name for name in outputs if name != reference.event]))
@@ -79,10 +79,10 @@ class OneByOne:
 
     def __call__(self, designs: Array) -> tuple[Array, Array]:
         """Outputs and residuals."""
-        found = [self._one(design) for design in designs.T]
-        return np.array([one[0] for one in found]).T, np.array([one[1] for one in found]).T
+        rows = [self._outputs_and_residuals(design) for design in designs.T]
+        return np.array([row[0] for row in rows]).T, np.array([row[1] for row in rows]).T
 
-    def _one(self, design: Array) -> tuple[Array, Array]:
+    def _outputs_and_residuals(self, design: Array) -> tuple[Array, Array]:
         rows = self._reference.rows(design, LONGEST)[1:]
         if not np.all(np.isfinite(rows)):  # no such module
             return np.full(self.count, LONGEST), np.full(len(rows) + 1, 10.0)
@@ -94,7 +94,7 @@ class OneByOne:
 
 @dataclass(frozen=True)
 class Ours:
-    """What tvimdesign came to."""
+    """Result of tvimdesign."""
 
     front: Front
     designs: Array
@@ -113,16 +113,16 @@ class Ours:
 
 def ours(reference: Reference, outputs: tuple[str, ...], points: int) -> Ours:
     """Seek the front as `tvimdesign run` does, and its points' goals one by one from the study's start."""
-    asked, built = study(), []
+    sought, built = study(), []
 
     def keep(optimizer: Optimizer, runs: list[Run]) -> None:
         built.append((optimizer, runs))
 
     began = time.process_time()
-    solution = optimize(asked, keep=keep, objectives=outputs)
-    found = time.process_time()
+    solution = optimize(sought, keep=keep, objectives=outputs)
+    solved_at = time.process_time()
     optimizer, runs = built[0]
-    front = trace_front(Tradeoff(asked, solution, optimizer, runs), outputs, points)
+    front = trace_front(Tradeoff(sought, solution, optimizer, runs), outputs, points)
     done = time.process_time()
     alone = [optimizer.solve(begin=optimizer.model.start, objective=point.objective) for point in front.points]
     last = time.process_time()
@@ -130,7 +130,7 @@ def ours(reference: Reference, outputs: tuple[str, ...], points: int) -> Ours:
         optimizer.simulator.run(run.inputs, run.current_profiles)
     checked = time.process_time()
     designs = np.array([[point.values[free.name] for free in reference.free] for point in front.points]).T
-    return Ours(front, np.ascontiguousarray(designs), found - began, done - found, last - done,
+    return Ours(front, np.ascontiguousarray(designs), solved_at - began, done - solved_at, last - done,
                 checked - done, sum(not run.start.converged for run in alone))  # fmt: skip
 
 
@@ -152,7 +152,7 @@ class Volume:
 
 @dataclass
 class Evolution:
-    """How far NSGA-II had come, look by look."""
+    """Progress of NSGA-II, look by look."""
 
     seconds: list[float]
     evaluations: list[int]
@@ -160,8 +160,8 @@ class Evolution:
 
     def reached(self, volume: float) -> tuple[float, int] | None:
         """Processor time [s] and evaluations to a hypervolume; None where it was stopped before."""
-        for seconds, evaluations, found in zip(self.seconds, self.evaluations, self.volumes, strict=True):
-            if found >= volume:
+        for seconds, evaluations, covered in zip(self.seconds, self.evaluations, self.volumes, strict=True):
+            if covered >= volume:
                 return seconds, evaluations
         return None
 
@@ -181,15 +181,15 @@ def nsga2(
     from pymoo.termination import get_termination
 
     class Module(Problem):
-        def _evaluate(self, unknowns: Array, found: dict[str, Any], *_: Any, **__: Any) -> None:
+        def _evaluate(self, unknowns: Array, out: dict[str, Any], *_: Any, **__: Any) -> None:
             outputs, residuals = many(np.ascontiguousarray(np.exp(unknowns).T))
-            found["F"], found["G"] = outputs.T, residuals.T
+            out["F"], out["G"] = outputs.T, residuals.T
 
     low, high = np.log(reference.lower), np.log(reference.upper)
     problem = Module(n_var=len(low), n_obj=many.count, n_ieq_constr=len(reference.limits) + 1, xl=low, xu=high)
     algorithm = NSGA2(pop_size=population)
     algorithm.setup(problem, termination=get_termination("n_gen", 10**9), seed=seed, verbose=False)
-    found, best, spent = Evolution([], [], []), 0.0, 0.0
+    evolution, best, spent = Evolution([], [], []), 0.0, 0.0
     looks = _looks()
     look, generation = next(looks), 0
     while spent < longest:
@@ -200,14 +200,14 @@ def nsga2(
         if generation < look and spent < longest:
             continue
         look = next(looks)
-        found.seconds.append(spent)
-        found.evaluations.append(algorithm.evaluator.n_eval)
-        kept = algorithm.pop.get("CV").ravel() <= 0.0
-        best = max(best, volume(algorithm.pop.get("F")[kept]))
-        found.volumes.append(best)
-        if found.volumes[-1] >= enough:
+        evolution.seconds.append(spent)
+        evolution.evaluations.append(algorithm.evaluator.n_eval)
+        feasible = algorithm.pop.get("CV").ravel() <= 0.0
+        best = max(best, volume(algorithm.pop.get("F")[feasible]))
+        evolution.volumes.append(best)
+        if evolution.volumes[-1] >= enough:
             break
-    return found
+    return evolution
 
 
 def _looks() -> Iterator[int]:
@@ -218,7 +218,7 @@ def _looks() -> Iterator[int]:
 
 
 def compare(outputs: tuple[str, ...], populations: list[int], seeds: int, longest: float, points: int) -> str:
-    """One set of outputs: tvimdesign, single solves, and NSGA-II with several populations and seeds."""
+    """Compare tvimdesign, single solves, and NSGA-II with several populations and seeds, for one set of outputs."""
     reference = Reference(study())
     mine = ours(reference, outputs, points)
     shown = mine.front
@@ -248,7 +248,7 @@ def compare(outputs: tuple[str, ...], populations: list[int], seeds: int, longes
     def evolved(name: str, many: ManyDesigns | OneByOne, population: int, seeds: int) -> None:
         runs = [nsga2(reference, many, volume, population, seed, longest, whole) for seed in range(1, seeds + 1)]
         for share in SHARES:
-            there = sorted(one for run in runs if (one := run.reached(share * whole)))
+            there = sorted(reached_at for run in runs if (reached_at := run.reached(share * whole)))
             reported = f"{name} to {share:.0%}, {len(there)} of {seeds} seeds there"
             if len(there) > seeds // 2:  # the middle one of all seeds, whether they came to it or not
                 seconds, evaluations = there[seeds // 2]
@@ -273,12 +273,12 @@ def main() -> None:
     parser.add_argument("--of", type=int, nargs="+", default=[2, 3], help="counts of outputs that are traded")
     parser.add_argument("--out", type=Path, help="Markdown file to write the tables to")
     chosen = parser.parse_args()
-    said = []
-    for outputs in (one for one in OUTPUTS if len(one) in chosen.of):
-        said.append(compare(outputs, chosen.populations, chosen.seeds, chosen.longest, chosen.points))
-        print("\n" + said[-1] + "\n", flush=True)
+    comparisons = []
+    for outputs in (chosen_outputs for chosen_outputs in OUTPUTS if len(chosen_outputs) in chosen.of):
+        comparisons.append(compare(outputs, chosen.populations, chosen.seeds, chosen.longest, chosen.points))
+        print("\n" + comparisons[-1] + "\n", flush=True)
     if chosen.out:
-        chosen.out.write_text("\n\n".join(said) + "\n", encoding="utf-8")
+        chosen.out.write_text("\n\n".join(comparisons) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

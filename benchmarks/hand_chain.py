@@ -1,7 +1,7 @@
 """Linear equations of the chain of cells that `hand_switch.py` steps through, by hand for numba.
 
 The chain is tridiagonal; thirteen bodies, the middle of the pads' legs, the mean temperature of the plate and that of
-the hot side once more are bordered onto it, of which seven touch it (`TOUCHING`). Order: cold side, hot side, cells of
+the hot side once more are bordered onto it; seven of them touch it (`TOUCHING`). Order: cold side, hot side, cells of
 the layer, cells of the plate; beside the plate three bodies from its edge on and the core; around the pads three
 bodies of their height from the edge on, three below those, the ledges, the corner next to the hot sides, the rest of
 the housing; the legs' middle; the mean of the plate's cells; the hot side.

@@ -187,10 +187,10 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
         flow = on
     for n in range(LINKS):
         a, b = JOINED[n]
-        one, other = bodies[a], bodies[b]
-        passed = q[CONDUCTS + n] * (one - other)
+        near, other = bodies[a], bodies[b]
+        passed = q[CONDUCTS + n] * (near - other)
         if n >= LINKS - 3:
-            passed += q[CONDUCTS + n + 3] * BLACK * (one**4 - other**4)
+            passed += q[CONDUCTS + n + 3] * BLACK * (near**4 - other**4)
         gain[a] -= passed
         gain[b] += passed
     lose(bodies, q, gain)
@@ -285,10 +285,10 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
             _, from_here, from_there, _ = to_wall(i, warm[first], half, contact + plate, p)
         else:
             from_here, from_there = 0.5 / plate, -0.5 / plate
-        one = capacity if i == 1 else (mass if i < first else heat)
+        divisor = capacity if i == 1 else (mass if i < first else heat)
         other = mass if i + 1 < first else heat
-        a[1, i] -= from_here / one
-        a[2, i] -= from_there / one
+        a[1, i] -= from_here / divisor
+        a[2, i] -= from_there / divisor
         a[0, i + 1] += from_here / other
         a[1, i + 1] += from_there / other
     last = warm[CHAIN - 1]

@@ -66,7 +66,7 @@ numbers for the switch.
 
 @njit(cache=True)
 def corner(r: float, circle: float, side: float) -> float:
-    """What a fillet takes from a corner of an annular sector: inside its outer arc (side 1), outside its inner (-1)."""
+    """Return what a fillet takes from a sector's corner: inside the outer arc (1), outside the inner (-1)."""
     along = math.sqrt((circle - side * r) ** 2 - r**2)
     centre = math.asin(r / (circle - side * r))
     return side * 0.5 * (circle**2 * centre - along * r) - 0.5 * r**2 * (0.5 * PI + side * centre)

@@ -40,7 +40,7 @@ INTO_SLOT, BEFORE_SLOT, K_AIR, ZETA_3, HOUSING_AIR = 0.2619, 0.27993, 0.028, 1.2
 
 @njit(cache=True)
 def along_cold_sides(share: float, width: float) -> float:
-    """What heat has to pass along the pads' cold side to a share of it, times the length of the pads' edges [m K/W]."""
+    """Return the resistance along the pads' cold side to a share of it, times the length of the pads' edges [m K/W]."""
     mean = math.sqrt(K_PAD * K_UP)
     sheet, depth = K_PAD * PAD / (12.0 * mean * width), 10.0 / 12.0 * PAD * math.sqrt(K_PAD / K_UP) / width
     fall = 0.0
@@ -57,12 +57,12 @@ def beside(x: Array, heat: Array) -> None:
     area, t, windows, outer = heat[1], heat[2], heat[5], x[4]
     rotor, inside = outer + RIM, x[3] + math.sqrt(0.25 * x[1] ** 2 + (BEND * x[0]) ** 2) + 0.5 * x[0] + RADIAL
     edge = ARCS * (2.0 * (outer - INNER) + x[5] * (INNER + outer))
-    rest, web, per_volume = PI * rotor**2 - area, FLOOR - PAD, RHO_PETG * C_PETG
+    bare, web, per_volume = PI * rotor**2 - area, FLOOR - PAD, RHO_PETG * C_PETG
     way, ledge = area / edge / 3.0, area - windows
     slim = area / edge * math.sqrt(0.5 * (K_SOLID + K_MELT) / t / (K_PETG * ROTOR))
     over = area / edge * (1.0 / (slim * math.tanh(slim)) - slim**-2.0)
-    own = np.array([share * rest / edge for share in STRIP])
-    wide = rest / edge
+    own = np.array([share * bare / edge for share in STRIP])
+    wide = bare / edge
     half = WAYS[0] * wide
     # heat capacities and surfaces, in the order of hand_chain
     for i in range(3):

@@ -80,7 +80,7 @@ STEP_OF = 1e-6
 
 @njit(cache=True)
 def step(y: Array, h: float, q: Array, moved: Array, lengths: Array, s: Array, work: Array, sensitive: bool) -> float:
-    """One step of SDIRK2 in place; returns how far the far face is from its target."""
+    """Take a step of SDIRK2 in place; return how far the far face is from its target."""
     begin, base = work[9 + 2 * ROWS], work[10 + 2 * ROWS]
     begin[:] = y
     old = s.copy() if sensitive else s
@@ -130,13 +130,13 @@ def cycle(q: Array, moved: Array, slopes: Array, sensitive: bool) -> float:
         y[:] = before
         fixed[:] = length
         fixed[FREE] = length + STEP_OF
-        found = step(y, length, q, moved, fixed, s, work, False)
-        if abs(found) < THERE:
+        distance = step(y, length, q, moved, fixed, s, work, False)
+        if abs(distance) < THERE:
             break
-        if found < 0.0:
-            low, low_gap, high_gap = length, found, 0.5 * high_gap
+        if distance < 0.0:
+            low, low_gap, high_gap = length, distance, 0.5 * high_gap
         else:
-            high, high_gap, low_gap = length, found, 0.5 * low_gap
+            high, high_gap, low_gap = length, distance, 0.5 * low_gap
     if sensitive:
         y[:], s[:] = before, old
         step(y, length, q, moved, fixed, s, work, True)
@@ -149,7 +149,7 @@ def cycle(q: Array, moved: Array, slopes: Array, sensitive: bool) -> float:
 
 @njit(cache=True)
 def slope_of_gap(y: Array, q: Array, moved: Array, s: Array, work: Array, gaps: Array) -> None:
-    """What the far face moves by with each variable, and with the length of the last step."""
+    """Return the far face's derivative by each variable, and with the length of the last step."""
     p, f = work[:6], work[6]
     for k in range(FREE + 1):
         ends = np.empty(2)

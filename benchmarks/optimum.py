@@ -1,4 +1,4 @@
-"""The same optimum found by tvimdesign and by what people would write instead, side by side in one run.
+"""One optimum by tvimdesign and by what people would write instead, side by side in one run.
 
 Every contender gets the study `reference.yaml`: eight variables, its requirements and the machine's limits, the sum of
 envelope volume, mass and response time, each over its value at the start. All are given the same compiled equations
@@ -21,7 +21,7 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
-from contenders import CONTENDERS, Contender, Found, lsoda
+from contenders import CONTENDERS, Contender, End, lsoda
 from numpy.typing import NDArray
 from reference_problem import Reference, study
 
@@ -34,7 +34,7 @@ QUICK, AGAIN = 2.0, 5
 
 @dataclass
 class Row:
-    """What a contender came to."""
+    """Result of a contender."""
 
     name: str
     seconds: float
@@ -55,33 +55,31 @@ def exact(reference: Reference, design: Array) -> tuple[float, float]:
     return float(rows[0]), float(np.max(rows[1:]))
 
 
-def timed(reference: Reference, contender: Contender) -> tuple[Found, float]:
-    """Where a contender ends from the study's own start, and its processor time [s]."""
+def timed(reference: Reference, contender: Contender) -> tuple[End, float]:
+    """Return a contender's result from the study's own start, and its processor time [s]."""
     begin = time.process_time()
-    found = contender.solve(reference, reference.begin)
-    return found, time.process_time() - begin
+    end = contender.solve(reference, reference.begin)
+    return end, time.process_time() - begin
 
 
 def judged(reference: Reference, contender: Contender, best: float | None) -> tuple[Row, float]:
     """Run a contender from the study's start, timed, then from random ones."""
     contender.prepare(reference)
-    found, seconds = timed(reference, contender)
+    end, seconds = timed(reference, contender)
     if seconds < QUICK:
         seconds = median(timed(reference, contender)[1] for _ in range(AGAIN))
-    objective, broken = exact(reference, found.design)
+    objective, broken = exact(reference, end.design)
     best = objective if best is None else best
     right = 0
     for start in reference.random_starts(contender.starts):
         with contextlib.suppress(Exception):  # a contender that gives up has not found it
             value, worst = exact(reference, contender.solve(reference, start).design)
             right += abs(value / best - 1.0) <= TOLERANCE and worst <= TOLERANCE
-    return Row(
-        contender.name, seconds, found.evaluations, objective / best - 1.0, broken, right, contender.starts
-    ), best
+    return Row(contender.name, seconds, end.evaluations, objective / best - 1.0, broken, right, contender.starts), best
 
 
 def table(rows: list[Row]) -> str:
-    """The rows as Markdown."""
+    """Return the rows as Markdown."""
     lines = [
         "| contender | times tvimdesign | evaluations | objective off by | worst limit | random starts right |",
         "|---|---|---|---|---|---|",

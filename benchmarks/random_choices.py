@@ -45,7 +45,7 @@ NAMED = re.compile(r"module\.(\w+)|^(\w+) is")
 
 
 class Ended(NamedTuple):
-    """What came of a draw."""
+    """Result of a draw."""
 
     draw: int
     seed: int
@@ -61,12 +61,12 @@ class Ended(NamedTuple):
 
 
 def words_of(choice: Choice) -> list[str]:
-    """All that a choice may be."""
+    """Return the words of a choice."""
     return [*choice.options, *(Catalog().names(choice.category) if choice.category else [])]
 
 
 def drawn_study(draw: random.Random) -> Study:
-    """A shipped study with random choices; raises InputError where the reader refuses them."""
+    """Return a shipped study with random choices; raise InputError where the reader refuses them."""
     name = draw.choice(BASES)
     text: dict[str, Any] = yaml.safe_load((STUDIES / f"{name}.yaml").read_text(encoding="utf-8"))
     module = text.setdefault("module", {})
@@ -83,7 +83,7 @@ def drawn_study(draw: random.Random) -> Study:
 
 
 def drawn(index: int, seed: int, inspect: bool) -> Design | Ended:
-    """The design to build of a draw, or why there is none."""
+    """Return the design to build of a draw, or why there is none."""
     try:
         draws = Draws(drawn_study(random.Random(1000 * seed + index)), seed=index)
     except InputError as error:
@@ -103,34 +103,34 @@ def run(draws: Iterable[int], seed: int, inspect: bool, hands: int) -> Iterator[
 
     def designs() -> Iterator[Design]:
         for index in draws:
-            one = drawn(index, seed, inspect)
-            if isinstance(one, Ended):
-                unbuilt.append(one)
+            draw = drawn(index, seed, inspect)
+            if isinstance(draw, Ended):
+                unbuilt.append(draw)
             else:
-                indices[one.name] = index
-                yield one
+                indices[draw.name] = index
+                yield draw
 
-    for one in built(designs(), inspect, hands):
+    for end in built(designs(), inspect, hands):
         yield from unbuilt
         unbuilt.clear()
-        yield Ended(indices[one.design.name], seed, inspect, "built", "", one.wrong, list(one.warned), one.seconds)
+        yield Ended(indices[end.design.name], seed, inspect, "built", "", end.wrong, list(end.warned), end.seconds)
     yield from unbuilt
 
 
 def ended_before(path: Path | None) -> list[Ended]:
-    """What earlier calls wrote to a file."""
+    """Return what earlier calls wrote to a file."""
     lines = path.read_text(encoding="utf-8").splitlines() if path and path.exists() else []
     return [Ended(**json.loads(line)) for line in lines]
 
 
-def told(ended: Sequence[Ended]) -> str:
+def summary(ended: Sequence[Ended]) -> str:
     """Counts of all draws, and each fault."""
-    of = {how: [one for one in ended if one.how == how] for how in ("refused", "ruled", "built")}
-    faults = [f"    draw {one.draw} of seed {one.seed}: {fault}" for one in of["built"] for fault in one.faults]
+    of = {how: [draw for draw in ended if draw.how == how] for how in ("refused", "ruled", "built")}
+    faults = [f"    draw {draw.draw} of seed {draw.seed}: {fault}" for draw in of["built"] for fault in draw.faults]
     counts = {
-        "refused": Counter(one.by for one in of["refused"]),
-        "rule most broken": Counter(one.by for one in of["ruled"]),
-        "warnings": Counter(name for one in of["built"] for name in one.warnings),
+        "refused": Counter(draw.by for draw in of["refused"]),
+        "rule most broken": Counter(draw.by for draw in of["ruled"]),
+        "warnings": Counter(name for draw in of["built"] for name in draw.warnings),
     }
     rows = [f"  {title}: {', '.join(f'{name} {n}' for name, n in count.most_common()) or 'none'}"
             for title, count in counts.items()]  # fmt: skip
@@ -147,20 +147,20 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--hands", type=int, default=os.cpu_count() or 1, help="designs that are built at once")
     parser.add_argument("--inspect", action="store_true", help="also walls, overhang, order of assembly ...")
     parser.add_argument("--out", type=Path, help="file to which each draw is appended; those in it are not drawn again")
-    asked = parser.parse_args(arguments)
-    if asked.out:
-        asked.out.parent.mkdir(parents=True, exist_ok=True)
-    ended = ended_before(asked.out)
-    done = {one.draw for one in ended if (one.seed, one.inspected) == (asked.seed, asked.inspect)}
-    for one in run(
-        (index for index in range(asked.draws) if index not in done), asked.seed, asked.inspect, asked.hands
+    options = parser.parse_args(arguments)
+    if options.out:
+        options.out.parent.mkdir(parents=True, exist_ok=True)
+    ended = ended_before(options.out)
+    done = {past.draw for past in ended if (past.seed, past.inspected) == (options.seed, options.inspect)}
+    for draw in run(
+        (index for index in range(options.draws) if index not in done), options.seed, options.inspect, options.hands
     ):
-        ended.append(one)
-        if asked.out:
-            with asked.out.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(one._asdict()) + "\n")
-    print(told(ended))
-    return int(any(one.faults for one in ended))
+        ended.append(draw)
+        if options.out:
+            with options.out.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(draw._asdict()) + "\n")
+    print(summary(ended))
+    return int(any(past.faults for past in ended))
 
 
 if __name__ == "__main__":

@@ -52,7 +52,7 @@ SILENCE_LIMIT = 30.0 * TIME_LIMIT
 
 @dataclass
 class Tally:
-    """What came of all draws."""
+    """Result of all draws."""
 
     drawn: int = 0
     refused: Counter[str] = field(default_factory=Counter)
@@ -67,7 +67,7 @@ class Tally:
 
 
 class Built(NamedTuple):
-    """What came of building a design."""
+    """Result of building a design."""
 
     design: Design
     wrong: list[str]
@@ -93,23 +93,23 @@ class Draws:
 
     def keeping_rules(self, count: int, tally: Tally) -> Iterator[Design]:
         """Draw until `count` designs keep every rule; those that do not are counted by what they break."""
-        found = 0
-        while found < count:
+        count_kept = 0
+        while count_kept < count:
             if tally.drawn >= _MOST:
-                raise RuntimeError(f"{self.study.name}: of {tally.drawn} draws only {found} keep the rules")
+                raise RuntimeError(f"{self.study.name}: of {tally.drawn} draws only {count_kept} keep the rules")
             drawn = self._draw(_CHUNK)
-            kept = self._keeping(drawn, tally)
-            for index in kept[: count - found]:
+            feasible = self._keeping(drawn, tally)
+            for index in feasible[: count - count_kept]:
                 yield self._design({name: float(values[index]) for name, values in drawn.items()}, int(index))
-            found += len(kept)
+            count_kept += len(feasible)
 
     def first(self, tally: Tally) -> Design | None:
-        """The first design of one chunk that keeps every rule; None where none does."""
+        """Return the first design of one chunk that keeps every rule; None where none does."""
         drawn = self._draw(_CHUNK)
-        kept = self._keeping(drawn, tally)
-        if not kept.size:
+        feasible = self._keeping(drawn, tally)
+        if not feasible.size:
             return None
-        return self._design({name: float(values[kept[0]]) for name, values in drawn.items()}, int(kept[0]))
+        return self._design({name: float(values[feasible[0]]) for name, values in drawn.items()}, int(feasible[0]))
 
     def _draw(self, count: int) -> dict[str, NDArray[np.float64]]:
         drawn = {}
@@ -138,7 +138,7 @@ class Draws:
         return np.flatnonzero(keeps)
 
     def _design(self, drawn: dict[str, float], index: int) -> Design:
-        """A design with every number that follows from its inputs alone."""
+        """Return a design with every number that follows from its inputs alone."""
         known: dict[str, Any] = self._known | drawn
         visible = [row.name for row in self._rows if not row.hidden]
         values = {name: float(value) for name, value in known.items() if isinstance(value, int | float)}
@@ -152,11 +152,11 @@ class Draws:
 
 
 def _is_plain(row: Output, table: Table) -> bool:
-    """Whether a row follows from the inputs alone, without an operating point and without a simulation."""
+    """Return whether a row follows from the inputs alone, without an operating point and without a simulation."""
     behind = [table.by_name[name] for name in (row.name, *table.ancestors(row.name)) if name in table.by_name]
     return not any(
-        isinstance(one, (*Supplied, Simulated)) or getattr(one, "per_point", False) or getattr(one, "instant", False)
-        for one in behind
+        isinstance(name, (*Supplied, Simulated)) or getattr(name, "per_point", False) or getattr(name, "instant", False)
+        for name in behind
     )
 
 
@@ -227,11 +227,11 @@ def _child(design: Design, inspect: bool, mouth: Connection) -> None:
 def run(study: Study, count: int, seed: int, inspect: bool = False, hands: int = 1) -> Tally:
     """Draw, refuse, build and check, `hands` designs at once."""
     tally = Tally()
-    for one in built(Draws(study, seed).keeping_rules(count, tally), inspect, hands):
+    for outcome in built(Draws(study, seed).keeping_rules(count, tally), inspect, hands):
         tally.built += 1
-        tally.failed += [f"{one.design.name}: {text}" for text in one.wrong]
-        tally.warned.update(one.warned)
-        tally.seconds += one.seconds
+        tally.failed += [f"{outcome.design.name}: {text}" for text in outcome.wrong]
+        tally.warned.update(outcome.warned)
+        tally.seconds += outcome.seconds
     return tally
 
 
@@ -249,27 +249,27 @@ def built(designs: Iterable[Design], inspect: bool, hands: int) -> Iterator[Buil
         child.start()
         mouth.close()
         at_work.append((design, child, ear, time.monotonic()))
-    for one in at_work:
-        yield _settled(*one)
+    for worker in at_work:
+        yield _settled(*worker)
 
 
 def _settled(design: Design, child: Any, ear: Connection, started: float) -> Built:
     """Take in what a child found, or end it when it has had its time."""
-    found = Built(design, [f"no answer in {TIME_LIMIT:g} s of the processor, or {SILENCE_LIMIT:g} s by the clock"])
+    outcome = Built(design, [f"no answer in {TIME_LIMIT:g} s of the processor, or {SILENCE_LIMIT:g} s by the clock"])
     try:
         if _answers(child, ear, started):
-            found = Built(design, *ear.recv())
+            outcome = Built(design, *ear.recv())
     except EOFError:
         child.join()
-        found = Built(design, [f"its process ended with code {child.exitcode}"])
+        outcome = Built(design, [f"its process ended with code {child.exitcode}"])
     child.kill()
     child.join()
-    print(f"{design.name}: {'; '.join(found.wrong) or 'sound'}", file=sys.stderr, flush=True)
-    return found
+    print(f"{design.name}: {'; '.join(outcome.wrong) or 'sound'}", file=sys.stderr, flush=True)
+    return outcome
 
 
 def _answers(child: Any, ear: Connection, started: float) -> bool:
-    """Whether a child answers, or ends, before it has had its time of the processor, or is silent for too long."""
+    """Return whether a child answers, or ends, before its processor time is over, or it is silent for too long."""
     while not ear.poll(1.0):
         if time.monotonic() - started > SILENCE_LIMIT or _processor_time(child) > TIME_LIMIT:
             return ear.poll()
@@ -293,11 +293,13 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--hands", type=int, default=os.cpu_count() or 1, help="designs that are built at once")
     parser.add_argument("--inspect", action="store_true", help="also walls, overhang, order of assembly ...")
     parser.add_argument("--slivers", action="store_true", help="walls and slots of made parts alone")
-    asked = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
     failed = False
-    for path in asked.studies or [STUDIES / "wrist_joint.yaml", STUDIES / "wrist_compression.yaml"]:
-        study, many, seed = read_study(path), asked.designs, asked.seed
-        tally = measured(study, many, seed) if asked.slivers else run(study, many, seed, asked.inspect, asked.hands)
+    for path in options.studies or [STUDIES / "wrist_joint.yaml", STUDIES / "wrist_compression.yaml"]:
+        study, many, seed = read_study(path), options.designs, options.seed
+        tally = (
+            measured(study, many, seed) if options.slivers else run(study, many, seed, options.inspect, options.hands)
+        )
         each = tally.seconds / max(1, tally.built)
         print(
             f"{path.stem}: {tally.drawn} drawn, {tally.built} that keep the rules built, {each:.1f} s of processor each"

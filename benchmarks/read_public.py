@@ -35,11 +35,11 @@ def main() -> None:
         for path in sorted(
             path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.stat().st_size
         ):
-            said = outcome(path)
-            counts[path.suffix.lower(), said.partition(":")[0]] += 1
-            print(f"{path}: {said}")
-    for (ending, said), count in sorted(counts.items()):
-        print(f"{ending}: {count} {said}")
+            text = outcome(path)
+            counts[path.suffix.lower(), text.partition(":")[0]] += 1
+            print(f"{path}: {text}")
+    for (ending, text), count in sorted(counts.items()):
+        print(f"{ending}: {count} {text}")
 
 
 if __name__ == "__main__":

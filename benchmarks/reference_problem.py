@@ -1,6 +1,6 @@
 """The problem that all optimisers of `optimum.py` are given: one study, and its equations as plain functions.
 
-Every contender gets the same compiled equations from here; what differs is how the optimiser is told of them, how the
+Every contender gets the same compiled equations from here; what differs is how the optimiser gets them, how the
 switch is integrated, and where derivatives come from.
 """
 
@@ -36,19 +36,19 @@ SIZES = {
 
 
 def study(cells: int | None = None) -> Study:
-    """The reference study, with another count of cells where asked."""
+    """Return the reference study, with another count of cells if requested."""
     read = read_study(STUDY)
     solver = read.solver.model_copy(update={"cells": cells or read.solver.cells})
     return read.model_copy(update={"solver": solver})
 
 
 def study_of_sizes() -> Study:
-    """The reference study with wire, coils, springs and arcs listed; all else may be any."""
-    asked = yaml.safe_load(STUDY.read_text(encoding="utf-8"))
-    asked["vary"] |= SIZES
+    """Return the reference study with wire, coils, springs and arcs listed; all else may be any."""
+    tree = yaml.safe_load(STUDY.read_text(encoding="utf-8"))
+    tree["vary"] |= SIZES
     with TemporaryDirectory() as folder:
         file = Path(folder) / STUDY.name
-        file.write_text(yaml.safe_dump(asked), encoding="utf-8")
+        file.write_text(yaml.safe_dump(tree), encoding="utf-8")
         return read_study(file)
 
 
@@ -66,15 +66,15 @@ class Heat:
 class Reference:
     """The study's functions: algebra (objective and residuals given the time), and the heat equation."""
 
-    def __init__(self, asked: Study) -> None:
+    def __init__(self, sought: Study) -> None:
         """Compile them once; no contender is charged for it but tvimdesign, which builds its own."""
-        self.optimizer = Optimizer(asked)
+        self.optimizer = Optimizer(sought)
         model, problem = self.optimizer.model, self.optimizer.problem
         self.model, self.limits, self.free = model, problem.limits, self.optimizer.free
         self.places = [model.index[free.name] for free in self.free]
         self.lower, self.upper = (np.array([getattr(free, end) for free in self.free]) for end in ("lower", "upper"))
         self.begin = model.start[self.places]
-        self.weights = {name: w / self.optimizer.reference[name] for name, w in asked.minimize.items()}
+        self.weights = {name: w / self.optimizer.reference[name] for name, w in sought.minimize.items()}
         (self.event,) = problem.events
         self.phase = model.phases["softening"]
         self._state, self._inputs = ca.SX.sym("state", self.phase.state_size), ca.SX.sym("inputs", len(model.names))
@@ -83,7 +83,7 @@ class Reference:
         self._heat = self._heat_functions()
 
     def algebra(self, model: DeviceFunctions) -> Any:
-        """The function (inputs, time) -> objective, then every limit's residual, kept where <= 0."""
+        """Return the function (inputs, time) -> objective, then every limit's residual, kept where <= 0."""
         wanted = list(dict.fromkeys([*self.weights, *(limit.output for limit in self.limits)]))
         time = ca.SX.sym("time")
         cycle = ca.vertcat(*(time if name == self.event else np.nan for name in model.switch_names))
@@ -92,8 +92,8 @@ class Reference:
         rows = [limit.residual(values[wanted.index(limit.output)]) for limit in self.limits]
         return ca.Function("algebra", [self._inputs, time], [ca.vertcat(objective, *rows)])
 
-    def written_anew(self) -> DeviceFunctions:
-        """The model as symbols of CasADi's own arrays, nothing of it written yet: how its users write equations."""
+    def written_again(self) -> DeviceFunctions:
+        """Return the model as symbols of CasADi's own arrays, with nothing written: how its users write equations."""
         known = self.model
         given = {**dict(zip(known.names, known.start.tolist(), strict=True)), **known.words}
         STRUCTURES.forget()
@@ -112,13 +112,13 @@ class Reference:
         return rates_of, slope_of, gap_of
 
     def inputs(self, design: Array) -> Array:
-        """The device's inputs with the eight variables at a design."""
-        found = self.model.start.copy()
-        found[self.places] = design
-        return found
+        """Return the device's inputs with the eight variables at a design."""
+        inputs = self.model.start.copy()
+        inputs[self.places] = design
+        return inputs
 
     def heat(self, design: Array) -> Heat:
-        """The initial-value problem of a design."""
+        """Return the initial-value problem of a design."""
         inputs = self.inputs(design)
         start = np.asarray(self.phase.initial(inputs)).ravel()
         rates, slope, gap = self._heat
@@ -140,12 +140,12 @@ class Reference:
         """
         random = np.random.default_rng(1)
         low, high = np.log(self.lower), np.log(self.upper)
-        found: list[Array] = []
-        while len(found) < count:
+        starts: list[Array] = []
+        while len(starts) < count:
             design = np.exp(random.uniform(low, high))
             if self._is_one(design):
-                found.append(design)
-        return found
+                starts.append(design)
+        return starts
 
     def _is_one(self, design: Array) -> bool:
         inputs, known = self.inputs(design), self.optimizer.multistart.cycle

@@ -1,7 +1,7 @@
 """A whole shelf searched: the best three of some 50,000 combinations of heater, process, steel, wire and counts.
 
 In both modes, from the study files beside this one, or from others. `--prove` solves every combination as well, which
-takes hours here; tests hold shorter lists against enumeration.
+takes hours here; tests compare shorter lists with enumeration.
 """
 
 from __future__ import annotations
@@ -19,14 +19,17 @@ SHELVES = (HERE / "shelf.yaml", HERE / "shelf_compression.yaml")
 
 
 def searched(study: Study) -> str:
-    """One study: its status, the time, the best combinations, and what became of the others."""
+    """Report a study: its status, the time, the best combinations, and the counts of the others."""
     began, busy = time.perf_counter(), time.process_time()
     solution = optimize(study)
     seconds, of_processor = time.perf_counter() - began, time.process_time() - busy
     choosing = solution.choosing
     assert choosing is not None
     lines = [f"{study.name}: {solution.status}, {seconds:.1f} s, {of_processor:.1f} s of the processor"]
-    lines += [f"  {one.objective:.6f}  {', '.join(map(_shown, one.choices.values()))}" for one in choosing.best]
+    lines += [
+        f"  {candidate.objective:.6f}  {', '.join(map(_shown, candidate.choices.values()))}"
+        for candidate in choosing.best
+    ]
     return "\n".join([*lines, f"  {tally_in_words(choosing)}"])
 
 
@@ -40,15 +43,15 @@ def main() -> None:
     parser.add_argument("studies", type=Path, nargs="*", default=SHELVES, help="studies in place of the two shelves")
     parser.add_argument("--prove", action="store_true", help="solve every combination as well")
     parser.add_argument("--out", type=Path, help="text file to write the lines to")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     reported = []
-    for path in asked.studies:
+    for path in options.studies:
         study = read_study(path)
-        solver = study.solver.model_copy(update={"prove": asked.prove})
+        solver = study.solver.model_copy(update={"prove": options.prove})
         reported.append(searched(study.model_copy(update={"solver": solver})))
         print(reported[-1], flush=True)
-    if asked.out:
-        asked.out.write_text("\n".join(reported) + "\n", encoding="utf-8")
+    if options.out:
+        options.out.write_text("\n".join(reported) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ class Contender:
     processor: list[float] = field(default_factory=list)
 
     def drag(self, key: str) -> None:
-        """One key on the slider, and the time to its answer."""
+        """Press a key on the slider, and time its answer."""
         self.slider.focus()
         before = _seconds(self.process)
         self.page.evaluate(DRAG)
@@ -79,13 +79,13 @@ class Contender:
 def _seconds(process: subprocess.Popen[str]) -> float:
     """Seconds of the processor that a server and its children have taken."""
     top = psutil.Process(process.pid)
-    times = [one.cpu_times() for one in (top, *top.children(recursive=True))]
-    return sum(one.user + one.system for one in times)
+    times = [member.cpu_times() for member in (top, *top.children(recursive=True))]
+    return sum(spent.user + spent.system for spent in times)
 
 
 @contextmanager
 def explorer(study: Path, browser: Browser) -> Iterator[Contender]:
-    """The explorer, in the way of evaluating."""
+    """Open the explorer, in the way of evaluating."""
     with tempfile.TemporaryDirectory() as folder:
         more = ["explore", str(study), "--out", f"{folder}/out", "--no-open", "--port", "0"]
         process = subprocess.Popen([sys.executable, "-m", "tvimdesign", *more], stdout=subprocess.PIPE, text=True)
@@ -104,7 +104,7 @@ def explorer(study: Path, browser: Browser) -> Iterator[Contender]:
 
 @contextmanager
 def rival(name: str, study: Path, browser: Browser) -> Iterator[Contender]:
-    """A slider written with another library."""
+    """Open a slider written with another library."""
     command = [sys.executable, str(Path(__file__).with_name("slider_servers.py")), name, str(study)]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     try:
@@ -140,19 +140,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("study", nargs="?", type=Path, default=ROOT / "tests/studies/paper_shear.yaml")
     parser.add_argument("--drags", type=int, default=60)
-    asked = parser.parse_args()
+    options = parser.parse_args()
     with sync_playwright() as play, ExitStack() as stack:
         browser = play.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
-        contenders = [stack.enter_context(explorer(asked.study, browser))]
-        contenders += [stack.enter_context(rival(name, asked.study, browser)) for name in SERVERS]
-        for i in range(asked.drags):
-            for one in contenders:
-                one.page.bring_to_front()
-                one.drag("ArrowRight" if i % 6 < 3 else "ArrowLeft")
-        for one in contenders:
-            wall, ninth = statistics.median(one.clock), statistics.quantiles(one.clock, n=10)[8]
-            own, most = statistics.median(one.processor), statistics.quantiles(one.processor, n=10)[8]
-            print(f"{one.name:8} key to text: median {wall:.0f} ms, nine of ten under {ninth:.0f} ms; processor: "
+        contenders = [stack.enter_context(explorer(options.study, browser))]
+        contenders += [stack.enter_context(rival(name, options.study, browser)) for name in SERVERS]
+        for i in range(options.drags):
+            for contender in contenders:
+                contender.page.bring_to_front()
+                contender.drag("ArrowRight" if i % 6 < 3 else "ArrowLeft")
+        for contender in contenders:
+            wall, ninth = statistics.median(contender.clock), statistics.quantiles(contender.clock, n=10)[8]
+            own, most = statistics.median(contender.processor), statistics.quantiles(contender.processor, n=10)[8]
+            print(f"{contender.name:8} key to text: median {wall:.0f} ms, nine of ten under {ninth:.0f} ms; processor: "
                   f"median {own:.0f} ms a drag, nine of ten under {most:.0f} ms", flush=True)  # fmt: skip
 
 

@@ -37,15 +37,16 @@ class Module:
         self._engine.wait()
 
     def text(self, value: float) -> str:
-        """What is shown of it: violated limits and all values."""
+        """Return the text of an answer: violated limits and all values."""
         state = State(way="evaluate", at={**self._source.first.at, VARIABLE: f"{value:.7g} {self.unit}"})
         with self.lock:
             shown = self._engine.answer(state, "quick").shown
-        return f"{value:.7g}: {sum(one['stands'] == 'violated' for one in shown['limits'])} violated; {shown['values']}"
+        violated = sum(check["stands"] == "violated" for check in shown["limits"])
+        return f"{value:.7g}: {violated} violated; {shown['values']}"
 
 
 def trame(module: Module, port: int) -> None:
-    """A range input bound to a state variable; a change computes the text."""
+    """Serve a range input bound to a state variable; a change computes the text."""
     from trame.app import get_server
     from trame.ui.html import DivLayout
     from trame.widgets import html
@@ -67,7 +68,7 @@ def trame(module: Module, port: int) -> None:
 
 
 def panel(module: Module, port: int) -> None:
-    """A slider bound to a function whose text is shown."""
+    """Serve a slider bound to a function whose text is shown."""
     import panel
 
     def page() -> object:
@@ -80,16 +81,16 @@ def panel(module: Module, port: int) -> None:
 
 
 def free_port() -> int:
-    """A port nobody listens on."""
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return int(one.getsockname()[1])
+    """Return a free port."""
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        return int(listener.getsockname()[1])
 
 
 SERVERS: dict[str, Callable[[Module, int], None]] = {"trame": trame, "panel": panel}
 
 if __name__ == "__main__":
-    asked, study_file = sys.argv[1:]
+    library, study_file = sys.argv[1:]
     module_of_study, at_port = Module(Path(study_file)), free_port()
     print(f"http://127.0.0.1:{at_port}/", flush=True)
-    SERVERS[asked](module_of_study, at_port)
+    SERVERS[library](module_of_study, at_port)

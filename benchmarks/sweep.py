@@ -37,14 +37,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--study", type=Path, default=STUDY)
     parser.add_argument("--designs", type=int, default=1 << 20)
-    asked = parser.parse_args()
-    study = read_study(asked.study)
+    options = parser.parse_args()
+    study = read_study(options.study)
     table = table_for(study.mode)
     known = given(study)
     model = DeviceFunctions(table, known, tuple(study.operating_points), study.solver.cells)
-    arithmetic(model, asked.designs)
+    arithmetic(model, options.designs)
     for event in ("far_face_time", "softening_time"):
-        cycle(model, event, min(asked.designs, 1 << 14))
+        cycle(model, event, min(options.designs, 1 << 14))
 
 
 def _columns(model: DeviceFunctions, names: list[str], count: int, width: float) -> np.ndarray:
@@ -52,7 +52,7 @@ def _columns(model: DeviceFunctions, names: list[str], count: int, width: float)
     return np.array([[model.start[model.index[name]]] for name in names]) * drawn
 
 
-def _told(name: str, count: int, do: Callable[[], object]) -> None:
+def _report_rate(name: str, count: int, do: Callable[[], object]) -> None:
     cpu, wall = time.process_time(), time.perf_counter()
     do()
     cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
@@ -60,7 +60,7 @@ def _told(name: str, count: int, do: Callable[[], object]) -> None:
 
 
 def arithmetic(model: DeviceFunctions, count: int) -> None:
-    """The rows that are arithmetic."""
+    """Time the rows that are arithmetic."""
     places = [(0, model.index[name]) for name in MOVING]
     function = of_columns(model.outputs(OUTPUTS), [model.start, np.ones(len(model.switch_names))], places)
     began = time.perf_counter()
@@ -78,19 +78,19 @@ def arithmetic(model: DeviceFunctions, count: int) -> None:
     def arrays() -> None:
         model.table.evaluate({**known, **dict(zip(MOVING, some, strict=True))}, OUTPUTS)
 
-    _told("the table's floats, a Python loop", few.shape[1], loop)
-    _told("the table on numpy arrays", some.shape[1], arrays)
+    _report_rate("the table's floats, a Python loop", few.shape[1], loop)
+    _report_rate("the table on numpy arrays", some.shape[1], arrays)
     mapped = function.map(some.shape[1])
-    _told("Function.map", some.shape[1], lambda: np.asarray(mapped(some)))
+    _report_rate("Function.map", some.shape[1], lambda: np.asarray(mapped(some)))
     out = kernel(columns)
-    _told("tape, one thread", count, lambda: kernel(columns))
-    _told("tape, two threads", count, lambda: kernel(columns, workers=2))
+    _report_rate("tape, one thread", count, lambda: kernel(columns))
+    _report_rate("tape, two threads", count, lambda: kernel(columns, workers=2))
     expected = np.asarray(function(ca.DM(few)))
     print(f"{'largest difference from CasADi':56s} {np.max(np.abs(out[:, :500] / expected - 1.0)):14.1e}")
 
 
 def cycle(model: DeviceFunctions, event: str, count: int) -> None:
-    """The softening switch, its full heat model included."""
+    """Time the softening switch, its full heat model included."""
     simulator = Simulator(model)
     began = time.perf_counter()
     kernel = CycleKernel(model, OF_SWITCH, [event])
@@ -100,7 +100,7 @@ def cycle(model: DeviceFunctions, event: str, count: int) -> None:
     pace = Pace({**ends, "softening": nominal.values[event]}, nominal.balances)
     pace = kernel.fitted(pace, model.start[[model.index[name] for name in OF_SWITCH]])
     columns = _columns(model, OF_SWITCH, count, 0.02)
-    found = kernel(columns, pace)[0]
+    kernel_times = kernel(columns, pace)[0]
     few = 20
     times = np.empty(few)
 
@@ -110,10 +110,11 @@ def cycle(model: DeviceFunctions, event: str, count: int) -> None:
             inputs[[model.index[name] for name in OF_SWITCH]] = columns[:, i]
             times[i] = simulator.run(inputs, phases=["softening"]).values[event]
 
-    _told("the simulator, one by one", few, one_by_one)
-    _told("steps, one thread", count, lambda: kernel(columns, pace))
-    _told("steps, two threads", count, lambda: kernel(columns, pace, workers=2))
-    print(f"{'largest difference from the simulator':56s} {100.0 * np.max(np.abs(found[:few] / times - 1.0)):13.3f} %")
+    _report_rate("the simulator, one by one", few, one_by_one)
+    _report_rate("steps, one thread", count, lambda: kernel(columns, pace))
+    _report_rate("steps, two threads", count, lambda: kernel(columns, pace, workers=2))
+    largest = 100.0 * np.max(np.abs(kernel_times[:few] / times - 1.0))
+    print(f"{'largest difference from the simulator':56s} {largest:13.3f} %")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What a sweep costs beside its cells: processor time of every process of it, scaling, a resume, bytes a cell.
+"""Cost of a sweep beside its cells: processor time of every process of it, scaling, a resume, bytes a cell.
 
     python benchmarks/sweep_cells.py [--cells 2000] [--workers 2] [--task evaluate|optimize|cold] [--set NAME=VALUE]
 
@@ -24,7 +24,7 @@ _INERTIA = "{{from: <= 90 kg.mm^2, to: <= 100 kg.mm^2, count: {}}}"
 
 
 def study_of(task: str, cells: int) -> str:
-    """A study with a grid of so many cells, or a few more."""
+    """Return a study with a grid of so many cells, or a few more."""
     text = (ROOT / "tests/studies/paper_shear.yaml").read_text()
     if task == "cold":
         return f"{text}\nsweep: {{over: {{require.parts_inertia: {_INERTIA.format(cells)}}}}}\n"
@@ -47,11 +47,11 @@ def sweep(study: Path, out: Path, *words: str) -> tuple[dict[str, float], float,
     before, began = processor(), time.perf_counter()
     command = [sys.executable, "-m", "tvimdesign", "sweep", str(study), "--out", str(out), "--json", *words]
     done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT)
-    found: dict[str, float] = json.loads(done.stdout)["run"]
-    return found, time.perf_counter() - began, processor() - before
+    run: dict[str, float] = json.loads(done.stdout)["run"]
+    return run, time.perf_counter() - began, processor() - before
 
 
-def told(cells: int, workers: int, task: str, more: list[str], folder: Path) -> None:
+def report_sweep(cells: int, workers: int, task: str, more: list[str], folder: Path) -> None:
     """Run the sweep and resume it, and print every row."""
     study, out = folder / "study.yaml", folder / "out"
     study.write_text(study_of(task, cells))
@@ -87,10 +87,10 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--task", choices=("evaluate", "optimize", "cold"), default="evaluate")
     parser.add_argument("--set", action="append", default=[], help="of the study, as for the command")
-    asked = parser.parse_args()
-    more = [word for setting in asked.set for word in ("--set", setting)]
+    options = parser.parse_args()
+    more = [word for setting in options.set for word in ("--set", setting)]
     with tempfile.TemporaryDirectory(prefix="sweep-cells-") as folder:
-        told(asked.cells, asked.workers, asked.task, more, Path(folder))
+        report_sweep(options.cells, options.workers, options.task, more, Path(folder))
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ LADDER = [10.0 ** (-0.5 * k) for k in range(4, 25)]  # relative tolerances from 
 
 @dataclass(frozen=True)
 class Equations:
-    """The same initial-value problem in one form or another, as scipy takes it."""
+    """Initial-value problem in one form or another, as scipy takes it."""
 
     start: Array
     rates: Callable[[float, Array], Any]
@@ -77,9 +77,9 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     """Write the equations as a user of numpy and scipy would: floats through `physics.heat`, a state as an array."""
     numbers = {name: float(value) for name, value in zip(model.names, model.start, strict=True)}
     known = {**model.words, **numbers, "rotor_cells": int(numbers["rotor_cells"])}
-    found = model.table.evaluate(known, [*SETTLED, "layer_polar_moment", "joint_impedance@hot"])
-    stack, moment = found["stack"], found["layer_polar_moment"]
-    target, soft = numbers["target_temperature"], numbers["softening_band"] * found["joint_impedance@hot"]
+    values = model.table.evaluate(known, [*SETTLED, "layer_polar_moment", "joint_impedance@hot"])
+    stack, moment = values["stack"], values["layer_polar_moment"]
+    target, soft = numbers["target_temperature"], numbers["softening_band"] * values["joint_impedance@hot"]
     current, frequency, phase = numbers["current"], numbers["frequency@hot"], model.phases["softening"].phase
 
     def rates(_: float, state: Array) -> Any:
@@ -87,7 +87,9 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
 
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
-        m = Module(phase=phase, stack_profile=now, stack_now=stack, frequency_now=frequency, moment_now=moment, **found)
+        m = Module(
+            phase=phase, stack_profile=now, stack_now=stack, frequency_now=frequency, moment_now=moment, **values
+        )
         for function in AT_AN_INSTANT:
             setattr(m, function.__name__, function(m))
         mean = np.mean(now.cells)
@@ -115,7 +117,7 @@ def compiled(model: DeviceFunctions) -> Equations:
 
 
 def _called(function: Quick, inputs: Array) -> Callable[[float, Array], Array]:
-    """A function of (state, inputs) as scipy calls it; time plays no part."""
+    """Return a function of (state, inputs) as scipy calls it; time plays no part."""
     return lambda _, state: function(state, inputs)
 
 
@@ -143,11 +145,11 @@ def by_scipy(equations: Equations, method: str) -> Callable[[float], Array]:
 
     def solve(tolerance: float) -> Array:
         latest[0] = None
-        found = solve_ivp(
+        solved = solve_ivp(
             equations.rates, (0.0, 600.0), equations.start, method=method, rtol=tolerance, atol=1e-2 * tolerance,
             events=[watched(i) for i in range(len(EVENTS))], **options,
         )  # fmt: skip
-        return np.array([times[0] if len(times) else np.inf for times in found.t_events])
+        return np.array([times[0] if len(times) else np.inf for times in solved.t_events])
 
     return solve
 

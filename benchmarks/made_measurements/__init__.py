@@ -1,4 +1,4 @@
-"""Measured data made by the product's own equations, with normal noise: what fits of every kind are held against."""
+"""Measured data made by the product's own equations, with normal noise: to compare fits of every kind with."""
 
 from __future__ import annotations
 

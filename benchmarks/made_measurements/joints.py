@@ -10,7 +10,7 @@ from tvimdesign.simulation.measurement.kinds import frozen_torque, release, torq
 
 
 def torque_angle_data(noise: np.random.Generator) -> Made:
-    """A joint loaded to 1 N.m both ways and back in steps of 0.1 N.m; angles read to 0.06 deg."""
+    """Return a joint loaded to 1 N.m both ways and back in steps of 0.1 N.m; angles read to 0.06 deg."""
     truth = {"stiffness": 5.0, "friction": 0.05, "backlash": 0.01, "zero_angle": 0.02}
     steps = np.linspace(0.1, 1.0, 10)
     torque = np.concatenate([steps, steps[::-1], -steps, -steps[::-1], steps])
@@ -19,7 +19,7 @@ def torque_angle_data(noise: np.random.Generator) -> Made:
 
 
 def release_data(noise: np.random.Generator) -> Made:
-    """A joint of known inertia let go at 0.12 rad, sampled at 500 Hz for half a second; angles to 1 mrad."""
+    """Return a joint of known inertia let go at 0.12 rad, sampled at 500 Hz for half a second; angles to 1 mrad."""
     truth = {"stiffness": 5.0, "damping": 3e-3, "friction": 0.01, "zero_angle": 0.01}
     moments = np.linspace(0.0, 0.5, 250)
     known = {**truth, "inertia": 4e-4, "first_angle": 0.12, "first_speed": 0.0}
@@ -33,7 +33,7 @@ def release_data(noise: np.random.Generator) -> Made:
 
 
 def sine_data(noise: np.random.Generator) -> Made:
-    """A joint turned by 0.1 rad at 2 and 6 Hz for three periods; angles to 0.5 mrad, torques to 10 mN.m."""
+    """Return a joint turned by 0.1 rad at 2 and 6 Hz for three periods; angles to 0.5 mrad, torques to 10 mN.m."""
     truth = {"inertia": 2e-3, "stiffness": 5.0, "damping": 0.02, "friction": 0.05, "zero_angle": 0.01}
     blocks = []
     for hertz in (2.0, 6.0):

@@ -17,11 +17,11 @@ Made = tuple[list[Block], Mapping[str, str], Mapping[str, float]]
 
 
 def block(**columns: Any) -> Block:
-    """A table in SI, as a file would give it."""
-    found = {name: Column(name, name, "SI", np.asarray(values, float)) for name, values in columns.items()}
-    return Block("made.csv", "", (2, 1 + len(next(iter(found.values())).values)), found, (), {})
+    """Return a table in SI, as a file would give it."""
+    table = {name: Column(name, name, "SI", np.asarray(values, float)) for name, values in columns.items()}
+    return Block("made.csv", "", (2, 1 + len(next(iter(table.values())).values)), table, (), {})
 
 
 def numbers(expression: Any) -> Array:
-    """The values of an expression without symbols."""
+    """Return the values of an expression without symbols."""
     return np.asarray(ca.evalf(ca.MX(expression))).ravel()

@@ -23,10 +23,10 @@ TRUTH = {"flow_activation_energy": ENERGY, **SPECTRUM}
 
 
 def sweep(noise: np.random.Generator, temperature: float, omega: Array) -> Block:
-    """A frequency sweep to 2 %."""
+    """Return a frequency sweep to 2 %."""
     shifted = omega * float(polymer.arrhenius_shift(temperature, REFERENCE, ENERGY))
     storage, loss = (
-        one * np.exp(noise.normal(0.0, 0.02, len(omega))) for one in polymer.maxwell_moduli(shifted, MODES)
+        modulus * np.exp(noise.normal(0.0, 0.02, len(omega))) for modulus in polymer.maxwell_moduli(shifted, MODES)
     )
     rows = np.full(len(omega), temperature)
     return block(angular_frequency=omega, storage_modulus=storage, loss_modulus=loss, temperature=rows)
@@ -65,7 +65,7 @@ def temperature_ramp_data(noise: np.random.Generator) -> Made:
     for omega in (1.0, 10.0, 100.0):
         at = np.linspace(348.15, 453.15, 40)
         moduli = polymer.maxwell_moduli(omega * polymer.arrhenius_shift(at, REFERENCE, ENERGY), MODES)
-        storage, loss = (one * np.exp(noise.normal(0.0, 0.02, 40)) for one in moduli)
+        storage, loss = (modulus * np.exp(noise.normal(0.0, 0.02, 40)) for modulus in moduli)
         blocks.append(
             block(temperature=at, angular_frequency=np.full(40, omega), storage_modulus=storage, loss_modulus=loss)
         )
@@ -78,7 +78,7 @@ def creep_data(noise: np.random.Generator) -> Made:
 
 
 def relaxation_data(noise: np.random.Generator) -> Made:
-    """A relaxation."""
+    """Return a relaxation."""
     return [relaxing(noise)], {}, SPECTRUM
 
 
@@ -93,7 +93,7 @@ def melt_data(noise: np.random.Generator) -> Made:
 
 
 def amplitude_sweep_data(noise: np.random.Generator) -> Made:
-    """A sweep at 100 degC from 0.1 to 300 %; moduli to 1 %."""
+    """Return a sweep at 100 degC from 0.1 to 300 %; moduli to 1 %."""
     truth = {"linear_strain": 0.3, "drop_power": 2.0, "storage_modulus": 5e3, "loss_modulus": 1.2e4}
     strain = np.geomspace(1e-3, 3.0, 30)
     left = polymer.damping_function(strain, truth["linear_strain"])

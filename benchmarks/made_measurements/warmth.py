@@ -23,18 +23,18 @@ AIR = {"ambient_temperature": 295.0}
 
 @cache
 def _logged() -> dict[str, Array]:
-    """The log of the paper's module heated for 250 s and left to the air for 500 s, without noise."""
+    """Return the log of the paper's module heated for 250 s and left to the air for 500 s, without noise."""
     resolved = resolve_study(read_study(STUDY))
     time = np.concatenate([np.arange(0.0, 250.0, 5.0), np.arange(250.0, 751.0, 10.0)])
     current = np.where(time < 250.0, 1.5, 0.0)
     module = LoggedModule(resolved, [*LOGGED, *AIR])
-    found = module.temperatures(Course(time, current[:-1], 50), {**LOGGED, **AIR})
+    temperatures = module.temperatures(Course(time, current[:-1], 50), {**LOGGED, **AIR})
     places = ("cold_temperature", "hot_temperature", "far_face_temperature", "rotor_temperature")
-    return {"time": time, "current": current, **{name: numbers(found[name]) for name in places}}
+    return {"time": time, "current": current, **{name: numbers(temperatures[name]) for name in places}}
 
 
 def heating_log_data(noise: np.random.Generator) -> Made:
-    """The paper's module with thermocouples at four places, read to 0.3 K."""
+    """Return the paper's module with thermocouples at four places, read to 0.3 K."""
     columns = {
         name: values + (noise.normal(0.0, 0.3, len(values)) if name.endswith("temperature") else 0.0)
         for name, values in _logged().items()
@@ -43,7 +43,7 @@ def heating_log_data(noise: np.random.Generator) -> Made:
 
 
 def pad_data(noise: np.random.Generator) -> Made:
-    """A pad of 40 mm at twelve currents; voltages to 3 mV, temperatures to 0.05 K."""
+    """Return a pad of 40 mm at twelve currents; voltages to 3 mV, temperatures to 0.05 K."""
     truth = {"seebeck": 0.05, "resistance": 2.0, "conductance": 0.5}
     current = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 1.8, 2.2, -0.4, -0.8])
     hot = 298.0 + 4.0 * np.abs(current)
@@ -55,7 +55,7 @@ def pad_data(noise: np.random.Generator) -> Made:
 
 
 def dsc_data(noise: np.random.Generator) -> Made:
-    """A polymer cooled at 2, 5, 10 and 20 K/min, held at 40 degC and heated at 10 K/min; heat flow to 1 % of a peak."""
+    """Cool a polymer at 2, 5, 10 and 20 K/min, hold at 40 degC, heat at 10 K/min; heat flow to 1 % of a peak."""
     truth = {
         "latent_heat": 60e3, "melting_start": 323.0, "melting_width": 12.0, "crystallization_half_time": 70.0,
         "nucleation_constant": 1.03e5, "avrami_exponent": 2.8,

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
-from fit_coverage import MADE, Found, code, counted, fit_of, kept_in, table, width_over_scatter
+from fit_coverage import MADE, Estimate, code, counted, fit_of, kept_in, table, width_over_scatter
 from made_measurements.faults import FAULTS
 from measured_files import holds, measured
 from scipy.stats import chi2, norm
@@ -25,14 +25,14 @@ RARE = 1e-3
 
 
 def kinds(*quick: str) -> list[object]:
-    """All kinds, of which only some are quick."""
+    """Return all kinds, with the mark `slow` for those that are not quick."""
     return [pytest.param(kind, marks=[] if kind in quick else pytest.mark.slow) for kind in MADE]
 
 
-def pull(one: Found) -> float:
+def pull(estimate: Estimate) -> float:
     """Error over the deviation that the interval's end on its side stands for: normal, of deviation one."""
-    end = one.high if one.truth > one.value else one.low
-    return float(norm.ppf(0.975)) * (one.truth - one.value) / abs(end - one.value)
+    end = estimate.high if estimate.truth > estimate.value else estimate.low
+    return float(norm.ppf(0.975)) * (estimate.truth - estimate.value) / abs(end - estimate.value)
 
 
 def test_every_kind_has_data_made_for_it() -> None:
@@ -56,27 +56,27 @@ def test_intervals_are_as_wide_as_the_errors(kind: str) -> None:
 def test_all_that_is_reported_is_counted(kind: str) -> None:
     blocks, given, truth = MADE[kind](np.random.default_rng(0))
     fit = measure_of(kind_sheet(kind))(blocks, kind_sheet(kind).values(given), profiles=False).fit
-    assert {one.name for one in (*fit.parameters, *fit.derived)} == set(truth)
+    assert {parameter.name for parameter in (*fit.parameters, *fit.derived)} == set(truth)
 
 
 def test_a_count_goes_on_where_it_was_left(tmp_path: Path) -> None:
-    kept = tmp_path / "kept.jsonl"
-    found = {"seebeck": [0.05, 0.051, 0.049, 0.052], "resistance": [2.0, 1.9, 1.8, 1.95]}
-    whole = json.dumps({"code": code(), "kind": "pad", "seed": 0, "found": found})
+    file = tmp_path / "kept.jsonl"
+    values = {"seebeck": [0.05, 0.051, 0.049, 0.052], "resistance": [2.0, 1.9, 1.8, 1.95]}
+    whole = json.dumps({"code": code(), "kind": "pad", "seed": 0, "found": values})
     older = whole.replace(code(), "0").replace('"seed": 0', '"seed": 2')
-    kept.write_text("\n".join([whole, older, whole.replace('"seed": 0', '"seed": 1')[:-4]]))  # the last was cut short
-    fits = kept_in(kept)
+    file.write_text("\n".join([whole, older, whole.replace('"seed": 0', '"seed": 1')[:-4]]))  # the last was cut short
+    fits = kept_in(file)
     assert list(fits) == [("pad", 0)]
     assert list(table(fits))[2:] == ["| `pad` | 1 | seebeck 100.0 (nan), resistance 0.0 (nan) |"]
-    assert counted(["pad"], 1, 1, kept) == fits
+    assert counted(["pad"], 1, 1, file) == fits
 
 
 def test_the_width_is_held_against_the_scatter() -> None:
     values = np.random.default_rng(3).normal(7.0, 0.5, 4000)
-    exact = [Found(7.0, value, value - 0.98, value + 0.98) for value in values]
+    exact = [Estimate(7.0, value, value - 0.98, value + 0.98) for value in values]
     assert width_over_scatter(exact) == pytest.approx(1.0, abs=0.03)
-    assert sum(one.held for one in exact) / len(exact) == pytest.approx(0.95, abs=0.01)
-    assert Found(7.0, 9.0, None, None).held
+    assert sum(count.held for count in exact) / len(exact) == pytest.approx(0.95, abs=0.01)
+    assert Estimate(7.0, 9.0, None, None).held
 
 
 @pytest.mark.gate
@@ -103,9 +103,9 @@ def test_rheometers(path: Path, truth: Mapping[str, Any]) -> None:
         with pytest.raises(InputError, match=truth["refusal"]):
             measured(path)
         return
-    one = measured(path)
-    done = one.measurement
-    assert one.kind.name == truth["kind"]
+    case = measured(path)
+    done = case.measurement
+    assert case.kind.name == truth["kind"]
     assert not done.fit.misfit
     held = {name: holds(as_recorded(done.record_values[name]), value) for name, value in truth["values"].items()}
     assert held == dict.fromkeys(truth["values"], True)
