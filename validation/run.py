@@ -61,7 +61,7 @@ def _line(each: Outcome) -> str:
     label = f"{compared.quantity.name} {row.label}".strip()
     return (
         f"{each.verdict:<17}{each.case.name:<36}{row.of_limit:+7.2f} of limit: {label}, "
-        f"{row.found:.5g} for {row.expected:.5g} {compared.quantity.unit} ({each.seconds:.1f} s)"
+        f"{row.computed:.5g} for {row.expected:.5g} {compared.quantity.unit} ({each.seconds:.1f} s)"
     )
 
 

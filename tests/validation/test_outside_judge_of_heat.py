@@ -89,16 +89,16 @@ def test_the_ring_takes_as_long_with_half_as_many_cells_again() -> None:
 
 def areas(drawing: Drawing) -> dict[str, float]:
     """Area of each material [m2]."""
-    found: dict[str, float] = defaultdict(float)
+    by_part: dict[str, float] = defaultdict(float)
     for a, b in pairwise(drawing.x):
         for c, d in pairwise(drawing.y):
             if name := drawing.what(0.5 * (a + b), 0.5 * (c + d)):
-                found[name] += (b - a) * (d - c)
-    return found
+                by_part[name] += (b - a) * (d - c)
+    return by_part
 
 
 def drawn_twice(study: str) -> tuple[Any, Drawing]:
-    """A study's start in the plane, and drawn for finite elements."""
+    """Return a study's start in the plane, and its drawing for finite elements."""
     model = model_of(study_path(study))
     plane = plane_of(model)
     case = case_of(model, plane.middle)
@@ -108,15 +108,15 @@ def drawn_twice(study: str) -> tuple[Any, Drawing]:
 @named
 def test_both_draw_parts_of_the_same_size_and_conductivity(study: str) -> None:
     plane, drawing = drawn_twice(study)
-    found = areas(drawing)
+    drawn_areas = areas(drawing)
     sheets = 4.0 * SHEET * (np.ptp(drawing.x) + np.ptp(drawing.y))
     for name in set(plane.material):
-        assert found.pop(name) == pytest.approx(np.sum(plane.volume[plane.cells(name)]), abs=sheets), name
+        assert drawn_areas.pop(name) == pytest.approx(np.sum(plane.volume[plane.cells(name)]), abs=sheets), name
         if name != "layer":
             theirs, ours = drawing.materials[name], plane.materials[name]
             wanted = ours.along, ours.up, ours.heat_capacity, ours.radiates_over
             assert (theirs.along, theirs.up, theirs.heat_capacity, theirs.shines) == pytest.approx(wanted, rel=1e-9)
-    assert set(found) <= {"near", "far", "joint", "side", "bond", "bond beside"}
+    assert set(drawn_areas) <= {"near", "far", "joint", "side", "bond", "bond beside"}
 
 
 @named
@@ -126,8 +126,8 @@ def test_both_have_the_same_bodies_and_currents(study: str) -> None:
         wanted = ours.capacity, ours.surface, ours.coefficient, ours.emissivity
         # Radiation and air count where there is a surface alone.
         count = 4 if ours.surface else 2
-        found = theirs.capacity, theirs.surface, theirs.coefficient, theirs.emissivity
-        assert found[:count] == pytest.approx(wanted[:count], rel=1e-3)
+        surfaces = theirs.capacity, theirs.surface, theirs.coefficient, theirs.emissivity
+        assert surfaces[:count] == pytest.approx(wanted[:count], rel=1e-3)
     pump = plane.pump
     assert (drawing.joule, drawing.pumped) == pytest.approx(
         (pump.current**2 * pump.resistance, pump.current * pump.seebeck), rel=1e-9
@@ -210,7 +210,7 @@ def looked_at(study: str) -> dict[str, dict[str, str]]:
     return {row["quantity"]: row for row in OF_PARTS if row["study"] == study and row["fe"]}
 
 
-def test_fe_looked_at_every_study_and_what_is_beyond_a_tenth_is_told() -> None:
+def test_fe_looked_at_every_study_and_reports_what_is_beyond_a_tenth() -> None:
     every = {path.stem for folder in MODELS.FOLDERS for path in folder.glob("*.yaml")}
     assert set(STUDIES) == every - MODELS.LEFT_OUT
     readme = (FOLDER / "README.md").read_text(encoding="utf-8")
@@ -222,9 +222,9 @@ def test_fe_looked_at_every_study_and_what_is_beyond_a_tenth_is_told() -> None:
 @each_study
 def test_a_study_s_spring_joint_and_parts_are_within_a_tenth_of_fe(study: str) -> None:
     today = {name: value for name, (_, value) in MODELS.model_values(study, design_of(study)).items()}
-    found = looked_at(study)
-    assert {"spring_rate", "hub", "core", "core_stress"} <= set(found)
-    for name, row in found.items():
+    ratios = looked_at(study)
+    assert {"spring_rate", "hub", "core", "core_stress"} <= set(ratios)
+    for name, row in ratios.items():
         within = today[name] == pytest.approx(float(row["fe"]), rel=WITHIN)
         assert within == ((study, name) not in MODELS.BEYOND), name
         # The table tells what the model said; it is made anew where that is no longer so.
@@ -243,8 +243,8 @@ def test_today_s_optimum_is_the_design_that_fe_looked_at(study: str) -> None:
     read = read_study(MODELS.study_file(study))
     if not read.vary:
         return
-    found = answer(read).design
-    inputs = {**found.values, **found.choices}
+    design = answer(read).design
+    inputs = {**design.values, **design.choices}
     then = MODELS.model_values(study, design_of(study))
     now = MODELS.model_values(study, {name: inputs[name] for name in read.vary})
     for name in ("spring_rate", "hub"):

@@ -78,8 +78,8 @@ def joint_fit() -> tuple[Array, Array]:
         ]
 
     start = np.log([PCL.reference_half_time * 1.5, PCL.nucleation_constant * 0.7])
-    found = least_squares(misses, start, diff_step=1e-3)
-    return np.exp(found.x), np.linalg.inv(found.jac.T @ found.jac)
+    fit = least_squares(misses, start, diff_step=1e-3)
+    return np.exp(fit.x), np.linalg.inv(fit.jac.T @ fit.jac)
 
 
 def test_half_time_and_nucleation_constant_are_the_joint_fit() -> None:
@@ -122,8 +122,8 @@ def test_equilibrium_melting_and_nucleation_constant_are_one_fact(melting: float
 
     def misses(constant: Array) -> Array:
         trial = other._replace(nucleation_constant=float(constant[0]) * 1e5)
-        found = np.log([float(textbook.half_time(CELSIUS + at, trial)) for at in celsius])
-        shifted: Array = (found - wanted) - np.mean(found - wanted)
+        gaps = np.log([float(textbook.half_time(CELSIUS + at, trial)) for at in celsius])
+        shifted: Array = (gaps - wanted) - np.mean(gaps - wanted)
         return shifted
 
     fitted = other._replace(nucleation_constant=1e5 * float(least_squares(misses, [1.5]).x[0]))
@@ -134,11 +134,11 @@ def test_equilibrium_melting_and_nucleation_constant_are_one_fact(melting: float
 
 def test_cooling_by_integral_is_the_products_own_rate_integrated_in_time() -> None:
     celsius, fraction = cooled(10.0, PCL)
-    found = solve_ivp(
+    solved = solve_ivp(
         lambda t, psi: transitions.rate(CELSIUS + 50.0 - t / 6.0, psi, PCL, MELTING),
         (0.0, 300.0), [0.0], method="LSODA", t_eval=[60.0, 120.0, 180.0], rtol=1e-9, atol=1e-11,
     )  # fmt: skip
-    by_time = transitions.solid_fraction(found.y[0], PCL)
+    by_time = transitions.solid_fraction(solved.y[0], PCL)
     assert by_time == pytest.approx(np.interp([-40.0, -30.0, -20.0], -celsius, fraction), abs=1e-3)
 
 

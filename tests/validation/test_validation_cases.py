@@ -49,11 +49,11 @@ def test_the_page_has_every_case_its_verdict_and_its_figure() -> None:
 
 @pytest.mark.parametrize("name", QUICK)
 def test_a_case_is_inside_its_limit(name: str) -> None:
-    found = outcome(read_case(CASES / name / "case.yaml"))
-    assert found.verdict == INSIDE
-    assert b"<svg" in figure(found)
-    assert found.case.source[1:] in page([found])
-    assert values_csv([found]).count("\n") == 1 + sum(len(part.rows) for part in found.quantities)
+    compared = outcome(read_case(CASES / name / "case.yaml"))
+    assert compared.verdict == INSIDE
+    assert b"<svg" in figure(compared)
+    assert compared.case.source[1:] in page([compared])
+    assert values_csv([compared]).count("\n") == 1 + sum(len(part.rows) for part in compared.quantities)
 
 
 @pytest.mark.parametrize(
@@ -92,9 +92,9 @@ def test_a_failed_comparison_fails_the_run_and_leaves_the_page(
     copied("part_fits_iso_286", tmp_path / "cases", ("[H7, 3]", "[Q7, 3]"))
     copied("part_bearing", tmp_path / "cases")
     assert run.main(["--folder", str(tmp_path / "cases"), "--docs", str(tmp_path / "docs")]) == 1
-    told = capsys.readouterr().out
-    assert "cannot be compared: part_fits_iso_286: GeometryError: tolerance class 'Q7'" in told
-    assert f"{INSIDE:<17}part_bearing" in told
+    message = capsys.readouterr().out
+    assert "cannot be compared: part_fits_iso_286: GeometryError: tolerance class 'Q7'" in message
+    assert f"{INSIDE:<17}part_bearing" in message
     assert not (tmp_path / "docs").exists()
 
 
@@ -107,7 +107,7 @@ def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path)
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         ("kind: heater", "kind: cooler", "'cooler' is none of"),
         ("    relative: 0.1\n", "", "a limit is needed"),
@@ -119,9 +119,9 @@ def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path)
         ("compare: peltier_modules:largest_heat\n", "", "`open` says what is missing"),
     ],
 )
-def test_a_case_that_lacks_something_is_refused_by_name(old: str, new: str, said: str, tmp_path: Path) -> None:
+def test_a_case_that_lacks_something_is_refused_by_name(old: str, new: str, message: str, tmp_path: Path) -> None:
     path = copied("heater_electracool_heat", tmp_path, (old, new))
-    with pytest.raises(CaseError, match=re.escape(said)) as refused:
+    with pytest.raises(CaseError, match=re.escape(message)) as refused:
         read_case(path)
     assert str(path) in str(refused.value)
 
@@ -137,8 +137,8 @@ def test_references_do_not_import_the_product() -> None:
 @pytest.mark.slow
 def test_every_case_is_inside_or_a_known_difference(tmp_path: Path) -> None:
     assert run.main(["--docs", str(tmp_path)]) == 0
-    made, kept = ((folder / "validation.md").read_text() for folder in (tmp_path, ROOT / "docs"))
-    assert sections(made) == sections(kept)
+    made, committed = ((folder / "validation.md").read_text() for folder in (tmp_path, ROOT / "docs"))
+    assert sections(made) == sections(committed)
 
 
 def sections(text: str) -> list[str]:

@@ -117,10 +117,10 @@ def wired_modules(inputs: Values) -> Values:
 
 
 def currents_at_a_voltage(inputs: Values) -> Values:
-    """Current [A] at a constant voltage over the faces' temperatures, of modules of which only such curves are known.
+    """Current [A] at a constant voltage over the faces' temperatures, of modules with no other known curves.
 
     Each curve gives the Seebeck coefficient and the resistance that suit V = S (T_h - T_c) + I R best; the currents
-    follow from them. The coefficients are told over that of the first curve of the same module.
+    follow from them. The coefficients are reported over that of the first curve of the same module.
     """
     currents, seebecks = [], []
     for curve in inputs["curves"]:

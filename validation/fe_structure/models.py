@@ -27,7 +27,7 @@ LENGTHS = (
     "link_screw_hole", "link_screw_depth", "link_bolt_circle_radius",
     "link_dowel_count", "link_dowel_diameter", "link_dowel_depth", "link_dowel_circle_radius",
 )  # fmt: skip
-"""What the closed forms are held against FE by, in mm, counts and rad."""
+"""Inputs of the comparison of closed forms with FE, in mm, counts and rad."""
 
 
 class Row(NamedTuple):

@@ -6,9 +6,9 @@ Run it where the package and CadQuery are; FE/bin/python has netgen-mesher, ngso
 parts are exported as STEP, and FE finds the rate of a spring, the stiffness of the joint and of its parts, and
 stresses. Of a study with a front or a comparison, its own optimum. What is in the work folder already is not made
 again. Without a name: all studies that ship. A study that fails keeps its rows; the command then ends with 1. With
-`--check` the table is only held against what is found.
+`--check` the table is only compared with the results.
 
-With `--model` nothing is solved: the model's column is told anew, of the designs that stand in the table, and the table
+With `--model` nothing is solved: the model's column is written again, of the designs in the table, and the table
 of README.md is printed.
 
 Several of these commands may run at once, on studies of their own: each holds a lock while it reads both files, puts a
@@ -111,11 +111,11 @@ def main() -> None:
     parser.add_argument("studies", nargs="*", metavar="STUDY")
     parser.add_argument("--fe-python", type=Path, default=Path(sys.executable))
     parser.add_argument("--work", type=Path, default=Path("fe_work"))
-    parser.add_argument("--check", action="store_true", help="hold what is found against the table, and write nothing")
-    parser.add_argument("--model", action="store_true", help="tell anew what the model says, and solve nothing")
+    parser.add_argument("--check", action="store_true", help="compare the results with the table, and write nothing")
+    parser.add_argument("--model", action="store_true", help="write the model's values again, and solve nothing")
     requested = parser.parse_args()
     if requested.model:
-        tell_model()
+        report_model()
         print(*worst_first(), sep="\n")
         return
     failed = []
@@ -132,7 +132,7 @@ def main() -> None:
         sys.exit("\n".join(failed))
 
 
-def tell_model() -> None:
+def report_model() -> None:
     """Put what today's model says of the designs in results.csv in place of what it said, beside the same FE."""
     with alone():
         with RESULTS.open(newline="") as file:

@@ -105,34 +105,34 @@ class Compared(NamedTuple):
 class Judge:
     """Evaluate the joint at the temperatures of a plane."""
 
-    def __init__(self, model: DeviceFunctions, found: Plane) -> None:
+    def __init__(self, model: DeviceFunctions, plane: Plane) -> None:
         """Take what the joint is beside its heat off the table."""
-        self.model, self.found, self.known = model, found, inputs_of(model)
+        self.model, self.plane, self.known = model, plane, inputs_of(model)
         self.joint = WarmJoint(model.table, self.known)
         self.sheared = self.joint.sheared
         layers = shear.columns if self.sheared else compression.rows
-        self.layers, self.shares = layers(found, "layer")
-        depths = (found.dy if self.sheared else found.dx)[self.layers[0]]
+        self.layers, self.shares = layers(plane, "layer")
+        depths = (plane.dy if self.sheared else plane.dx)[self.layers[0]]
         self.slices = depths / np.sum(depths)
 
     def _mean(self, state: Array, name: str) -> float:
-        own = self.found.cells(name)
-        return float(self.found.volume[own] @ state[own] / np.sum(self.found.volume[own]))
+        own = self.plane.cells(name)
+        return float(self.plane.volume[own] @ state[own] / np.sum(self.plane.volume[own]))
 
     def parts(self, state: Array) -> PartTemperatures:
         """Temperatures of the structure's parts [K]."""
-        found, count = self.found, self.found.count
+        plane, count = self.plane, self.plane.count
         cold, hot, core = self._mean(state, "cold"), self._mean(state, "hot"), float(state[count])
         if self.sheared:
-            end = found.x[found.i[found.cells("layer")] + 1].max()
-            cells, widths = shear.columns(found, "plate", high=end)
+            end = plane.x[plane.i[plane.cells("layer")] + 1].max()
+            cells, widths = shear.columns(plane, "plate", high=end)
             slices = widths @ state[cells]
-            depths = found.dy[cells[0]]
-            beside = shear.columns(found, "plate", low=end)[0][0]
-            edge = float(found.dy[beside] @ state[beside] / np.sum(found.dy[beside]))
+            depths = plane.dy[cells[0]]
+            beside = shear.columns(plane, "plate", low=end)[0][0]
+            edge = float(plane.dy[beside] @ state[beside] / np.sum(plane.dy[beside]))
         else:
-            cells, heights = shear.columns(found, "vane")
-            slices = np.array([found.dy[column] @ state[column] / np.sum(found.dy[column]) for column in cells])[::-1]
+            cells, heights = shear.columns(plane, "vane")
+            slices = np.array([plane.dy[column] @ state[column] / np.sum(plane.dy[column]) for column in cells])[::-1]
             depths = heights[::-1]
             edge = self._mean(state, "plate")
         middle = (np.arange(8) + 0.5) / 8
@@ -152,12 +152,12 @@ class Judge:
 
     def heated(self, seconds: float, steps: int = STEPS) -> Switch:
         """Heat the plane for a time."""
-        times, states = self.found.heat(seconds, steps)
-        own = self.found.cells("layer")
+        times, states = self.plane.heat(seconds, steps)
+        own = self.plane.cells("layer")
         return Switch(
             times,
             np.array([self.stiffness(state) for state in states]),
-            states[:, own] @ self.found.volume[own] / np.sum(self.found.volume[own]),
+            states[:, own] @ self.plane.volume[own] / np.sum(self.plane.volume[own]),
             np.array([self.far_face(state) for state in states]),
         )
 
@@ -193,7 +193,7 @@ def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> d
     soft = judge.time("softening_time", switch)
     # A time early in these steps once more in steps of its own.
     early = judge.heated(1.3 * max(soft, ours["softening_time"]), steps) if soft < EARLY * switch.times[-1] else switch
-    found = {}
+    times = {}
     for name, time in ours.items():
         seen = early if name == "softening_time" else switch
         plane = judge.time(name, seen)
@@ -201,8 +201,8 @@ def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> d
         at_product, at_plane = np.interp([time, plane], seen.times, warm)
         slope = float(np.interp(plane, seen.times, np.gradient(warm, seen.times)))
         over_rise = float(at_plane - warm[0]) / (plane * slope) if np.isfinite(plane) else np.inf
-        found[name] = Compared(time, plane, float(at_plane - at_product), over_rise)
-    return found
+        times[name] = Compared(time, plane, float(at_plane - at_product), over_rise)
+    return times
 
 
 def studies() -> dict[str, Path]:
@@ -236,10 +236,10 @@ def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunction
 
 def rows_of(study: str, design: str, model: DeviceFunctions, steps: int = STEPS) -> Iterator[list[str]]:
     """Return a module's rows of the table."""
-    for name, one in compared(model, steps=steps).items():
+    for name, pair in compared(model, steps=steps).items():
         yield [
-            study, design, name, f"{one.product:.2f}", f"{one.plane:.2f}", f"{one.difference:+.2f}",
-            f"{one.warmer:+.2f}", f"{one.over_rise:.2f}",
+            study, design, name, f"{pair.product:.2f}", f"{pair.plane:.2f}", f"{pair.difference:+.2f}",
+            f"{pair.warmer:+.2f}", f"{pair.over_rise:.2f}",
         ]  # fmt: skip
 
 
@@ -248,10 +248,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("studies", nargs="*", metavar="STUDY")
     parser.add_argument("--work", type=Path, default=Path("heat_work"))
-    asked = parser.parse_args()
-    for path in (studies()[name] for name in asked.studies or studies()):
+    options = parser.parse_args()
+    for path in (studies()[name] for name in options.studies or studies()):
         rows = []
-        for design, model in designs(path, asked.work):
+        for design, model in designs(path, options.work):
             for row in rows_of(path.stem, design, model):
                 print(*row, flush=True)
                 rows.append(row)

@@ -83,17 +83,17 @@ def _materials(v: Mapping[str, Any]) -> dict[str, Material]:
     legs = Material(through, PAD_CONDUCTIVITY, pad_heat)
     exchange = v["surface_emissivity"] / (2.0 - v["surface_emissivity"])
     air = Material(v["air_conductivity"], v["air_conductivity"], 0.0, v["running_clearance"] * exchange)
-    found = {"floor": solid, "plate": solid, "vane": solid, "wall": wall, "hot": pad, "legs": legs, "cold": pad,
+    materials = {"floor": solid, "plate": solid, "vane": solid, "wall": wall, "hot": pad, "legs": legs, "cold": pad,
              "air": air}  # fmt: skip
     if v["spreader_depth"]:
         sheet = v["spreader_conductivity"]
-        found["spreader"] = Material(sheet, sheet, v["spreader_density"] * v["spreader_specific_heat"])
-        found["upper wall"] = solid
+        materials["spreader"] = Material(sheet, sheet, v["spreader_density"] * v["spreader_specific_heat"])
+        materials["upper wall"] = solid
         # The gap behind a spreader lies along the ring; it radiates there as between the melt and what is cold.
         warm, cool = v["pcl_melting"].end, v["ambient_temperature"]
         shine = v["peltier_thickness"] * exchange * STEFAN_BOLTZMANN * (warm**2 + cool**2) * (warm + cool)
-        found["beside tiles"] = Material(air.along + shine, air.up, 0.0)
-    return found
+        materials["beside tiles"] = Material(air.along + shine, air.up, 0.0)
+    return materials
 
 
 def _polymer(v: Mapping[str, Any]) -> Polymer:
@@ -110,42 +110,42 @@ def _pump(v: Mapping[str, Any]) -> Pump:
                 v["current"] / v["heater_strings"])  # fmt: skip
 
 
-def _with_borders(found: Plane, v: Mapping[str, Any]) -> Plane:
+def _with_borders(drawing: Plane, v: Mapping[str, Any]) -> Plane:
     """Add the bodies plate and floor go on in, and the faces towards the air."""
     wide = 2.0 * v["vane_count"] * v["block_width"]
-    ring = wide * found.x[-1]
-    _bodies(found, v, wide, ring)
-    cold = found.cells("cold")
-    last = cold[found.i[cold] == np.max(found.i[cold])]
-    shown = found.dy[last] * v["cold_area"] / v["heated_area"]
+    ring = wide * drawing.x[-1]
+    _bodies(drawing, v, wide, ring)
+    cold = drawing.cells("cold")
+    last = cold[drawing.i[cold] == np.max(drawing.i[cold])]
+    shown = drawing.dy[last] * v["cold_area"] / v["heated_area"]
     if v["sink"] is None:
-        found.borders.append(Border(last, shown, v["cold_side_coefficient"], v["surface_emissivity"]))
+        drawing.borders.append(Border(last, shown, v["cold_side_coefficient"], v["surface_emissivity"]))
     else:
-        found.borders.append(Border(last, shown, v["sink_contact"], body=4))
-    found.meets("plate", "above", v["rotor_coefficient"], v["surface_emissivity"])
-    found.meets("floor", "below", v["housing_coefficient"], v["surface_emissivity"])
+        drawing.borders.append(Border(last, shown, v["sink_contact"], body=4))
+    drawing.meets("plate", "above", v["rotor_coefficient"], v["surface_emissivity"])
+    drawing.meets("floor", "below", v["housing_coefficient"], v["surface_emissivity"])
     # Inner and outer sides of what stands in the chamber, which give their heat to the housing around it.
     sides = v["housing_coefficient"] + 4.0 * STEFAN_BOLTZMANN * v["surface_emissivity"] * v["ambient_temperature"] ** 3
     for name in ("layer", "spreader", "hot", "legs", "cold", "vane"):
-        own = found.cells(name)
-        found.borders.append(Border(own, 2.0 * found.volume[own] / v["block_width"], sides, body=2))
-    return found
+        own = drawing.cells(name)
+        drawing.borders.append(Border(own, 2.0 * drawing.volume[own] / v["block_width"], sides, body=2))
+    return drawing
 
 
-def _heat(found: Plane, name: str) -> float:
+def _heat(drawing: Plane, name: str) -> float:
     """Heat capacity of what is drawn of a material [J/K]."""
-    return float(found.materials[name].heat_capacity * np.sum(found.volume[found.cells(name)]))
+    return float(drawing.materials[name].heat_capacity * np.sum(drawing.volume[drawing.cells(name)]))
 
 
-def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> None:
+def _bodies(drawing: Plane, v: Mapping[str, Any], wide: float, ring: float) -> None:
     """Core, rim of the plate, housing, sink; plate and floor conduct to them around the axis."""
     k, capacity = v["structure_conductivity"], v["structure_density"] * v["structure_specific_heat"]
     height, depth = v["rotor_thickness"], v["floor_thickness"]
     inner, outer, rotor = v["pcl_inner_radius"], v["pcl_outer_radius"], v["rotor_radius"]
     middle, core, around = np.pi * inner**2, v["core_and_link"], v["around_pads"][-1]
     rim = max(np.pi * rotor**2 - ring - middle, 1e-6)
-    walls = sum(_heat(found, name) for name in ("wall", "upper wall") if name in found.materials)
-    found.bodies.extend([
+    walls = sum(_heat(drawing, name) for name in ("wall", "upper wall") if name in drawing.materials)
+    drawing.bodies.extend([
         Body(core.capacity / wide),
         Body(rim * height * capacity / wide, rim / wide, v["rotor_coefficient"], v["surface_emissivity"]),
         # The housing's vanes are in the drawing.
@@ -156,23 +156,25 @@ def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> Non
     ])  # fmt: skip
     if v["sink"] is not None:
         surface = v["sink"].surface
-        found.bodies.append(
+        drawing.bodies.append(
             Body(v["sink"].capacity / wide, surface.area / wide, surface.coefficient, surface.emissivity)
         )
-    found.size = found.count + len(found.bodies)
+    drawing.size = drawing.count + len(drawing.bodies)
     # The mean temperature of a fin that heats evenly is a third of its width away.
     outwards = 2.0 * np.pi * k * height / np.log((outer + max(rotor - outer, 1e-4) / 3.0) / outer)
     inwards = 2.0 * np.pi * k * height / np.log(inner / (inner - (inner - v["core_radius"]) / 3.0))
     floor = 2.0 * np.pi * k * depth / np.log(max(v["housing_inner_radius"], outer + 1e-4) / outer)
     for name, conductance, body in (("plate", core.conductance, 0), ("plate", outwards, 1), ("floor", floor, 2),
                                     ("plate", inwards, 3)):  # fmt: skip
-        own = found.cells(name)
-        found.borders.append(Border(own, found.volume[own] / np.sum(found.volume[own]), conductance / wide, body=body))
+        own = drawing.cells(name)
+        drawing.borders.append(
+            Border(own, drawing.volume[own] / np.sum(drawing.volume[own]), conductance / wide, body=body)
+        )
 
 
-def rows(found: Plane, name: str) -> tuple[Any, Any]:
+def rows(drawing: Plane, name: str) -> tuple[Any, Any]:
     """Cells of a material by row, along the ring, and the rows' shares of its height."""
-    own = found.cells(name)
-    places, first = np.unique(found.j[own], return_index=True)
-    heights = found.dy[own][first]
-    return np.array([own[found.j[own] == j] for j in places]), heights / np.sum(heights)
+    own = drawing.cells(name)
+    places, first = np.unique(drawing.j[own], return_index=True)
+    heights = drawing.dy[own][first]
+    return np.array([own[drawing.j[own] == j] for j in places]), heights / np.sum(heights)

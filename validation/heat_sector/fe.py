@@ -88,15 +88,15 @@ class Heated:
         self._within(trial[0], test[0])
         self._bodies(trial[1:], test[1:])
         drawn = set(self.mesh.GetMaterials())
-        for one in drawing.exchanges:
-            if one.of_volume and one.where not in drawn:
+        for exchange in drawing.exchanges:
+            if exchange.of_volume and exchange.where not in drawn:
                 continue
-            where = ng.dx(one.where) if one.of_volume else ng.ds(one.where)
-            if one.body is None:
-                self.form += self.lost(trial[0], one.coefficient, one.emissivity) * test[0] * where
+            where = ng.dx(exchange.where) if exchange.of_volume else ng.ds(exchange.where)
+            if exchange.body is None:
+                self.form += self.lost(trial[0], exchange.coefficient, exchange.emissivity) * test[0] * where
             else:
-                apart = trial[0] - trial[1 + one.body], test[0] - test[1 + one.body]
-                self.form += one.coefficient * apart[0] * apart[1] * where
+                apart = trial[0] - trial[1 + exchange.body], test[0] - test[1 + exchange.body]
+                self.form += exchange.coefficient * apart[0] * apart[1] * where
         every = [drawing.ambient] * (1 + len(bodies))
         for part, value in zip(self.now.components, every, strict=True):
             part.Set(value)
@@ -109,8 +109,8 @@ class Heated:
         melting = p["latent_heat"] / (end - start) + mean
         heat = p["specific_heat_solid"] * clipped(t, -1e3, start) + melting * (clipped(t, start, end) - start)
         heat += p["specific_heat_melt"] * (clipped(t, end, 1e4) - end)
-        kept = {name: one.heat_capacity * t for name, one in self.drawing.materials.items()}
-        return self.mesh.MaterialCF({**kept, "layer": p["density"] * heat})
+        contents = {name: material.heat_capacity * t for name, material in self.drawing.materials.items()}
+        return self.mesh.MaterialCF({**contents, "layer": p["density"] * heat})
 
     def conductivities(self, t: Any) -> tuple[Any, Any]:
         """Conductivity along the drawing and up [W/m K]."""
@@ -119,8 +119,8 @@ class Heated:
         layer = p["conductivity_solid"] + molten * (p["conductivity_melt"] - p["conductivity_solid"])
         shine = 4.0 * SIGMA * (t + KELVIN) ** 3
         materials = self.drawing.materials.items()
-        along = {name: ng.CF(one.along) for name, one in materials}
-        up = {name: one.up + one.shines * shine for name, one in materials}
+        along = {name: ng.CF(material.along) for name, material in materials}
+        up = {name: material.up + material.shines * shine for name, material in materials}
         return self.mesh.MaterialCF({**along, "layer": layer}), self.mesh.MaterialCF({**up, "layer": layer})
 
     def lost(self, t: Any, coefficient: float, emissivity: float) -> Any:
@@ -145,7 +145,7 @@ class Heated:
     def _bodies(self, bodies: Any, tests: Any) -> None:
         area = ng.Integrate(1.0, self.mesh, definedon=self.mesh.Materials("plate"))
         for k, (body, t, v) in enumerate(zip(self.drawing.bodies, bodies, tests, strict=True), 1):
-            grown = self._grown(lambda one: one, t, self.start.components[k], self.first.components[k])
+            grown = self._grown(lambda identity: identity, t, self.start.components[k], self.first.components[k])
             outside = body.surface * self.lost(t, body.coefficient, body.emissivity)
             self.form += (body.capacity * grown + outside) / area * v * ng.dx("plate")
 
@@ -181,20 +181,20 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, required=True)
     parser.add_argument("--steps", type=int, default=80)
     parser.add_argument("--fine", type=float, default=1.0)
-    asked = parser.parse_args()
-    case = json.loads(asked.case.read_text(encoding="utf-8"))
-    drawing = DRAWINGS[case["drawing"]](case["numbers"], asked.fine)
+    options = parser.parse_args()
+    case = json.loads(options.case.read_text(encoding="utf-8"))
+    drawing = DRAWINGS[case["drawing"]](case["numbers"], options.fine)
     heated = Heated(drawing, case["polymer"])
     print(f"{len(drawing.x)} x {len(drawing.y)} lines, {heated.space.ndof} unknowns", flush=True)
-    places = heated.mesh(*(np.array(one) for one in case["places"]))
-    times = asked.seconds * np.linspace(0.0, 1.0, asked.steps + 1) ** WIDENING
+    places = heated.mesh(*(np.array(place) for place in case["places"]))
+    times = options.seconds * np.linspace(0.0, 1.0, options.steps + 1) ** WIDENING
     states = []
     for seconds in [0.0, *np.diff(times)]:
         if seconds:
             heated.advance(float(seconds))
         layer, *bodies = heated.now.components
-        states.append(np.concatenate([layer(places).ravel(), [one.vec[0] for one in bodies]]))
-    np.savez(asked.out, times=times, states=np.array(states))
+        states.append(np.concatenate([layer(places).ravel(), [body.vec[0] for body in bodies]]))
+    np.savez(options.out, times=times, states=np.array(states))
 
 
 if __name__ == "__main__":

@@ -281,18 +281,18 @@ def _ring_s_exchanges(c: Mapping[str, float]) -> tuple[list[Exchange], list[Body
     depth = {"plate": plate, "floor": floor}
     sides = 2.0 / c["block_width"] * (air[1] + 4.0 * SIGMA * shine * (c["ambient"] + KELVIN) ** 3)
     shown = c["cold_area"] / c["heated_area"]
-    found = [
+    exchanges = [
         Exchange("x:cold>wall", shown * c["cold_coefficient"], shown * shine),
         Exchange("y:plate>", air[0], shine), Exchange("y:>floor", air[1], shine),
         *(Exchange(name, g / (wide * length * depth[name]), 0.0, body, True) for name, g, body in spread),
         *(Exchange(name, sides, 0.0, 2, True) for name in ("layer", "spreader", "hot", "legs", "cold", "vane")),
     ]  # fmt: skip
     if c["sink_contact"]:
-        found[0] = Exchange("x:cold>wall", shown * c["sink_contact"], 0.0, 4)
+        exchanges[0] = Exchange("x:cold>wall", shown * c["sink_contact"], 0.0, 4)
         bodies.append(
             Body(c["sink_capacity"] / wide, c["sink_surface"] / wide, c["sink_coefficient"], c["sink_emissivity"])
         )
-    return found, bodies
+    return exchanges, bodies
 
 
 DRAWINGS = {"strip": strip, "ring": ring}

@@ -24,7 +24,7 @@ from tvimdesign.study import given, read_study
 RESULTS = Path(__file__).with_name("fresh.csv")
 STATED = ("least [s]", "greatest [s]")
 MOST = 40
-"""Draws that keep the rules, of which the first that soften are taken."""
+"""Draws that keep the rules; the first of them that soften are taken."""
 
 
 class Fresh(NamedTuple):
@@ -39,14 +39,14 @@ class Fresh(NamedTuple):
 def designs(study: str, count: int) -> Iterator[Fresh]:
     """Return the first random designs that soften."""
     path = studies()[study]
-    read, found = read_study(path), 0
+    read, count_drawn = read_study(path), 0
     for place, design in enumerate(Draws(read, FRESH_SEED).keeping_rules(MOST, Tally())):
         drawn = {name: design.values[name] for name in read.vary if name in design.values}
         model = model_of(path, **drawn)
         if "softening_time" in product_times(model):
             yield Fresh(f"draw {place}", model, drawn)
-            found += 1
-        if found == count:
+            count_drawn += 1
+        if count_drawn == count:
             return
 
 

@@ -74,9 +74,9 @@ def polymer_of(values: Mapping[str, Any], melting: Any) -> dict[str, float]:
 
 def ring_of(model: DeviceFunctions, values: Mapping[str, Any]) -> dict[str, float]:
     """Numbers of a compression module's ring, for `fe_drawings.ring`."""
-    found = model.table.evaluate(values, compression.WANTED)
-    core, around, sink = (found.pop(name) for name in ("core_and_link", "around_pads", "sink"))
-    numbers = {name: one for name, one in {**values, **found}.items() if isinstance(one, int | float)}
+    outputs = model.table.evaluate(values, compression.WANTED)
+    core, around, sink = (outputs.pop(name) for name in ("core_and_link", "around_pads", "sink"))
+    numbers = {name: value for name, value in {**values, **outputs}.items() if isinstance(value, int | float)}
     bodies = {"core_capacity": core.capacity, "core_conductance": core.conductance,
               "housing_surface": around[-1].surface.area}  # fmt: skip
     sunk = {"sink_contact": 0.0}
@@ -86,7 +86,7 @@ def ring_of(model: DeviceFunctions, values: Mapping[str, Any]) -> dict[str, floa
                 "sink_emissivity": sink.surface.emissivity}  # fmt: skip
     own = {
         "ambient": values["ambient_temperature"] - 273.15, "pad_conductivity": compression.PAD_CONDUCTIVITY,
-        "cold_coefficient": values["cold_side_coefficient"], "melting_end": found["pcl_melting"].end - 273.15,
+        "cold_coefficient": values["cold_side_coefficient"], "melting_end": outputs["pcl_melting"].end - 273.15,
     }  # fmt: skip
     return {**numbers, **bodies, **sunk, **own}
 
@@ -99,7 +99,7 @@ def case_of(model: DeviceFunctions, places: tuple[Any, Any]) -> dict[str, Any]:
     numbers = asdict(shear.case_of(model.table, values)) if sheared else ring_of(model, values)
     return {
         "drawing": "strip" if sheared else "ring", "polymer": polymer_of(values, melting), "numbers": numbers,
-        "places": [list(map(float, one)) for one in places],
+        "places": [list(map(float, place)) for place in places],
     }  # fmt: skip
 
 
@@ -112,14 +112,14 @@ def by_elements(case: dict[str, Any], held: Held, python: Path, folder: Path, fi
         run = [python, HERE / "fe.py", folder / "case.json", "--out", out, "--seconds", held.seconds,
                "--fine", fine, "--steps", steps]  # fmt: skip
         subprocess.run([str(part) for part in run], check=True)
-    found = np.load(out)
-    return found["times"], found["states"]
+    arrays = np.load(out)
+    return arrays["times"], arrays["states"]
 
 
 def switch_of(judge: Judge, times: Any, states: Any) -> Switch:
     """Evaluate the joint at temperatures of the plane's cells."""
-    own = judge.found.cells("layer")
-    volume = judge.found.volume[own]
+    own = judge.plane.cells("layer")
+    volume = judge.plane.volume[own]
     return Switch(
         times,
         np.array([judge.stiffness(state) for state in states]),
@@ -136,7 +136,7 @@ def compared(held: Held, model: DeviceFunctions, elements: Any) -> Iterator[tupl
     for name in TIMES:
         ours, other = judge.time(name, plane), judge.time(name, theirs)
         if np.isfinite(ours) and np.isfinite(other):
-            warm = [float(np.interp(other, one.times, one.of(name))) for one in (plane, theirs)]
+            warm = [float(np.interp(other, history.times, history.of(name))) for history in (plane, theirs)]
             yield name, ours, other, warm[0] - warm[1]
 
 
@@ -149,29 +149,33 @@ def main() -> None:
     parser.add_argument("--fine", type=float, default=1.0)
     parser.add_argument("--steps", type=int, default=ELEMENT_STEPS)
     parser.add_argument("--tell", action="store_true", help="print the rows only")
-    asked = parser.parse_args()
-    for name in asked.cases or CASES:
+    options = parser.parse_args()
+    for name in options.cases or CASES:
         held = CASES[name]
-        model = held.model(asked.work)
+        model = held.model(options.work)
         drawing = plane_of(model)
-        folder = asked.work / "elements" / name
-        found = by_elements(case_of(model, drawing.middle), held, asked.fe_python, folder, asked.fine, asked.steps)
+        folder = options.work / "elements" / name
+        by_fe = by_elements(
+            case_of(model, drawing.middle), held, options.fe_python, folder, options.fine, options.steps
+        )
         rows = [[name, held.study, held.design, held.pads, time, f"{ours:.2f}", f"{fe:.2f}",
                  f"{100.0 * (ours / fe - 1.0):+.2f}", f"{warmer:+.2f}"]
-                for time, ours, fe, warmer in compared(held, model, found)]  # fmt: skip
+                for time, ours, fe, warmer in compared(held, model, by_fe)]  # fmt: skip
         for row in rows:
             print(*row, flush=True)
-        if not asked.tell:
+        if not options.tell:
             _put(name, rows)
 
 
 def _put(case: str, rows: list[list[str]]) -> None:
     """Write a case's rows in place of those it had."""
-    kept = list(csv.reader(RESULTS.open()))[1:] if RESULTS.exists() else []
-    kept = [row for row in kept if row[0] in CASES and row[0] != case] + rows
+    rows_before = list(csv.reader(RESULTS.open()))[1:] if RESULTS.exists() else []
+    rows_before = [row for row in rows_before if row[0] in CASES and row[0] != case] + rows
     with RESULTS.open("w", newline="") as file:
         order = list(CASES)
-        csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted(kept, key=lambda row: order.index(row[0]))])
+        csv.writer(file, lineterminator="\n").writerows(
+            [HEADER, *sorted(rows_before, key=lambda row: order.index(row[0]))]
+        )
 
 
 if __name__ == "__main__":

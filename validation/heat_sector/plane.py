@@ -180,17 +180,17 @@ class Plane:
     def _links(self, t: Array) -> tuple[Whole, Whole, Array]:
         """Pairs of neighbours and the conductances between them [W/K]."""
         along, up = self._conductivity(t)
-        found = []
+        links = []
         ways = ((self.right, along, self.dx, self.dy), (self.above, up, self.dy, self.dx))
         for (pairs, k, depth, face), contact in zip(ways, self._touching, strict=True):
             a, b = pairs.T
-            found.append((a, b, face[a] / (0.5 * depth[a] / k[a] + contact + 0.5 * depth[b] / k[b])))
+            links.append((a, b, face[a] / (0.5 * depth[a] / k[a] + contact + 0.5 * depth[b] / k[b])))
         for border in self.borders:
             if border.body is not None:
                 at = np.full(len(border.cells), self.count + border.body)
                 through = border.coefficient / (1.0 + border.coefficient * border.behind)
-                found.append((border.cells, at, through * border.areas))
-        a, b, g = (np.concatenate(part) for part in zip(*found, strict=True))
+                links.append((border.cells, at, through * border.areas))
+        a, b, g = (np.concatenate(part) for part in zip(*links, strict=True))
         return a, b, g
 
     def _contact(self, a: Whole, b: Whole) -> Array:

@@ -110,37 +110,37 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
     wanted = ("pcl_area", "edge_length", "rotor_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
               "housing_ring", "peltier_mass", "pcl_depth", "sink", "heated_area", "heater_strings",
               "spreader_depth", "melt_lip_height", "liner_depth")  # fmt: skip
-    found = table.evaluate(v, wanted)
-    area, edge, melting = found["pcl_area"], found["edge_length"], found["pcl_melting"]
-    core, housing = found["core_and_link"], found["around_pads"][-1]
+    outputs = table.evaluate(v, wanted)
+    area, edge, melting = outputs["pcl_area"], outputs["edge_length"], outputs["pcl_melting"]
+    core, housing = outputs["core_and_link"], outputs["around_pads"][-1]
     cooled, spread = {}, {}
     if v["heater_form"] != "flexible":
         spread = {
-            "spreader_depth": found["spreader_depth"], "spreader_conductivity": v["spreader_conductivity"],
+            "spreader_depth": outputs["spreader_depth"], "spreader_conductivity": v["spreader_conductivity"],
             "spreader_heat_capacity": v["spreader_density"] * v["spreader_specific_heat"],
-            "spreader_contact": v["spreader_contact"], "spreader_along": _along_strip(table, v, found),
-            "seat_contact": _seat_contact(v, found["edge_length"]),
+            "spreader_contact": v["spreader_contact"], "spreader_along": _along_strip(table, v, outputs),
+            "seat_contact": _seat_contact(v, outputs["edge_length"]),
         }  # fmt: skip
     lip = {}
     if v["melt_lip"] != "none":
-        lip = {"lip_height": found["melt_lip_height"], "lip_width": v["rotor_rim"]}
+        lip = {"lip_height": outputs["melt_lip_height"], "lip_width": v["rotor_rim"]}
     lined = {}
     if v["liner_material"] != "none":
-        deep, film = found["liner_depth"], v["liner_film"]
+        deep, film = outputs["liner_depth"], v["liner_film"]
         held = v["liner_density"] * v["liner_specific_heat"] * v["liner_thickness"] / deep
         lined = {
             "liner_depth": deep, "liner_conductivity": v["liner_conductivity"] * deep / v["liner_thickness"],
             "liner_heat_capacity": held, "liner_bond": v["liner_film_conductivity"] / film,
         }  # fmt: skip
-    if found["sink"] is not None:
+    if outputs["sink"] is not None:
         cooled = {
-            "sink_conductance": v["sink_contact"] * found["cold_area"] / edge,
-            "sink_capacity": found["sink"].capacity / edge,
-            "sink_surface": found["sink"].surface.area / edge, "sink_coefficient": v["sink_coefficient"],
+            "sink_conductance": v["sink_contact"] * outputs["cold_area"] / edge,
+            "sink_capacity": outputs["sink"].capacity / edge,
+            "sink_surface": outputs["sink"].surface.area / edge, "sink_coefficient": v["sink_coefficient"],
         }  # fmt: skip
     return Case(
-        half_width=area / edge, beside=(np.pi * found["rotor_radius"] ** 2 - area) / edge,
-        layer_depth=found["pcl_depth"], plate_depth=v["rotor_thickness"], pad_depth=v["peltier_thickness"],
+        half_width=area / edge, beside=(np.pi * outputs["rotor_radius"] ** 2 - area) / edge,
+        layer_depth=outputs["pcl_depth"], plate_depth=v["rotor_thickness"], pad_depth=v["peltier_thickness"],
         floor_depth=v["floor_thickness"], gap=v["pcl_thickness"], conductivity_solid=v["pcl_conductivity_solid"],
         conductivity_melt=v["pcl_conductivity_melt"], density=v["pcl_density"],
         specific_heat_solid=melting.specific_heat_solid, specific_heat_melt=melting.specific_heat_melt,
@@ -148,17 +148,17 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         structure_conductivity=v["structure_conductivity"],
         structure_heat_capacity=v["structure_density"] * v["structure_specific_heat"],
         pad_conductivity=v["pad_conductivity"], pad_edge_contact=v["pad_edge_contact"],
-        pad_heat_capacity=found["peltier_mass"] * v["peltier_specific_heat"] / found["heated_area"],
+        pad_heat_capacity=outputs["peltier_mass"] * v["peltier_specific_heat"] / outputs["heated_area"],
         hot_contact=v["hot_contact"], rotor_contact=v["rotor_contact"],
         seebeck=v["peltier_seebeck"] / v["peltier_area"],
         resistance=v["peltier_resistance"] / v["peltier_area"],
-        conductance=v["peltier_conductance"] / v["peltier_area"], tile_share=found["heated_area"] / area,
-        window_share=found["cold_area"] / area, current=v["current"] / found["heater_strings"],
+        conductance=v["peltier_conductance"] / v["peltier_area"], tile_share=outputs["heated_area"] / area,
+        window_share=outputs["cold_area"] / area, current=v["current"] / outputs["heater_strings"],
         ambient=v["ambient_temperature"] - 273.15, cold_coefficient=v["cold_side_coefficient"],
         rotor_coefficient=v["rotor_coefficient"], floor_coefficient=v["housing_coefficient"],
         emissivity=v["surface_emissivity"], air_conductivity=v["air_conductivity"],
         ledge=v["window_ledge"], core_conductance=core.conductance / edge,
-        core_capacity=core.capacity / edge, housing_conductance=found["housing_ring"] / edge,
+        core_capacity=core.capacity / edge, housing_conductance=outputs["housing_ring"] / edge,
         housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge,
         **spread, **cooled, **lip, **lined,
     )  # fmt: skip
@@ -218,7 +218,7 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
     if c.spreader_depth:
         contacts[frozenset(("spreader", "layer"))] = c.hot_contact
         contacts[frozenset(("spreader", "hot"))] = c.spreader_contact
-    found = Plane(
+    drawing = Plane(
         x, y, drawn(x, y, what), _materials(c),
         Polymer(c.density, c.conductivity_solid, c.conductivity_melt, c.specific_heat_solid, c.specific_heat_melt,
                 c.latent_heat, c.melting_start, c.melting_end),
@@ -226,8 +226,8 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
         [Body(c.core_capacity), Body(c.housing_capacity, c.housing_surface, c.floor_coefficient, c.emissivity),
          Body(c.sink_capacity, c.sink_surface, c.sink_coefficient, c.emissivity)],
     )  # fmt: skip
-    _borders(found, case)
-    return found
+    _borders(drawing, case)
+    return drawing
 
 
 def _grid(c: Case, slot: float, fine: float) -> tuple[Array, Array]:
@@ -262,44 +262,44 @@ def _materials(c: Case) -> dict[str, Material]:
     pad = Material(c.pad_conductivity, 100.0, c.pad_heat_capacity / c.pad_depth)
     through = c.conductance * (1.0 - 2.0 * PAD_FILM) * c.pad_depth
     shine = c.emissivity / (2.0 - c.emissivity)
-    found = {"plate": solid, "lip": solid, "floor": solid, "ledge": solid, "hot": pad, "cold": pad,
+    materials = {"plate": solid, "lip": solid, "floor": solid, "ledge": solid, "hot": pad, "cold": pad,
              "legs": Material(c.pad_conductivity, through, pad.heat_capacity),
              "air": Material(c.air_conductivity, c.air_conductivity, 0.0, c.gap * shine),
              "below lip": Material(c.air_conductivity, c.air_conductivity, 0.0, (c.gap - c.lip_height) * shine),
              "slot": Material(c.air_conductivity, c.air_conductivity, 0.0)}  # fmt: skip
     if c.liner_depth:
-        found["liner"] = Material(c.liner_conductivity, c.liner_conductivity, c.liner_heat_capacity)
+        materials["liner"] = Material(c.liner_conductivity, c.liner_conductivity, c.liner_heat_capacity)
     if c.spreader_depth:
         sheet = Material(c.spreader_along, c.spreader_conductivity, c.spreader_heat_capacity)
         still = Material(c.air_conductivity, c.air_conductivity, 0.0, c.pad_depth * shine)
         seat = c.seat_contact * c.air_conductivity / c.pad_edge_contact
-        found |= {"spreader": sheet, "beside tiles": still, "seat": Material(seat, seat, 0.0)}
-    return found
+        materials |= {"spreader": sheet, "beside tiles": still, "seat": Material(seat, seat, 0.0)}
+    return materials
 
 
-def _borders(found: Plane, c: Case) -> None:
+def _borders(drawing: Plane, c: Case) -> None:
     """Faces to the air, to core, housing and sink."""
-    cold, below = found.facing("cold", "below")
+    cold, below = drawing.facing("cold", "below")
     share = c.window_share * c.half_width / np.sum(below)
     if c.sink_conductance:
-        found.borders.append(Border(cold, below, c.sink_conductance / np.sum(below), body=2))
+        drawing.borders.append(Border(cold, below, c.sink_conductance / np.sum(below), body=2))
     else:
-        found.borders.append(Border(cold, share * below, c.cold_coefficient, c.emissivity))
+        drawing.borders.append(Border(cold, share * below, c.cold_coefficient, c.emissivity))
     for name, side, coefficient in (("plate", "above", c.rotor_coefficient), ("floor", "below", c.floor_coefficient),
                                     ("ledge", "below", c.floor_coefficient)):  # fmt: skip
-        found.meets(name, side, coefficient, c.emissivity)
+        drawing.meets(name, side, coefficient, c.emissivity)
     ends = (("plate", c.core_conductance / c.plate_depth, 0), ("floor", c.housing_conductance / c.floor_depth, 1))
     for name, coefficient, body in ends:
-        found.meets(name, "right", coefficient, body=body)
+        drawing.meets(name, "right", coefficient, body=body)
 
 
-def columns(found: Plane, name: str, low: float = -np.inf, high: float = np.inf) -> tuple[Array, Array]:
+def columns(drawing: Plane, name: str, low: float = -np.inf, high: float = np.inf) -> tuple[Array, Array]:
     """Cells of a material between two places by column, from below, and the columns' shares of their width.
 
     A plate's columns above the layer are shorter where a liner lies in it.
     """
-    own = found.cells(name)
-    own = own[(found.middle[0][own] > low) & (found.middle[0][own] < high)]
-    places, first = np.unique(found.i[own], return_index=True)
-    widths = found.dx[own][first]
-    return np.array([own[found.i[own] == i] for i in places]), widths / np.sum(widths)
+    own = drawing.cells(name)
+    own = own[(drawing.middle[0][own] > low) & (drawing.middle[0][own] < high)]
+    places, first = np.unique(drawing.i[own], return_index=True)
+    widths = drawing.dx[own][first]
+    return np.array([own[drawing.i[own] == i] for i in places]), widths / np.sum(widths)

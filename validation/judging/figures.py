@@ -61,7 +61,7 @@ def _draw_curves(axes: Axes, each: Outcome, curves: list[Compared]) -> None:
             across, expected, yerr=half, fmt=MARKERS[number % len(MARKERS)], color=colour, markersize=2.5,
             elinewidth=0.8, capsize=1.5, markerfacecolor="none", label=part.quantity.name.replace("_", " "),
         )  # fmt: skip
-        axes.plot(across, [part.rows[i].found for i in order], **style_of(number) | {"linewidth": 0.9})
+        axes.plot(across, [part.rows[i].computed for i in order], **style_of(number) | {"linewidth": 0.9})
     _scale(axes, curves)
     across = [float(value) for part in curves for value in each.case.inputs[part.quantity.at]]
     if min(across) > 0.0 and max(across) / min(across) > _WIDE:
@@ -76,7 +76,7 @@ def _draw_curves(axes: Axes, each: Outcome, curves: list[Compared]) -> None:
 
 def _scale(axes: Axes, curves: list[Compared]) -> None:
     rows = [row for part in curves for row in part.rows]
-    lowest = min(min(row.expected - row.limit, row.found) for row in rows)
+    lowest = min(min(row.expected - row.limit, row.computed) for row in rows)
     if lowest > 0.0 and max(row.expected for row in rows) / lowest > _WIDE:
         axes.set_yscale("log")
         axes.yaxis.set_minor_formatter(NullFormatter())

@@ -21,13 +21,13 @@ class Row:
 
     label: str
     expected: float
-    found: float
+    computed: float
     limit: float
 
     @property
     def of_limit(self) -> float:
         """Return the signed deviation over the limit."""
-        return (self.found - self.expected) / self.limit
+        return (self.computed - self.expected) / self.limit
 
 
 @dataclass(frozen=True)
@@ -48,11 +48,11 @@ class Compared:
 
         A difference that is known and no longer there is outside as well: the case has to be corrected.
         """
-        if not all(np.isfinite(row.found) for row in self.rows):
+        if not all(np.isfinite(row.computed) for row in self.rows):
             return OUTSIDE
         if not self.quantity.known:
             return INSIDE if abs(self.worst.of_limit) <= 1.0 else OUTSIDE
-        furthest = max(abs(row.found / row.expected - 1.0) for row in self.rows)
+        furthest = max(abs(row.computed / row.expected - 1.0) for row in self.rows)
         return KNOWN if abs(self.worst.of_limit) > 1.0 and furthest <= self.quantity.known_within else OUTSIDE
 
 
@@ -67,8 +67,8 @@ class Outcome:
     @property
     def verdict(self) -> str:
         """Return the worst of its quantities' verdicts."""
-        found = {each.verdict for each in self.quantities}
-        return next((verdict for verdict in (OUTSIDE, KNOWN, INSIDE) if verdict in found), OPEN)
+        verdicts = {each.verdict for each in self.quantities}
+        return next((verdict for verdict in (OUTSIDE, KNOWN, INSIDE) if verdict in verdicts), OPEN)
 
     @property
     def worst(self) -> tuple[Compared, Row]:
@@ -83,9 +83,9 @@ def outcome(case: Case) -> Outcome:
     if case.open:
         return Outcome(case, (), 0.0)
     begin = time.perf_counter()
-    found = _called("comparisons", case, case.compare)
+    results = _called("comparisons", case, case.compare)
     expected = _called("references", case, case.reference) if case.reference else {}
-    quantities = tuple(_compared(case, quantity, found, expected) for quantity in case.expected)
+    quantities = tuple(_compared(case, quantity, results, expected) for quantity in case.expected)
     return Outcome(case, quantities, time.perf_counter() - begin)
 
 
@@ -111,9 +111,9 @@ def _called(folder: str, case: Case, name: str) -> Mapping[str, Any]:
     return values
 
 
-def _compared(case: Case, quantity: Quantity, found: Mapping[str, Any], expected: Mapping[str, Any]) -> Compared:
+def _compared(case: Case, quantity: Quantity, results: Mapping[str, Any], expected: Mapping[str, Any]) -> Compared:
     values = quantity.values or _numbers(expected.get(quantity.name, ()))
-    here = _numbers(found.get(quantity.name, ()))
+    here = _numbers(results.get(quantity.name, ()))
     if not values or len(values) != len(here):
         raise CaseError(f"{case.name}: {quantity.name}: {len(values)} values expected, {len(here)} found")
     labels = _labels(case, quantity, len(values), expected.get("labels", {}).get(quantity.name, ()))

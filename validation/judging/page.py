@@ -47,7 +47,7 @@ def values_csv(outcomes: Sequence[Outcome]) -> str:
     for each in sorted(outcomes, key=lambda each: each.case.name):
         for compared in each.quantities:
             for row in compared.rows:
-                numbers = (_number(value) for value in (row.expected, row.limit, row.found))
+                numbers = (_number(value) for value in (row.expected, row.limit, row.computed))
                 quantity = compared.quantity
                 label = (each.case.name, quantity.name, row.label, quantity.unit)
                 rows.writerow((*label, *numbers, f"{row.of_limit:+.2f}"))
@@ -74,7 +74,7 @@ def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
         unit = "" if compared.quantity.unit == "1" else f" {compared.quantity.unit}"
         yield (
             f"| [{name}](#{name}) | {_label(compared, row)} | {_number(row.expected)}{unit} | {_number(row.limit)} "
-            f"| {_number(row.found)} | {row.of_limit:+.2f}{verdict} |"
+            f"| {_number(row.computed)} | {row.of_limit:+.2f}{verdict} |"
         )
 
 

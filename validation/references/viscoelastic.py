@@ -26,14 +26,14 @@ def terminal_viscosities(inputs: Values) -> Values:
 
 def zener(inputs: Values) -> Values:
     """Standard linear solid of a permanent R and a passing G, eta = G tau (Findley, Lai and Onaran, ch. 5)."""
-    (_, rest), (tau, passing) = inputs["modes"]
+    (_, settled), (tau, passing) = inputs["modes"]
     time, omega = np.array(inputs["time"], float), np.array(inputs["frequency"], float)
-    whole, slow = rest + passing, tau * (rest + passing) / rest
-    complex_modulus = rest + passing * 1j * omega * tau / (1.0 + 1j * omega * tau)
+    whole, slow = settled + passing, tau * (settled + passing) / settled
+    complex_modulus = settled + passing * 1j * omega * tau / (1.0 + 1j * omega * tau)
     return {
-        "relaxation": rest + passing * np.exp(-time / tau),
-        "creep": 1.0 / rest - (1.0 / rest - 1.0 / whole) * np.exp(-time / slow),
-        "start_up": rest * time + passing * tau * (1.0 - np.exp(-time / tau)),
+        "relaxation": settled + passing * np.exp(-time / tau),
+        "creep": 1.0 / settled - (1.0 / settled - 1.0 / whole) * np.exp(-time / slow),
+        "start_up": settled * time + passing * tau * (1.0 - np.exp(-time / tau)),
         "storage": complex_modulus.real,
         "loss": complex_modulus.imag,
     }
@@ -78,8 +78,8 @@ def _strain(modes: list[tuple[float, float]], times: Any) -> Any:
 
     begin = np.full(len(modes) + 1, 1.0 / whole)
     scale = 1e-9 / whole
-    found = solve_ivp(rates, (0.0, max(times)), begin, method="Radau", t_eval=times, rtol=1e-8, atol=1e-3 * scale)
-    return found.y[-1]
+    solved = solve_ivp(rates, (0.0, max(times)), begin, method="Radau", t_eval=times, rtol=1e-8, atol=1e-3 * scale)
+    return solved.y[-1]
 
 
 def wagner(inputs: Values, past_nodes: int = 6000, phases: int = 256) -> Values:

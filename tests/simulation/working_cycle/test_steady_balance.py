@@ -1,4 +1,4 @@
-"""What it takes to stay soft: against a long simulation, the first law, and two dimensions."""
+"""Current and power of a soft steady state: against a long simulation, the first law, and two dimensions."""
 
 import sys
 from collections.abc import Callable
@@ -84,11 +84,11 @@ def test_less_current_lets_the_layer_cool_and_more_heats_it(
     model, cycle = build(), switch_of("as it is")
     phase, balance = model.phases["softening"], cycle.balances["softening"]
     for share, sign in ((0.95, -1.0), (1.05, 1.0)):
-        found = solve_ivp(
+        solved = solve_ivp(
             lambda _, y, amps=share * balance[-1]: np.asarray(phase.rates(y, amps, model.start)).ravel(),
             (0.0, 1e4), balance[:-1], method="LSODA", rtol=1e-8, atol=1e-10,
         )  # fmt: skip
-        gap = float(phase.watch(["response_time"])(found.y[:, -1], share * balance[-1], model.start))
+        gap = float(phase.watch(["response_time"])(solved.y[:, -1], share * balance[-1], model.start))
         assert sign * gap > 0.01
 
 
@@ -131,12 +131,12 @@ def test_a_steady_state_ignores_last_digits_of_the_switch_s_end() -> None:
     table = table_for("shear")
     model = DeviceFunctions(table, given(study) | sizes, tuple(study.operating_points), study.solver.cells)
     simulator = Simulator(model)
-    found = []
+    currents = []
     for step in range(40):
         inputs = model.start.copy()
         inputs[model.index["pcl_thickness"]] *= 1.0 + 1e-8 * step
-        found.append(simulator.run(inputs, phases=["softening"]).values["hold_current"])
-    assert found == pytest.approx([found[0]] * 40, rel=1e-8)
+        currents.append(simulator.run(inputs, phases=["softening"]).values["hold_current"])
+    assert currents == pytest.approx([currents[0]] * 40, rel=1e-8)
 
 
 DAYS = 2e5  # s
@@ -158,6 +158,6 @@ def test_the_plane_stays_at_the_target_by_the_product_s_current(study: str, size
     amps = Simulator(model).run(model.start, phases=["softening"]).values["hold_current"]
     held = model_of(path, **{**sizes, "current": amps})
     judge = Judge(held, plane_of(held, 0.7))
-    _, states = judge.found.heat(DAYS, 30)
+    _, states = judge.plane.heat(DAYS, 30)
     rise = judge.known["target_temperature"] - judge.known["ambient_temperature"]
-    assert judge.far_face(states[-1]) - judge.found.ambient == pytest.approx(rise, rel=0.03)
+    assert judge.far_face(states[-1]) - judge.plane.ambient == pytest.approx(rise, rel=0.03)
