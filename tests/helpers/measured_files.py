@@ -14,7 +14,7 @@ from tvimdesign.simulation.measurement.reading.data_file import read_data_file
 
 
 def csv(path: Path, **columns: Any) -> Path:
-    """A file of columns; `name__unit` is the heading `name [unit]`."""
+    """Write a file of columns; `name__unit` is the heading `name [unit]`."""
     heads = [name.replace("__", " [") + "]" for name in columns]
     heads = [head.replace("_per_", "/").replace("_", " ") for head in heads]
     rows = [";".join(f"{x:.12g}" for x in row) for row in zip(*columns.values(), strict=True)]
@@ -26,11 +26,11 @@ def measured(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> M
     return measure_files([paths] if isinstance(paths, Path) else paths, kind, settings)
 
 
-def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Measurement:
+def fit_files(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Measurement:
     """Return the same, with intervals of the covariance: profiles take most of the time."""
     files = [read_data_file(path) for path in ([paths] if isinstance(paths, Path) else paths)]
     blocks = [block for file in files for block in file.blocks]
-    sheet = kind_sheet(kind) if kind else next(one for one in kind_sheets().values() if one.fits(blocks[0]))
+    sheet = kind_sheet(kind) if kind else next(known for known in kind_sheets().values() if known.fits(blocks[0]))
     result: Measurement = measure_of(sheet)(blocks, sheet.values(settings), profiles=False)
     return result
 

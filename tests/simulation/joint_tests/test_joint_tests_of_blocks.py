@@ -43,7 +43,7 @@ def trial(resolved: ResolvedModule) -> Callable[[str], Trial]:
 
 
 def with_rows(resolved: ResolvedModule, **values: float) -> ResolvedModule:
-    """The rig with rows held to values."""
+    """Return the rig with some quantities fixed."""
     return replace(resolved, values={**resolved.values, **values})
 
 
@@ -52,7 +52,7 @@ def value(trial: Trial, name: str) -> float:
 
 
 def sheet(trial: Trial, name: str) -> CurveTable:
-    return next(one for one in trial.sheets if one.name == name)
+    return next(table for table in trial.sheets if table.name == name)
 
 
 def case_of(resolved: ResolvedModule, name: str) -> Case:
@@ -62,32 +62,32 @@ def case_of(resolved: ResolvedModule, name: str) -> Case:
 @pytest.mark.gate
 @pytest.mark.parametrize("test", TESTS)
 def test_every_test_runs_on_a_compression_module(test: str, trial: Callable[[str], Trial]) -> None:
-    found = trial(test)
-    assert found.findings
-    sheets = {one.name: one for one in found.sheets}
-    assert len(sheets) == len(found.sheets)
-    for one in found.sheets:
-        assert len({len(column.values) for column in one.columns}) == 1, one.name
-        assert all(np.all(np.isfinite(column.values)) for column in one.columns), one.name
-    for line in (line for panel in found.panels for line in panel.lines):
+    outcome = trial(test)
+    assert outcome.findings
+    sheets = {table.name: table for table in outcome.sheets}
+    assert len(sheets) == len(outcome.sheets)
+    for table in outcome.sheets:
+        assert len({len(column.values) for column in table.columns}) == 1, table.name
+        assert all(np.all(np.isfinite(column.values)) for column in table.columns), table.name
+    for line in (line for panel in outcome.panels for line in panel.lines):
         sheets[line.sheet].column(line.x)
         sheets[line.sheet].column(line.y)
     # Only where the link moves does it matter that blocks push.
-    assert any(note.startswith("Blocks push and never pull") for note in found.notes) == (test in {"release", "sine"})
+    assert any(note.startswith("Blocks push and never pull") for note in outcome.notes) == (test in {"release", "sine"})
 
 
 @pytest.mark.gate
-def test_energy_never_rises_and_a_link_that_rattles_on_is_said_to(
+def test_energy_never_rises_and_a_lasting_rattle_is_reported(
     trial: Callable[[str], Trial], resolved: ResolvedModule
 ) -> None:
     release = trial("release")
-    for one in release.sheets:
-        if not one.name.endswith("_events"):
-            energy = one.column("stored_energy").values
-            assert np.max(np.diff(energy)) <= 1e-9 * energy[0], one.name
+    for table in release.sheets:
+        if not table.name.endswith("_events"):
+            energy = table.column("stored_energy").values
+            assert np.max(np.diff(energy)) <= 1e-9 * energy[0], table.name
     for point in POINTS:
-        found = next(one for one in release.findings if one.name == f"energy_gain@{point}")
-        assert max(found.value, found.high or 0.0) <= 1e-9
+        gain = next(finding for finding in release.findings if finding.name == f"energy_gain@{point}")
+        assert max(gain.value, gain.high or 0.0) <= 1e-9
     # A hot link has nothing but lossless springs over most of its way, and a frozen one hardly any damping.
     assert not np.isfinite(value(trial("release"), "settling_time@hot"))
     assert any(
@@ -102,9 +102,9 @@ def test_hot_blocks_leave_the_link_to_its_springs(resolved: ResolvedModule, tria
     release, springs = trial("release"), resolved.quantity("spring_stiffness")
     assert value(release, "backlash@hot") == pytest.approx(0.1, rel=1e-6)
     for name in ("release_hot", "release_melting_nominal", "release_melting_high"):
-        one = sheet(release, name)
-        angle, torque = one.column("angle").values, one.column("torque").values
-        free = one.column("ahead_touches").values + one.column("behind_touches").values == 0.0
+        course = sheet(release, name)
+        angle, torque = course.column("angle").values, course.column("torque").values
+        free = course.column("ahead_touches").values + course.column("behind_touches").values == 0.0
         assert np.any(free)
         assert torque[free] == pytest.approx(-springs * angle[free], rel=1e-9, abs=1e-12), name
         assert np.max(np.abs(torque[~free])) > springs * np.max(np.abs(angle[~free])), name
@@ -115,11 +115,11 @@ def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(
     name: str, resolved: ResolvedModule, trial: Callable[[str], Trial]
 ) -> None:
     # Unless a block recovers while it is crossed, which takes a millisecond: less than a tenth here.
-    one = sheet(trial("release"), f"release_{name}")
-    free = one.column("ahead_touches").values + one.column("behind_touches").values == 0.0
+    course = sheet(trial("release"), f"release_{name}")
+    free = course.column("ahead_touches").values + course.column("behind_touches").values == 0.0
     first = int(np.argmax(free))
     last = first + int(np.argmin(free[first:]))
-    way = one.column("angle").values[first] - one.column("angle").values[last]
+    way = course.column("angle").values[first] - course.column("angle").values[last]
     case = case_of(resolved, name)
     gap = case.plant.gap(link.held(case.plant, 0.1, 10.0))
     assert 0.9 * gap < way <= gap * (1.0 + 1e-9)
@@ -144,39 +144,39 @@ def test_the_loop_and_contact_lost_are_those_of_the_first_swing(trial: Callable[
 
 def test_events_are_where_the_columns_change(trial: Callable[[str], Trial]) -> None:
     release = trial("release")
-    one, events = sheet(release, "release_cold"), sheet(release, "release_cold_events")
-    times = one.column("time").values
+    course, events = sheet(release, "release_cold"), sheet(release, "release_cold_events")
+    times = course.column("time").values
     for ahead, column in ((1.0, "ahead_touches"), (0.0, "behind_touches")):
         chosen = events.column("block_ahead").values == ahead
         moments, touches = events.column("time").values[chosen], events.column("touches_from_here").values[chosen]
-        changes = np.flatnonzero(np.diff(one.column(column).values)) + 1
+        changes = np.flatnonzero(np.diff(course.column(column).values)) + 1
         assert times[changes] == pytest.approx(moments, abs=1e-12)
-        assert np.array_equal(one.column(column).values[changes], touches)
+        assert np.array_equal(course.column(column).values[changes], touches)
 
 
 def test_rows_say_what_the_release_says(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:
     seen = contact_seen(resolved)
     for point in POINTS:
-        found = next(one for one in trial("release").findings if one.name == f"contact_lost@{point}")
+        loss = next(finding for finding in trial("release").findings if finding.name == f"contact_lost@{point}")
         nominal, low, high = seen[f"contact_lost@{point}"]
-        assert nominal == pytest.approx(found.value, rel=1e-6)
-        assert (low, high) == pytest.approx((found.low or nominal, found.high or nominal), rel=1e-6)
+        assert nominal == pytest.approx(loss.value, rel=1e-6)
+        assert (low, high) == pytest.approx((loss.low or nominal, loss.high or nominal), rel=1e-6)
     assert 0.0 < seen["contact_lost@cold"][0] < 0.01
     assert 0.7 < seen["contact_lost@hot"][0] < 1.0
 
 
 @pytest.mark.slow
 def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) -> None:
-    found = answer(resolved.study)
-    seen, reported = contact_seen(resolved), results(found, resolved.table)["values"]
+    result = answer(resolved.study)
+    seen, reported = contact_seen(resolved), results(result, resolved.table)["values"]
     for name, (nominal, low, high) in seen.items():
-        assert found.design.values[name] == nominal
+        assert result.design.values[name] == nominal
         assert reported[name]["value"] == nominal
         if low < high:
-            assert found.intervals[name] == (low, high)
+            assert result.intervals[name] == (low, high)
             assert (reported[name]["low"], reported[name]["high"]) == (low, high)
-    assert found.intervals.keys() & seen.keys() == {"contact_lost@melting"}
-    assert found.intervals["backlash@melting"][1] > 100.0 * found.intervals["backlash@melting"][0] > 0.0
+    assert result.intervals.keys() & seen.keys() == {"contact_lost@melting"}
+    assert result.intervals["backlash@melting"][1] > 100.0 * result.intervals["backlash@melting"][0] > 0.0
 
 
 def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
@@ -187,7 +187,7 @@ def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
     for point in POINTS:
         assert value(release, f"backlash@{point}") == 0.0
         assert value(release, f"contact_lost@{point}") == 0.0
-    assert not any(one.name.endswith("_events") for one in release.sheets)
+    assert not any(table.name.endswith("_events") for table in release.sheets)
 
 
 def test_sine_pushes_molten_blocks_aside_and_keeps_frozen_ones(

@@ -33,12 +33,12 @@ def value(trial: Trial, name: str) -> float:
 
 
 def hold_to_rows(resolved: ResolvedModule, points: tuple[str, ...]) -> None:
-    found = sine_test.sine(resolved)
+    ran = sine_test.sine(resolved)
     for point in points:
         for name in ("stiffness", "damping"):
             row = resolved.quantity(f"joint_{name}@{point}")
-            assert value(found, f"{name}@{point}") == pytest.approx(row, rel=0.01), (name, point)
-        assert value(found, f"frequency_domain_difference@{point}") < 0.01
+            assert value(ran, f"{name}@{point}") == pytest.approx(row, rel=0.01), (name, point)
+        assert value(ran, f"frequency_domain_difference@{point}") < 0.01
 
 
 def test_sine_gives_stiffness_and_damping_of_the_operating_points(shear: ResolvedModule) -> None:
@@ -51,8 +51,8 @@ def test_sine_gives_stiffness_and_damping_of_the_operating_points(shear: Resolve
 def test_sine_of_frozen_blocks_is_that_of_an_independent_integration() -> None:
     # A lossy block lags behind the link and is left before the link is back: no row of small motions knows of that.
     resolved = module("paper_compression")
-    found = sine_test.sine(resolved)
-    case = next(one for one in cases(resolved) if one.point == "cold")
+    ran = sine_test.sine(resolved)
+    case = next(known for known in cases(resolved) if known.point == "cold")
     support = resolved.quantity("support@cold")
     frequency, stroke = float(resolved.quantity("frequency@cold")), float(resolved.quantity("stroke"))
     spring, elements = spectrum(float(support[0]), float(support[1]), frequency)
@@ -84,12 +84,12 @@ def test_sine_of_frozen_blocks_is_that_of_an_independent_integration() -> None:
     wave = np.exp(-2j * np.pi * frequency * times)
     turned = stroke * np.sin(2.0 * np.pi * frequency * times)
     whole = case.joint.spring_stiffness + np.trapezoid(torque * wave, times) / np.trapezoid(turned * wave, times)
-    assert value(found, "stiffness@cold") == pytest.approx(whole.real, rel=1e-3)
-    assert value(found, "damping@cold") == pytest.approx(whole.imag / (2.0 * np.pi * frequency), rel=5e-3)
+    assert value(ran, "stiffness@cold") == pytest.approx(whole.real, rel=1e-3)
+    assert value(ran, "damping@cold") == pytest.approx(whole.imag / (2.0 * np.pi * frequency), rel=5e-3)
 
 
 def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear: ResolvedModule) -> None:
-    case = next(one for one in cases(shear) if one.point == "cold")
+    case = next(known for known in cases(shear) if known.point == "cold")
     support = shear.quantity("support@cold")
     spring, elements = spectrum(float(support[0]), float(support[1]), float(shear.quantity("frequency@cold")))
     layer = [(float(tau), float(k)) for tau, k in shear.quantity("pcl_modes@cold")]
@@ -118,7 +118,7 @@ def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear: R
 
 
 def test_frozen_link_rings_down_by_half_its_loss_factor(shear: ResolvedModule) -> None:
-    case = next(one for one in cases(shear) if one.point == "cold")
+    case = next(known for known in cases(shear) if known.point == "cold")
     moved = link.released(case.plant, 0.01, link.held(case.plant, 0.01, 1e-6), case.friction).motion
     crests = np.flatnonzero((moved.angle[1:-1] > moved.angle[:-2]) & (moved.angle[1:-1] > moved.angle[2:]))[:5] + 1
     decrement = np.log(moved.angle[crests[0]] / moved.angle[crests[3]]) / 3.0
@@ -235,13 +235,13 @@ def test_sine_in_time_agrees_with_the_rows_within_one_percent(
 def test_interval_holds_what_stands_between_the_histories(resolved: ResolvedModule, release: Trial) -> None:
     # Neither the liquid nor the most frozen layer creeps slowest: a layer a quarter of the way between does, by
     # its longest mode's viscosity over the springs, and takes longer than all three that are shown.
-    found = next(one for one in release.findings if one.name == "settling_time@melting")
+    settling = next(finding for finding in release.findings if finding.name == "settling_time@melting")
     temperature = resolved.quantity("temperature@melting")
     fraction = 0.25 * fractions_at(resolved, temperature)[2]
     lasting = resolved.quantity("pcl_rheology").equilibrated  # it was cooled
     time, modulus = polymer.spectrum(temperature, fraction, lasting)[0]
-    assert found.high == pytest.approx(np.log(20.0) * time * modulus * slowness(resolved), rel=0.2)
-    assert found.high > 10.0 * found.value
+    assert settling.high == pytest.approx(np.log(20.0) * time * modulus * slowness(resolved), rel=0.2)
+    assert settling.high > 10.0 * settling.value
 
 
 def test_study_without_points_is_tested_at_the_papers_three_temperatures() -> None:

@@ -74,7 +74,7 @@ def radau(blocks: Blocks, angle: float, hold: float, times: Array) -> tuple[Arra
     ahead, behind = passing(0), passing(1)
     # A block that has relaxed to rounding is not touched from the start.
     now, state, touching = 0.0, np.array(start), [bool(np.sum(start[3 : 3 + counts[0]]) > 1e-9), False]
-    found, events = np.empty(len(times)), []
+    angles, events = np.empty(len(times)), []
     while now < times[-1]:
         # The event that has just been is left out until the link has gone on a little.
         for watched, end in (((), now + 1e-9), ((ahead, behind), times[-1])):
@@ -84,7 +84,7 @@ def radau(blocks: Blocks, angle: float, hold: float, times: Array) -> tuple[Arra
             )  # fmt: skip
             inside = (times >= now) & (times <= part.t[-1])
             if np.any(inside):
-                found[inside] = part.sol(times[inside])[0]
+                angles[inside] = part.sol(times[inside])[0]
             now, state = float(part.t[-1]), part.y[:, -1]
             if now >= times[-1]:
                 break
@@ -93,7 +93,7 @@ def radau(blocks: Blocks, angle: float, hold: float, times: Array) -> tuple[Arra
                 events.append(now)
             side = 0 if len(part.t_events[0]) else 1
             touching[side] = not touching[side]
-    return found, events
+    return angles, events
 
 
 @pytest.mark.gate
@@ -116,20 +116,20 @@ def test_relaxed_link_meets_the_other_block_when_its_cosine_says() -> None:
     # The block ahead stands back out of reach; the one behind stands 0.02 rad behind rest.
     blocks = Blocks([(1e10, 300.0)], [(1e10, 300.0)])
     moved = link.released(Plant(JOINT, blocks), 0.05, np.array([0.06, 0.02]))
-    found = moved.events[0]
-    assert (found.side, found.touching) == (1, True)
+    first = moved.events[0]
+    assert (first.side, first.touching) == (1, True)
     assert not np.any(moved.touching[:, 0])
-    assert found.time == pytest.approx(np.arccos(-0.4) / SWING, rel=1e-9)
-    flight = moved.motion.times <= found.time
+    assert first.time == pytest.approx(np.arccos(-0.4) / SWING, rel=1e-9)
+    flight = moved.motion.times <= first.time
     assert moved.motion.angle[flight] == pytest.approx(0.05 * np.cos(SWING * moved.motion.times[flight]), abs=1e-12)
-    assert moved.lost_share(0.0, found.time) == pytest.approx(1.0)
+    assert moved.lost_share(0.0, first.time) == pytest.approx(1.0)
     # Elastic on the far side: it comes back as fast, and leaves after half a period of the stiffer swing.
     leaving = next(event for event in moved.events if event.side == 1 and not event.touching)
     stiff = SPRINGS + 300.0 * 919.0 / 1219.0
-    rest = -0.02 * (stiff - SPRINGS) / stiff
+    offset = -0.02 * (stiff - SPRINGS) / stiff
     speed = 0.05 * SWING * np.sqrt(1.0 - 0.16)
-    phase = np.arctan2(speed / np.sqrt(stiff / INERTIA), 0.02 + rest)
-    assert leaving.time - found.time == pytest.approx(2.0 * phase / np.sqrt(stiff / INERTIA), rel=1e-8)
+    phase = np.arctan2(speed / np.sqrt(stiff / INERTIA), 0.02 + offset)
+    assert leaving.time - first.time == pytest.approx(2.0 * phase / np.sqrt(stiff / INERTIA), rel=1e-8)
 
 
 @NAMED

@@ -25,7 +25,7 @@ RIGID = 1e9  # N*m/rad
 
 
 def dashpot(damping: float) -> tuple[motion.Joint, motion.Modes]:
-    """A joint whose branch is a dashpot, as near as springs of 1e7 N*m/rad come to rigid."""
+    """Return a joint whose branch is a dashpot, as near as springs of 1e7 N*m/rad come to rigid."""
     return motion.Joint(INERTIA, SPRINGS, RIGID), [(damping / 1e7, 1e7)]
 
 
@@ -127,9 +127,9 @@ def test_sine_in_time_has_the_complex_stiffness_of_the_frequency_domain(layer: s
     inner = sum(k * s * tau / (1.0 + s * tau) for tau, k in LAYERS[layer])
     expected = SPRINGS + 1.0 / (1.0 / JOINT.structure_stiffness + 1.0 / inner)
     wave = np.exp(-s * moved.times[-240:])
-    found = -(moved.torque[-240:] @ wave) / (moved.angle[-240:] @ wave)
-    assert abs(found - expected) < 1e-2 * abs(expected)
-    assert found.imag == pytest.approx(expected.imag, rel=1e-2)
+    stiffness = -(moved.torque[-240:] @ wave) / (moved.angle[-240:] @ wave)
+    assert abs(stiffness - expected) < 1e-2 * abs(expected)
+    assert stiffness.imag == pytest.approx(expected.imag, rel=1e-2)
     assert moved.angle == pytest.approx(0.104 * np.sin(2.0 * np.pi * frequency * moved.times), abs=1e-9)
 
 
@@ -166,7 +166,7 @@ def test_cold_ring_is_sampled_twenty_times_a_period_as_long_as_it_lives() -> Non
     assert np.max(np.diff(moved.times[moved.times < alive])) < 1.0 / (20.0 * frequency)
 
 
-def test_doubling_stretches_end_where_they_are_told() -> None:
+def test_doubling_stretches_end_where_they_should() -> None:
     times = np.cumsum([0.0, *(step for step, count in doubling(1e-4, 100.0) for _ in range(count))])
     assert times[0] == 0.0
     assert times[1] == pytest.approx(1e-4)

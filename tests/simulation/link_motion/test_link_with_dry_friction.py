@@ -35,8 +35,8 @@ def let_go(modes: motion.Modes, one_sided: bool = False, friction: float = FRICT
 
 @pytest.mark.parametrize("one_sided", [False, True])
 def test_amplitude_falls_by_twice_the_band_in_every_half_swing(one_sided: bool) -> None:
-    found = let_go(NOTHING, one_sided)
-    moved = found.motion
+    swing = let_go(NOTHING, one_sided)
+    moved = swing.motion
     stops = np.flatnonzero(moved.speed == 0.0)
     peaks = moved.angle[stops][np.abs(np.diff(moved.angle[stops], prepend=np.nan)) > 1e-9]
     # 0.1, less 2 T_f/K each time, until the springs no longer overcome the friction.
@@ -44,8 +44,8 @@ def test_amplitude_falls_by_twice_the_band_in_every_half_swing(one_sided: bool) 
     while abs(amplitudes[-1]) > BAND:
         amplitudes.append(-np.sign(amplitudes[-1]) * (abs(amplitudes[-1]) - 2.0 * BAND))
     assert peaks == pytest.approx(amplitudes[1:], rel=1e-6)
-    assert found.rest_angle == pytest.approx(amplitudes[-1], rel=1e-6)
-    assert abs(found.rest_angle or 1.0) < BAND
+    assert swing.rest_angle == pytest.approx(amplitudes[-1], rel=1e-6)
+    assert abs(swing.rest_angle or 1.0) < BAND
     # Friction does not change the period.
     times = moved.times[turns_of(moved.speed) - 1]
     assert np.diff(times) == pytest.approx(np.pi * np.sqrt(INERTIA / SPRINGS), rel=1e-6)
@@ -81,8 +81,8 @@ def smooth(modes: motion.Modes, one_sided: bool, times: Array) -> Array:
 
     q = np.full(len(k), 0.1)
     start = np.concatenate([[0.1, 0.0], q, -q if one_sided else []])
-    found = solve_ivp(rates, (0.0, times[-1]), start, "Radau", times, rtol=1e-9, atol=1e-11)
-    return np.asarray(found.y[0])
+    solved = solve_ivp(rates, (0.0, times[-1]), start, "Radau", times, rtol=1e-9, atol=1e-11)
+    return np.asarray(solved.y[0])
 
 
 @pytest.mark.slow
@@ -107,14 +107,14 @@ def test_hardly_any_friction_is_none() -> None:
 
 
 def test_a_melt_creeps_to_the_edge_of_the_band_and_stays() -> None:
-    found = let_go(MELT)
-    assert found.rest_angle == pytest.approx(BAND, rel=1e-4)
-    assert np.max(np.diff(found.motion.energy)) <= 1e-12 * found.motion.energy[0]
+    swing = let_go(MELT)
+    assert swing.rest_angle == pytest.approx(BAND, rel=1e-4)
+    assert np.max(np.diff(swing.motion.energy)) <= 1e-12 * swing.motion.energy[0]
 
 
 def test_a_frozen_joint_creeps_without_inertia_on_the_edge_of_the_friction() -> None:
-    found = let_go(FROZEN)
-    moved = found.motion
+    swing = let_go(FROZEN)
+    moved = swing.motion
     assert moved.times[-1] > 3000.0  # not held up by a slip at every period of the joint
     assert len(moved.times) < 2000
     assert np.max(np.diff(moved.energy)) <= 1e-12 * moved.energy[0]
@@ -132,9 +132,9 @@ def test_the_release_of_the_published_module_shows_its_hysteresis() -> None:
     resolved = resolve_study(study)
     trial = release_test.release(resolved, kelvin_voigt=False)
     friction = resolved.quantity("pin_friction_torque")
-    rest = next(one.value for one in trial.findings if one.name == "rest_angle@hot")
-    assert rest == pytest.approx(friction / resolved.quantity("spring_stiffness"), rel=1e-3)
-    held = next(one.value for one in trial.findings if one.name == "held_torque@hot")
+    resting = next(finding.value for finding in trial.findings if finding.name == "rest_angle@hot")
+    assert resting == pytest.approx(friction / resolved.quantity("spring_stiffness"), rel=1e-3)
+    held = next(finding.value for finding in trial.findings if finding.name == "held_torque@hot")
     assert held == pytest.approx(0.1 * resolved.quantity("spring_stiffness") - friction, rel=1e-3)
     assert any("Friction of" in note for note in trial.notes)
 
@@ -155,11 +155,11 @@ def test_loss_factor_is_the_same_over_three_decades_and_exact_at_the_point(loss_
     assert spring >= 0.0
     assert all(stiffness > 0.0 for _, stiffness in elements)
     band = np.geomspace(0.1, 100.0, 300)
-    found = star(spring, elements, band)
-    assert found.imag / found.real == pytest.approx(loss_factor, rel=0.01)
+    complex_stiffness = star(spring, elements, band)
+    assert complex_stiffness.imag / complex_stiffness.real == pytest.approx(loss_factor, rel=0.01)
     # The law a constant loss factor leaves: (i omega)^alpha, alpha = 2/pi atan(eta).
     law = 700.0 * (1.0 + 1j * loss_factor) * (band / hertz) ** (2.0 / np.pi * np.arctan(loss_factor))
-    assert np.max(np.abs(found / law - 1.0)) < 5e-3
+    assert np.max(np.abs(complex_stiffness / law - 1.0)) < 5e-3
     assert star(spring, elements, np.array([hertz]))[0] == pytest.approx(700.0 * (1.0 + 1j * loss_factor), rel=1e-6)
 
 
@@ -170,16 +170,16 @@ def test_modes_in_series_are_those_of_both_one_behind_the_other(layer: Modes, lo
     together = in_series(layer, spring, elements)
     assert all(stiffness > 0.0 and tau > 0.0 for tau, stiffness in together)
     hertz = np.geomspace(1e-8, 1e5, 400)
-    one, other = star(0.0, layer, hertz), star(spring, elements, hertz)
-    assert np.max(np.abs(star(0.0, together, hertz) / (one * other / (one + other)) - 1.0)) < 1e-9
+    first, other = star(0.0, layer, hertz), star(spring, elements, hertz)
+    assert np.max(np.abs(star(0.0, together, hertz) / (first * other / (first + other)) - 1.0)) < 1e-9
 
 
 def test_structures_may_share_a_time_with_the_layer_or_lose_nothing() -> None:
     spring, elements = spectrum(700.0, 28.0, 1.0)
     layer = [(elements[3][0], 90.0), (1e-3, 500.0)]
     hertz = np.geomspace(1e-3, 1e3, 100)
-    one, other = star(0.0, layer, hertz), star(spring, elements, hertz)
+    first, other = star(0.0, layer, hertz), star(spring, elements, hertz)
     together = star(0.0, in_series(layer, spring, elements), hertz)
-    assert np.max(np.abs(together / (one * other / (one + other)) - 1.0)) < 1e-5
+    assert np.max(np.abs(together / (first * other / (first + other)) - 1.0)) < 1e-5
     joint = Joint(4e-4, 5.0, 700.0)
     assert with_loss(joint, LOSSY_MELT, 0.0, 1.0) == (joint, LOSSY_MELT)

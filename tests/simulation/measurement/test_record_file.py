@@ -1,4 +1,4 @@
-"""What was measured becomes a record that a study names, and what rests on it is surer then."""
+"""Records of measured values: a study names them, and the intervals that depend on them shrink."""
 
 import hashlib
 from pathlib import Path
@@ -35,7 +35,7 @@ def joint(place: Path, **module: str) -> tvim.Study:
 
 
 def ranges(study: tvim.Study) -> dict[str, UnmeasuredInput]:
-    return {one.name: one for one in unmeasured_inputs(resolve_study(study.resolved))}
+    return {assumed.name: assumed for assumed in unmeasured_inputs(resolve_study(study.resolved))}
 
 
 def test_a_record_says_value_interval_and_file(tmp_path: Path) -> None:
@@ -76,7 +76,7 @@ def test_the_interval_of_a_headline_shrinks(tmp_path: Path) -> None:
 
 def test_a_spectrum_is_a_table_that_the_catalogue_takes(tmp_path: Path) -> None:
     omega, modes, noise = np.geomspace(0.1, 300.0, 20), [(0.05, 4e3), (0.004, 6e4)], np.random.default_rng(6)
-    both = (one * np.exp(noise.normal(0.0, 0.01, 20)) for one in moduli(omega, modes))
+    both = (modulus * np.exp(noise.normal(0.0, 0.01, 20)) for modulus in moduli(omega, modes))
     fitted = tvim.fit(oscillated(tmp_path / "melt.csv", omega, *both))
     fitted.record("my_melt", catalog=tmp_path / "my_records")
     record = Catalog(tmp_path / "my_records").record("polymers", "my_melt")
@@ -89,7 +89,7 @@ def test_a_spectrum_is_a_table_that_the_catalogue_takes(tmp_path: Path) -> None:
     assert record.value("melt_reference_temperature") == pytest.approx(373.15)
 
 
-def test_an_existing_record_stays_unless_told(tmp_path: Path) -> None:
+def test_an_existing_record_stays_unless_overwriting_is_requested(tmp_path: Path) -> None:
     fitted = tvim.fit(pad_file(tmp_path))
     place = tmp_path / "my_records"
     written = fitted.record("my_pad", catalog=place)

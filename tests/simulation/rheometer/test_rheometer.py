@@ -38,7 +38,7 @@ def done(resolved: ResolvedModule) -> Done:
 
 
 def named(trial: Trial, name: str) -> Finding:
-    return next(found for found in trial.findings if found.name == name)
+    return next(finding for finding in trial.findings if finding.name == name)
 
 
 def test_standard_points_and_the_interval_of_the_solid_fraction(resolved: ResolvedModule) -> None:
@@ -65,12 +65,12 @@ NOUGHT = ("energy_gain", "backlash", "contact_lost")
 @pytest.mark.gate
 @pytest.mark.parametrize("name", TESTS)
 def test_60_degrees_is_never_one_number_and_30_and_100_always_are(done: Done, name: str) -> None:
-    for found in done(name).findings:
-        if found.name.endswith(("@60_degC", "@melting")):
-            assert found.low <= found.value <= found.high
-            assert found.low < found.high or found.name.startswith(NOUGHT)
-        elif "@" in found.name:
-            assert found.low is found.high is None
+    for finding in done(name).findings:
+        if finding.name.endswith(("@60_degC", "@melting")):
+            assert finding.low <= finding.value <= finding.high
+            assert finding.low < finding.high or finding.name.startswith(NOUGHT)
+        elif "@" in finding.name:
+            assert finding.low is finding.high is None
 
 
 @pytest.mark.gate
@@ -130,8 +130,8 @@ def test_creep_of_the_mix_is_what_its_internal_equations_integrate_to(resolved: 
         return np.append(flow - state[:-1] / taus, flow)
 
     jump = 50.0 / np.sum(moduli)
-    found = solve_ivp(rates, (0.0, 300.0), np.full(taus.size + 1, jump), "Radau", rtol=1e-9, atol=1e-16)
-    assert named(done("creep"), "creep_strain@60_degC").value == pytest.approx(found.y[-1, -1], rel=1e-5)
+    solved = solve_ivp(rates, (0.0, 300.0), np.full(taus.size + 1, jump), "Radau", rtol=1e-9, atol=1e-16)
+    assert named(done("creep"), "creep_strain@60_degC").value == pytest.approx(solved.y[-1, -1], rel=1e-5)
 
 
 @pytest.mark.gate
@@ -152,8 +152,8 @@ def test_stress_after_the_ramp_is_what_its_internal_equations_integrate_to(
 
     ramp = solve_ivp(rates, (0.0, 0.1), np.zeros(taus.size), "Radau", rtol=1e-8, atol=1.0, args=(1.0,))
     held = solve_ivp(rates, (0.1, 1.0), ramp.y[:, -1], "Radau", rtol=1e-8, atol=1.0, args=(0.0,))
-    found = named(done("relaxation"), "stress_after_1_s@30_degC").value
-    assert found == pytest.approx(float(np.sum(held.y[:, -1])), rel=2e-3)
+    stress = named(done("relaxation"), "stress_after_1_s@30_degC").value
+    assert stress == pytest.approx(float(np.sum(held.y[:, -1])), rel=2e-3)
 
 
 def test_frozen_pcl_strained_by_a_tenth_yields_as_published(done: Done) -> None:
@@ -268,7 +268,7 @@ def test_bad_temperatures_tests_and_numbers_are_refused_with_their_place(resolve
 
 
 @pytest.mark.parametrize(
-    ("modes", "said"),
+    ("modes", "message"),
     [
         ([], "here: the spectrum has no modes; expected at least one"),
         ([(1.0, 5.0), (0.1, -2.5)], "here: mode 2 has the modulus -2.5 Pa; expected a number greater than zero"),
@@ -277,7 +277,7 @@ def test_bad_temperatures_tests_and_numbers_are_refused_with_their_place(resolve
         ([(math.inf, 1.0)], "here: mode 1 has the relaxation time inf s"),
     ],
 )
-def test_what_is_no_spectrum_is_refused_with_its_place(modes: list[tuple[float, float]], said: str) -> None:
+def test_what_is_no_spectrum_is_refused_with_its_place(modes: list[tuple[float, float]], message: str) -> None:
     with pytest.raises(InputError) as caught:
         check_spectrum(modes, "here")
-    assert str(caught.value).startswith(said)
+    assert str(caught.value).startswith(message)

@@ -25,14 +25,14 @@ from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.study import drawn, given, read_study, read_study_text
 
 EXACT = 3e-3
-"""Relative error of values that an optimum is sought with; those that are told are within 2e-4."""
+"""Relative error of values that an optimum is sought with; those that are reported are within 2e-4."""
 MOVED = ("current", "pcl_thickness", "rotor_thickness", "cooling_current", "ambient_temperature")
 MOST = {"softening": 60, "stiffening": 60, "equilibrium_stiffening": 25}
 """Steps of a phase of the shear module as it is: a guard of how fast it is, without a clock."""
 
 
 def directions(model: DeviceFunctions) -> Array:
-    """One input a column, by its own size (temperatures by 100 K), and one in which all of them move."""
+    """Return a column for each input, by its own size (temperatures by 100 K), and one that moves all of them."""
     columns = []
     for name in MOVED:
         column, i = np.zeros(len(model.start)), model.index[name]
@@ -42,7 +42,7 @@ def directions(model: DeviceFunctions) -> Array:
 
 
 def compare(model: DeviceFunctions, value_at: Callable[[Array, Array], Supplied], names: list[str]) -> None:
-    """Hold derivatives of all that is finite against a stencil of fourth order."""
+    """Compare derivatives of all that is finite with a stencil of fourth order."""
     along, by = directions(model), 1e-4  # values ripple by 1e-7 of themselves as maxima pass from sample to sample
     begin = value_at(model.start, along)
     known = np.isfinite(begin.values)
@@ -52,9 +52,9 @@ def compare(model: DeviceFunctions, value_at: Callable[[Array, Array], Supplied]
         far_below, below, above, far_above = (
             value_at(model.start + times * by * along[:, j], nothing).values[known] for times in (-2, -1, 1, 2)
         )
-        found = (far_below - 8.0 * below + 8.0 * above - far_above) / (12.0 * by)
+        slope = (far_below - 8.0 * below + 8.0 * above - far_above) / (12.0 * by)
         largest = np.max(np.abs(begin.slopes[known]), axis=1) + 1e-3 * np.abs(begin.values[known])
-        gap = np.abs(found - begin.slopes[known, j]) / largest
+        gap = np.abs(slope - begin.slopes[known, j]) / largest
         assert np.max(gap) < 1e-5, (j, np.array(model.switch_names)[known][np.argmax(gap)], np.max(gap))
 
 
@@ -71,7 +71,7 @@ def test_derivatives_of_all_values_are_those_of_the_values(design: str, build: C
 
 
 def drive(model: DeviceFunctions, inputs: Array, along: Array) -> Drive:
-    """A current of three pieces over a time that both follow the current of the inputs, with tangents."""
+    """Return a current of three pieces over a time that both follow the current of the inputs, with tangents."""
     i = model.index["current"]
     shares, moments = np.array([0.5, 1.5, 0.9, 1.1]), np.array([0.0, 20.0, 60.0, 150.0])
     size = inputs[i] / model.start[i]
@@ -91,11 +91,11 @@ def test_derivatives_under_a_current_that_follows_a_profile(build: Callable[...,
     place = model.switch_names.index("response_time")
     assert begin.values[place] == pytest.approx(150.0, rel=1e-12)
     value, slopes = begin.driven["softening"].short, begin.driven["softening"].of_short
-    by, one = 1e-4, directions(model)[:, -1]
-    nothing = np.zeros((len(one), 0))
-    shorts = [value_at(model.start + times * by * one, nothing).driven["softening"].short for times in (-2, -1, 1, 2)]
-    found = (shorts[0] - 8.0 * shorts[1] + 8.0 * shorts[2] - shorts[3]) / (12.0 * by)
-    assert slopes[-1] == pytest.approx(found, rel=1e-6)
+    by, way = 1e-4, directions(model)[:, -1]
+    nothing = np.zeros((len(way), 0))
+    shorts = [value_at(model.start + times * by * way, nothing).driven["softening"].short for times in (-2, -1, 1, 2)]
+    slope = (shorts[0] - 8.0 * shorts[1] + 8.0 * shorts[2] - shorts[3]) / (12.0 * by)
+    assert slopes[-1] == pytest.approx(slope, rel=1e-6)
     assert abs(value) > 1e-3  # it need not be over
     compare(model, value_at, ["response_time", "switch_energy", "peak_power"])
 
@@ -105,10 +105,10 @@ def test_values_an_optimum_is_sought_with_are_near_those_of_cvodes(
     design: str, build: Callable[..., DeviceFunctions], judged: Callable[[str], Cycle]
 ) -> None:
     model = build(design)
-    found = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0))).values
+    values = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0))).values
     judge = judged(design).values
     for i, name in enumerate(model.switch_names):
-        assert found[i] == pytest.approx(judge[name], rel=EXACT), name
+        assert values[i] == pytest.approx(judge[name], rel=EXACT), name
 
 
 @pytest.mark.slow
@@ -117,14 +117,14 @@ def test_values_of_a_study_s_optimum_are_near_those_of_cvodes(path: Path) -> Non
     study = drawn(read_study(path))
     model = resolve_study(study).functions
     grids: dict[str, Grid] = {}
-    found = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0)), None, grids).values
+    values = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0)), None, grids).values
     judge = fine(model).run(model.start).values
     endless = {name for name, phase in model.phases.items() if np.isinf(judge[phase.phase.ends])}
     for i, row in enumerate(study.table.supplied):
         if row.phase in endless:  # CVODES has what it reaches, the engine nothing
-            assert np.isinf(found[i])
+            assert np.isinf(values[i])
         else:
-            assert found[i] == pytest.approx(judge[row.name], rel=EXACT), row.name
+            assert values[i] == pytest.approx(judge[row.name], rel=EXACT), row.name
     assert max(len(grid.shares) for grid in grids.values()) <= 80
 
 
@@ -133,18 +133,18 @@ def test_values_do_not_depend_on_the_number_of_directions(build: Callable[..., D
     grids: dict[str, Grid] = {}
     along = directions(model)
     many = CycleEngine(model).run(model.start, along, None, grids)
-    one = CycleEngine(model).run(model.start, along[:, :1], None, grids)
-    assert many.values == pytest.approx(one.values, rel=1e-9)
-    assert many.slopes[:, 0] == pytest.approx(one.slopes[:, 0], rel=1e-7, abs=1e-12)
+    alone = CycleEngine(model).run(model.start, along[:, :1], None, grids)
+    assert many.values == pytest.approx(alone.values, rel=1e-9)
+    assert many.slopes[:, 0] == pytest.approx(alone.slopes[:, 0], rel=1e-7, abs=1e-12)
 
 
 def test_only_the_phases_that_are_needed_are_stepped(build: Callable[..., DeviceFunctions]) -> None:
     model = build()
     grids: dict[str, Grid] = {}
     along = np.zeros((len(model.start), 1))
-    found = CycleEngine(model).run(model.start, along, {"response_time", "peak_power"}, grids)
+    run = CycleEngine(model).run(model.start, along, {"response_time", "peak_power"}, grids)
     assert set(grids) == {"softening"}
-    known = {name for name, value in zip(model.switch_names, found.values, strict=True) if np.isfinite(value)}
+    known = {name for name, value in zip(model.switch_names, run.values, strict=True) if np.isfinite(value)}
     assert known == {"response_time", "peak_power"}
 
 
@@ -157,9 +157,9 @@ def test_an_event_that_comes_later_than_the_steps_were_made_for_is_found(build: 
         inputs = model.start.copy()
         inputs[model.index["pcl_thickness"]] *= factor
         judge = fine(model).run(inputs).values
-        found = engine.run(inputs, nothing, None, grids).values
+        values = engine.run(inputs, nothing, None, grids).values
         for name in ("response_time", "stiffening_time", "switch_energy"):
-            assert found[model.switch_names.index(name)] == pytest.approx(judge[name], rel=EXACT), (factor, name)
+            assert values[model.switch_names.index(name)] == pytest.approx(judge[name], rel=EXACT), (factor, name)
 
 
 def test_a_phase_takes_no_more_steps_than_it_did(build: Callable[..., DeviceFunctions]) -> None:
@@ -178,12 +178,12 @@ def test_a_steady_state_that_changes_steeply_is_found(study: str) -> None:
     model = resolve_study(read).functions
     engine, along = CycleEngine(model), np.zeros((len(model.start), 1))
     along[model.index["ambient_temperature"]] = 1.0
-    found = engine.run(model.start, along, {"hold_current", "hold_power"})
+    run = engine.run(model.start, along, {"hold_current", "hold_power"})
     judge = fine(model).run(model.start, phases=["softening"]).values
     for name in ("hold_current", "hold_power"):
         place = model.switch_names.index(name)
-        assert found.values[place] == pytest.approx(judge[name], rel=1e-6)
-        assert found.slopes[place, 0] < 0.0
+        assert run.values[place] == pytest.approx(judge[name], rel=1e-6)
+        assert run.slopes[place, 0] < 0.0
 
 
 METAL, WAX, GLASS = "pcl_grade: fields_metal", "pcl_grade: paraffin_rt60", "pcl_grade: pla"
@@ -201,8 +201,8 @@ def model(mode: str, module: str) -> DeviceFunctions:
 def circuit(built: DeviceFunctions) -> tuple[float, float]:
     """Resistance of layer and pads [ohm]."""
     numbers = {name: float(built.start[i]) for name, i in built.index.items()}
-    found = built.table.evaluate({**built.words, **numbers}, ["layer_resistance", "pads"])
-    return found["layer_resistance"], found["pads"].resistance
+    values = built.table.evaluate({**built.words, **numbers}, ["layer_resistance", "pads"])
+    return values["layer_resistance"], values["pads"].resistance
 
 
 @cache
@@ -233,10 +233,10 @@ def test_symbols_are_the_same_as_floats(mode: str, module: str) -> None:
     state = np.asarray(phase.initial(built.start)).ravel() + 0.1 * np.arange(phase.state_size) / phase.state_size
     given_numbers = {**built.words, **{name: float(built.start[i]) for name, i in built.index.items()}}
     known = {**given_numbers, "phase": STIFFENING, "state": state, "drive_current": -0.3}
-    found = built.table.evaluate_instant(known, ["state_rates", "impedance_now", "electrical_power"])
+    values = built.table.evaluate_instant(known, ["state_rates", "impedance_now", "electrical_power"])
     rates = np.asarray(phase.rates(state, -0.3, built.start)).ravel()
-    assert rates == pytest.approx(found["state_rates"], rel=1e-9, abs=1e-12)
-    assert float(phase.impedance_now(state, -0.3, built.start)) == pytest.approx(found["impedance_now"], rel=1e-9)
+    assert rates == pytest.approx(values["state_rates"], rel=1e-9, abs=1e-12)
+    assert float(phase.impedance_now(state, -0.3, built.start)) == pytest.approx(values["impedance_now"], rel=1e-9)
 
 
 def test_a_layer_that_heats_itself_takes_its_power_and_is_hottest_inside() -> None:
@@ -274,8 +274,8 @@ def resolved(module: str) -> ResolvedModule:
 
 def test_a_wax_in_its_range_is_known_to_kelvins_not_to_history() -> None:
     # 53 to 62 degC, each one kelvin either way: at 57 degC 5/9 is frozen, 4/9 to 6/9.
-    found = fractions_at(resolved(WAX), 57.0 + 273.15)
-    assert found == pytest.approx((4.0 / 9.0, 5.0 / 9.0, 6.0 / 9.0), abs=0.01)
+    fractions = fractions_at(resolved(WAX), 57.0 + 273.15)
+    assert fractions == pytest.approx((4.0 / 9.0, 5.0 / 9.0, 6.0 / 9.0), abs=0.01)
 
 
 @pytest.mark.parametrize("rate", [0.001, 10.0])

@@ -23,12 +23,12 @@ def model_of(path: Path) -> DeviceFunctions:
     return resolve_study(study).functions
 
 
-def agree(one: Cycle, other: Cycle) -> None:
-    assert one.values.keys() == other.values.keys()
+def agree(first: Cycle, other: Cycle) -> None:
+    assert first.values.keys() == other.values.keys()
     for name, value in other.values.items():
-        assert one.values[name] == pytest.approx(value, rel=PROMISED), name
-    assert one.trajectories.keys() == other.trajectories.keys()
-    assert one.balances.keys() == other.balances.keys()
+        assert first.values[name] == pytest.approx(value, rel=PROMISED), name
+    assert first.trajectories.keys() == other.trajectories.keys()
+    assert first.balances.keys() == other.balances.keys()
 
 
 @pytest.mark.gate
@@ -97,14 +97,14 @@ def test_a_trajectory_has_samples_enough_and_runs_as_cvodes_does(
         assert line.states.shape == (model.phases[name].state_size, len(line.times))
         assert line.times[-1] == shipped.values[model.phases[name].phase.ends]
         share = np.linspace(0.0, 1.0, 201)
-        one, another = (course.at(share * course.times[-1]) for course in (line, other))
-        temperatures = [seen(model, name, states, line.currents[0]) for states in (one, another)]
+        mine, another = (course.at(share * course.times[-1]) for course in (line, other))
+        temperatures = [seen(model, name, states, line.currents[0]) for states in (mine, another)]
         # The old one's samples are straight between; half a kelvin is what that leaves where cells melt.
         assert np.max(np.abs(temperatures[0] - temperatures[1])) < 0.5, name
 
 
 def seen(model: DeviceFunctions, phase: str, states: Array, current: float) -> Array:
-    """All temperatures at some states, a column each."""
+    """Return all temperatures at some states, a column each."""
     every = model.phases[phase].temperatures.map(states.shape[1])
     inputs = np.repeat(model.start[:, None], states.shape[1], axis=1)
     return np.asarray(every(states, np.full((1, states.shape[1]), current), inputs))
@@ -112,9 +112,9 @@ def seen(model: DeviceFunctions, phase: str, states: Array, current: float) -> A
 
 def test_what_is_shown_is_what_is_simulated(build: Callable[..., DeviceFunctions]) -> None:
     model = build()
-    one, other = Simulator(model).run_to_show(model.start), Simulator(model).run(model.start)
-    assert one.values == other.values
-    assert all(np.array_equal(line.states, other.trajectories[name].states) for name, line in one.trajectories.items())
+    full, other = Simulator(model).run_to_show(model.start), Simulator(model).run(model.start)
+    assert full.values == other.values
+    assert all(np.array_equal(line.states, other.trajectories[name].states) for name, line in full.trajectories.items())
 
 
 def test_a_phase_goes_on_beyond_its_end_where_it_is_traced(build: Callable[..., DeviceFunctions]) -> None:
@@ -136,7 +136,7 @@ WATCHED = ("near_face_time", "mean_time", "far_face_time", "switch_energy", "pea
 
 @pytest.fixture(scope="module", params=["thin", *LONG])
 def pair(request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions]) -> tuple[Cycle, dict[str, float]]:
-    """The product's switch and what the independent integration finds for the same design."""
+    """Return the product's switch and the result of the independent integration for the same design."""
     model = build(request.param, rotor_cells=16)
     reference = AnotherStack(value_of(model), sink=model.words["cold_side"] == "sink")
     current = model.start[model.index["current"]]
@@ -150,14 +150,14 @@ def pair(request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions]) 
         gap.terminal = which == 2
         return gap
 
-    found = solve_ivp(
+    solved = solve_ivp(
         lambda _, y: reference.rates(y, current), (0.0, 2000.0), begin, method="BDF", rtol=1e-5, atol=1e-3,
         jac_sparsity=reference.neighbours(),
         events=[waits(0), waits(1), waits(2)], dense_output=True,
     )  # fmt: skip
-    times = [float(hits[0]) for hits in found.t_events]
+    times = [float(hits[0]) for hits in solved.t_events]
     sampled = np.linspace(0.0, times[2], 2001)
-    states = found.sol(sampled)
+    states = solved.sol(sampled)
     power = np.array([reference.power(column, current) for column in states.T])
     values = {
         "near_face_time": times[0],

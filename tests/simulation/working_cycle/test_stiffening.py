@@ -108,12 +108,12 @@ def changes_by_cells(
     build: Callable[..., DeviceFunctions], design: str, coarsest: int = 6, **inputs: float
 ) -> tuple[Array, Array]:
     """Times and energy with `coarsest` to 48 cells: how much each doubling changes them, over the last."""
-    found = []
+    rows = []
     for cells in (count for count in (6, 12, 24, 48) if count >= coarsest):
         model = build(design, cells, **inputs)
         values = tight(model).run(model.start).values
-        found.append([values[name] for name in NAMES])
-    return np.abs(np.diff(found, axis=0)), np.array(found[-1])
+        rows.append([values[name] for name in NAMES])
+    return np.abs(np.diff(rows, axis=0)), np.array(rows[-1])
 
 
 @pytest.mark.slow
@@ -127,9 +127,9 @@ def test_stiffening_converges_with_the_square_of_the_cell(
     # A change of 3e-6 of a value is not told from what the integrator leaves at 1e-9: with 96 cells the orders of the
     # time and the energy of a sink at 0.2 A are 1.90 and 2.83, and these change by 9e-7 and 3e-7 of themselves.
     changes, last = changes_by_cells(build, design, cooling_current=cooling, stiffening_band=1.3)
-    told = changes[1:] > 3e-6 * last
-    assert np.all(told[0])
-    assert np.log2(changes[:-1] / changes[1:])[told] == pytest.approx(2.0, abs=0.25)
+    resolvable = changes[1:] > 3e-6 * last
+    assert np.all(resolvable[0])
+    assert np.log2(changes[:-1] / changes[1:])[resolvable] == pytest.approx(2.0, abs=0.25)
     assert np.all(changes[-1] < 2e-4 * last)
 
 
@@ -181,7 +181,7 @@ def temperatures(phase: PhaseFunctions, state: Array, current: float, model: Dev
 
 
 def changed(model: DeviceFunctions, **inputs: float) -> Array:
-    """Inputs of a model that are its own but for what is said."""
+    """Return a model's own inputs, with some changed."""
     start = model.start.copy()
     for name, value in inputs.items():
         start[model.index[name]] = value
@@ -285,17 +285,17 @@ def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., DeviceF
         return another.faces(y)[2] - target
 
     reached.terminal = True
-    found = solve_ivp(
+    solved = solve_ivp(
         lambda t, y: another.rates(y, float(np.interp(t, np.linspace(0.0, 100.0, 5), [0.8, 2.4, 1.2, 2.0, 1.6]))),
         (0.0, 600.0), another.everywhere(22.0), method="BDF", rtol=1e-6, atol=1e-4, max_step=5.0,
         jac_sparsity=another.neighbours(), events=[reached], dense_output=True,
     )  # fmt: skip
     cycle = tight(model).run(model.start, {"softening": profile}, phases=["softening"])
-    time = float(found.t_events[0][0])
+    time = float(solved.t_events[0][0])
     assert cycle.values["far_face_time"] == pytest.approx(time, rel=0.01)
     sampled = np.linspace(0.0, time, 2001)
     amps = np.interp(sampled, np.linspace(0.0, 100.0, 5), [0.8, 2.4, 1.2, 2.0, 1.6])
-    power = [another.power(found.sol(t), a) for t, a in zip(sampled, amps, strict=True)]
+    power = [another.power(solved.sol(t), a) for t, a in zip(sampled, amps, strict=True)]
     assert cycle.values["switch_energy"] == pytest.approx(np.trapezoid(power, sampled), rel=0.01)
     assert cycle.values["peak_power"] == pytest.approx(max(power), rel=0.01)
     assert cycle.values["peak_current"] == pytest.approx(2.4, rel=1e-6)

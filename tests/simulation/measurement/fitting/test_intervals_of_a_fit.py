@@ -7,7 +7,7 @@ import lmfit
 import numpy as np
 import odrpack
 import pytest
-from measured_files import csv, found
+from measured_files import csv, fit_files
 from scipy.stats import linregress
 from scipy.stats import t as student
 
@@ -49,25 +49,25 @@ def test_a_line_has_the_intervals_of_the_textbook() -> None:
     measured = 2.0 + 0.5 * X + NOISE
     slope = Parameter("slope", "1", "", 0.1, positive=False)
     zero = Parameter("zero", "1", "", 0.0, positive=False)
-    found = fitted(problem(measured, lambda values: values["zero"] + values["slope"] * X, slope, zero))
+    fit = fitted(problem(measured, lambda values: values["zero"] + values["slope"] * X, slope, zero))
     book = linregress(X, measured)
     quantile = student.ppf(0.975, len(X) - 2)
     # Few residuals of normal noise lie where the loss is no square: within a twentieth of the interval.
     for name, value, deviation in (("slope", book.slope, book.stderr), ("zero", book.intercept, book.intercept_stderr)):
-        one = found[name]
-        assert one.value == pytest.approx(value, abs=0.1 * deviation)
-        assert 0.5 * (one.high - one.low) == pytest.approx(quantile * deviation, rel=0.05)
-    assert found.noise[0] == pytest.approx(float(np.std(measured - book.intercept - book.slope * X, ddof=2)), rel=0.05)
+        estimate = fit[name]
+        assert estimate.value == pytest.approx(value, abs=0.1 * deviation)
+        assert 0.5 * (estimate.high - estimate.low) == pytest.approx(quantile * deviation, rel=0.05)
+    assert fit.noise[0] == pytest.approx(float(np.std(measured - book.intercept - book.slope * X, ddof=2)), rel=0.05)
 
 
 def test_a_decay_is_that_of_lmfit_with_its_profile() -> None:
-    found = decay_fit(DECAY)
+    fit = decay_fit(DECAY)
     model = lmfit.models.ExponentialModel()
     other = model.fit(DECAY, x=X, amplitude=1.0, decay=0.5)
-    assert found.value("rate") == pytest.approx(1.0 / other.params["decay"].value, rel=2e-3)
-    assert found.value("size") == pytest.approx(other.params["amplitude"].value, rel=2e-3)
+    assert fit.value("rate") == pytest.approx(1.0 / other.params["decay"].value, rel=2e-3)
+    assert fit.value("size") == pytest.approx(other.params["amplitude"].value, rel=2e-3)
     ends = {name: [end for _, end in other.conf_interval(sigmas=[0.95])[name]] for name in ("amplitude", "decay")}
-    size, rate = found["size"], found["rate"]
+    size, rate = fit["size"], fit["rate"]
     assert [size.low, size.high] == pytest.approx(ends["amplitude"][::2], rel=3e-3)
     assert [rate.low, rate.high] == pytest.approx([1.0 / end for end in ends["decay"][::-2]], rel=3e-3)
 
@@ -83,25 +83,25 @@ def test_an_outlier_hardly_moves_the_fit() -> None:
     )
 
 
-def test_what_only_a_product_decides_is_said_and_has_no_interval() -> None:
-    one, other = Parameter("mass", "kg", "", 1.0), Parameter("speed", "1", "", 1.0)
+def test_values_that_only_their_product_decides_have_no_interval() -> None:
+    first, other = Parameter("mass", "kg", "", 1.0), Parameter("speed", "1", "", 1.0)
     product = Derived("momentum", "1", "", lambda values: values["mass"] * values["speed"])
     measured = 3.0 * X + NOISE
-    found = fitted(
-        problem(measured, lambda values: values["mass"] * values["speed"] * X, one, other, derived=(product,))
+    fit = fitted(
+        problem(measured, lambda values: values["mass"] * values["speed"] * X, first, other, derived=(product,))
     )
-    assert found["mass"].low is found["mass"].high is found["speed"].low is None
-    assert found["momentum"].low is not None
-    assert found.value("momentum") == pytest.approx(3.0, rel=0.01)
-    (said,) = found.words
-    assert "cannot tell mass and speed apart: they make up for one another" in said
+    assert fit["mass"].low is fit["mass"].high is fit["speed"].low is None
+    assert fit["momentum"].low is not None
+    assert fit.value("momentum") == pytest.approx(3.0, rel=0.01)
+    (sentence,) = fit.words
+    assert "cannot tell mass and speed apart: they make up for one another" in sentence
 
 
 def test_a_parameter_without_effect_is_named() -> None:
     idle = Parameter("idle", "1", "", 1.0)
     slope = Parameter("slope", "1", "", 1.0)
-    found = fitted(problem(3.0 * X + NOISE, lambda values: values["slope"] * X, slope, idle))
-    assert found.words == (
+    fit = fitted(problem(3.0 * X + NOISE, lambda values: values["slope"] * X, slope, idle))
+    assert fit.words == (
         "The data say nothing of idle: no prediction depends on it. Its value is the start of the fit.",
     )
 
@@ -110,22 +110,22 @@ def test_an_end_that_the_data_leave_open_is_open() -> None:
     # Far slower than the record is long: any longer time does as well.
     rate = Parameter("rate", "1/s", "", 0.01)
     size = Parameter("size", "1", "", 1.0)
-    found = fitted(problem(1.0 + NOISE, decay, size, rate))
-    assert found["rate"].low is None
-    assert "The data do not bound rate from below." in found.words
+    fit = fitted(problem(1.0 + NOISE, decay, size, rate))
+    assert fit["rate"].low is None
+    assert "The data do not bound rate from below." in fit.words
 
 
 def test_residuals_that_follow_one_another_widen_the_intervals() -> None:
     drift = np.cumsum(NOISE) * 0.3
-    found, plain = decay_fit(3.0 * np.exp(-0.7 * X) + drift), decay_fit(DECAY)
-    assert found.autocorrelation[0] > 0.5
+    fit, plain = decay_fit(3.0 * np.exp(-0.7 * X) + drift), decay_fit(DECAY)
+    assert fit.autocorrelation[0] > 0.5
     assert plain.autocorrelation[0] < 0.2
-    assert any("Residuals follow one another" in said for said in found.words)
+    assert any("Residuals follow one another" in sentence for sentence in fit.words)
 
 
 def test_too_few_values_are_refused() -> None:
-    one, other = Parameter("a", "1", "", 1.0), Parameter("b", "1", "", 1.0)
-    few = problem(X[:2], lambda values: values["a"] + values["b"] * X[:2], one, other, over=X[:2])
+    first, other = Parameter("a", "1", "", 1.0), Parameter("b", "1", "", 1.0)
+    few = problem(X[:2], lambda values: values["a"] + values["b"] * X[:2], first, other, over=X[:2])
     with pytest.raises(InputError, match="2 values do not give 2 parameters"):
         fitted(few)
 
@@ -148,9 +148,9 @@ def test_what_is_known_to_lie_between_two_ends_adds_their_variance() -> None:
                 measured, lambda values: (values["mean"] + values.get("offset", 0.0)) * np.ones(len(X)), *parameters
             )
         )
-        start = np.array([one.inner(one.start) for one in parameters])
+        start = np.array([parameter.inner(parameter.start) for parameter in parameters])
         spreads.append(spread(residuals, robust_fit(residuals, start)))
-    alone, together = (float(one.covariance[0, 0]) for one in spreads)
+    alone, together = (float(spread_of.covariance[0, 0]) for spread_of in spreads)
     assert not spreads[1].free_directions
     assert together == pytest.approx(alone + width**2 / 12.0, rel=1e-3)
 
@@ -172,7 +172,7 @@ def test_a_pad_is_that_of_orthogonal_distance_regression(tmp_path: Path) -> None
     true = 298.0 + 4.0 * current
     voltage, cold = faces(true, current, (SEEBECK, RESISTANCE, CONDUCTANCE))
     voltage = voltage + noise.normal(0.0, VOLTS, 30)
-    hot, cold = (one + noise.normal(0.0, KELVIN, 30) for one in (true, cold))
+    hot, cold = (face + noise.normal(0.0, KELVIN, 30) for face in (true, cold))
     other = odrpack.odr_fit(
         lambda x, beta: faces(x, current, beta), hot, np.array([voltage, cold]), np.array([0.04, 1.5, 0.4]),
         weight_x=1.0 / KELVIN**2, weight_y=np.array([1.0 / VOLTS**2, 1.0 / KELVIN**2]),
@@ -180,7 +180,7 @@ def test_a_pad_is_that_of_orthogonal_distance_regression(tmp_path: Path) -> None
     assert other.success
     path = csv(tmp_path / "p.csv", current__A=current, voltage__V=voltage, hot_side__degC=hot - 273.15,
                cold_side__degC=cold - 273.15)  # fmt: skip
-    fit = found(path).fit
+    fit = fit_files(path).fit
     # odrpack scales by the squares over rows less parameters, though a row has two values here; weights are known.
     deviations = other.sd_beta / np.sqrt(other.res_var)
     for name, value, deviation in zip(("seebeck", "resistance", "conductance"), other.beta, deviations, strict=True):
@@ -195,7 +195,7 @@ TRUTH = 5.0
 
 
 def mean_of(series: list[Array]) -> Problem:
-    """One value, read by several instruments."""
+    """Return a fit of a value that several instruments read."""
     mean = Parameter("mean", "1", "", TRUTH, positive=False)
     channels = [
         Channel(f"instrument {i}", "1", values, lambda given, values=values: given["mean"] * np.ones(len(values)),
@@ -249,6 +249,6 @@ def few_readings(seed: int) -> Fit:
 @pytest.mark.slow
 def test_intervals_of_few_readings_hold_the_truth() -> None:
     # 600 seeds: 570 with the corrections, 551 without them; 95 % less three deviations are 554.
-    found = [few_readings(seed)["mean"] for seed in range(600)]
-    held = sum(one.low is not None and one.high is not None and one.low <= TRUTH <= one.high for one in found)
+    means = [few_readings(seed)["mean"] for seed in range(600)]
+    held = sum(mean.low is not None and mean.high is not None and mean.low <= TRUTH <= mean.high for mean in means)
     assert 554 < held < 587

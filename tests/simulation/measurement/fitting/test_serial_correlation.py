@@ -36,16 +36,16 @@ def fit_of(slopes: Array, noise: Array) -> tuple[Array, Array]:
 
 def held(count: int, rho: float, seeds: int) -> float:
     """Share of the errors of two parameters that lie within their intervals of 95 %."""
-    slopes, found = table(count), []
+    slopes, inside = table(count), []
     inverse, quantile = np.linalg.inv(slopes.T @ slopes), student.ppf(0.975, count - 2)
     for seed in range(seeds):
         error, left = fit_of(slopes, noise_of(count, rho, seed))
-        told = following([Series(left, slopes)], ALONE, count - 2.0)
+        serial = following([Series(left, slopes)], ALONE, count - 2.0)
         variance = (
-            told.wider * left @ left / (count - 2.0) * np.diag(inverse @ moved_by_noise(slopes, told.rho) @ inverse)
+            serial.wider * left @ left / (count - 2.0) * np.diag(inverse @ moved_by_noise(slopes, serial.rho) @ inverse)
         )
-        found += list(np.abs(error) <= quantile * np.sqrt(variance))
-    return float(np.mean(found))
+        inside += list(np.abs(error) <= quantile * np.sqrt(variance))
+    return float(np.mean(inside))
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -72,10 +72,10 @@ def test_the_coefficient_is_the_mean_over_the_posterior(seed: int) -> None:
     whole = quad(likelihood, -most, most, limit=200)[0]
     z = quad(lambda angle: np.arctanh(np.sin(angle)) * likelihood(angle), -most, most, limit=200)[0] / whole
     below = quad(likelihood, -most, 0.0, limit=200)[0] / whole
-    told = following([Series(left, slopes)], ALONE, count - 2.0)
-    assert told.rho == pytest.approx(np.tanh(z), abs=2e-3)
-    assert told.by_chance == pytest.approx(below, abs=5e-3)
-    assert told.wider == pytest.approx(sum_and_sizes(told.rho)[0] / (left @ left), rel=1e-6)
+    correlation = following([Series(left, slopes)], ALONE, count - 2.0)
+    assert correlation.rho == pytest.approx(np.tanh(z), abs=2e-3)
+    assert correlation.by_chance == pytest.approx(below, abs=5e-3)
+    assert correlation.wider == pytest.approx(sum_and_sizes(correlation.rho)[0] / (left @ left), rel=1e-6)
 
 
 def test_what_noise_moves_is_the_double_sum() -> None:
@@ -102,9 +102,9 @@ def test_channels_that_err_alike_are_taken_together() -> None:
 def test_a_misfit_that_is_no_noise_widens_by_fourteen_at_most() -> None:
     slopes = table(200)
     bent = fit_of(slopes, np.linspace(-1.0, 1.0, 200) ** 3)[1]
-    told = following([Series(bent, slopes)], ALONE, 198.0)
-    assert told.rho == 0.99
-    assert told.by_chance < 1e-6
+    correlation = following([Series(bent, slopes)], ALONE, 198.0)
+    assert correlation.rho == 0.99
+    assert correlation.by_chance < 1e-6
 
 
 def test_few_values_or_none_that_err_count_as_independent() -> None:
@@ -114,13 +114,13 @@ def test_few_values_or_none_that_err_count_as_independent() -> None:
 
 
 def test_strong_correlation_is_found_though_the_fit_follows_it() -> None:
-    slopes, seen, told = table(60), [], []
+    slopes, seen, estimates = table(60), [], []
     for seed in range(150):
         left = fit_of(slopes, noise_of(60, 0.8, seed))[1]
         seen.append(np.sum(left[1:] * left[:-1]) / np.sum(left**2))
-        told.append(following([Series(left, slopes)], ALONE, 58.0).rho)
+        estimates.append(following([Series(left, slopes)], ALONE, 58.0).rho)
     assert np.mean(seen) < 0.75
-    assert np.mean(told) == pytest.approx(0.8, abs=0.04)
+    assert np.mean(estimates) == pytest.approx(0.8, abs=0.04)
 
 
 @pytest.mark.parametrize(("count", "rho"), [*((60, rho) for rho in RHOS), *((20, rho) for rho in RHOS[:3])])
@@ -130,7 +130,7 @@ def test_intervals_hold_the_truth(count: int, rho: float) -> None:
 
 
 def drifting(count: int, rho: float, seed: int) -> Problem:
-    """A mean of values that follow one another."""
+    """Return a fit of the mean of serially correlated values."""
     measured = 5.0 + 0.1 * noise_of(count, rho, seed)
     mean = Parameter("mean", "1", "", 5.0, positive=False)
     at = np.arange(count, dtype=float)
@@ -138,16 +138,16 @@ def drifting(count: int, rho: float, seed: int) -> Problem:
 
 
 def test_a_whole_fit_holds_the_truth_under_weak_correlation() -> None:
-    found = [fitted(drifting(40, 0.4, seed))["mean"] for seed in range(150)]
-    inside = [one.low is not None and one.high is not None and one.low <= 5.0 <= one.high for one in found]
+    means = [fitted(drifting(40, 0.4, seed))["mean"] for seed in range(150)]
+    inside = [mean.low is not None and mean.high is not None and mean.low <= 5.0 <= mean.high for mean in means]
     assert 0.90 <= np.mean(inside) < 0.99
 
 
-def test_words_tell_what_is_sure_from_what_cannot_be_told() -> None:
+def test_words_distinguish_what_is_sure_from_what_stays_open() -> None:
     sure = fitted(drifting(300, 0.9, 1))
-    assert any(said.startswith("Residuals follow one another, most those of y") for said in sure.words)
-    said = [word for seed in range(60) for word in fitted(drifting(12, 0.3, seed), profiles=False).words]
-    assert any("too few to tell whether they follow one another" in word for word in said)
+    assert any(sentence.startswith("Residuals follow one another, most those of y") for sentence in sure.words)
+    sentences = [word for seed in range(60) for word in fitted(drifting(12, 0.3, seed), profiles=False).words]
+    assert any("too few to tell whether they follow one another" in word for word in sentences)
 
 
 def straight(x: Array, measured: Array, *, relative: bool = False) -> Fit:

@@ -1,4 +1,4 @@
-"""Sines and logs of a module: what they tell of it, against closed forms and CVODES."""
+"""Sines and logs of a module: what is fitted to them, against closed forms and CVODES."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from cvodes_cycle import CvodesSimulator
-from measured_files import csv, found, holds, measured, turned
+from measured_files import csv, fit_files, holds, measured, turned
 from support import study_path
 
 from tvimdesign.base.errors import CatalogError, InputError
@@ -27,7 +27,7 @@ SIZE = 0.05
 
 def joints(folder: Path, stiffness: float, damping: float, friction: float, hertz: tuple[float, ...]) -> list[Path]:
     joint = INERTIA, stiffness, damping, friction
-    return [turned(folder / f"{one}.csv", one, seed, joint, SIZE, (1e-5, 1e-4)) for seed, one in enumerate(hertz)]
+    return [turned(folder / f"{rate}.csv", rate, seed, joint, SIZE, (1e-5, 1e-4)) for seed, rate in enumerate(hertz)]
 
 
 @pytest.fixture(scope="module")
@@ -43,21 +43,21 @@ def test_a_molten_joint_tells_its_springs_its_melt_and_its_pins(tmp_path: Path, 
     stiffness = springs * modulus / float(module.values["spring_youngs_modulus"])
     friction = coefficient / 0.25 * float(module.quantity("pin_friction_torque"))
     paths = joints(tmp_path, stiffness, damping, friction, (0.01, 0.03))
-    result = found(paths, "sine", study=str(STUDY), state="molten", inertia="4.3e-4 kg.m^2")
+    result = fit_files(paths, "sine", study=str(STUDY), state="molten", inertia="4.3e-4 kg.m^2")
     assert module.values["pin_friction"] == 0.25
     assert result.fit.value("spring_youngs_modulus") == pytest.approx(modulus, rel=5e-3)
     assert result.fit.value("pcl_zero_shear_viscosity") == pytest.approx(viscosity, rel=0.01)
     assert result.record_values["pin_friction"].value == pytest.approx(coefficient, rel=0.01)
-    assert {one.choice: list(one.values) for one in result.more_records} == {
+    assert {record.choice: list(record.values) for record in result.more_records} == {
         "spring_material": ["youngs_modulus"], "pcl_grade": ["zero_shear_viscosity"],
     }  # fmt: skip
 
 
-def test_a_melt_that_thins_over_a_wide_motion_is_told_by_its_amplitude(module: ResolvedModule) -> None:
+def test_a_melt_that_thins_over_a_wide_motion_is_known_by_its_amplitude(module: ResolvedModule) -> None:
     # At one hertz the same stiffness and damping over a wider motion are a longer melt's: strained more, it thins.
     of = {size: JointOfModule(module, STUDY, "molten", 2.0 * np.pi, size) for size in (0.01, 0.1)}
     seen = dict(zip(("stiffness", "damping"), of[0.1].impedance({}), strict=True))
-    viscosity = {size: float(one.derived()[1].formula(seen)) for size, one in of.items()}
+    viscosity = {size: float(fit.derived()[1].formula(seen)) for size, fit in of.items()}
     assert viscosity[0.1] == pytest.approx(float(module.values["pcl_zero_shear_viscosity"]), rel=1e-6)
     assert viscosity[0.01] < 0.9 * viscosity[0.1]
 
@@ -76,7 +76,9 @@ def test_a_frozen_joint_tells_its_pads_and_a_run_counts_them_as_measured(
         "\nmodule:", "\ncatalog: mine\nmodule:\n  joint: bench\n  peltier_module: bench", 1
     )
     (tmp_path / "study.yaml").write_text(study)
-    inputs = {one.name: one for one in unmeasured_inputs(resolve_study(read_study(tmp_path / "study.yaml")))}
+    inputs = {
+        assumed.name: assumed for assumed in unmeasured_inputs(resolve_study(read_study(tmp_path / "study.yaml")))
+    }
     pads, loss = inputs["peltier_shear_modulus"], inputs["clamped_loss_factor"]
     assert (pads.status, loss.status) == ("measured", "measured")
     assert pads.low < 3e6 < pads.high
@@ -106,9 +108,9 @@ def test_a_release_with_a_known_inertia_writes_records_too(tmp_path: Path, modul
     time = np.linspace(0.0, 6.0 / omega * 2.0 * np.pi, 200)
     angle = 0.002 * np.exp(-decay * time) * (np.cos(ringing * time) + decay / ringing * np.sin(ringing * time))
     path = csv(tmp_path / "r.csv", time__s=time, angle__rad=angle + np.random.default_rng(1).normal(0.0, 2e-6, 200))
-    result = found(path, "release", inertia="4.3e-4 kg.m^2", study=str(STUDY), state="frozen")
+    result = fit_files(path, "release", inertia="4.3e-4 kg.m^2", study=str(STUDY), state="frozen")
     assert result.fit.value("peltier_shear_modulus") == pytest.approx(module.values["peltier_shear_modulus"], rel=0.05)
-    assert [one.choice for one in result.more_records] == ["peltier_module"]
+    assert [record.choice for record in result.more_records] == ["peltier_module"]
 
 
 def test_no_record_of_several_stays_where_one_cannot(tmp_path: Path, module: ResolvedModule) -> None:
@@ -125,7 +127,7 @@ def test_no_record_of_several_stays_where_one_cannot(tmp_path: Path, module: Res
 
 def test_the_state_is_asked_for(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="--set state"):
-        found(joints(tmp_path, 5.0, 0.1, 0.0, (1.0, 8.0)), "sine", study=str(STUDY))
+        fit_files(joints(tmp_path, 5.0, 0.1, 0.0, (1.0, 8.0)), "sine", study=str(STUDY))
 
 
 MADE = {"rotor_contact": 2500.0, "rotor_coefficient": 9.0}
@@ -169,9 +171,9 @@ def test_its_course_is_that_of_cvodes_through_heating_and_cooling() -> None:
     time = EVERY * rows
     course = Course(time, np.where(time[:-1] < HEATED, 1.5, 0.0), int(np.searchsorted(time, HEATED)))
     ambient = float(resolved().values["ambient_temperature"])
-    found_ = module.temperatures(course, {**MADE, "ambient_temperature": ambient})
+    temperatures = module.temperatures(course, {**MADE, "ambient_temperature": ambient})
     for place, reference in simulated().items():
-        mine = np.asarray(ca.evalf(ca.MX(found_[place]))).ravel()
+        mine = np.asarray(ca.evalf(ca.MX(temperatures[place]))).ravel()
         assert np.max(np.abs(mine - reference[rows])[1:]) < 0.1, place
 
 
@@ -188,15 +190,15 @@ def test_contacts_and_losses_come_back_and_make_a_record(tmp_path: Path) -> None
 
 
 @pytest.mark.slow
-def test_one_thermocouple_cannot_tell_six_values_apart_and_says_so(tmp_path: Path) -> None:
+def test_a_single_thermocouple_leaves_six_values_open_and_the_fit_says_so(tmp_path: Path) -> None:
     path = log(tmp_path / "log.csv", noise=0.2, places=("rotor_temperature",))
-    result = found(path, study=str(STUDY))
+    result = fit_files(path, study=str(STUDY))
     assert "6 values from 1 places" in " ".join(result.notes)
-    assert any("apart" in said or "do not bound" in said for said in result.fit.words)
+    assert any("apart" in sentence or "do not bound" in sentence for sentence in result.fit.words)
 
 
 @pytest.mark.parametrize(
-    ("columns", "given", "said"),
+    ("columns", "given", "message"),
     [
         ({"rotor__degC": [22.0, 23.0, 24.0, 25.0]}, {}, "--set study=...: needed"),
         ({"rotor__degC": [22.0, 23.0, 24.0, 25.0]}, {"study": str(STUDY), "fitted": "rotor"}, "no contact or loss"),
@@ -205,7 +207,7 @@ def test_one_thermocouple_cannot_tell_six_values_apart_and_says_so(tmp_path: Pat
         ({"rotor__degC": [22.0] * 4, "current__A": [1.0, 0.0, 1.0, 0.0]}, {"study": str(STUDY)}, "one heating"),
     ],
 )
-def test_what_lacks_is_said(tmp_path: Path, columns: dict[str, object], given: dict[str, str], said: str) -> None:
+def test_a_lack_is_reported(tmp_path: Path, columns: dict[str, object], given: dict[str, str], message: str) -> None:
     path = csv(tmp_path / "l.csv", **{"time__s": range(4), "current__A": [1.0] * 4, **columns})
-    with pytest.raises(InputError, match=said):
-        found(path, "heating_log", **given)
+    with pytest.raises(InputError, match=message):
+        fit_files(path, "heating_log", **given)

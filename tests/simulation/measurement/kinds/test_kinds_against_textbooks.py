@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from measured_files import arrhenius, csv, found, measured, moduli, oscillated
+from measured_files import arrhenius, csv, fit_files, measured, moduli, oscillated
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from support import ROOT
@@ -41,10 +41,10 @@ def test_hanging_weights_on_an_arm(tmp_path: Path) -> None:
     # 100 g on 80 mm turn a spring of 0.5 N.m/rad by 0.1 * 9.80665 * 0.08 / 0.5 rad.
     grams = np.array([0.0, 100.0, 200.0, 300.0, 400.0, 300.0, 200.0, 100.0])
     angle = np.degrees(grams * 1e-3 * 9.80665 * 0.08 / 0.5) + np.array([1, -1, 2, -2, 1, -1, 1, -1]) * 1e-4
-    fit = found(csv(tmp_path / "w.csv", mass__g=grams, angle__deg=angle), arm="80 mm").fit
+    fit = fit_files(csv(tmp_path / "w.csv", mass__g=grams, angle__deg=angle), arm="80 mm").fit
     assert fit.value("stiffness") == pytest.approx(0.5, rel=1e-4)
     with pytest.raises(InputError, match=r"--set arm=...: needed, as .*w.csv has a mass and no torque"):
-        found(tmp_path / "w.csv")
+        fit_files(tmp_path / "w.csv")
 
 
 def test_the_modulus_of_a_wire_is_the_handbook_s(tmp_path: Path) -> None:
@@ -55,7 +55,7 @@ def test_the_modulus_of_a_wire_is_the_handbook_s(tmp_path: Path) -> None:
     path = csv(tmp_path / "w.csv", torque__N_m=torque, angle__rad=angle)
     path.write_text(path.read_text().replace("[N m]", "[N.m]"))
     sizes = {"wire_diameter": "2 mm", "coil_diameter": "20 mm", "coil_count": "5"}
-    assert found(path, **sizes).fit.value("youngs_modulus") == pytest.approx(203.4e9, rel=1e-4)
+    assert fit_files(path, **sizes).fit.value("youngs_modulus") == pytest.approx(203.4e9, rel=1e-4)
 
 
 def test_friction_and_play_of_a_joint(tmp_path: Path) -> None:
@@ -67,7 +67,7 @@ def test_friction_and_play_of_a_joint(tmp_path: Path) -> None:
     angle = 0.1 + (torque - way * 0.2) / 4.0 + 0.015 * np.sign(torque) + wobble
     path = csv(tmp_path / "j.csv", torque__mN_m=1e3 * torque, angle__rad=angle)
     path.write_text(path.read_text().replace("[mN m]", "[mN.m]"))
-    fit = found(path).fit
+    fit = fit_files(path).fit
     values = [fit.value(name) for name in ("stiffness", "friction", "backlash", "zero_angle")]
     assert values == pytest.approx([4.0, 0.2, 0.03, 0.1], rel=2e-3)
 
@@ -81,7 +81,7 @@ def test_a_pad_from_its_data_sheet(tmp_path: Path) -> None:
     voltage = seebeck * (hot - cold) + current * resistance + np.resize([1e-6, -1e-6], 7)
     path = csv(tmp_path / "p.csv", current__A=current, voltage__V=voltage, hot_side__degC=np.full(7, hot - CELSIUS),
                cold_side__degC=cold - CELSIUS)  # fmt: skip
-    fit = found(path).fit
+    fit = fit_files(path).fit
     values = [fit.value(name) for name in ("seebeck", "resistance", "conductance")]
     assert values == pytest.approx([seebeck, resistance, conductance], rel=1e-4)
 
@@ -97,7 +97,7 @@ def test_a_release_is_the_textbook_s_damped_oscillation(tmp_path: Path) -> None:
     time = np.linspace(0.0, 0.6, 300)
     noise = np.random.default_rng(2).normal(0.0, 1e-4, 300)
     path = csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1) + noise)
-    fit = found(path, inertia="4e-4 kg.m^2").fit
+    fit = fit_files(path, inertia="4e-4 kg.m^2").fit
     assert fit.value("stiffness") == pytest.approx(5.0, rel=1e-3)
     assert fit.value("damping") == pytest.approx(4e-3, rel=0.01)
     assert fit.value("natural_frequency") == pytest.approx(np.sqrt(5.0 / 4e-4) / (2.0 * np.pi), rel=1e-3)
@@ -112,7 +112,7 @@ def test_dry_friction_takes_the_textbook_s_four_shares_a_cycle(tmp_path: Path) -
     amplitude = 0.1 - shift * (2 * half + 1)
     angle = amplitude * np.cos(omega * time) + shift * np.where(half % 2, -1.0, 1.0)
     angle = angle + np.random.default_rng(3).normal(0.0, 1e-4, 300)
-    fit = found(csv(tmp_path / "r.csv", time__s=time, angle__rad=angle), inertia="4e-4 kg.m^2").fit
+    fit = fit_files(csv(tmp_path / "r.csv", time__s=time, angle__rad=angle), inertia="4e-4 kg.m^2").fit
     assert fit.value("friction") == pytest.approx(friction, rel=0.03)
     assert fit.value("stiffness") == pytest.approx(stiffness, rel=2e-3)
 
@@ -120,11 +120,12 @@ def test_dry_friction_takes_the_textbook_s_four_shares_a_cycle(tmp_path: Path) -
 def test_without_an_inertia_a_release_says_what_it_does_not_know(tmp_path: Path) -> None:
     time = np.linspace(0.0, 0.6, 300)
     noise = np.random.default_rng(2).normal(0.0, 1e-4, 300)
-    fit = found(csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1) + noise)).fit
+    fit = fit_files(csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1) + noise)).fit
     assert fit["stiffness"].low is None
     assert fit["natural_frequency"].low is not None
     assert any(
-        "cannot tell inertia, stiffness and damping apart" in said and "Only their ratios" in said for said in fit.words
+        "cannot tell inertia, stiffness and damping apart" in sentence and "Only their ratios" in sentence
+        for sentence in fit.words
     )
 
 
@@ -134,13 +135,13 @@ MODES = [(1.0, 500.0), (0.05, 1.2e4), (0.004, 9.0e4)]
 def sweep(path: Path, celsius: float, seed: int, energy: float = 35e3) -> Path:
     omega, noise = np.geomspace(0.05, 200.0, 18), np.random.default_rng(seed)
     made = moduli(omega * arrhenius(celsius, energy, 100.0), MODES)
-    return oscillated(path, omega, *(one * np.exp(noise.normal(0.0, 0.01, 18)) for one in made), celsius)
+    return oscillated(path, omega, *(modulus * np.exp(noise.normal(0.0, 0.01, 18)) for modulus in made), celsius)
 
 
 def test_a_spectrum_has_as_many_modes_as_made_the_data(tmp_path: Path) -> None:
     paths = [sweep(tmp_path / f"{t}.csv", t, seed) for seed, t in enumerate((80, 100, 120))]
-    fit = found(paths).fit
-    times = sorted(fit.value(one.name) for one in fit.parameters if one.name.startswith("time"))
+    fit = fit_files(paths).fit
+    times = sorted(fit.value(parameter.name) for parameter in fit.parameters if parameter.name.startswith("time"))
     assert times == pytest.approx([0.004, 0.05, 1.0], rel=0.1)
     assert fit.value("flow_activation_energy") == pytest.approx(35e3, rel=0.02)
     assert fit.value("zero_shear_viscosity") == pytest.approx(500.0 + 600.0 + 360.0, rel=0.02)
@@ -148,7 +149,7 @@ def test_a_spectrum_has_as_many_modes_as_made_the_data(tmp_path: Path) -> None:
 
 def test_a_shift_that_is_not_arrhenius_gives_no_energy(tmp_path: Path) -> None:
     paths = [sweep(tmp_path / f"{t}.csv", t, t, energy) for t, energy in ((60, 90e3), (100, 35e3), (140, 20e3))]
-    result = found(paths)
+    result = fit_files(paths)
     assert "flow_activation_energy" not in result.record_values
     assert any("Arrhenius' law misses one by" in note for note in result.notes)
 
@@ -180,7 +181,7 @@ def test_freezing_curves_of_another_integrator(tmp_path: Path) -> None:
         milligrams = 5.0
         paths.append(csv(tmp_path / f"{rate}.csv", time__min=time / 60.0, temperature__degC=celsius,
                          heat_flow__mW=-flow * milligrams * 1e-3))  # fmt: skip
-    result = found(paths, sample_mass="5 mg")
+    result = fit_files(paths, sample_mass="5 mg")
     fit = result.fit
     assert fit.value("crystallization_half_time") == pytest.approx(60.0, rel=0.02)
     assert fit.value("nucleation_constant") == pytest.approx(1.1e5, rel=0.02)
@@ -198,14 +199,14 @@ def test_melting_between_two_temperatures(tmp_path: Path) -> None:
     flow = (1850.0 + 250.0 * molten) / 6.0 + inside * 70e3 / 12.0 / 6.0
     noise = np.random.default_rng(1).normal(0.0, 5.0, 800)
     path = csv(tmp_path / "h.csv", time__s=time, temperature__degC=celsius, dsc__W_per_g=(flow + noise) / 1e3)
-    fit = found(path).fit
+    fit = fit_files(path).fit
     assert fit.value("melting_start") == pytest.approx(48.0 + CELSIUS, abs=0.1)
     assert fit.value("melting_end") == pytest.approx(60.0 + CELSIUS, abs=0.1)
     assert fit.value("latent_heat") == pytest.approx(70e3, rel=0.02)
 
 
 @pytest.mark.parametrize(
-    ("kind", "given", "said"),
+    ("kind", "given", "message"),
     [
         ("pads", {}, "no kind of measurement is named 'pads'; did you mean pad?"),
         ("frequency_sweep", {"largest_modes": "13"}, "--set largest_modes: 13 is not between 1 and 12"),
@@ -216,9 +217,9 @@ def test_melting_between_two_temperatures(tmp_path: Path) -> None:
         ("", {}, "are of no kind there is"),
     ],
 )
-def test_what_lacks_is_said(tmp_path: Path, kind: str, given: dict[str, str], said: str) -> None:
+def test_a_lack_is_reported(tmp_path: Path, kind: str, given: dict[str, str], message: str) -> None:
     path = csv(tmp_path / "x.csv", torque__N=[1.0, 2.0, 3.0], angle__deg=[1.0, 2.0, 3.0])
-    with pytest.raises(InputError, match=said.replace("?", r"\?")):
+    with pytest.raises(InputError, match=message.replace("?", r"\?")):
         measured(path, kind, **given)
 
 
@@ -255,8 +256,8 @@ def test_times_that_fall_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_glass_does_not_freeze(tmp_path: Path) -> None:
-    """A glass transition of 1e9 K ended in a LinAlgError; the campaign of faults found it and keeps the input."""
-    kept = json.loads((ROOT / "campaigns/corpus/fits/904f44e4b289/input.json").read_text(encoding="utf-8"))
-    (tmp_path / "f.csv").write_text(kept["data"], encoding="utf-8")
+    """Refuse a glass transition of 1e9 K, which ended in a LinAlgError; the campaign of faults has the input."""
+    stored = json.loads((ROOT / "campaigns/corpus/fits/904f44e4b289/input.json").read_text(encoding="utf-8"))
+    (tmp_path / "f.csv").write_text(stored["data"], encoding="utf-8")
     with pytest.raises(InputError, match=r"glass_transition is 1e\+09 K"):
-        found(tmp_path / "f.csv", "dsc", **kept["settings"])
+        fit_files(tmp_path / "f.csv", "dsc", **stored["settings"])

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from measured_files import arrhenius, csv, found, holds, measured, moduli, oscillated
+from measured_files import arrhenius, csv, fit_files, holds, measured, moduli, oscillated
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
@@ -30,15 +30,15 @@ def crept(time: Any, stress: float, release: float) -> Any:
     def rates(t: float, q: Any) -> Any:
         return (strain(t, q) - q) / taus
 
-    found = []
+    strains = []
     start = np.zeros(2)
     for part in filter(len, (time[time < release], time[time >= release])):
         begin = 0.0 if part[0] < release else release
         done = solve_ivp(rates, (begin, max(part[-1], release) if begin == 0.0 else part[-1]), start, "Radau",
                          dense_output=True, rtol=1e-9, atol=1e-14)  # fmt: skip
-        found += [strain(t, done.sol(t)) for t in part]
+        strains += [strain(t, done.sol(t)) for t in part]
         start = done.y[:, -1]
-    return np.array(found)
+    return np.array(strains)
 
 
 def test_creep_and_recovery_of_another_integrator(tmp_path: Path) -> None:
@@ -52,9 +52,9 @@ def test_creep_and_recovery_of_another_integrator(tmp_path: Path) -> None:
     assert result.kind.name == "creep"
     fit = result.measurement.fit
     assert fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=5e-3)
-    assert sorted(fit.value(one.name) for one in fit.parameters if "time" in one.name) == pytest.approx(
-        [0.03, 0.8], rel=0.1
-    )
+    assert sorted(
+        fit.value(parameter.name) for parameter in fit.parameters if "time" in parameter.name
+    ) == pytest.approx([0.03, 0.8], rel=0.1)
     assert result.measurement.record_conditions["melt_reference_temperature"][0] == pytest.approx(90.0 + CELSIUS)
 
 
@@ -63,7 +63,7 @@ def test_a_creep_with_hardly_more_rows_than_its_recovery_is_a_creep(tmp_path: Pa
     noise = np.random.default_rng(1).normal(0.0, 3e-3, 62)
     path = csv(tmp_path / "c.csv", time__s=time, strain__1=crept(time, 40.0, 8.0) * np.exp(noise),
                stress__Pa=np.where(time < 8.0, 40.0, 0.0), temperature__degC=np.full(62, 90.0))  # fmt: skip
-    done = found(path, "melt")
+    done = fit_files(path, "melt")
     assert done.notes[0].endswith(" as creep.")
     assert done.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)
 
@@ -79,7 +79,7 @@ def test_relaxation_after_a_step_and_after_a_ramp(tmp_path: Path, rise: float) -
     noise = np.exp(np.random.default_rng(2).normal(0.0, 5e-3, 90))
     path = csv(tmp_path / "r.csv", time__s=time, stress__Pa=stress * noise, strain__1=np.full(90, 0.1))
     given = {"temperature": "90 degC"} | ({"rise_time": f"{rise} s"} if rise else {})
-    fit = found(path, "relaxation", **given).fit
+    fit = fit_files(path, "relaxation", **given).fit
     assert fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)
     assert fit.value("plateau_modulus") == pytest.approx(20600.0, rel=0.02)
 
@@ -87,7 +87,7 @@ def test_relaxation_after_a_step_and_after_a_ramp(tmp_path: Path, rise: float) -
 def test_a_ramp_has_the_energy_that_made_it_and_leaves_out_what_is_frozen(tmp_path: Path) -> None:
     celsius = np.linspace(40.0, 170.0, 90)
     noise, melt = np.random.default_rng(3), moduli(10.0 * arrhenius(celsius, 30e3, 100.0), MODES)
-    both = (np.where(celsius < 62.0, 1e8, one) * np.exp(noise.normal(0.0, 0.01, 90)) for one in melt)
+    both = (np.where(celsius < 62.0, 1e8, modulus) * np.exp(noise.normal(0.0, 0.01, 90)) for modulus in melt)
     path = oscillated(tmp_path / "t.csv", np.full(90, 10.0), *both, celsius)
     result = measured(path, reference_temperature="100 degC")
     assert result.kind.name == "temperature_ramp"
@@ -108,7 +108,7 @@ LAWS: dict[str, Any] = {
 
 
 def strained(path: Path, law: str, noise: float, celsius: float = 100.0) -> Path:
-    """A sweep that has lost 5 % of its storage modulus at a strain of 0.029; the loss modulus overshoots."""
+    """Write a sweep that has lost 5 % of its storage modulus at a strain of 0.029; the loss modulus overshoots."""
     strain, draw = np.geomspace(1e-4, 1.0, 45), np.random.default_rng(4)
     x = strain / 0.029
     moduli = 3e3 * LAWS[law](x), 9e3 * (1.0 + 0.3 * (x / 2.0) ** 2 / (1.0 + (x / 2.0) ** 4))
@@ -130,11 +130,11 @@ def test_the_linear_range_ends_where_five_percent_are_gone(tmp_path: Path, law: 
 
 
 def test_a_limit_of_neither_phase_or_hardly_seen_is_no_record_s(tmp_path: Path) -> None:
-    between = found(strained(tmp_path / "b.csv", "square", 5e-3, 58.0), "amplitude_sweep")
+    between = fit_files(strained(tmp_path / "b.csv", "square", 5e-3, 58.0), "amplitude_sweep")
     assert not between.record_values
     path = strained(tmp_path / "s.csv", "square", 5e-3)
     path.write_text("\n".join(path.read_text().splitlines()[:25]))
-    short = found(path, "amplitude_sweep")
+    short = fit_files(path, "amplitude_sweep")
     assert any("hardly seen" in note for note in short.notes)
     assert not short.record_values
 
@@ -146,7 +146,7 @@ def test_a_known_energy_is_not_fitted(tmp_path: Path) -> None:
         storage, loss = moduli(omega * arrhenius(celsius, 30e3, 90.0), MODES)
         noise = np.exp(np.random.default_rng(int(celsius)).normal(0.0, 0.01, 20))
         paths.append(oscillated(tmp_path / f"{celsius:.0f}.csv", omega, storage * noise, loss * noise, celsius))
-    result = found(paths, flow_activation_energy="30 kJ/mol", reference_temperature="90 degC")
+    result = fit_files(paths, flow_activation_energy="30 kJ/mol", reference_temperature="90 degC")
     assert "flow_activation_energy" not in result.record_values
     assert result.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)
 
@@ -155,7 +155,7 @@ def test_a_modulus_that_the_instrument_cuts_off_is_left_out(tmp_path: Path) -> N
     omega = np.geomspace(1e-3, 100.0, 24)
     storage, loss = moduli(omega, MODES)
     cut = storage < loss / 100.0
-    result = found(oscillated(tmp_path / "s.csv", omega, np.where(cut, loss / 100.0, storage), loss, 90.0))
+    result = fit_files(oscillated(tmp_path / "s.csv", omega, np.where(cut, loss / 100.0, storage), loss, 90.0))
     assert result.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=1e-3)
     assert any(f"G''/G' stays at 100 in {np.sum(cut)} of 24 rows" in note for note in result.notes)
     with pytest.raises(InputError, match=r"Too few rows remain\. G''/omega is 0\.8 Pa\.s there"):
@@ -168,8 +168,8 @@ def test_no_time_lies_far_outside_what_a_creep_sees(tmp_path: Path, end: float) 
     time = np.geomspace(1e-3 * end, end, 60)
     path = csv(tmp_path / "c.csv", time__s=time, strain__1=crept(time, 40.0, 8.0), stress__Pa=np.full(60, 40.0),
                temperature__degC=np.full(60, 90.0))  # fmt: skip
-    result = found(path, "creep")
-    times = [one.value for one in result.fit.parameters if one.name.startswith("time")]
+    result = fit_files(path, "creep")
+    times = [parameter.value for parameter in result.fit.parameters if parameter.name.startswith("time")]
     assert 1e-4 * end * (1.0 - 1e-9) <= min(times)
     assert max(times) <= 10.0 * end * (1.0 + 1e-9)
     assert result.fit.value("plateau_modulus") == pytest.approx(20600.0, rel=1e-3)

@@ -25,8 +25,8 @@ def blocks(place: Path, name: str, data: str | bytes) -> tuple[Block, ...]:
 
 
 def is_the_sweep(block: Block, frequency: str = "angular_frequency", factor: float = 1.0) -> None:
-    found = [block.values(name) for name in (frequency, "storage_modulus", "loss_modulus")]
-    assert np.column_stack(found) == pytest.approx(np.array(SWEEP) * [factor, 1.0, 1.0])
+    columns = [block.values(name) for name in (frequency, "storage_modulus", "loss_modulus")]
+    assert np.column_stack(columns) == pytest.approx(np.array(SWEEP) * [factor, 1.0, 1.0])
 
 
 def rheocompass(names: tuple[str, str, str, str]) -> bytes:
@@ -56,9 +56,9 @@ def rheocompass(names: tuple[str, str, str, str]) -> bytes:
     ],
 )
 def test_rheocompass_in_three_languages(tmp_path: Path, names: tuple[str, str, str, str]) -> None:
-    found = blocks(tmp_path, "sweep.csv", rheocompass(names))
-    assert [round(float(block.values("temperature")[0] - 273.15), 9) for block in found] == [60.0, 80.0]
-    for block in found:
+    tables = blocks(tmp_path, "sweep.csv", rheocompass(names))
+    assert [round(float(block.values("temperature")[0] - 273.15), 9) for block in tables] == [60.0, 80.0]
+    for block in tables:
         is_the_sweep(block, "frequency")
         assert len(block.skipped) == 1
 
@@ -83,9 +83,9 @@ def test_trios_lims_export_with_labels_before_its_rows(tmp_path: Path) -> None:
         "Windows setup INFormation\n[Step]\nStep name\tFrequency sweep (80.0 °C)\nNumber of points\t3\n"
         f"Variables\tAngular frequency\tStorage modulus\tLoss modulus\nUnits\trad/s\tPa\tPa\n{rows}\n"
     )
-    (found,) = blocks(tmp_path, "lims.txt", text)
-    is_the_sweep(found)
-    assert found.title == "Frequency sweep (80.0 °C)"
+    (block,) = blocks(tmp_path, "lims.txt", text)
+    is_the_sweep(block)
+    assert block.title == "Frequency sweep (80.0 °C)"
 
 
 def test_trios_json(tmp_path: Path) -> None:
@@ -93,8 +93,8 @@ def test_trios_json(tmp_path: Path) -> None:
     columns = [{"name": name, "unit": unit} for name, unit in names.items()]
     data = {"columns": columns, "values": [[*row, 1] for row in SWEEP]}
     tree = {"Experiment": {"Results": [{"Properties": {"Name": "Sweep"}, "DataSet": [{"Data": data}]}]}}
-    (found,) = blocks(tmp_path, "trios.json", json.dumps(tree))
-    is_the_sweep(found)
+    (block,) = blocks(tmp_path, "trios.json", json.dumps(tree))
+    is_the_sweep(block)
 
 
 def test_malvern_by_the_names_of_its_actions(tmp_path: Path) -> None:
@@ -114,11 +114,11 @@ def test_netzsch_with_its_header_and_decimal_comma(tmp_path: Path) -> None:
         "#EXPORTTYPE:DATA ALL\n#SAMPLE MASS /mg:4,98\n#EXO:-1\n##Temp./°C;Time/min;DSC/(mW/mg);Sensit./(uV/mW)\n"
         " 9,33910; 91,0;-8,719357e-02;3,42\n 9,23910; 91,1;-8,7e-02;3,42\n 9,13910; 91,2;-8,6e-02;3,42\n"
     )
-    (found,) = blocks(tmp_path, "netzsch.csv", text)
-    assert found.values("temperature")[0] == pytest.approx(273.15 + 9.3391)
-    assert found.values("time")[1] == pytest.approx(91.1 * 60.0)
-    assert found.values("specific_heat_flow")[0] == pytest.approx(-87.19357)
-    assert found.number("sample_mass") == pytest.approx(4.98e-6)
+    (block,) = blocks(tmp_path, "netzsch.csv", text)
+    assert block.values("temperature")[0] == pytest.approx(273.15 + 9.3391)
+    assert block.values("time")[1] == pytest.approx(91.1 * 60.0)
+    assert block.values("specific_heat_flow")[0] == pytest.approx(-87.19357)
+    assert block.number("sample_mass") == pytest.approx(4.98e-6)
 
 
 def test_netzsch_of_an_sta_padded_with_a_blank_line_under_its_headings(tmp_path: Path) -> None:
@@ -128,11 +128,11 @@ def test_netzsch_of_an_sta_padded_with_a_blank_line_under_its_headings(tmp_path:
         "#RANGE: ;30,0°C/5,0(K/min)/1520,0°C;;;\n##Temp./°C;Time/min;DSC/(mW/mg);Mass/%;Segment\n\n"
         "29,958;0;7,67E-02;99,99772;1\n30,458;0,1;7,70E-02;99,99770;1\n30,958;0,2;7,75E-02;99,99771;1\n"
     )
-    (found,) = blocks(tmp_path, "sta.csv", text.encode("latin-1"))
-    assert found.lines == (8, 10)
-    assert found.values("temperature") - 273.15 == pytest.approx([29.958, 30.458, 30.958])
-    assert found.values("specific_heat_flow") == pytest.approx([76.7, 77.0, 77.5])
-    assert found.number("sample_mass") == pytest.approx(22.16e-6)
+    (block,) = blocks(tmp_path, "sta.csv", text.encode("latin-1"))
+    assert block.lines == (8, 10)
+    assert block.values("temperature") - 273.15 == pytest.approx([29.958, 30.458, 30.958])
+    assert block.values("specific_heat_flow") == pytest.approx([76.7, 77.0, 77.5])
+    assert block.number("sample_mass") == pytest.approx(22.16e-6)
 
 
 def test_numbers_after_a_blank_line_take_no_sentence_for_headings(tmp_path: Path) -> None:
@@ -148,9 +148,9 @@ def test_numbers_after_a_blank_line_take_no_sentence_for_headings(tmp_path: Path
 @pytest.mark.parametrize("ending", [".tts", ".osc"])
 def test_reptate_with_and_without_headings(tmp_path: Path, head: str, ending: str) -> None:
     rows = "\n".join(f" {x:.8E} {a}\t{b}   0" for x, a, b in SWEEP).replace("E+0", "E+000")
-    (found,) = blocks(tmp_path, f"melt{ending}", head + rows + "\n")
-    is_the_sweep(found)
-    assert found.number("temperature") == pytest.approx(353.15)
+    (block,) = blocks(tmp_path, f"melt{ending}", head + rows + "\n")
+    is_the_sweep(block)
+    assert block.number("temperature") == pytest.approx(353.15)
 
 
 @pytest.mark.parametrize(("heading", "good"), [("Status", "Dy_auto"), ("Etat", ""), ("Quality", "no error")])
@@ -158,10 +158,10 @@ def test_rows_that_the_instrument_flags_are_left_out_and_counted(tmp_path: Path,
     rows = [f"{x};{a};{b};{good}" for x, a, b in SWEEP]
     flagged = ["1e-1;5;9e9;ME-", "1e-2;5;9e9;ME-, taD", "1e-3;5;9e9;MV-"]
     head = f"Angular frequency [rad/s];Storage modulus [Pa];Loss modulus [Pa];{heading}"
-    (found,) = blocks(tmp_path, "sweep.csv", "\n".join([head, *rows, *flagged]))
-    is_the_sweep(found)
-    assert found.flagged == "3 of 6 rows are flagged by the instrument (ME- 1, ME-, taD 1, MV- 1)"
-    assert found.shown()[-1] == f"    left out: {found.flagged}"
+    (block,) = blocks(tmp_path, "sweep.csv", "\n".join([head, *rows, *flagged]))
+    is_the_sweep(block)
+    assert block.flagged == "3 of 6 rows are flagged by the instrument (ME- 1, ME-, taD 1, MV- 1)"
+    assert block.shown()[-1] == f"    left out: {block.flagged}"
     (none,) = blocks(tmp_path, "none.csv", "\n".join([head, *flagged]))
     with pytest.raises(InputError, match=r"none\.csv:2: 3 of 3 rows are flagged by the instrument .*: no row is left"):
         none.complete(["loss_modulus"])
@@ -169,6 +169,6 @@ def test_rows_that_the_instrument_flags_are_left_out_and_counted(tmp_path: Path,
 
 def test_a_workbook(tmp_path: Path) -> None:
     cells = [["sample", "PCL"], [], ["ω (rad/s)", "G' (Pa)", "G'' (Pa)"], *SWEEP]
-    (found,) = blocks(tmp_path, "sweep.xlsx", workbook(cells))
-    is_the_sweep(found)
-    assert found.lines == (4, 6)
+    (block,) = blocks(tmp_path, "sweep.xlsx", workbook(cells))
+    is_the_sweep(block)
+    assert block.lines == (4, 6)

@@ -19,8 +19,8 @@ def read(place: Path, text: str | bytes, name: str = "data.csv", **mapped: objec
     return read_data_file(path, column_map(mapped, "the test") if mapped else None)
 
 
-def degrees(found: DataFile) -> list[float]:
-    return [round(float(one), 9) for one in np.degrees(found.blocks[0].values("angle"))]
+def degrees(file: DataFile) -> list[float]:
+    return [round(float(angle), 9) for angle in np.degrees(file.blocks[0].values("angle"))]
 
 
 @pytest.mark.parametrize(
@@ -28,18 +28,18 @@ def degrees(found: DataFile) -> list[float]:
 )
 @pytest.mark.parametrize("separator", ["\t", ";", ",", "|"])
 def test_encoding_and_separator_change_nothing(tmp_path: Path, encoding: str, separator: str) -> None:
-    found = read(tmp_path, PLAIN.replace("[deg]", "[°]").replace(";", separator).encode(encoding))
-    assert degrees(found) == [10.0, -2.5, 10.0]
+    file = read(tmp_path, PLAIN.replace("[deg]", "[°]").replace(";", separator).encode(encoding))
+    assert degrees(file) == [10.0, -2.5, 10.0]
 
 
 @pytest.mark.parametrize("separator", ["\t", ";"])
 def test_a_decimal_comma_is_read(tmp_path: Path, separator: str) -> None:
-    found = read(tmp_path, PLAIN.replace(".", ",").replace(";", separator))
-    assert degrees(found) == [10.0, -2.5, 10.0]
-    assert "decimal comma" in found.shown()[0]
+    file = read(tmp_path, PLAIN.replace(".", ",").replace(";", separator))
+    assert degrees(file) == [10.0, -2.5, 10.0]
+    assert "decimal comma" in file.shown()[0]
 
 
-def test_what_may_be_thousands_is_refused_until_it_is_said(tmp_path: Path) -> None:
+def test_a_possible_thousands_separator_is_refused_until_it_is_stated(tmp_path: Path) -> None:
     text = "time [s];angle [deg]\n1;1,234\n2;5,678\n3;9,012\n"
     with pytest.raises(InputError, match="'1,234' may be a decimal comma or a separator of thousands"):
         read(tmp_path, text)
@@ -49,9 +49,9 @@ def test_what_may_be_thousands_is_refused_until_it_is_said(tmp_path: Path) -> No
 def test_units_may_stand_in_a_row_of_their_own_or_after_a_slash(tmp_path: Path) -> None:
     own = read(tmp_path, "Time\tAngle\tNote\ns\tmrad\t\n0\t1\ta\n1\t2\tb\n2\t3\tc\n")
     slash = read(tmp_path, "Time/ms;Angle/mrad\n0;1\n1000;2\n2000;3\n")
-    for found in (own, slash):
-        assert found.blocks[0].values("time") == pytest.approx([0.0, 1.0, 2.0])
-        assert found.blocks[0].values("angle") == pytest.approx([1e-3, 2e-3, 3e-3])
+    for file in (own, slash):
+        assert file.blocks[0].values("time") == pytest.approx([0.0, 1.0, 2.0])
+        assert file.blocks[0].values("angle") == pytest.approx([1e-3, 2e-3, 3e-3])
     assert own.blocks[0].unused == ("Note",)
 
 
@@ -114,20 +114,20 @@ def test_layouts_of_calorimeters_are_read(tmp_path: Path, head: str, separator: 
 
 
 def test_every_table_of_a_file_is_a_block_with_its_lines(tmp_path: Path) -> None:
-    found = read(tmp_path, f"first run\n{PLAIN}\n\nsecond run\n{PLAIN}")
-    assert [block.lines for block in found.blocks] == [(3, 5), (10, 12)]
-    assert [block.title for block in found.blocks] == ["first run", "second run"]
+    file = read(tmp_path, f"first run\n{PLAIN}\n\nsecond run\n{PLAIN}")
+    assert [block.lines for block in file.blocks] == [(3, 5), (10, 12)]
+    assert [block.title for block in file.blocks] == ["first run", "second run"]
 
 
 def test_one_text_is_split_by_blanks(tmp_path: Path) -> None:
-    found = read(tmp_path, "time/s  angle/deg\n  0   1.0\n 1 2.0\n  2\t3.0\n")
-    assert degrees(found) == [1.0, 2.0, 3.0]
+    file = read(tmp_path, "time/s  angle/deg\n  0   1.0\n 1 2.0\n  2\t3.0\n")
+    assert degrees(file) == [1.0, 2.0, 3.0]
     with pytest.raises(InputError, match=r"data.csv:2: 2 numbers under 4 headings; where blanks separate"):
         read(tmp_path, "time (s) angle (deg)\n  0   1.0\n 1 2.0\n  2 3.0\n")
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("time [s];angle [deg]\n0;1\n1;x\n2;3\n", r"data.csv:3: column 2: 'x' is no number"),
         ("time [s];angle [deg]\n0;1\n1;15e308\n2;3\n", r"data.csv:3: column 2: '15e308' is no number"),
@@ -138,15 +138,15 @@ def test_one_text_is_split_by_blanks(tmp_path: Path) -> None:
         ("time [s];angle [deg];torque [kN.m]\n0;1;1\n1;2;1e307\n2;3;1\n", r"'torque \[kN.m\]': a value is too large"),
     ],
 )
-def test_a_wrong_column_stops_only_a_fit_that_needs_it(tmp_path: Path, text: str, said: str) -> None:
+def test_a_wrong_column_stops_only_a_fit_that_needs_it(tmp_path: Path, text: str, message: str) -> None:
     block = read(tmp_path, text).blocks[0]
     assert block.complete(["time"]) == 3
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         block.complete(["time", "angle", "temperature", "torque"])
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("time [s];angle [deg]\n0;1\n1;2;9\n2;3\n", r"data.csv:3: 3 cells, but 2 headings; '9' has none"),
         ("0;1\n1;2\n2;3\n", r"data.csv:1: numbers without a row of headings above them"),
@@ -156,16 +156,16 @@ def test_a_wrong_column_stops_only_a_fit_that_needs_it(tmp_path: Path, text: str
     ],
 )
 def test_a_file_that_does_not_go_together_is_refused_with_its_line(
-    tmp_path: Path, text: str | bytes, said: str
+    tmp_path: Path, text: str | bytes, message: str
 ) -> None:
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read(tmp_path, text)
 
 
 def test_digits_without_end_take_no_longer_than_others(tmp_path: Path) -> None:
     begin = time.process_time()
-    found = read(tmp_path, f"{'9' * 20_000}x;y\n" * 3 + "time [s];angle [deg]\n0;1\n1;2\n2;3\n")
-    assert degrees(found) == [1.0, 2.0, 3.0]
+    file = read(tmp_path, f"{'9' * 20_000}x;y\n" * 3 + "time [s];angle [deg]\n0;1\n1;2\n2;3\n")
+    assert degrees(file) == [1.0, 2.0, 3.0]
     assert time.process_time() - begin < 1.0
 
 
@@ -215,17 +215,17 @@ def test_a_date_beside_its_time_of_day(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("cells", "said"),
+    ("cells", "message"),
     [
         (["0:58", "1:03"], r"data.csv:2: column 'Time': '0:58' may be hh:mm or mm:ss; name the column 'time "),
         (["00:00:58", "noon"], r"data.csv:3: column 'Time': 'noon' is no clock time"),
         (["31.02.2026 10:00:00", "31.02.2026 10:00:05"], "a day that is none"),
     ],
 )
-def test_a_clock_time_that_is_none_is_refused(tmp_path: Path, cells: list[str], said: str) -> None:
+def test_a_clock_time_that_is_none_is_refused(tmp_path: Path, cells: list[str], message: str) -> None:
     rows = "\n".join(f"{cell};{i};{i}" for i, cell in enumerate(cells))
     (block,) = read(tmp_path, f"Time;angle [deg];torque [N.m]\n{rows}\n").blocks
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         block.complete(["time"])
 
 
@@ -236,7 +236,7 @@ def test_of_two_columns_of_a_quantity_the_sample_s_counts(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("mapped", "said"),
+    ("mapped", "message"),
     [
         ({"angel": 1}, "angel is no quantity"),
         ({"angle": {"columm": 1}}, "angle: expected a heading"),
@@ -246,6 +246,6 @@ def test_of_two_columns_of_a_quantity_the_sample_s_counts(tmp_path: Path) -> Non
         (["angle"], "expected quantities with their columns"),
     ],
 )
-def test_a_wrong_column_map_says_where(mapped: object, said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_a_wrong_column_map_says_where(mapped: object, message: str) -> None:
+    with pytest.raises(InputError, match=message):
         column_map(mapped, "map.yaml")
