@@ -32,7 +32,7 @@ def test_a_fit_writes_its_folder_and_its_record(tvimdesign: Command, weights: Pa
     files = {path.name for path in (tmp_path / "out").iterdir()}
     assert files >= {"fit.json", "residuals.csv", "fit.png", "manifest.json"}
     data = json.loads((tmp_path / "out/fit.json").read_text())
-    assert [one["name"] for one in data["parameters"]] == ["stiffness", "zero_angle", "friction"]
+    assert [parameter["name"] for parameter in data["parameters"]] == ["stiffness", "zero_angle", "friction"]
     assert data["record"] == "my_records/spring_materials/my_wire.yaml"
     assert (tmp_path / data["record"]).exists()
     rows = (tmp_path / "out/residuals.csv").read_text(encoding="utf-8-sig").splitlines()
@@ -88,7 +88,7 @@ def test_kinds_are_listed(tvimdesign: Command) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         ([], "give at least one FILE"),
         (["nowhere.csv"], "there is no such file"),
@@ -98,10 +98,10 @@ def test_kinds_are_listed(tvimdesign: Command) -> None:
         (["weights.csv", "--columns", "weights.csv"], "expected quantities with their columns"),
     ],
 )
-def test_what_is_wrong_is_said(tvimdesign: Command, weights: Path, words: list[str], said: str) -> None:
+def test_an_error_is_reported(tvimdesign: Command, weights: Path, words: list[str], message: str) -> None:
     done = tvimdesign("fit", *words, "--no-plots", cwd=weights.parent)
     assert done.returncode == 2
-    assert said in done.stderr
+    assert message in done.stderr
 
 
 SHEET = CurveTable(
@@ -181,7 +181,7 @@ def test_scripts_get_json(tvimdesign: Command, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     reported = json.loads(done.stdout)
     assert reported["test"] == "amplitude"
-    names = {found["name"] for found in reported["findings"]}
+    names = {finding["name"] for finding in reported["findings"]}
     assert "linear_limit@30_degC" in names
 
 

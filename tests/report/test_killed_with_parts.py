@@ -1,4 +1,4 @@
-"""What is made beside the results stands in their folder: a process that is killed leaves no temporary folder."""
+"""Files made beside the results stand in their folder: a process that is killed leaves no temporary folder."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tvimdesign.study.design import read_design, write_design
 
 @pytest.fixture
 def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder of temporary files, of this test alone."""
+    """Return a folder of temporary files for this test alone."""
     folder = tmp_path / "temporary"
     folder.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
@@ -30,7 +30,7 @@ class NoProcess:
     """Stands in for the process that makes the parts: notes what it is asked for."""
 
     process = os.getpid()
-    asked: Path
+    design: Path
 
     def __init__(self, **_: object) -> None:
         pass
@@ -42,7 +42,7 @@ class NoProcess:
         pass
 
     def begin(self, design: Path, _: Path) -> None:
-        NoProcess.asked = design
+        NoProcess.design = design
 
 
 def test_the_design_of_parts_under_way_is_no_temporary_folder(
@@ -53,8 +53,8 @@ def test_the_design_of_parts_under_way_is_no_temporary_folder(
     out = tmp_path / "out/cad"
     with parts_of_design.BackgroundPartsJob() as parts:
         parts.begin(whole(design_of("paper", {})), out)
-        assert list(out.iterdir()) == [NoProcess.asked]
-        assert read_design(NoProcess.asked).mode == "shear"
+        assert list(out.iterdir()) == [NoProcess.design]
+        assert read_design(NoProcess.design).mode == "shear"
         assert list(temporary.iterdir()) == []
     assert list(out.iterdir()) == []
 

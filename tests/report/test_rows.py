@@ -14,7 +14,7 @@ from tvimdesign.study.text.mistakes import synonyms
 
 @pytest.fixture
 def printed(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """What `rows` prints on a terminal of a width."""
+    """Return what `rows` prints on a terminal of a width."""
 
     def call(word: str, width: int, mode: str = "shear") -> str:
         stream = io.StringIO()
@@ -83,7 +83,7 @@ def test_a_choice_says_what_its_records_are(printed: Any) -> None:
     assert "functioning temperature 92 to 146 °C; holding temperature 62 to 116 °C" in text
 
 
-def test_a_word_that_finds_nothing_is_told_with_the_nearest() -> None:
+def test_a_word_that_matches_nothing_is_reported_with_the_nearest() -> None:
     with pytest.raises(InputError, match="did you mean 'weight'"):
         rows.print_rows("shear", "wieght", as_json=False)
     with pytest.raises(InputError, match="lists the groups"):

@@ -134,8 +134,8 @@ def test_renamed_copy_is_equal(tvimdesign: Command, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_study_without_a_design_leaves_the_other(tvimdesign: Command, tmp_path: Path) -> None:
-    asked = '  holding_torque: ">= 5 N.m"', '  holding_torque: ">= 5 N.m"\n  response_time: "<= 120 s"'
-    paths = written(tmp_path, fast=SHEAR.replace(*asked), slow=COMPRESSION.replace(*asked))
+    limits = '  holding_torque: ">= 5 N.m"', '  holding_torque: ">= 5 N.m"\n  response_time: "<= 120 s"'
+    paths = written(tmp_path, fast=SHEAR.replace(*limits), slow=COMPRESSION.replace(*limits))
     done = tvimdesign("compare", *paths, "--points", 2, "--json", "--out", tmp_path / "out")
     assert done.returncode == 3
     reported = json.loads(done.stdout)
@@ -158,19 +158,19 @@ def test_process_that_dies_leaves_the_other(tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr(tempfile, "tempdir", str(elsewhere))
     out.mkdir()
     beside: list[list[Path]] = []
-    asked = [StudyRequest("gone", tmp_path / "gone.yaml"), StudyRequest("there", path)]
-    kept: list[tuple[str, dict[str, Any]]] = []
-    found = answers(
-        asked, out, 2, lambda _: None, lambda: beside.append([*out.iterdir(), *elsewhere.iterdir()]),
-        keep=lambda label, part: kept.append((label, part)),
+    studies = [StudyRequest("gone", tmp_path / "gone.yaml"), StudyRequest("there", path)]
+    handed_over: list[tuple[str, dict[str, Any]]] = []
+    answered = answers(
+        studies, out, 2, lambda _: None, lambda: beside.append([*out.iterdir(), *elsewhere.iterdir()]),
+        keep=lambda label, part: handed_over.append((label, part)),
     )  # fmt: skip
-    assert found["gone"]["troubles"][0]["exit_code"] == 4
-    assert "no such file" in found["gone"]["troubles"][0]["error"]
-    assert found["there"]["troubles"] == []
-    assert kept[0][0] == "there"
-    assert "drawn" in kept[0][1]
-    assert kept[-1][1] == {**found["there"], "seconds": kept[-1][1]["seconds"]}
-    assert found["there"]["drawn"]["verdict"]
+    assert answered["gone"]["troubles"][0]["exit_code"] == 4
+    assert "no such file" in answered["gone"]["troubles"][0]["error"]
+    assert answered["there"]["troubles"] == []
+    assert handed_over[0][0] == "there"
+    assert "drawn" in handed_over[0][1]
+    assert handed_over[-1][1] == {**answered["there"], "seconds": handed_over[-1][1]["seconds"]}
+    assert answered["there"]["drawn"]["verdict"]
     assert [path.parent for path in beside[0]] == [out]  # what a kill leaves is in the folder of results
     assert list(out.iterdir()) == []
 

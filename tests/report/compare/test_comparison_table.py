@@ -1,4 +1,4 @@
-"""Ratios and verdicts are those of the rows, swapped or not; without an optimum both are told as drawn."""
+"""Ratios and verdicts are those of the rows, swapped or not; without an optimum both are shown as drawn."""
 
 import csv
 import io
@@ -29,9 +29,9 @@ def row(
 
 @pytest.mark.parametrize(("better", "verdict"), [("less", "worse"), ("more", "better"), (None, "")])
 def test_twice_as_much_is_what_the_row_says(better: Literal["less", "more"] | None, verdict: str) -> None:
-    one = row(70.0, 140.0, better)
-    assert one.ratio("b") == pytest.approx(2.0)
-    assert one.verdict("b") == verdict
+    mass = row(70.0, 140.0, better)
+    assert mass.ratio("b") == pytest.approx(2.0)
+    assert mass.verdict("b") == verdict
 
 
 SIZES = st.floats(1e-3, 1e3)
@@ -39,19 +39,19 @@ SIZES = st.floats(1e-3, 1e3)
 
 @given(SIZES, SIZES, st.sampled_from(["less", "more"]))
 def test_swapping_two_studies_inverts_ratio_and_verdict(a: float, b: float, better: Literal["less", "more"]) -> None:
-    one, other = row(a, b, better), row(b, a, better)
-    ratio, turned = one.ratio("b"), other.ratio("b")
+    straight, other = row(a, b, better), row(b, a, better)
+    ratio, turned = straight.ratio("b"), other.ratio("b")
     assert ratio * turned == pytest.approx(1.0)
     opposite = {"better": "worse", "worse": "better", "same": "same"}
-    assert other.verdict("b") == opposite[one.verdict("b")]
+    assert other.verdict("b") == opposite[straight.verdict("b")]
 
 
 def test_what_hardly_differs_never_happens_or_is_open_has_its_own_verdict() -> None:
     assert row(100.0, 100.0 * (1.0 + 0.9 * ALIKE)).verdict("b") == "same"
     assert row(100.0, 100.0 * (1.0 + 1.1 * ALIKE)).verdict("b") == "worse"
-    one = row(70.0, math.inf)
-    assert one.ratio("b") is None
-    assert one.verdict("b") == "worse"
+    endless = row(70.0, math.inf)
+    assert endless.ratio("b") is None
+    assert endless.verdict("b") == "worse"
     assert row(math.inf, 70.0).verdict("b") == "better"
     both = row(math.inf, math.inf)
     assert (both.ratio("b"), both.verdict("b")) == (1.0, "same")
@@ -99,7 +99,7 @@ REQUIRED = 'require: {spring_stiffness: ">= 5 N.m/rad", holding_torque: ">= 5 N.
 
 @pytest.fixture(scope="module")
 def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
-    """A study with an optimum, and one that only says what a module is."""
+    """Compare a study with an optimum and another that only describes a module."""
     folder = tmp_path_factory.mktemp("unlike")
     first, second = COARSE, FIXED + REQUIRED
     paths = written(folder, shear=first, compression=second)
@@ -129,12 +129,14 @@ def test_drawn_modules_are_compared_where_one_has_no_optimum(outcome: Outcome) -
 def test_warnings_are_of_the_same_designs(outcome: Outcome) -> None:
     text = " ".join(summary_text(outcome).split())
     for name in ("s", "c"):
-        told: dict[str, Any] = outcome.answers[name]["drawn"]
-        assert f"{name}: {told['soft']}" in text
+        drawn: dict[str, Any] = outcome.answers[name]["drawn"]
+        assert f"{name}: {drawn['soft']}" in text
         table = outcome.tables[name]
-        shown = [advice_text(one["output"], one["value"], one["because"], table) for one in told["warnings"]]
+        shown = [
+            advice_text(warning["output"], warning["value"], warning["because"], table) for warning in drawn["warnings"]
+        ]
         assert shown
-        assert all(f"Warning {name}: {one}" in text for one in shown)
+        assert all(f"Warning {name}: {line}" in text for line in shown)
     other = {warning["output"] for warning in outcome.answers["s"]["optimised"]["warnings"]}
     for output in other - {warning["output"] for warning in outcome.answers["s"]["drawn"]["warnings"]}:
         assert f"Warning s: {output}" not in text

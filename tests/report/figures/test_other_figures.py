@@ -54,7 +54,7 @@ def resolved(request: pytest.FixtureRequest) -> ResolvedModule:
 
 @pytest.fixture(scope="module")
 def shown(resolved: ResolvedModule) -> Callable[[str], dict[str, Any]]:
-    """What the figure of a virtual test is drawn from; each test is simulated once."""
+    """Return the data that a virtual test's figure is drawn from; each test is simulated once."""
 
     @cache
     def data(test: str) -> dict[str, Any]:
@@ -161,27 +161,27 @@ NAMES = ("cycle", "stiffness_and_damping", "power_and_energy", "impedance", "tor
 
 
 @pytest.fixture(scope="module", params=STUDIES)
-def found(request: pytest.FixtureRequest) -> StudyResult:
+def result(request: pytest.FixtureRequest) -> StudyResult:
     study = read_study_text(STUDIES[request.param], "a test")
     return answer(study)
 
 
 @pytest.fixture(scope="module")
-def data(found: StudyResult) -> dict[str, Any]:
-    return plot_data(found, table_for(found.design.mode))
+def data(result: StudyResult) -> dict[str, Any]:
+    return plot_data(result, table_for(result.design.mode))
 
 
 def figure_of(figure: str, data: dict[str, Any]) -> Figure:
-    """A figure by `file.function`."""
+    """Return a figure by `file.function`."""
     file, _, function = figure.partition(".")
     made: Figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(data)
     return made
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_an_editor_finds_no_fault(name: str, found: StudyResult) -> None:
-    (asked,) = [one for one in drawings(found, table_for(found.design.mode)) if one.file == name]
-    assert faults(signed(figure_of(asked.figure, asked.data))) == []
+def test_an_editor_finds_no_fault(name: str, result: StudyResult) -> None:
+    (drawing,) = [candidate for candidate in drawings(result, table_for(result.design.mode)) if candidate.file == name]
+    assert faults(signed(figure_of(drawing.figure, drawing.data))) == []
 
 
 def test_files_have_their_pixels(data: dict[str, Any]) -> None:
@@ -192,7 +192,7 @@ def test_files_have_their_pixels(data: dict[str, Any]) -> None:
     assert picture.info["dpi"] == pytest.approx((300.0, 300.0), abs=0.01)
 
 
-@pytest.mark.parametrize("found", ["optimised"], indirect=True)
+@pytest.mark.parametrize("result", ["optimised"], indirect=True)
 def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, Any]) -> None:
     pdf, svg = ([theme.as_file(signed(figure_of("design_figures.torque", data["torque"])), ending) for _ in range(2)]
                 for ending in ("pdf", "svg"))  # fmt: skip
@@ -211,22 +211,22 @@ def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, A
     assert not list(root.iter("{http://www.w3.org/2000/svg}image"))
 
 
-def test_curves_and_loops_are_those_of_the_table(found: StudyResult, data: dict[str, Any]) -> None:
-    for phase, curves in found.histories.items():
+def test_curves_and_loops_are_those_of_the_table(result: StudyResult, data: dict[str, Any]) -> None:
+    for phase, curves in result.histories.items():
         point = "hot" if phase == "softening" else "cold"
-        turning = 2.0 * np.pi * found.design.value(f"frequency@{point}")
+        turning = 2.0 * np.pi * result.design.value(f"frequency@{point}")
         both = np.hypot(curves["joint_stiffness"], turning * np.array(curves["joint_damping"]))
         assert both == pytest.approx(np.array(curves["joint_impedance"]), rel=1e-9)
-    curves = found.histories["softening"]
+    curves = result.histories["softening"]
     assert curves["electrical_energy"][0] == 0.0
-    assert curves["electrical_energy"][-1] == pytest.approx(found.design.value("switch_energy"), rel=2e-3)
-    assert max(curves["electrical_power"]) == pytest.approx(found.design.value("peak_power"), rel=2e-3)
-    stroke = found.design.value("stroke")
-    for point, loop in zip(found.design.study["operating_points"], data["torque"]["loops"], strict=True):
+    assert curves["electrical_energy"][-1] == pytest.approx(result.design.value("switch_energy"), rel=2e-3)
+    assert max(curves["electrical_power"]) == pytest.approx(result.design.value("peak_power"), rel=2e-3)
+    stroke = result.design.value("stroke")
+    for point, loop in zip(result.design.study["operating_points"], data["torque"]["loops"], strict=True):
         angle, torque = np.array(loop["angle"]), np.array(loop["torque"])
         top = int(np.argmax(angle))
-        assert torque[top] == pytest.approx(found.design.value(f"joint_stiffness@{point}") * stroke, rel=1e-6)
-        lossy = 2.0 * np.pi * found.design.value(f"frequency@{point}") * found.design.value(f"joint_damping@{point}")
+        assert torque[top] == pytest.approx(result.design.value(f"joint_stiffness@{point}") * stroke, rel=1e-6)
+        lossy = 2.0 * np.pi * result.design.value(f"frequency@{point}") * result.design.value(f"joint_damping@{point}")
         assert np.trapezoid(torque, angle) == pytest.approx(np.pi * lossy * stroke**2, rel=2e-3)  # of a Kelvin body
     history, depths = data["cycle"]["softening"], data["cycle"]["depths"]
     assert len(depths) == 10  # eight cells between two faces
@@ -252,8 +252,8 @@ def luminance(colour: str) -> float:
 def test_colours_are_okabe_and_ito_s_and_like_greys_have_other_lines() -> None:
     assert {*theme.COLOURS, theme.BROKEN} <= OKABE_ITO
     assert theme.BROKEN not in theme.COLOURS
-    for one, other in pairwise((*theme.COLOURS, theme.COLOURS[0])):
-        assert abs(luminance(one) - luminance(other)) > 0.15, (one, other)
+    for first, other in pairwise((*theme.COLOURS, theme.COLOURS[0])):
+        assert abs(luminance(first) - luminance(other)) > 0.15, (first, other)
     assert luminance("#ffffff") == pytest.approx(1.0)
     for i in range(len(theme.LINE_STYLES)):
         for j in range(i):
@@ -310,8 +310,8 @@ def test_fonts_in_a_pdf_have_the_letters_and_nothing_that_lays_out_text() -> Non
     assert figure is not None
     made = theme.as_file(figure, "pdf")
     assert subset.Options is usual
-    streams = [zlib.decompress(one) for one in re.findall(rb"stream\n(.*?)\nendstream", made, re.DOTALL)]
-    fonts = [TTFont(io.BytesIO(one)) for one in streams if one.startswith((b"\0\1\0\0", b"true"))]
+    streams = [zlib.decompress(raw) for raw in re.findall(rb"stream\n(.*?)\nendstream", made, re.DOTALL)]
+    fonts = [TTFont(io.BytesIO(stream)) for stream in streams if stream.startswith((b"\0\1\0\0", b"true"))]
     assert fonts
     assert all(not {"GSUB", "GPOS", "GDEF", "kern"} & set(font.keys()) for font in fonts)
     assert any(set("torque") <= set(font.getGlyphOrder()) for font in fonts)
@@ -360,9 +360,9 @@ def test_plots_that_take_too_long_cost_no_number(
     out = tmp_path / "out"
     done = tvimdesign(*words, "--out", out, "--json", cwd=tmp_path, PYTHONPATH=str(tmp_path))
     assert done.returncode == 4, done.stderr
-    said = " ".join(done.stderr.split())
-    assert "the plots could not be drawn: it was stopped after 0.2 s of processor time" in said
-    assert f"for the plots, repeat the command with --{'resume' if name == 'sweep' else 'overwrite'}" in said
+    message = " ".join(done.stderr.split())
+    assert "the plots could not be drawn: it was stopped after 0.2 s of processor time" in message
+    assert f"for the plots, repeat the command with --{'resume' if name == 'sweep' else 'overwrite'}" in message
     (missing,) = json.loads(done.stdout)["not_done"]
     assert missing.startswith("the plots could not be drawn")
     manifest = json.loads((out / "manifest.json").read_text())

@@ -40,10 +40,10 @@ def test_a_folder_another_run_is_writing_is_refused(tmp_path: Path) -> None:
 
 def test_a_run_on_another_host_is_not_taken_for_dead(tmp_path: Path) -> None:
     killed(tmp_path)
-    said = json.loads((tmp_path / UNFINISHED / RUN).read_text())
-    assert said["host"] == platform.node()
-    assert psutil.Process().create_time() <= said["started"] <= time.time()
-    (tmp_path / UNFINISHED / RUN).write_text(json.dumps({**said, "host": "elsewhere"}))
+    claim = json.loads((tmp_path / UNFINISHED / RUN).read_text())
+    assert claim["host"] == platform.node()
+    assert psutil.Process().create_time() <= claim["started"] <= time.time()
+    (tmp_path / UNFINISHED / RUN).write_text(json.dumps({**claim, "host": "elsewhere"}))
     with pytest.raises(FolderInUseError, match=r"on elsewhere\) is writing it; .*or remove .*\.run\.json if"):
         ResultsFolder(tmp_path, overwrite=True)
 
@@ -58,8 +58,8 @@ def test_without_locks_the_process_that_a_claim_names_is_looked_up(
     finished(tmp_path, overwrite=True)
     path = tmp_path / UNFINISHED / RUN
     path.parent.mkdir()
-    said = {"format": FORMAT, "status": "running", "host": platform.node(), "process": os.getpid(), "started": 1.0}
-    path.write_text(json.dumps(said))  # the number was given to another process since
+    claim = {"format": FORMAT, "status": "running", "host": platform.node(), "process": os.getpid(), "started": 1.0}
+    path.write_text(json.dumps(claim))  # the number was given to another process since
     finished(tmp_path, overwrite=True)
 
 
@@ -87,15 +87,15 @@ def test_of_two_processes_one_claims_a_folder(tmp_path: Path) -> None:
         )
         for _ in range(2)
     ]
-    said = []
+    answers = []
     for _ in range(len(outs) + 1):
-        said.append(sorted(str(process.stdout and process.stdout.readline()).strip() for process in pair))
+        answers.append(sorted(str(process.stdout and process.stdout.readline()).strip() for process in pair))
         for process in pair:
             process.stdin.write("\n")
             process.stdin.flush()
     for process in pair:
         process.communicate()
-    assert said == [["ready", "ready"], *[["claimed", "refused"]] * len(outs)]
+    assert answers == [["ready", "ready"], *[["claimed", "refused"]] * len(outs)]
 
 
 def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path: Path) -> None:

@@ -57,9 +57,9 @@ def test_a_file_changed_by_hand_is_kept_beside_with_a_word(tmp_path: Path, capsy
     (tmp_path / "plots/heat.png").write_text("edited, too")
     finished(tmp_path, {"results.csv": "new"}, overwrite=True)
     assert texts(tmp_path) == {"results.csv": "new", "results-1.csv": "edited", "plots/heat.png": "edited, too"}
-    said = capsys.readouterr().err
-    assert "results.csv: was changed since it was written, so it is kept as results-1.csv" in said
-    assert "heat.png: was changed since it was written, so it is kept\n" in said
+    message = capsys.readouterr().err
+    assert "results.csv: was changed since it was written, so it is kept as results-1.csv" in message
+    assert "heat.png: was changed since it was written, so it is kept\n" in message
 
 
 @pytest.mark.parametrize(
@@ -228,7 +228,9 @@ def test_files_respect_the_umask(tmp_path: Path, mask: int) -> None:
     assert modes == {0o666 & ~mask}
 
 
-def test_an_interrupt_while_the_manifest_is_made_is_told_in_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupt_while_the_manifest_is_made_is_noted_in_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     usual = results_folder.digest_of
 
     def interrupted(_: Path) -> str:
@@ -239,8 +241,8 @@ def test_an_interrupt_while_the_manifest_is_made_is_told_in_it(tmp_path: Path, m
         folder.write("results.csv", "whole")
         monkeypatch.setattr(results_folder, "digest_of", interrupted)
         folder.finish("optimal", {}, {})
-    said = json.loads((tmp_path / "out" / MANIFEST).read_bytes())
-    assert (said["status"], list(said["files"])) == ("interrupted", ["results.csv"])
+    manifest = json.loads((tmp_path / "out" / MANIFEST).read_bytes())
+    assert (manifest["status"], list(manifest["files"])) == ("interrupted", ["results.csv"])
 
 
 def test_nothing_after_a_swallowed_interrupt_counts_as_done(tmp_path: Path) -> None:

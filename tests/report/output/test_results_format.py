@@ -35,27 +35,27 @@ solver: {starts: 1, cells: 6, fineness: 0.67}
 
 
 @pytest.fixture(scope="module")
-def found() -> StudyResult:
+def result() -> StudyResult:
     return answer(read_study_text(STUDY, "a test"))
 
 
 @pytest.fixture(scope="module")
-def reported(found: StudyResult) -> dict[str, Any]:
-    plain: dict[str, Any] = json.loads(json.dumps(results(found, TABLE), allow_nan=False))
+def reported(result: StudyResult) -> dict[str, Any]:
+    plain: dict[str, Any] = json.loads(json.dumps(results(result, TABLE), allow_nan=False))
     return plain
 
 
 @pytest.fixture(scope="module")
-def rows(found: StudyResult) -> dict[str, dict[str, str]]:
-    text = results_csv(results(found, TABLE)["values"])
+def rows(result: StudyResult) -> dict[str, dict[str, str]]:
+    text = results_csv(results(result, TABLE)["values"])
     return {row["name"]: row for row in csv.DictReader(io.StringIO(text))}
 
 
 def _record(name: str) -> dict[str, Any]:
-    """The record as its file has it."""
+    """Return a record as its file has it."""
     folder = ROOT / "tvimdesign/catalog/data/polymers"
-    found: dict[str, Any] = yaml.safe_load((folder / f"{name}.yaml").read_text())["values"]
-    return found
+    values: dict[str, Any] = yaml.safe_load((folder / f"{name}.yaml").read_text())["values"]
+    return values
 
 
 @pytest.mark.gate
@@ -89,16 +89,16 @@ def test_the_si_unit_of_every_unit_is_si(mode: str) -> None:
 
 
 def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(
-    reported: dict[str, Any], found: StudyResult
+    reported: dict[str, Any], result: StudyResult
 ) -> None:
     mass, target = (reported["values"][name] for name in ("module_mass", "target_temperature"))
-    assert mass["value"] == pytest.approx(1e3 * found.design.values["module_mass"])
+    assert mass["value"] == pytest.approx(1e3 * result.design.values["module_mass"])
     assert (mass["unit"], mass["si"]["unit"]) == ("g", "kg")
-    assert mass["si"]["value"] == found.design.values["module_mass"]
+    assert mass["si"]["value"] == result.design.values["module_mass"]
     assert (target["value"], target["si"]["value"]) == (pytest.approx(100.0), 373.15)
     assert (target["unit"], target["si"]["unit"]) == ("°C", "K")
     assert number_entry(float("inf"), "s")["value"] is None
-    hot = found.design.values["joint_impedance@hot"]
+    hot = result.design.values["joint_impedance@hot"]
     expected = f"soft: |Z| <= {2.0 * hot:.3g} N·m/rad at 1 Hz, twice hot"
     for name in ("softening_time", "response_time"):  # the switch ends when the joint is soft
         assert reported["values"][name]["note"] == expected
@@ -153,11 +153,11 @@ STATED = "impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance
          "|Z| <= 60 N·m/rad at 1 Hz, 1.5 times soft_impedance", "|Z| >= 75 N·m/rad at 1 Hz, 1/4 of stiff_impedance"),
     ],
 )  # fmt: skip
-def test_soft_and_stiff_are_said_as_impedances(module: str, soft: str, stiff: str) -> None:
+def test_soft_and_stiff_are_shown_as_impedances(module: str, soft: str, stiff: str) -> None:
     """By hand: band times 40, and 300 over the band."""
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test")
-    found = answer(study)
-    assert soft_in_words(found.design, TABLE) == soft
-    assert stiff_in_words(found.design, TABLE) == stiff
-    assert meaning("softening_time", found.design, TABLE).endswith(f"(soft: {soft})")
-    assert meaning("stiffening_time", found.design, TABLE).endswith(f"(stiff: {stiff})")
+    answered = answer(study)
+    assert soft_in_words(answered.design, TABLE) == soft
+    assert stiff_in_words(answered.design, TABLE) == stiff
+    assert meaning("softening_time", answered.design, TABLE).endswith(f"(soft: {soft})")
+    assert meaning("stiffening_time", answered.design, TABLE).endswith(f"(stiff: {stiff})")

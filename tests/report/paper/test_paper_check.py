@@ -57,9 +57,9 @@ MOMENT = 4 * math.radians(48.962) / 4 * (40e-3**4 - 26e-3**4)
     ],
 )
 def test_a_row_gives_the_numbers_of_the_paper_s_own_formulas(row: str, numbers: list[str]) -> None:
-    said = computed(row)
+    text = computed(row)
     for number in numbers:
-        assert number in said, said
+        assert number in text, text
 
 
 @pytest.mark.parametrize("angle", [0.1, 0.104, 0.2])
@@ -75,39 +75,39 @@ def test_each_of_the_three_angles_has_its_torque_strain_and_ratio(angle: float) 
 
 def test_a_solid_layer_is_stiffer_by_four_orders_and_breaks_in_a_release() -> None:
     stiffness = solid_modulus(30.0) * MOMENT / 1e-3
-    said = computed("parallel_springs")
-    assert f"{stiffness:.3g} N·m/rad" in said
-    times = float(said.split("N·m/rad, ")[1].split(" times")[0].replace(",", ""))
+    text = computed("parallel_springs")
+    assert f"{stiffness:.3g} N·m/rad" in text
+    times = float(text.split("N·m/rad, ")[1].split(" times")[0].replace(",", ""))
     assert times == pytest.approx(stiffness / (4 * RATE), rel=1e-3)
-    said, stiffness = computed("release"), published_values()["joint_stiffness@cold"]
-    assert said.startswith(f"{0.1 * stiffness:.0f} N·m")
-    assert "400% of strain" in said  # 40 mm times 0.1 rad over 1 mm
-    assert f"yields at {record('tensile_yield') / math.sqrt(3) / solid_modulus(30.0):.1%}" in said
+    text, stiffness = computed("release"), published_values()["joint_stiffness@cold"]
+    assert text.startswith(f"{0.1 * stiffness:.0f} N·m")
+    assert "400% of strain" in text  # 40 mm times 0.1 rad over 1 mm
+    assert f"yields at {record('tensile_yield') / math.sqrt(3) / solid_modulus(30.0):.1%}" in text
 
 
 def test_ten_percent_is_a_strain_that_a_solid_and_a_rheometer_do_not_bear() -> None:
     stress = 0.1 * solid_modulus(30.0)
-    said = computed("strain_as_rate")
-    assert float(said.split("30 °C ")[1].split(" MPa")[0]) * 1e6 == pytest.approx(stress, rel=5e-3)
-    assert f"{record('tensile_yield') / math.sqrt(3) / 1e6:.1f} MPa" in said
-    assert f"{math.pi * 12.5e-3**3 / 2 * stress:.0f} N·m between" in said
-    assert "125 mN·m (100 to 230, assumed)" in said
-    assert "3000% after 300 s" in said
-    assert f"{0.1 * record('zero_shear_viscosity'):.0f} Pa in the melt" in said
+    text = computed("strain_as_rate")
+    assert float(text.split("30 °C ")[1].split(" MPa")[0]) * 1e6 == pytest.approx(stress, rel=5e-3)
+    assert f"{record('tensile_yield') / math.sqrt(3) / 1e6:.1f} MPa" in text
+    assert f"{math.pi * 12.5e-3**3 / 2 * stress:.0f} N·m between" in text
+    assert "125 mN·m (100 to 230, assumed)" in text
+    assert "3000% after 300 s" in text
+    assert f"{0.1 * record('zero_shear_viscosity'):.0f} Pa in the melt" in text
 
 
 def test_what_the_rheometer_cannot_resolve() -> None:
     # Far below its relaxation rates a melt is Newtonian: |G*| = eta omega.
     torque = math.pi * 12.5e-3**3 / 2 * record("zero_shear_viscosity") * 0.1 * 1e-4
-    said = computed("small_strain")
-    assert float(said.split("answers with ")[1].split(" µN·m")[0]) * 1e-6 == pytest.approx(torque, rel=0.02)
-    assert "8 µrad" in said  # 0.01 % of 1 mm over 12.5 mm
+    text = computed("small_strain")
+    assert float(text.split("answers with ")[1].split(" µN·m")[0]) * 1e-6 == pytest.approx(torque, rel=0.02)
+    assert "8 µrad" in text  # 0.01 % of 1 mm over 12.5 mm
     assert torque < paper_case.instrument("least_torque").value
-    first = float(said.split("from about ")[1].split(" rad/s")[0])
+    first = float(text.split("from about ")[1].split(" rad/s")[0])
     assert 1.0 < first * torque / 0.1 / 1e-6 < 1.5  # a Newtonian liquid would reach it a little sooner
     # The torque of a stress at the rim, linear to the axis: pi R^3/2 tau.
-    said = computed("loss_modulus")
-    assert f"{math.pi * 0.0125**3 / 2 * 0.1 * 1e-4 * 1e12:.2g} pN·m" in said
+    text = computed("loss_modulus")
+    assert f"{math.pi * 0.0125**3 / 2 * 0.1 * 1e-4 * 1e12:.2g} pN·m" in text
     frequencies = [0.1 * 6280 ** (k / 19) for k in range(20)]
     minutes = sum(2 * math.pi / frequency for frequency in frequencies) / 60
     assert f"20 points of one period each {minutes:.1f} min" in computed("sweep_time")
@@ -115,11 +115,11 @@ def test_what_the_rheometer_cannot_resolve() -> None:
 
 def test_a_solid_specimen_is_stiffer_than_any_rheometer_assumed() -> None:
     specimen = math.pi * 12.5e-3**4 * solid_modulus(30.0) / 2e-3
-    said = computed("stiff_specimen")
-    assert float(said.split("spring of ")[1].split(" N·m/rad")[0]) == pytest.approx(specimen, rel=5e-3)
+    text = computed("stiff_specimen")
+    assert float(text.split("spring of ")[1].split(" N·m/rad")[0]) == pytest.approx(specimen, rel=5e-3)
     frame = paper_case.instrument("torsional_stiffness")
     assert specimen > 5.0 * frame.high
-    read = [float(part) / 100 for part in said.split("uncorrected, ")[1].replace("(", "").split("%")[0].split()]
+    read = [float(part) / 100 for part in text.split("uncorrected, ")[1].replace("(", "").split("%")[0].split()]
     assert read[0] == pytest.approx(1 / (1 + specimen / frame.value), abs=1e-3)
 
 
@@ -127,17 +127,17 @@ def test_sixty_degrees_lie_inside_the_melting_range() -> None:
     # The enthalpy of a third of the window is left: fraction (end - T)/(end - start) but for the sensible heats.
     start, end = (record(name) - 273.15 for name in ("melting_start", "melting_end"))
     assert start < 60.0 < end
-    said = computed("premelt")
-    solid = float(said.split("at 60 °C ")[1].split("%")[0]) / 100
+    text = computed("premelt")
+    solid = float(text.split("at 60 °C ")[1].split("%")[0]) / 100
     assert solid == pytest.approx((end - 60.0) / (end - start), abs=0.02)
-    assert f"{record('equilibrium_melting_temperature') - 273.15:.0f} °C" in said
+    assert f"{record('equilibrium_melting_temperature') - 273.15:.0f} °C" in text
 
 
 def test_the_housing_is_hotter_than_its_material_may_be() -> None:
-    said, service = computed("housing"), Catalog().record("structure_materials", "petg").value("service_temperature")
+    text, service = computed("housing"), Catalog().record("structure_materials", "petg").value("service_temperature")
     rotor = published_values()["peak_rotor_temperature"]
-    assert f"{service - 273.15:.0f} °C in continuous service" in said
-    assert f"{rotor - service:.0f} K above" in said
+    assert f"{service - 273.15:.0f} °C in continuous service" in text
+    assert f"{rotor - service:.0f} K above" in text
     assert rotor > service + 15.0  # above the glass transition, 75 degC and more
 
 
@@ -169,9 +169,9 @@ def test_every_claim_has_place_computation_verdict_and_json(capsys: pytest.Captu
 
 def test_what_is_assumed_of_the_instrument_has_a_range_and_a_reason() -> None:
     for name in claims()["instrument"]:
-        one = paper_case.instrument(name)
-        assert one.low < one.value < one.high
-        assert one.source.startswith("assumed: ") == (one.status == "assumed")
+        value = paper_case.instrument(name)
+        assert value.low < value.value < value.high
+        assert value.source.startswith("assumed: ") == (value.status == "assumed")
 
 
 def test_the_numbers_follow_the_stated_inputs(monkeypatch: pytest.MonkeyPatch) -> None:

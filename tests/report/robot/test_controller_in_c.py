@@ -37,10 +37,10 @@ def test_it_steps_as_the_simulated_one(mode: str, tmp_path: Path) -> None:
     count = 4000
     rise = constants.hottest + 2.0 - 295.15
     readings = 295.15 + rise * np.sin(np.linspace(0.0, 3.0, count)) + 0.05 * np.sin(np.arange(count))
-    asked = np.repeat(
+    requested = np.repeat(
         [0.01, np.sqrt(constants.soft * constants.stiff), constants.soft, 2.0 * constants.stiff], count // 4
     )
-    for reading, impedance in zip(readings.tolist(), asked.tolist(), strict=True):
+    for reading, impedance in zip(readings.tolist(), requested.tolist(), strict=True):
         current = running.step(reading, impedance)
         assert built.step(reading, impedance) == pytest.approx(current, rel=1e-9, abs=1e-9)
         assert built.impedance() == pytest.approx(running.impedance, rel=1e-9)

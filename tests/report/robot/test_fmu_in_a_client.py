@@ -76,7 +76,7 @@ def _joint(fmu: Path, **start: float) -> Iterator[_Joint]:
     )  # fmt: skip
     slave.instantiate()
     slave.setupExperiment(startTime=0.0)
-    joint = _Joint(slave, {one.name: one.valueReference for one in description.modelVariables})
+    joint = _Joint(slave, {variable.name: variable.valueReference for variable in description.modelVariables})
     slave.enterInitializationMode()
     joint.set(**start)
     slave.exitInitializationMode()
@@ -89,32 +89,32 @@ def _joint(fmu: Path, **start: float) -> Iterator[_Joint]:
 
 
 def _cycle(mode: str, fmu: Path) -> tuple[Any, float]:
-    """The FMU's columns over softening and stiffening, and when the first ends [s]."""
+    """Return the FMU's columns over softening and stiffening, and when the first ends [s]."""
     model, _, phases = _run(mode)
     first, second = (phases[name]["time"][-1] for name in ("softening", "stiffening"))
     heating, cooling = (float(model.start[model.index[name]]) for name in ("current", "cooling_current"))
     kind = [("time", float), ("current", float)]
     driven = [(0.0, heating), (first, heating), (first, -cooling), (first + 1.05 * second, -cooling)]
-    found = fmpy.simulate_fmu(
+    columns = fmpy.simulate_fmu(
         str(fmu), stop_time=driven[-1][0], step_size=STEP, output_interval=STEP, input=np.array(driven, dtype=kind),
         start_values={"angle": 0.0, "ambient_temperature": float(model.start[model.index["ambient_temperature"]])},
         output=["joint_impedance", "electrical_power", *_TEMPERATURES],
     )  # fmt: skip
-    return found, first
+    return columns, first
 
 
 _TEMPERATURES = {f"temperature_{place}": place for place in ("near_face", "far_face", "core_and_link", "housing")}
 
 
 def test_temperatures_are_those_of_the_run(mode: str, fmus: Mapping[str, Path]) -> None:
-    found, turned = _cycle(mode, fmus[mode])
+    columns, turned = _cycle(mode, fmus[mode])
     for name, start in (("softening", 0.0), ("stiffening", turned)):
         curves = _run(mode)[2][name]
         times = np.array(curves["time"]) + start
         # The step in which the current changes is the client's, not the joint's.
         seen = times > start + STEP
         for variable, place in _TEMPERATURES.items():
-            column = np.interp(times, found["time"], found[variable]) - 273.15
+            column = np.interp(times, columns["time"], columns[variable]) - 273.15
             expected = np.array(curves[place])
             assert np.max(np.abs(column - expected)[seen]) < SHARE * np.ptp(curves["near_face"]), (name, place)
 
@@ -140,21 +140,21 @@ def _stiffened(mode: str) -> tuple[float, float]:
 
 
 def test_it_softens_and_stiffens_when_the_run_does(mode: str, fmus: Mapping[str, Path]) -> None:
-    found, turned = _cycle(mode, fmus[mode])
+    columns, turned = _cycle(mode, fmus[mode])
     for (time, level), start, sense in ((_softened_evenly(_run(mode)[0]), 0.0, -1.0), (_stiffened(mode), turned, 1.0)):
-        during = (found["time"] > start + STEP) & (found["time"] <= start + 1.05 * time)
-        beyond = sense * (found["joint_impedance"][during] - level)
+        during = (columns["time"] > start + STEP) & (columns["time"] <= start + 1.05 * time)
+        beyond = sense * (columns["joint_impedance"][during] - level)
         last = int(np.flatnonzero(beyond < 0.0)[-1])  # the last time that it passes the level
         share = beyond[last] / (beyond[last] - beyond[last + 1])
-        assert found["time"][during][last] + share * STEP - start == pytest.approx(time, rel=SHARE)
+        assert columns["time"][during][last] + share * STEP - start == pytest.approx(time, rel=SHARE)
 
 
 def test_it_takes_the_energy_of_the_run(mode: str, fmus: Mapping[str, Path]) -> None:
-    found, _ = _cycle(mode, fmus[mode])
+    columns, _ = _cycle(mode, fmus[mode])
     phases = _run(mode)[2].values()
     expected = sum(curves["electrical_energy"][-1] for curves in phases)
-    seen = found["time"] <= sum(curves["time"][-1] for curves in phases)
-    assert np.trapezoid(found["electrical_power"][seen], found["time"][seen]) == pytest.approx(expected, rel=SHARE)
+    seen = columns["time"] <= sum(curves["time"][-1] for curves in phases)
+    assert np.trapezoid(columns["electrical_power"][seen], columns["time"][seen]) == pytest.approx(expected, rel=SHARE)
 
 
 PERIODS, SAMPLES = 3, 400
@@ -181,8 +181,8 @@ def test_the_torque_of_a_sine_has_the_joint_s_stiffness_and_damping(fmus: Mappin
     # Of a bonded layer: blocks that only push leave the link for a part of each period.
     with _joint(fmus["shear"], ambient_temperature=ambient) as joint:
         frequency, *expected = (float(value) for value in joint.get("frequency", "joint_stiffness", "joint_damping"))
-        found = _stiffness_and_damping(joint, frequency, 1e-3)
-    assert found == pytest.approx(tuple(expected), rel=SHARE)
+        stiffness_and_damping = _stiffness_and_damping(joint, frequency, 1e-3)
+    assert stiffness_and_damping == pytest.approx(tuple(expected), rel=SHARE)
 
 
 def test_what_freezes_turned_stays_turned(fmus: Mapping[str, Path]) -> None:
@@ -223,7 +223,7 @@ def test_a_link_let_go_moves_as_in_the_virtual_test(mode: str, fmus: Mapping[str
     resolved = replace(resolved, values={**resolved.values, **changed})
     # The FMU neither yields nor slips; the virtual test does beyond the holding torque.
     trial = release(resolved, _borne(resolved), kelvin_voigt=False)
-    sheet = next(one for one in trial.sheets if one.name in {"release_cold", "release_cold_nominal"})
+    sheet = next(table for table in trial.sheets if table.name in {"release_cold", "release_cold_nominal"})
     times, expected = sheet.column("time").values, sheet.column("angle").values
     inertia, step, seconds = float(resolved.quantity("moving_inertia")), 5e-5, 0.1
     angle = expected[0]
@@ -241,22 +241,22 @@ def test_a_link_let_go_moves_as_in_the_virtual_test(mode: str, fmus: Mapping[str
             joint.step(step)
             angles.append(angle)
     seen = times < seconds
-    found = np.interp(times[seen], step * np.arange(len(angles)), angles)
-    assert np.max(np.abs(found - expected[seen])) < 0.01 * expected[0]
+    turned = np.interp(times[seen], step * np.arange(len(angles)), angles)
+    assert np.max(np.abs(turned - expected[seen])) < 0.01 * expected[0]
 
 
 def test_a_state_that_is_kept_goes_on_as_it_did(fmus: Mapping[str, Path]) -> None:
     with _joint(fmus["compression"]) as joint:
         joint.heat(1.0, 5.0)
         joint.set(angle=0.02)
-        kept = joint.slave.getFMUState()
+        state = joint.slave.getFMUState()
         joint.step(1.0)
         once = joint.get("torque", "temperature_hot_side")
-        joint.slave.setFMUState(kept)
+        joint.slave.setFMUState(state)
         joint.set(angle=0.02)
         joint.step(1.0)
         assert np.array_equal(joint.get("torque", "temperature_hot_side"), once)
-        joint.slave.freeFMUState(kept)
+        joint.slave.freeFMUState(state)
 
 
 DUTY_STEP = 5.0
@@ -270,9 +270,9 @@ def test_its_temperatures_after_fifty_cycles_are_those_of_the_duty(mode: str, fm
     first = duty.cycle(duty.ambient, 0.0)
     assert first is not None
     period = 1.2 * first.taken
-    found = duty.periodic(period)
-    assert found is not None
-    state, cycle = found
+    settled = duty.periodic(period)
+    assert settled is not None
+    state, cycle = settled
     times = [cycle.values["response_time"], soft, cycle.values["return_time"], period - cycle.taken]
     assert duty.hold is not None
     currents = [duty.drives["softening"].currents[0], duty.hold.currents[0], duty.drives["stiffening"].currents[0], 0.0]

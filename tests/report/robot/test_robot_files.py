@@ -43,7 +43,7 @@ PAGE = ROOT / "docs/how-to/robot.md"
 
 @pytest.fixture(scope="module")
 def folder(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
-    """The joint of the paper's module, and what was told of it."""
+    """Write the joint of the paper's module, and return its folder and report."""
     place = tmp_path_factory.mktemp("robot")
     design = write_design(shipped_answer("paper_reconstructed").design, place / "design.json")
     done = tvimdesign("robot", design, "--timestep", "0.1 ms", "--out", place / "robot", "--json")
@@ -53,11 +53,11 @@ def folder(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tup
 
 @pytest.mark.slow
 def test_the_folder_of_a_design_is_loaded_by_its_clients(folder: tuple[Path, dict[str, Any]]) -> None:
-    place, told = folder
-    assert told["time_step"] == pytest.approx(1e-4)
+    place, data = folder
+    assert data["time_step"] == pytest.approx(1e-4)
     expected = shipped_answer("paper_reconstructed").design.value("load_inertia")
-    assert told["load_inertia"] == pytest.approx(expected, rel=1e-4)
-    for state in told["states"].values():
+    assert data["load_inertia"] == pytest.approx(expected, rel=1e-4)
+    for state in data["states"].values():
         scene, tree, _ = (place / name for name in state["files"])
         loaded = mujoco.MjModel.from_xml_path(str(scene))
         assert loaded.opt.timestep == pytest.approx(1e-4)
@@ -69,7 +69,7 @@ def test_the_folder_of_a_design_is_loaded_by_its_clients(folder: tuple[Path, dic
     with (place / "temperatures.csv").open(encoding=TABLE_ENCODING) as table:
         rows = list(csv.DictReader(table))
     warm = next(row for row in rows if float(row["temperature [°C]"]) == 30.0)
-    assert float(warm["joint_stiffness [N·m/rad]"]) == pytest.approx(told["states"]["cold"]["stiffness"], rel=1e-4)
+    assert float(warm["joint_stiffness [N·m/rad]"]) == pytest.approx(data["states"]["cold"]["stiffness"], rel=1e-4)
 
 
 @pytest.mark.slow
@@ -92,20 +92,20 @@ def test_the_arm_of_the_page_catches_softly_and_carries_frozen(folder: tuple[Pat
 
 
 @pytest.mark.parametrize(
-    ("words", "said"), [(["nowhere"], "no such file"), (["studies/finger.yaml"], "tvimdesign run")]
+    ("words", "message"), [(["nowhere"], "no such file"), (["studies/finger.yaml"], "tvimdesign run")]
 )
-def test_what_is_no_result_is_refused(tvimdesign: Command, tmp_path: Path, words: list[str], said: str) -> None:
+def test_what_is_no_result_is_refused(tvimdesign: Command, tmp_path: Path, words: list[str], message: str) -> None:
     done = tvimdesign("robot", *words, "--out", tmp_path / "robot")
     assert done.returncode == 2
-    assert said in done.stderr
+    assert message in done.stderr
 
 
-@pytest.mark.parametrize(("step", "said"), [("-1 ms", "must be above 0"), ("1 kg", "kg"), ("1 s", "at most 0.1 s")])
-def test_a_time_step_that_is_none_is_refused(tvimdesign: Command, tmp_path: Path, step: str, said: str) -> None:
+@pytest.mark.parametrize(("step", "message"), [("-1 ms", "must be above 0"), ("1 kg", "kg"), ("1 s", "at most 0.1 s")])
+def test_a_time_step_that_is_none_is_refused(tvimdesign: Command, tmp_path: Path, step: str, message: str) -> None:
     design = write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     done = tvimdesign("robot", design, "--timestep", step, "--out", tmp_path / "robot")
     assert done.returncode == 2
-    assert said in done.stderr
+    assert message in done.stderr
 
 
 @pytest.mark.slow
@@ -180,7 +180,7 @@ def test_ros2_control_commands_the_impedance_between_the_states(mode: str) -> No
     assert command is not None
     ends = [float(command.findtext(f"param[@name='{name}']", "")) for name in ("min", "max")]
     assert ends == pytest.approx([end(state.stiffness for state in model.states) for end in (min, max)], rel=1e-9)
-    assert {one.get("name") for one in joint.iter("state_interface")} >= {"temperature", "stiffness"}
+    assert {interface.get("name") for interface in joint.iter("state_interface")} >= {"temperature", "stiffness"}
 
 
 @pytest.fixture(scope="module")
@@ -204,16 +204,18 @@ def test_the_description_is_without_fault_and_all_sources_are_there(without_comp
 
 def test_current_and_angle_go_in_and_torque_and_temperatures_come_out(without_compiler: Path) -> None:
     description = read_model_description(str(without_compiler))
-    found = {variable.name: variable for variable in description.modelVariables}
-    inputs = {name for name, variable in found.items() if variable.causality == "input"}
+    variables = {variable.name: variable for variable in description.modelVariables}
+    inputs = {name for name, variable in variables.items() if variable.causality == "input"}
     assert inputs == {"current", "angle", "ambient_temperature", "impedance_command"}
-    assert {found[name].causality for name in ("torque", "temperature_far_face", "frozen")} == {"output"}
+    assert {variables[name].causality for name in ("torque", "temperature_far_face", "frozen")} == {"output"}
     cells = module_of("shear").study.solver.cells
-    assert f"temperature_cell_{cells}" in found
-    assert f"temperature_cell_{cells + 1}" not in found
+    assert f"temperature_cell_{cells}" in variables
+    assert f"temperature_cell_{cells + 1}" not in variables
     resolved = module_of("shear")
-    assert float(found["stroke"].start) == pytest.approx(float(resolved.quantity("stroke")))
-    assert float(found["ambient_temperature"].start) == pytest.approx(float(resolved.quantity("ambient_temperature")))
+    assert float(variables["stroke"].start) == pytest.approx(float(resolved.quantity("stroke")))
+    assert float(variables["ambient_temperature"].start) == pytest.approx(
+        float(resolved.quantity("ambient_temperature"))
+    )
 
 
 def test_a_compiler_that_fails_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -234,21 +236,21 @@ time.sleep(600)
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="Windows has no process groups, by which these end")
 def test_an_interrupt_ends_the_compiler_s_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    told = tmp_path / "told"
+    started = tmp_path / "told"
     (tmp_path / "cc.py").write_text(COMPILER)
     monkeypatch.setenv("CC", f"{sys.executable} {tmp_path / 'cc.py'}")
-    monkeypatch.setenv("TOLD", str(told))
+    monkeypatch.setenv("TOLD", str(started))
     (tmp_path / "beside").mkdir()
 
     def interrupt() -> None:
-        while not told.exists():
+        while not started.exists():
             time.sleep(0.02)
         os.kill(os.getpid(), signal.SIGINT)
 
     Thread(target=interrupt, daemon=True).start()
     with pytest.raises(KeyboardInterrupt):
         compiled({"one.c": ""}, ".so", tmp_path / "beside")
-    number, own = told.read_text().split()
+    number, own = started.read_text().split()
     assert are_gone([int(number)])
     assert Path(own).parent == tmp_path / "beside"
 
@@ -263,14 +265,14 @@ compiled({"one.c": ""}, ".so", Path(sys.argv[1]))
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="Windows has no process groups, by which these end")
 def test_all_that_a_compiler_started_ends_with_a_command_that_is_killed(tmp_path: Path) -> None:
-    told = tmp_path / "told"
+    started = tmp_path / "told"
     (tmp_path / "cc.py").write_text(COMPILER)
-    own = {"CC": f"{sys.executable} {tmp_path / 'cc.py'}", "TOLD": str(told), "PYTHONPATH": str(ROOT)}
+    own = {"CC": f"{sys.executable} {tmp_path / 'cc.py'}", "TOLD": str(started), "PYTHONPATH": str(ROOT)}
     with subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)], env={**os.environ, **own}) as parent:
-        while not told.exists() and parent.poll() is None:
+        while not started.exists() and parent.poll() is None:
             time.sleep(0.02)
         parent.kill()
-    number = int(told.read_text().split()[0])
+    number = int(started.read_text().split()[0])
     assert are_gone([number])
 
 
@@ -280,8 +282,8 @@ def _released(mode: str, angle: float) -> Trial:
 
 
 def _loaded(model: JointModel, point: str) -> mujoco.MjModel:
-    """The model of an operating point without its meshes, which are not made here."""
-    state = next(one for one in model.states if one.point == point)
+    """Return the model of an operating point without its meshes, which are not made here."""
+    state = next(loaded for loaded in model.states if loaded.point == point)
     return mujoco.MjModel.from_xml_string(re.sub(r"<(mesh|geom) [^>]*>", "", mjcf(model, state)))
 
 
@@ -315,12 +317,14 @@ def test_the_link_let_go_moves_as_in_the_virtual_test(
         mujoco.mj_step(loaded, data)
         angles.append(data.joint("joint").qpos[0])
     sheet = next(
-        one for one in _released(mode, angle).sheets if one.name in {f"release_{point}", f"release_{point}_nominal"}
+        table
+        for table in _released(mode, angle).sheets
+        if table.name in {f"release_{point}", f"release_{point}_nominal"}
     )
     times, expected = sheet.column("time").values, sheet.column("angle").values
     seen = times < seconds
-    found = np.interp(times[seen], model.step * np.arange(len(angles)), angles)
-    assert np.max(np.abs(found - expected[seen])) < SHARE * expected[0]
+    turned = np.interp(times[seen], model.step * np.arange(len(angles)), angles)
+    assert np.max(np.abs(turned - expected[seen])) < SHARE * expected[0]
 
 
 def test_inertia_limits_friction_and_springs_are_the_module_s(mode: str) -> None:
@@ -349,9 +353,9 @@ def _stiffness(modes: Modes, omega: np.ndarray) -> np.ndarray:
 
 def test_elements_come_back_with_the_spring_and_quick_ones_are_damping() -> None:
     omega, spring = np.geomspace(1e-3, 1e5, 33), 700.0
-    rest = without_spring(MODES, spring)
+    others = without_spring(MODES, spring)
     np.testing.assert_allclose(
-        1.0 / (1.0 / _stiffness(rest, omega) + 1.0 / spring), _stiffness(MODES, omega), rtol=1e-9
+        1.0 / (1.0 / _stiffness(others, omega) + 1.0 / spring), _stiffness(MODES, omega), rtol=1e-9
     )
     made = maxwell_hinges(_state(False), 5, step=1e-3)
     assert made.merged == 1
@@ -383,4 +387,4 @@ def test_after_a_hold_the_torque_is_what_has_not_relaxed(one_sided: bool) -> Non
 def test_all_states_have_the_same_hinges(mode: str) -> None:
     model = model_of(mode)
     names = [[hinge.name for hinge in maxwell_hinges(state, model.count, model.step).hinges] for state in model.states]
-    assert all(one == names[0] for one in names)
+    assert all(hinges == names[0] for hinges in names)

@@ -57,9 +57,9 @@ def whole_run(process: Command, tmp_path_factory: pytest.TempPathFactory) -> Who
 
 
 @cache
-def case(asked: str) -> AnsweredStudy:
-    """A shipped study as it is drawn or optimised, or one of the texts above; `alone` without its uncertainty."""
-    name = asked.removesuffix(" alone")
+def case(choice: str) -> AnsweredStudy:
+    """Answer a shipped study, drawn or optimised, or one of the texts above; `alone` without its uncertainty."""
+    name = choice.removesuffix(" alone")
     texts = {"choices": CHOICES, "many": MANY}
     study = read_study_text(texts[name], name) if name in texts else read_study(study_path(name))
     study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
@@ -67,12 +67,12 @@ def case(asked: str) -> AnsweredStudy:
         study = drawn(study)
     if name == "paper_shear":
         study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 1})})
-    found = answer(study)
-    data = Uncertainty(study).data(found.design, 256) if name == asked else {}
+    result = answer(study)
+    data = Uncertainty(study).data(result.design, 256) if name == choice else {}
     reported: Any = {"doubts": record_checks(study)}
     front: Any = SimpleNamespace(front=None)
     tree: Any = None
-    return AnsweredStudy(tree, study, found, front, reported, uncertainty=data)
+    return AnsweredStudy(tree, study, result, front, reported, uncertainty=data)
 
 
 CASES = [
@@ -101,14 +101,14 @@ def test_a_screen_is_that_of_the_snapshot(width: int) -> None:
 @widths
 @each
 def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width: int) -> None:
-    one = case(name)
-    lines = first_screen(one, width, 12.3)
+    answered = case(name)
+    lines = first_screen(answered, width, 12.3)
     assert len(lines) + 1 <= (LINES if width >= 100 else NARROW_LINES)
     assert max(map(len, lines)) <= width
     assert all(lines)
-    assert lines[0].startswith(verdict_of(one).text[:40])
+    assert lines[0].startswith(verdict_of(answered).text[:40])
     texts = [line.partition(";")[0] for line in lines if not line.startswith(" " * 9)]  # without lines to write
-    raw = {row.name for row in one.study.table.outputs if "_" in row.name}
+    raw = {row.name for row in answered.study.table.outputs if "_" in row.name}
     assert not raw & set(re.findall(r"[a-z]\w*_\w*", " ".join(texts)))
     lines = first_screen(case(name), width)
     labels = (
@@ -126,7 +126,7 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
         shown = re.search(rf"(\d+) % (\(\d+ to \d+\) )?of {whole}", text)
         assert shown, (whole, share)
         assert float(shown[1]) / 100.0 == pytest.approx(share, abs=0.006)
-    rows, text = requirements(one.result, one.uncertainty), "\n".join(first_screen(one, width))
+    rows, text = requirements(answered.result, answered.uncertainty), "\n".join(first_screen(answered, width))
     shown = [row for row in rows if re.search(rf"^{re.escape(label(row.name))}(\s|$)", text, re.MULTILINE)]
     hidden = sorted((row for row in rows if row not in shown), key=lambda row: row.least)
     assert all(row.least <= hidden[0].least for row in shown if hidden)
@@ -135,8 +135,8 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
         others = "1 other is met: " if len(hidden) == 1 else f"{len(hidden)} others are met, the tightest: "
         tightest = f"{others}{label(hidden[0].name)} {hidden[0].got}, asked"
         others = "others" if shown else "requirements"
-        said = f"{missed} of {len(hidden)} {others} not met: {label(hidden[0].name)}" if missed else tightest
-        assert said in " ".join(text.split())
+        expected = f"{missed} of {len(hidden)} {others} not met: {label(hidden[0].name)}" if missed else tightest
+        assert expected in " ".join(text.split())
 
 
 @pytest.mark.parametrize("name", ["elbow", "wrist_compression_of_a_long_name"])
@@ -173,23 +173,23 @@ def test_requirements_without_a_line_are_counted_or_named() -> None:
 
 @pytest.mark.gate
 def test_the_first_line_says_verdict_name_starts_and_seconds() -> None:
-    one = case("paper_shear")
-    solution = one.result.solution
+    answered = case("paper_shear")
+    solution = answered.result.solution
     same = sum(start.converged and start.objective == pytest.approx(solution.objective, rel=1e-4)
                for start in solution.starts)  # fmt: skip
     tried = len(solution.starts)
     agree = f"{same} of {tried} starts agree" if same > 1 else f"found by 1 of {tried} starts"
     agree = "one start: others may be better" if tried == 1 else agree
-    line = first_screen(one, 140, 12.3)[0]
-    assert line == f"Nominal optimum: add margins (yield 0 %) · {one.result.design.name} (shear) · {agree} · 12 s"
+    line = first_screen(answered, 140, 12.3)[0]
+    assert line == f"Nominal optimum: add margins (yield 0 %) · {answered.result.design.name} (shear) · {agree} · 12 s"
     assert first_screen(case("many alone"), 140)[0].startswith("Do not build it: ")
 
 
 @pytest.mark.gate
 def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s() -> None:
-    one = case("paper_shear")
-    rows = {row.name: row for row in requirements(one.result, {})}
-    values = one.result.design.values
+    answered = case("paper_shear")
+    rows = {row.name: row for row in requirements(answered.result, {})}
+    values = answered.result.design.values
     assert rows["spring_stiffness"].requested == "5.2 to 5.8 N·m/rad"
     least, most = map(float, rows["spring_stiffness"].got.split(" to "))  # over the stroke
     assert least == pytest.approx(values["least_spring_stiffness"], rel=1e-3)
@@ -201,40 +201,40 @@ def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s() -> None:
     assert rows["impedance_range"].stands == "at the limit"
     assert rows["peak_power"].stands == f"{100.0 * (1.0 - values['peak_power'] / 15.0):.2g} %"
     assert rows["peltier_temperature_margin"].got == "0"
-    (line,) = [line for line in first_screen(one, 140) if line.startswith("Active constraints: ")]
-    first = max(active(one.result), key=lambda held: held.shadow_price)
+    (line,) = [line for line in first_screen(answered, 140) if line.startswith("Active constraints: ")]
+    first = max(active(answered.result), key=lambda held: held.shadow_price)
     assert line.startswith(f"Active constraints: {label(first.output)} ")
 
 
 @pytest.mark.gate
 def test_headlines_and_requirements_have_their_ranges() -> None:
-    one = case("paper_shear")
-    intervals, text = one.uncertainty["intervals"], "\n".join(first_screen(one, 100))
-    asked = {requirement.output for requirement in one.study.require}
-    assert asked | {"module_mass", "softening_time", "stiffening_time", "frozen_time", "peak_power"} <= set(intervals)
+    answered = case("paper_shear")
+    intervals, text = answered.uncertainty["intervals"], "\n".join(first_screen(answered, 100))
+    wanted = {requirement.output for requirement in answered.study.require}
+    assert wanted | {"module_mass", "softening_time", "stiffening_time", "frozen_time", "peak_power"} <= set(intervals)
     for output, interval in intervals.items():
         low, high = (math.inf if interval[end] is None else interval[end] for end in ("low", "high"))
         value = math.inf if interval["value"] is None else interval["value"]
         assert low <= value <= high, output
     soft = intervals["softening_time"]
-    assert one.result.design.value("softening_time") == pytest.approx(soft["value"], rel=1e-3)
+    assert answered.result.design.value("softening_time") == pytest.approx(soft["value"], rel=1e-3)
     assert f"s ({soft['low']:.3g} to {soft['high']:.3g})" in text
     for output in ("joint_stiffness@cold", "peak_voltage"):
         assert f"({ends_text(intervals[output]['low'], intervals[output]['high'])})" in text, output
-    stroke = one.result.design.value("stroke") / 100.0
+    stroke = answered.result.design.value("stroke") / 100.0
     for output, unit in (("lost_motion", stroke), ("friction_share", 0.01)):
         ends = [f"{intervals[output][end] / unit:.0f}" for end in ("low", "high")]
         assert f"% ({' to '.join(ends)}) of" in text, output
     # A limit on the stiffness holds at every angle; at rest it is stiffest, at full stroke softest.
-    (row,) = [row for row in requirements(one.result, one.uncertainty) if row.name == "spring_stiffness"]
+    (row,) = [row for row in requirements(answered.result, answered.uncertainty) if row.name == "spring_stiffness"]
     low, high = (float(end) for end in row.range.split(" to "))
-    angles = ("spring_stiffness", *one.study.table.output("spring_stiffness").also_limited)
+    angles = ("spring_stiffness", *answered.study.table.output("spring_stiffness").also_limited)
     assert len(angles) == 5
     assert low == pytest.approx(min(intervals[angle]["low"] for angle in angles), rel=5e-3)
     assert high == pytest.approx(max(intervals[angle]["high"] for angle in angles), rel=5e-3)
     assert low < intervals["spring_stiffness"]["low"] - 0.01
     # The range of the limit most in doubt is there, so that the screen can name what to measure first.
-    name, share = next(iter(one.uncertainty["held"].items()))
+    name, share = next(iter(answered.uncertainty["held"].items()))
     model = next(line for line in text.splitlines() if line.startswith("Model:"))
     assert label(name.split()[0]) in model
     assert f"met in {percent(share, 2)} of cases" in model
@@ -321,8 +321,8 @@ def test_a_study_without_a_design_says_so_on_both_outputs(
     assert lines[0].startswith("Infeasible because ")
     assert "Too much asked (shear)" in " ".join(lines[:2])
     assert len(lines) <= LINES
-    said = [line for line in done.stderr.splitlines() if not line.startswith("... ")]
-    assert said[0].startswith("Too much asked: no feasible design found")
+    shown = [line for line in done.stderr.splitlines() if not line.startswith("... ")]
+    assert shown[0].startswith("Too much asked: no feasible design found")
     assert re.search(r"peak_power <= 9 W: alone it would have to move to <= \d", done.stderr)
     reported = json.loads((tmp_path / "out/results.json").read_text())
     assert reported["status"].startswith("infeasible")

@@ -1,6 +1,6 @@
 """A front in a run's folder: tables, designs, figure and words; killed and resumed it is the same, byte for byte.
 
-A run ends before its search with what `check` refuses; parts and figures give way to the search.
+A run ends before its search with what `check` refuses; parts and figures have a lower priority than the search.
 """
 
 import csv
@@ -34,14 +34,14 @@ from tvimdesign.solve.pareto.front import Front
 from tvimdesign.solve.pareto.tradeoff import Failure, Point
 from tvimdesign.study.design import read_design
 
-ASKED = SHEAR + "front: {of: [response_time, module_mass], points: 5}\n"
+FRONT_STUDY = SHEAR + "front: {of: [response_time, module_mass], points: 5}\n"
 
 
 @pytest.fixture(scope="module")
 def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A study with a front, run to its end."""
+    """Run a study with a front to its end."""
     folder = tmp_path_factory.mktemp("front")
-    (study,) = written(folder, study=ASKED)
+    (study,) = written(folder, study=FRONT_STUDY)
     done = tvimdesign("run", study, "--no-cad", "--full", "--out", folder / "out")
     assert done.returncode == 0, done.stderr
     screen = done.stdout.partition("\n\n")[0].splitlines()
@@ -78,7 +78,7 @@ def test_table_designs_and_figure_of_a_front_agree(run: Path) -> None:
 def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(
     tvimdesign: Command, run: Path, tmp_path: Path
 ) -> None:
-    (study,) = written(tmp_path, study=ASKED)
+    (study,) = written(tmp_path, study=FRONT_STUDY)
     out = tmp_path / "out"
     process = subprocess.Popen(
         [sys.executable, "-m", "tvimdesign", "run", str(study), "--no-cad", "--no-plots", "--out", str(out)],
@@ -102,7 +102,7 @@ def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(
 
 
 def test_the_front_of_another_study_is_not_gone_on_with(tvimdesign: Command, tmp_path: Path) -> None:
-    (study,) = written(tmp_path, study=ASKED)
+    (study,) = written(tmp_path, study=FRONT_STUDY)
     out = tmp_path / "out"
     with suppress(KeyboardInterrupt), ResultsFolder(out) as folder:
         folder.write_json("front/progress/asked.json", {"tvimdesign": "0.0.1", "study": {}})
@@ -116,20 +116,20 @@ def test_the_words_say_what_a_hundredth_less_costs_beyond_the_knee() -> None:
     """Time and mass by hand: from the knee 10 % less time costs 30 % mass, 10 % less mass 50 % time."""
     pairs = [(0.9, 1.3), (1.0, 1.0), (1.5, 0.9)]
     points = tuple(Point("", {"response_time": 100.0 * t, "module_mass": 0.1 * m}, {}) for t, m in pairs)
-    (said,) = in_words(Front(("response_time", "module_mass"), points), table_for("shear"))
-    assert "The knee is point 2: response_time 100 s, module_mass 100 g." in said
+    (sentence,) = in_words(Front(("response_time", "module_mass"), points), table_for("shear"))
+    assert "The knee is point 2: response_time 100 s, module_mass 100 g." in sentence
     # ln 1.3 / ln (1/0.9) = 2.49, ln 1.5 / ln (1/0.9) = 3.85
-    assert "1 % less response_time costs 2.5 % module_mass (point 1)" in said
-    assert "1 % less module_mass costs 3.8 % response_time (point 3)" in said
+    assert "1 % less response_time costs 2.5 % module_mass (point 1)" in sentence
+    assert "1 % less module_mass costs 3.8 % response_time (point 3)" in sentence
 
 
 def test_a_front_that_is_no_trade_has_no_knee() -> None:
-    """The same bend as above, a hundredth of it in the mass: 100.9 g to 101.3 g is nothing anyone chooses by."""
+    """Find no knee in the same bend as above with a hundredth of the mass. Nobody chooses by 0.4 g."""
     pairs = [(0.9, 1.013), (1.0, 1.01), (1.5, 1.009)]
     points = tuple(Point("", {"response_time": 100.0 * t, "module_mass": 0.1 * m}, {}) for t, m in pairs)
     front, table = Front(("response_time", "module_mass"), points), table_for("shear")
-    (said,) = in_words(front, table)
-    assert "no trade to speak of: over the whole front module_mass spans 0.40% (100.9 g to 101.3 g)" in said
+    (sentence,) = in_words(front, table)
+    assert "no trade to speak of: over the whole front module_mass spans 0.40% (100.9 g to 101.3 g)" in sentence
     reported = plain(front, list(front.outputs), table)
     assert reported["knee"] is None
     assert "knee" not in front_csv(reported)
@@ -138,9 +138,9 @@ def test_a_front_that_is_no_trade_has_no_knee() -> None:
     names = ("response_time", "module_mass", "envelope_diameter")
     points = tuple(Point("", dict(zip(names, row, strict=True)), {}) for row in rows)
     front = Front(names, points)
-    (said,) = in_words(front, table_for("shear"))
-    assert said.startswith("There is no trade to speak of in envelope_diameter: ")
-    assert said.endswith("ask for a front of response_time and module_mass.")
+    (sentence,) = in_words(front, table_for("shear"))
+    assert sentence.startswith("There is no trade to speak of in envelope_diameter: ")
+    assert sentence.endswith("ask for a front of response_time and module_mass.")
     assert front.knee is None
     table, words = table_for("shear"), "converged, but simulated it violates response_time <= 100 s: 100.6 s"
     front = Front(("response_time", "module_mass"), (), failures=(Failure("least response_time", words),), sought=2)
@@ -178,9 +178,9 @@ def test_what_check_refuses_ends_a_run_before_its_folder_is_touched(
         _run(path, out, as_json=True)
     assert (str(refused.value), refused.value.exit_code) == (str(checked.value), 3)
     assert not out.exists()
-    said = json.loads(capsys.readouterr().out)
-    jsonschema.validate(said, results_schema())
-    assert (said["status"], said["reason"]) == ("infeasible", str(checked.value))
+    report = json.loads(capsys.readouterr().out)
+    jsonschema.validate(report, results_schema())
+    assert (report["status"], report["reason"]) == ("infeasible", str(checked.value))
 
 
 def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(
@@ -223,7 +223,7 @@ def test_a_swallowed_interrupt_is_no_conflict(tmp_path: Path, monkeypatch: pytes
     assert not (out / "results.json").exists()
 
 
-def test_parts_and_figures_give_way_only_where_others_wait() -> None:
+def test_parts_and_figures_lower_their_priority_only_where_others_wait() -> None:
     with BackgroundPartsJob(), PlotProcess(gives_way=True):
         assert wait_until(lambda: len(_priorities()) == 2)
         behind = _priorities()
@@ -240,6 +240,6 @@ def test_parts_and_figures_give_way_only_where_others_wait() -> None:
 
 def _priorities() -> dict[str, int]:
     """Return the niceness by name; Linux gives a process its command line once the program is loaded."""
-    others = {" ".join(one.cmdline()): one.nice() for one in psutil.Process().children()}
-    asked = ("cad.jobs.main", "plot_process")
-    return {name: nice for name in asked for command, nice in others.items() if name in command}
+    others = {" ".join(process.cmdline()): process.nice() for process in psutil.Process().children()}
+    commands = ("cad.jobs.main", "plot_process")
+    return {name: nice for name in commands for command, nice in others.items() if name in command}

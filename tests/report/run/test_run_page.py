@@ -27,20 +27,20 @@ from tvimdesign.study import read_study_text
 
 
 def words(element: Element) -> str:
-    """All text of an element, blanks made one."""
+    """Return all text of an element, with single blanks."""
     return " ".join("".join(element.itertext()).split())
 
 
 def tree(path: Path) -> Element:
-    """The page as elements without a namespace."""
-    found: Element = html5lib.parse(path.read_text("utf-8"), namespaceHTMLElements=False)
-    return found
+    """Parse the page as elements without a namespace."""
+    root: Element = html5lib.parse(path.read_text("utf-8"), namespaceHTMLElements=False)
+    return root
 
 
 def section(page: Element, name: str) -> Element:
-    found = page.find(f".//section[@id='{name}']")
-    assert found is not None
-    return found
+    element = page.find(f".//section[@id='{name}']")
+    assert element is not None
+    return element
 
 
 @pytest.fixture(scope="module")
@@ -55,14 +55,14 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
     assert f"{tmp_path / 'out'}/report.html" in done.stdout
     summary = " ".join((tmp_path / "out/summary.txt").read_text("utf-8").split())
     first = section(tree(tmp_path / "out/report.html"), "first")
-    facts = [(words(one[0]), words(one[1])) for one in first.findall(".//dl/div")]
+    facts = [(words(fact[0]), words(fact[1])) for fact in first.findall(".//dl/div")]
     assert {"Size and mass", "Times", "Heating", "Soft", "Stiff", "Idealized ~"} <= {label for label, _ in facts}
     of_the_width = {"Starts", "Stroke"}  # their notes stand in a line that has room for them
     parts = [part for label, text in facts if label not in of_the_width for part in text.split(" · ")]
     assert [part for part in parts if part not in summary] == []
-    warnings = [words(one).removeprefix("Warning ").partition(";")[0] for one in first.findall(".//ul/li")]
+    warnings = [words(item).removeprefix("Warning ").partition(";")[0] for item in first.findall(".//ul/li")]
     assert len(warnings) > 3  # the folded ones, too
-    assert [one for one in warnings if one not in summary.replace("`", "")] == []
+    assert [warning for warning in warnings if warning not in summary.replace("`", "")] == []
 
 
 @pytest.mark.gate
@@ -100,10 +100,10 @@ def test_an_input_is_named_with_the_outputs_it_moves(answered: AnsweredStudy) ->
 def test_a_page_tells_how_sure_it_is_and_what_a_measurement_bought(answered: AnsweredStudy) -> None:
     assert "was not computed" in str(assumptions_section(answered).blocks[0])
     assert all("Manufacturing" not in str(block) for block in glance(answered))
-    one = {"value": 100.0, "low": 90.0, "high": 120.0, "unit": "s", "before": {"low": 40.0, "high": 240.0},
+    interval = {"value": 100.0, "low": 90.0, "high": 120.0, "unit": "s", "before": {"low": 40.0, "high": 240.0},
            "one_at_a_time": {"low": 95.0, "high": 110.0}, "shares": {}, "to_halve": []}  # fmt: skip
-    told = {"intervals": {"stiffening_rate": one}, "unmeasured": [], "held": {}}
-    table = assumptions_section(replace(answered, uncertainty=told)).blocks[0]
+    uncertainty = {"intervals": {"stiffening_rate": interval}, "unmeasured": [], "held": {}}
+    table = assumptions_section(replace(answered, uncertainty=uncertainty)).blocks[0]
     assert isinstance(table, Grid)
     shown = dict(zip((head.text for head in table.heads), (cell.text for cell in table.rows[0]), strict=True))
     assert (shown["low"], shown["high"], shown["before measuring"]) == ("90", "120", "40 to 240")
@@ -127,18 +127,18 @@ def test_more_stiffness_costs_mass_and_less_power_time(optimum: StudyResult) -> 
     cost = held.sensitivity["module_mass"]
     assert 0.0 < cost < 1.0
     begin = "1 % more spring_stiffness_full_stroke (now >= 5 N·m/rad) costs"
-    said = next(one for one in sentences(optimum) if one.startswith(begin))
-    assert f"{cost:.2g} % module_mass" in said
-    said = next(one for one in sentences(optimum) if "peak_power" in one)
-    assert said.startswith("1 % less peak_power (now <= 9 W) costs")
-    assert "response_time" in said
+    sentence = next(text for text in sentences(optimum) if text.startswith(begin))
+    assert f"{cost:.2g} % module_mass" in sentence
+    sentence = next(text for text in sentences(optimum) if "peak_power" in text)
+    assert sentence.startswith("1 % less peak_power (now <= 9 W) costs")
+    assert "response_time" in sentence
 
 
 def test_a_step_that_costs_more_than_everything_has_no_room(optimum: StudyResult) -> None:
     held = replace(active(optimum)[0], shadow_price=2.4e3, sensitivity={})
     steep = replace(optimum, solution=replace(optimum.solution, held=(held,)))
-    (said,) = sentences(steep)
-    assert said.endswith(f"(now{held.text.removeprefix(held.output)}): no room.")
+    (sentence,) = sentences(steep)
+    assert sentence.endswith(f"(now{held.text.removeprefix(held.output)}): no room.")
     (fact,) = _active_constraints(steep)
     assert fact.note == f"no room for {held.step} of the first"
 

@@ -42,16 +42,16 @@ COOL = {"softened_temperature": 340.15, "temperature@hot": 373.15, "softened_sti
 
 
 def check(text: str, margin: float) -> ConstraintCheck:
-    """A limit that is met by a margin, or violated."""
+    """Return a limit that is met by a margin, or violated."""
     return ConstraintCheck(text, text.split(maxsplit=1)[0], 1.0, margin, 1.0, False, margin >= 0.0, margin, "require")
 
 
 def answer(
-    values: dict[str, float] | None = None, require: tuple[dict[str, Any], ...] = (), *, found: bool = True,
+    values: dict[str, float] | None = None, require: tuple[dict[str, Any], ...] = (), *, feasible: bool = True,
     checks: tuple[ConstraintCheck, ...] = (), status: str = "optimal", above: tuple[str, ...] = (),
     robust: dict[str, float] | None = None, **solution: Any,
 ) -> StudyResult:  # fmt: skip
-    """An optimised study as far as a verdict looks at it."""
+    """Return an optimised study as far as a verdict looks at it."""
     every = {"response_time": 60.0, "stiffening_time": 120.0, **(values or {})}
     design = SimpleNamespace(
         mode="shear", status=status, values=every, value=every.__getitem__, above_rating=above,
@@ -59,7 +59,7 @@ def answer(
     )  # fmt: skip
     of = {"conflict_set": None, "out_of_time": None, "yield_reached": None, **solution}
     return cast(
-        StudyResult, SimpleNamespace(design=design, has_design=found, checks=checks, solution=SimpleNamespace(**of))
+        StudyResult, SimpleNamespace(design=design, has_design=feasible, checks=checks, solution=SimpleNamespace(**of))
     )
 
 
@@ -70,10 +70,10 @@ def sides(*texts: str) -> ConflictSet:
 @pytest.mark.parametrize(
     ("result", "uncertainty", "warnings", "text"),
     [
-        (answer(found=False, conflict_set=sides("holding_torque >= 9 N·m", "envelope_diameter <= 30 mm")), {}, [],
+        (answer(feasible=False, conflict_set=sides("holding_torque >= 9 N·m", "envelope_diameter <= 30 mm")), {}, [],
          "Infeasible because torque held when frozen >= 9 N·m and diameter <= 30 mm cannot hold together"),
-        (answer(found=False, out_of_time=5.0), {}, [], "No design found in time: raise solver.time_limit"),
-        (answer(found=False, checks=(check("peak_power <= 15 W", -0.031),)), {}, [],
+        (answer(feasible=False, out_of_time=5.0), {}, [], "No design found in time: raise solver.time_limit"),
+        (answer(feasible=False, checks=(check("peak_power <= 15 W", -0.031),)), {}, [],
          "No design found: the nearest violates peak power <= 15 W, by 3.1 %"),
         (answer({"response_time": math.inf}), SURE, [], "Do not build it: it never gets soft within `horizon`"),
         (answer(checks=(check("peak_power <= 15 W", -0.031), check("spring_index >= 4", 0.2))), SURE, [],
@@ -153,7 +153,7 @@ def test_a_violation_below_rounding_is_not_shown_as_none() -> None:
 
 
 @pytest.mark.parametrize(
-    ("found", "converged", "optima", "words"),
+    ("feasible", "converged", "optima", "words"),
     [
         (True, [False], 0, "no start converged, a later search did"),
         (True, [True], 1, "one start: others may be better"),
@@ -161,9 +161,9 @@ def test_a_violation_below_rounding_is_not_shown_as_none() -> None:
         (False, [True, False], 1, "1 of 2 starts converged"),
     ],
 )
-def test_starts_are_told_in_words(found: bool, converged: list[bool], optima: int, words: str) -> None:
+def test_starts_are_counted_in_words(feasible: bool, converged: list[bool], optima: int, words: str) -> None:
     free = [SimpleNamespace(converged=each) for each in converged]
-    result = answer(found=found, free_starts=free, distinct_optima=lambda: free[:optima])
+    result = answer(feasible=feasible, free_starts=free, distinct_optima=lambda: free[:optima])
     assert starts_in_words(result) == [words]
 
 
@@ -177,7 +177,7 @@ RANKED = ((1.0e-3, 0.6339), (1.1e-3, 0.6426), (1.2e-3, 0.6541))
 
 
 def chosen(own: float, robust: dict[str, Any] | None, spring: str = "none") -> str:
-    """What is said of a design with this wire [m], whose study asks for margins or not."""
+    """Return the sentence on a design with this wire [m], whose study requires margins or not."""
     best = tuple(Standard({"wire_diameter": wire, "stock_spring": "none"}, objective, {}) for wire, objective in RANKED)
     none = SolverEffort()
     choosing = Choosing(
@@ -190,7 +190,7 @@ def chosen(own: float, robust: dict[str, Any] | None, spring: str = "none") -> s
     return chosen_fact(cast(StudyResult, answer))[0].text
 
 
-def test_a_design_s_own_choices_are_told_beside_the_ranking() -> None:
+def test_a_design_s_own_choices_are_shown_beside_the_ranking() -> None:
     text = chosen(1.0e-3, None)
     assert text == "wire diameter 1 mm · stock spring none · best of 20 combinations"
     robust = {"share": 0.95, "sigma": None}
@@ -211,10 +211,10 @@ def test_a_layer_that_stalls_cools_again_or_never_softens() -> None:
     assert time_over_rise(warmed(times), 60.0) == pytest.approx(1.0, rel=1e-6)
     assert time_over_rise(warmed(np.sqrt(times)), 60.0) == pytest.approx(2.0, rel=1e-3)
     # 1 - exp(-t/tau): rise over (t slope) is (exp(x) - 1)/x with x = t/tau, here 3.
-    found = warmed(1.0 - np.exp(-times / 0.2))
-    assert time_over_rise(found, 60.0) == pytest.approx((np.exp(3.0) - 1.0) / 3.0, rel=1e-3)
-    assert stalling_in_words(found, 60.0) == "it stalls: 1 % less heat takes 6 % longer"
-    assert stalling_in_words(found, 20.0) == ""
+    temperatures = warmed(1.0 - np.exp(-times / 0.2))
+    assert time_over_rise(temperatures, 60.0) == pytest.approx((np.exp(3.0) - 1.0) / 3.0, rel=1e-3)
+    assert stalling_in_words(temperatures, 60.0) == "it stalls: 1 % less heat takes 6 % longer"
+    assert stalling_in_words(temperatures, 20.0) == ""
     falling = warmed(np.concatenate([np.linspace(0.0, 1.0, 50), np.linspace(1.0, 0.9, 50)]))
     assert "never soft" in stalling_in_words(falling, 90.0)
     assert stalling_in_words(falling, float("inf")) == ""

@@ -81,24 +81,24 @@ def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path: Path, mode:
     assert "<" not in filled(line, PLACES).replace('"<=', "")
     if "catalog" in entry:
         (tmp_path / "my_records").mkdir()
-    rest = {"mode": mode, **({"minimize": "module_mass"} if "vary" in entry else {})}
-    (tmp_path / "study.yaml").write_text(yaml.safe_dump({**rest, **entry}, sort_keys=False))
+    others = {"mode": mode, **({"minimize": "module_mass"} if "vary" in entry else {})}
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({**others, **entry}, sort_keys=False))
     read_study(tmp_path / "study.yaml")
 
 
 @cache
 def _published(extra: str = "") -> StudyResult:
-    """The published module, without what its study accepts."""
+    """Answer the published module, without what its study accepts."""
     text = re.sub(r"^accept:.*?\n\n", "", study_path("paper_reconstructed").read_text(), flags=re.M | re.S)
     study = read_study_text(text.replace("module:\n", f"module:\n{extra}", 1), "a test")
     return answer(study)
 
 
 def _proposed() -> dict[str, str]:
-    """The line for each warning of the published module."""
-    found = _published()
-    remedies = Remedies(found, NEVER)
-    return {check.output: remedies.of(check, lines_of(check.output, found)).line for check in found.warnings}
+    """Return the line for each warning of the published module."""
+    result = _published()
+    remedies = Remedies(result, NEVER)
+    return {check.output: remedies.of(check, lines_of(check.output, result)).line for check in result.warnings}
 
 
 @pytest.mark.slow
@@ -133,31 +133,34 @@ def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask() -> Non
 
 @pytest.mark.gate
 def test_the_gravest_warning_comes_first() -> None:
-    found = warnings_of(_published(), ["a sheet contradicts itself."])
-    ranks = [("grave", "serious", "").index(warning.level) for warning in found]
+    warnings = warnings_of(_published(), ["a sheet contradicts itself."])
+    ranks = [("grave", "serious", "").index(warning.level) for warning in warnings]
     assert ranks == sorted(ranks)
-    found = _published("  cooling_current: 1 A\n  heater_fuse: none\n")
-    said = warnings_of(found, ["a sheet contradicts itself."])
-    assert "no thermal fuse guards the heaters" in [warning.but for warning in said]
-    assert "never gets stiff again" in said[0][0]
-    assert said[0][1] == "untried: module: {cooling_current: 0.2 A, cold_side: sink}"
-    assert said[-1][:2] == ("a sheet contradicts itself", "untried: catalog: my_records")
+    warnings = _published("  cooling_current: 1 A\n  heater_fuse: none\n")
+    ranked = warnings_of(warnings, ["a sheet contradicts itself."])
+    assert "no thermal fuse guards the heaters" in [warning.but for warning in ranked]
+    assert "never gets stiff again" in ranked[0][0]
+    assert ranked[0][1] == "untried: module: {cooling_current: 0.2 A, cold_side: sink}"
+    assert ranked[-1][:2] == ("a sheet contradicts itself", "untried: catalog: my_records")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("extra", ["", "  response_criterion: softening\n  softening_band: 2\n"])
 def test_a_run_has_each_warning_that_compare_has(extra: str) -> None:
-    found, table = _published(extra), table_for("shear")
-    warned = {warning.text: warning for warning in warnings_of(found, [])}
-    of_compare = {one.output: advice_text(one.output, one.value, one.origin, table) for one in found.warnings}
+    published, table = _published(extra), table_for("shear")
+    warned = {warning.text: warning for warning in warnings_of(published, [])}
+    of_compare = {
+        warning.output: advice_text(warning.output, warning.value, warning.origin, table)
+        for warning in published.warnings
+    }
     assert set(of_compare.values()) <= set(warned)
     assert ("hot_point_margin" in of_compare) == bool(extra)
     if extra:
-        assert missed_points(found) == {}
+        assert missed_points(published) == {}
         assert warned[of_compare["hot_point_margin"]][1:] == ("", "", "")
 
 
-def _said(text: str, **module: float) -> str:
+def _warning_texts(text: str, **module: float) -> str:
     study = read_study_text(text, "test")
     study = study.model_copy(update={"module": {**study.module, **module}})
     return " ".join(warning.text for warning in warnings_of(answer(drawn(study)), []))
@@ -166,13 +169,13 @@ def _said(text: str, **module: float) -> str:
 @pytest.mark.slow
 def test_a_run_says_where_the_pcl_loses_contact() -> None:
     # In a hold of 10 s a printed structure creeps as its loss says: frozen blocks are left as well.
-    said = _said(COMPRESSION)
-    assert "at hot no PCL touches the link for" in said
-    assert "at cold no PCL touches the link for" in said
-    said = _said(COMPRESSION, **LOSSLESS)
-    assert "at hot no PCL touches the link for" in said
-    assert "at cold no PCL" not in said
-    assert "no PCL touches the link" not in _said(SHEAR)
+    texts = _warning_texts(COMPRESSION)
+    assert "at hot no PCL touches the link for" in texts
+    assert "at cold no PCL touches the link for" in texts
+    texts = _warning_texts(COMPRESSION, **LOSSLESS)
+    assert "at hot no PCL touches the link for" in texts
+    assert "at cold no PCL" not in texts
+    assert "no PCL touches the link" not in _warning_texts(SHEAR)
 
 
 def test_a_requirement_is_tried_beside_the_remedies_before_it() -> None:
@@ -207,40 +210,40 @@ TABLE = table_for("shear")
 TEXT = COARSE.replace("require:\n", 'require:\n  response_time: "<= 120 s"\n  impedance_range: ">= 3"\n')
 STUDY = read_study_text(TEXT, "a test")
 SAMPLES = 1024
-ASKED = [requirement.output for requirement in STUDY.require]
+OUTPUTS = [requirement.output for requirement in STUDY.require]
 
 
 @pytest.fixture(scope="module")
-def found() -> StudyResult:
+def result() -> StudyResult:
     return answer(STUDY)
 
 
 @pytest.fixture(scope="module")
-def module(found: StudyResult) -> ResolvedModule:
-    resolved = resolve_design(found.design)
+def module(result: StudyResult) -> ResolvedModule:
+    resolved = resolve_design(result.design)
     return replace(resolved, study=resolved.study.model_copy(update={"tolerances": standard_tolerances(TABLE)}))
 
 
 @pytest.fixture(scope="module")
 def model(module: ResolvedModule) -> UncertaintyModel:
-    return UncertaintyModel(module, ASKED)
+    return UncertaintyModel(module, OUTPUTS)
 
 
 @pytest.fixture(scope="module")
 def spread(model: UncertaintyModel, module: ResolvedModule) -> DesignUncertainty:
-    """The design with few samples, for what does not depend on them."""
+    """Return the design's uncertainty with few samples, for what does not depend on them."""
     return model.at(module, 4, 8)
 
 
 @pytest.mark.slow
-def test_the_yield_is_what_tolerate_says(found: StudyResult, module: ResolvedModule, model: UncertaintyModel) -> None:
-    said = Uncertainty(STUDY).data(found.design, SAMPLES)
+def test_the_yield_is_what_tolerate_says(result: StudyResult, module: ResolvedModule, model: UncertaintyModel) -> None:
+    data = Uncertainty(STUDY).data(result.design, SAMPLES)
     expected = Tolerancing(module, lambda _: None).analyse(SAMPLES, STUDY.solver.seed)
     assert 0.02 < expected.together.share < 0.98
-    assert said["parts_yield"]["share"] == expected.together.share
-    assert (said["limits"], said["tolerances"]) == (len(expected.limit_yields), "standard")
+    assert data["parts_yield"]["share"] == expected.together.share
+    assert (data["limits"], data["tolerances"]) == (len(expected.limit_yields), "standard")
     alone = model.at(module, SAMPLES)  # by the design's own kernel
-    assert said["parts_yield"]["share"] == alone.together.share
+    assert data["parts_yield"]["share"] == alone.together.share
 
 
 @pytest.mark.gate
@@ -251,7 +254,10 @@ def test_the_assumed_input_shown_moves_its_output_most(
     def at(name: str, value: float) -> float:
         return float(TABLE.evaluate({**module.values, name: value}, [output])[output])
 
-    every = {one.name: abs(at(one.name, one.high) - at(one.name, one.low)) for one in unmeasured_inputs(module)}
+    every = {
+        assumed.name: abs(at(assumed.name, assumed.high) - at(assumed.name, assumed.low))
+        for assumed in unmeasured_inputs(module)
+    }
     swing = spread.intervals[output].swings[0]
     assert swing.moved.name == max(every, key=lambda name: every[name])
     assert swing.moved.name in TABLE.ancestors(output)
@@ -261,9 +267,9 @@ def test_the_assumed_input_shown_moves_its_output_most(
 
 @pytest.mark.gate
 def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(
-    found: StudyResult, module: ResolvedModule, model: UncertaintyModel
+    result: StudyResult, module: ResolvedModule, model: UncertaintyModel
 ) -> None:
-    data = Uncertainty(STUDY).data(found.design, 0)
+    data = Uncertainty(STUDY).data(result.design, 0)
     limit = next(limit for limit in model.limits if limit.name == next(iter(data["held"])))
     main = next(iter(data["intervals"][limit.output]["shares"]))
     sense, number = data["needs"].removeprefix(f"{label(main)} ").split(" ", 1)
@@ -278,11 +284,11 @@ def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(
 
 
 @pytest.mark.gate
-def test_limits_on_what_follows_a_profile_are_left_out_and_named(found: StudyResult) -> None:
+def test_limits_on_what_follows_a_profile_are_left_out_and_named(result: StudyResult) -> None:
     profiled = STUDY.model_copy(update={"profile": STUDY.profile.model_copy(update={"softening": 2})})
     study = profiled.model_copy(update={"tolerances": standard_tolerances(TABLE)})
-    resolved = ResolvedModule(study, resolve_design(found.design).values)
-    profiled_uncertainty = UncertaintyModel(resolved, ASKED).at(resolved, 256, 8)
+    resolved = ResolvedModule(study, resolve_design(result.design).values)
+    profiled_uncertainty = UncertaintyModel(resolved, OUTPUTS).at(resolved, 256, 8)
     assert profiled_uncertainty.left_out == ("response_time <=",)
     assert "response_time" not in profiled_uncertainty.intervals
     assert np.isfinite(profiled_uncertainty.together.share)
@@ -306,9 +312,9 @@ def test_an_uncertainty_that_is_not_computed_is_a_warning(
     monkeypatch.setattr(Uncertainty, "data", no_start)
     done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", cwd=tmp_path, spread="on")
     assert done.returncode == 4, done.stderr
-    said = " ".join(done.stdout.split())
-    assert "Warning: the uncertainty of the design could not be computed: no start" in said
-    assert "run the study again" in said
+    text = " ".join(done.stdout.split())
+    assert "Warning: the uncertainty of the design could not be computed: no start" in text
+    assert "run the study again" in text
     assert "the uncertainty of the design could not be computed" in done.stderr
     assert "could not be computed" in (tmp_path / "out/summary.txt").read_text()
     assert "uncertainty" not in json.loads((tmp_path / "out/results.json").read_text())
@@ -321,8 +327,8 @@ def test_steps_left_out_are_on_the_screen_and_in_the_results(tvimdesign: Command
     done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", "--time-limit", "1 ms", cwd=tmp_path,
                       spread="on")  # fmt: skip
     assert done.returncode == 0, done.stderr
-    said = " ".join(done.stdout.split())
-    assert "Warning: the time limit of 0 s ended before these were done: yield and intervals" in said
+    text = " ".join(done.stdout.split())
+    assert "Warning: the time limit of 0 s ended before these were done: yield and intervals" in text
     assert "Manufacturing" not in done.stdout
     assert "ended before these were done" in (tmp_path / "out/summary.txt").read_text()
     assert json.loads((tmp_path / "out/results.json").read_text())["left_out"] == ["yield and intervals"]

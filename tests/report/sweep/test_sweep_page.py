@@ -31,37 +31,37 @@ def plan(section: dict[str, Any]) -> SweepPlan:
     return plan_of(tree_of_values({"mode": "shear", "name": "small", "sweep": section}, "study", Path()))
 
 
-def seen(asked: SweepPlan, masses: Iterable[float | None]) -> CellTable:
+def seen(sweep_plan: SweepPlan, masses: Iterable[float | None]) -> CellTable:
     """Cells with these masses, refused where there is none; every even one violates a limit, and none is ever soft."""
-    table = CellTable(asked)
-    list(table.seeing(row(asked, number, mass) for number, mass in enumerate(masses, start=1)))
+    table = CellTable(sweep_plan)
+    list(table.seeing(row(sweep_plan, number, mass) for number, mass in enumerate(masses, start=1)))
     return table
 
 
-def row(asked: SweepPlan, number: int, mass: float | None) -> list[Any]:
-    told = ["evaluated", (number + 1) % 2, 0.1, ""] if mass else ["refused", None, None, "no such <module>"]
+def row(sweep_plan: SweepPlan, number: int, mass: float | None) -> list[Any]:
+    cells = ["evaluated", (number + 1) % 2, 0.1, ""] if mass else ["refused", None, None, "no such <module>"]
     outputs = {"module_mass": mass, "envelope_diameter": 100.0 if mass else None, "response_time": float("inf")}
-    names = [column.name for column in columns(asked) if column.kind == "output"]
-    return [number, *asked.axis_values(number - 1), *told, *(outputs[name] for name in names)]
+    names = [column.name for column in columns(sweep_plan) if column.kind == "output"]
+    return [number, *sweep_plan.axis_values(number - 1), *cells, *(outputs[name] for name in names)]
 
 
-def page(asked: SweepPlan, table: CellTable, out: Path) -> str:
+def page(sweep_plan: SweepPlan, table: CellTable, out: Path) -> str:
     with Command(out, overwrite=True) as command:
         command.folder.write("cells.csv", "cell\n")
-        command.finish("swept", {}, {}, page=sweep_page(asked, table, command))
+        command.finish("swept", {}, {}, page=sweep_page(sweep_plan, table, command))
     text = (out / FILE).read_text("utf-8")
     html5lib.HTMLParser(strict=True).parse(text)
     return text
 
 
 def drawn(text: str) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(re.findall(r'id="page-data">(.*?)</script>', text, re.DOTALL)[0])
-    return found
+    data: dict[str, Any] = json.loads(re.findall(r'id="page-data">(.*?)</script>', text, re.DOTALL)[0])
+    return data
 
 
 def test_it_says_what_was_swept_and_how_it_ended(tmp_path: Path) -> None:
-    asked = plan(GRID)
-    text = page(asked, seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out")
+    sweep_plan = plan(GRID)
+    text = page(sweep_plan, seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out")
     assert "5 OF 6 CELLS EVALUATED" in text
     assert "<code>pcl_thickness</code> from 0.6 mm to 2 mm, 3 values; <code>rate_model</code>: smi, bending" in text
     assert "grid; each cell is evaluated" in text
@@ -74,15 +74,15 @@ def test_it_says_what_was_swept_and_how_it_ended(tmp_path: Path) -> None:
 
 
 def test_lines_and_brushes_are_those_of_the_cells(tmp_path: Path) -> None:
-    asked = plan(GRID)
-    data = drawn(page(asked, seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
+    sweep_plan = plan(GRID)
+    data = drawn(page(sweep_plan, seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
     assert list(data) == ["curves"]  # over one number: nothing to brush
     mass, size = data["curves"]["panels"]  # none of what never happens
     assert size["y_label"] == "Envelope diameter (mm)"
     lines = {line["label"]: (line["y"], line["hollow"]) for line in mass["lines"]}
     assert lines == {"smi": ([5.0, 4.0, 3.0], [False] * 3), "bending": ([6.0, 2.0], [True] * 2)}
-    asked = plan(CLOUD)
-    data = drawn(page(asked, seen(asked, [None, *map(float, range(2, 9))]), tmp_path / "out"))
+    sweep_plan = plan(CLOUD)
+    data = drawn(page(sweep_plan, seen(sweep_plan, [None, *map(float, range(2, 9))]), tmp_path / "out"))
     assert list(data) == ["brushed"]
     assert data["brushed"]["names"] == ["pcl_thickness", "current", "module_mass", "envelope_diameter"]
     assert [point["number"] for point in data["brushed"]["points"]] == [2, 3, 4, 5, 6, 7, 8]
@@ -92,8 +92,8 @@ def test_lines_and_brushes_are_those_of_the_cells(tmp_path: Path) -> None:
 def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cell_table, "MOST_LISTED", 3)
     monkeypatch.setattr(cell_table, "MOST_FAILED", 1)
-    asked = plan(CLOUD)
-    text = page(asked, seen(asked, [1.0, None, None, 4.0, 5.0, 6.0, 7.0, 8.0]), tmp_path / "out")
+    sweep_plan = plan(CLOUD)
+    text = page(sweep_plan, seen(sweep_plan, [1.0, None, None, 4.0, 5.0, 6.0, 7.0, 8.0]), tmp_path / "out")
     assert "3 of 8 cells are in this table, one in 3. cells.csv and cells.sqlite have all." in text
     assert "The first 1 of 2; `reason` in cells.csv has all." in text
     assert [point["number"] for point in drawn(text)["brushed"]["points"]] == [1, 4, 7]
@@ -103,19 +103,19 @@ def plan_of_section(**section: object) -> SweepPlan:
     return plan_of(tree_of_values({"mode": "shear", "sweep": section}, "study", Path()))
 
 
-def seen_cells(asked: SweepPlan, masses: list[float | None]) -> CellTable:
-    table = CellTable(asked)
+def seen_cells(sweep_plan: SweepPlan, masses: list[float | None]) -> CellTable:
+    table = CellTable(sweep_plan)
     ends = [["evaluated", 0, 0.1, ""] if mass else ["refused", None, None, "no"] for mass in masses]
-    rows = [[number + 1, *asked.axis_values(number), *end, mass, 100.0, float("inf")]
+    rows = [[number + 1, *sweep_plan.axis_values(number), *end, mass, 100.0, float("inf")]
             for number, (mass, end) in enumerate(zip(masses, ends, strict=True))]  # fmt: skip
     assert list(table.seeing(rows)) == rows
     return table
 
 
 def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers() -> None:
-    asked = plan_of_section(over={"pcl_thickness": {**THICKNESS, "count": 3}, "rate_model": ["smi", "bending"]})
-    table = seen_cells(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0])
-    data = figure_data(asked, table)
+    sweep_plan = plan_of_section(over={"pcl_thickness": {**THICKNESS, "count": 3}, "rate_model": ["smi", "bending"]})
+    table = seen_cells(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0])
+    data = figure_data(sweep_plan, table)
     masses = data["panels"][0]["series"]
     assert {series["label"]: series["y"] for series in masses} == {"smi": [5.0, 4.0, 3.0], "bending": [6.0, 2.0]}
     assert data["panels"][2]["series"][0]["y"] == []  # what never happens
@@ -129,10 +129,10 @@ def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers() -> None:
 
 @pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
 def test_a_sample_is_a_cloud_over_two_axes(method: str) -> None:
-    asked = plan_of_section(
+    sweep_plan = plan_of_section(
         method=method, count=8, over={"pcl_thickness": THICKNESS, "current": {"from": "1 A", "to": "2 A"}}
     )
-    data = figure_data(asked, seen_cells(asked, [float(number + 1) for number in range(8)]))
+    data = figure_data(sweep_plan, seen_cells(sweep_plan, [float(number + 1) for number in range(8)]))
     assert data["y"] == "Current (A)"
     assert data["panels"][0]["series"][0]["colour"] == [float(number + 1) for number in range(8)]
     assert len(sweep(data).axes) == 6  # each panel has its scale

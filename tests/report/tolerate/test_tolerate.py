@@ -33,9 +33,9 @@ def test_the_folder_has_tables_in_si_and_a_manifest(results: tuple[Path, dict[st
                 "spread.svg", "tolerances.json", "report.html",
                 "tolerated.yaml"}  # fmt: skip
     assert {path.name for path in folder.iterdir()} == expected
-    kept = json.loads((folder / "tolerances.json").read_text())
-    assert kept == {name: value for name, value in reported.items() if name not in {"folder", "not_done"}}
-    assert kept["samples"] == 4096
+    stored = json.loads((folder / "tolerances.json").read_text())
+    assert stored == {name: value for name, value in reported.items() if name not in {"folder", "not_done"}}
+    assert stored["samples"] == 4096
     rows = list(csv.DictReader((folder / "outputs.csv").read_text("utf-8-sig").splitlines()))
     (stiffness,) = [row for row in rows if row["output"] == "spring_stiffness"]
     worst, drawn = float(stiffness["worst_high"]), float(stiffness["high"])
@@ -56,22 +56,22 @@ def test_the_folder_has_tables_in_si_and_a_manifest(results: tuple[Path, dict[st
     # d ln K/d ln d = 4: with 2.413 mm and 5.609 N.m/rad that is 9.3 N.m/rad for each millimetre.
     (wire,) = [row for row in mine if row["contributor"] == "wire_diameter"]
     assert (float(wire["derivative"]), wire["derivative_unit"]) == (pytest.approx(9.3, rel=0.01), "N·m/rad / mm")
-    said = " ".join(results[1]["sentences"])
-    assert said.startswith("In the worst case ")
-    assert "Tighten preload_angle first" in said
-    assert "(±18.7° by DIN 2194, grade 2) is 3.1 times the stroke" in said
-    assert "with the preload adjusted to within ±1°, 100 % do" in said
+    text = " ".join(results[1]["sentences"])
+    assert text.startswith("In the worst case ")
+    assert "Tighten preload_angle first" in text
+    assert "(±18.7° by DIN 2194, grade 2) is 3.1 times the stroke" in text
+    assert "with the preload adjusted to within ±1°, 100 % do" in text
 
 
 @pytest.mark.gate
-def test_a_design_and_its_tables_are_printed_and_bad_input_is_told(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_design_and_its_tables_are_printed_and_bad_input_is_reported(tvimdesign: Command, tmp_path: Path) -> None:
     (tmp_path / "arm.yaml").write_text(STUDY)
     done = tvimdesign("tolerate", "arm.yaml", "--samples", 300, "--out", "again", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     for words in ("What spreads", "worst case", "Limits that too many modules break", "preload_margin >= 0 rad"):
         assert words in done.stdout
     wrong = {("--samples", 10): "--samples 10: must be 256 to 4194304", ("--out", "arm.yaml"): "is a file"}
-    for arguments, said in wrong.items():
+    for arguments, message in wrong.items():
         done = tvimdesign("tolerate", "arm.yaml", *arguments, cwd=tmp_path)
         assert (done.returncode, "Traceback" in done.stderr) == (2, False)
-        assert said in done.stderr
+        assert message in done.stderr

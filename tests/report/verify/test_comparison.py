@@ -27,11 +27,11 @@ MODULE = resolve_study(read_study(study_path("paper_reconstructed")))
 JOINT = yaml.safe_load((ROOT / "validation/fe_structure/shipped.yaml").read_text())["paper_reconstructed"]["found"]
 LINK = yaml.safe_load((ROOT / "validation/fe_link/results.yaml").read_text())["paper_reconstructed_dowelled"]["link"]
 with (ROOT / "validation/fe_structure/results.csv").open(newline="") as _file:
-    KEPT = {row["quantity"]: row for row in csv.DictReader(_file) if row["study"] == "paper_reconstructed"}
+    FE_ROWS = {row["quantity"]: row for row in csv.DictReader(_file) if row["study"] == "paper_reconstructed"}
 
 
 def solved(tmp_path: Any, factor: float = 1.0) -> dict[str, Solved]:
-    spring = {"rate": float(KEPT["spring_rate"]["fe"]), "fibre_max": 1.0e3, "bend_mises": 1.0e3}
+    spring = {"rate": float(FE_ROWS["spring_rate"]["fe"]), "fibre_max": 1.0e3, "bend_mises": 1.0e3}
     joint = {**JOINT, "frequency": 180.0, "foot_across": 5.0, "foot_along": 0.5, "plate_mises": 0.5}
     joint["hub"] *= factor
     cost = {"unknowns": 1e5, "seconds": 40.0, "gigabytes": 0.7}
@@ -43,10 +43,10 @@ def solved(tmp_path: Any, factor: float = 1.0) -> dict[str, Solved]:
 def test_the_rows_are_those_that_the_table_of_fe_has(tmp_path: Any) -> None:
     rows = {row.name: row for row in comparison.compared(MODULE, solved(tmp_path))}
     for name in ("hub", "core", "plate", "floor", "spring_rate"):
-        assert rows[name].ratio == pytest.approx(float(KEPT[name]["ratio"]), abs=0.006), name
+        assert rows[name].ratio == pytest.approx(float(FE_ROWS[name]["ratio"]), abs=0.006), name
     held = float(MODULE.quantity("holding_torque"))
     for name in ("core_stress", "edge_traction"):
-        assert rows[name].fe == pytest.approx(float(KEPT[name]["fe"]) * held, rel=2e-3), name
+        assert rows[name].fe == pytest.approx(float(FE_ROWS[name]["fe"]) * held, rel=2e-3), name
     assert rows["link"].ratio == pytest.approx(1.0, abs=0.03)
     assert {row.mesh_change for row in rows.values()} == {0.0}
 
@@ -161,7 +161,7 @@ def test_rows_pictures_and_solvers_are_on_the_page_worst_first(tmp_path: Path) -
 STUDY = "mode: shear\n"
 
 
-def test_what_finite_elements_lack_is_told_before_the_run(tmp_path: Path, tvimdesign: Command) -> None:
+def test_what_finite_elements_lack_is_reported_before_the_run(tmp_path: Path, tvimdesign: Command) -> None:
     (tmp_path / "mine.yaml").write_text(STUDY)
     refused = tvimdesign("run", "mine.yaml", "--verify", "--fe-python", str(tmp_path / "none"), cwd=tmp_path)
     assert refused.returncode == 2
