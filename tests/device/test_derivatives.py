@@ -69,20 +69,20 @@ def shown_by_simulation(unity: DeviceFunctions) -> dict[str, Array]:
 
 
 @pytest.fixture(scope="module")
-def found(unity: DeviceFunctions) -> Supplied:
-    """The engine's values and derivatives by every design variable."""
+def supplied(unity: DeviceFunctions) -> Supplied:
+    """Return the engine's values and derivatives by every design variable."""
     return found_by_engine(unity, VARIABLES)
 
 
 @pytest.mark.gate
 @pytest.mark.parametrize("event", EVENTS)
 def test_response_times_have_the_derivatives_that_simulations_show(
-    event: str, unity: DeviceFunctions, shown_by_simulation: dict[str, Array], found: Supplied, table: Table
+    event: str, unity: DeviceFunctions, shown_by_simulation: dict[str, Array], supplied: Supplied, table: Table
 ) -> None:
     assert {row.name for row in unity.phases["softening"].events} == set(EVENTS)
     place = unity.switch_names.index(event)
-    time = found.values[place]
-    for name, shown, exact in zip(VARIABLES, shown_by_simulation[event], found.slopes[place], strict=True):
+    time = supplied.values[place]
+    for name, shown, exact in zip(VARIABLES, shown_by_simulation[event], supplied.slopes[place], strict=True):
         # 1e-3 of the derivative, or of the time itself where the variable hardly matters.
         scale = max(abs(shown) * unity.start[unity.index[name]], 0.01 * time) / unity.start[unity.index[name]]
         assert exact == pytest.approx(shown, abs=1e-3 * scale), name

@@ -70,7 +70,7 @@ def test_outputs_scale_with_the_length_as_their_units_say(
     module = {**(squeezed if mode == "compression" else inputs), "transmission": transmission, **has}
     module |= {"foot_pairs": 2.0, "turn_speed": 0.5, "axial_clearance": 5e-3} if mode == "lock" else {}
     module = {name: value for name, value in module.items() if name.partition("@")[0] in table.by_name}
-    one, other = table.evaluate(module, wanted), table.evaluate(_scaled(table, module, factor), wanted)
+    original, other = table.evaluate(module, wanted), table.evaluate(_scaled(table, module, factor), wanted)
     for name in wanted:
-        expected = one[name] * factor ** _power(table, name)
+        expected = original[name] * factor ** _power(table, name)
         assert other[name] == pytest.approx(expected, rel=1e-9, abs=1e-12 * factor ** _power(table, name)), name

@@ -281,25 +281,27 @@ def test_a_viscosity_moves_by_the_record_s_range_alone() -> None:
 
 @pytest.mark.parametrize("mode", MODES)
 def test_rules_and_headlines_are_those_of_the_table(mode: str) -> None:
-    for found in table_for(mode).outputs:
-        for rule in found.rules:
+    for output in table_for(mode).outputs:
+        for rule in output.rules:
             if rule.exists_above is not None:
-                assert rule.sense == ">=", found.name
+                assert rule.sense == ">=", output.name
                 # A coil of a little more than its wire is one, all else begins at nothing.
-                assert rule.exists_above == (1.2 if found.name == "spring_index" else 0.0), found.name
-                assert rule.exists_above <= rule.value, found.name
-    headlines = {found.name for found in table_for(mode).outputs if found.headline}
+                assert rule.exists_above == (1.2 if output.name == "spring_index" else 0.0), output.name
+                assert rule.exists_above <= rule.value, output.name
+    headlines = {headline.name for headline in table_for(mode).outputs if headline.headline}
     assert {"envelope_diameter", "module_mass", "joint_stiffness", "holding_torque", "response_time"} <= headlines
     # A tenth of the table at most: no gap, and nothing that is one of several screwed joints' alike.
     assert len(headlines) < 0.1 * len(table_for(mode).outputs)
-    for found in table_for(mode).outputs:
-        assert not (found.headline and (found.group == "Gaps" or found.hidden or "screw" in found.name)), found.name
-    numbers = {found.name: found for found in table_for(mode).inputs}
-    free = {name for name, found in numbers.items() if found.variable}
+    for output in table_for(mode).outputs:
+        assert not (output.headline and (output.group == "Gaps" or output.hidden or "screw" in output.name)), (
+            output.name
+        )
+    numbers = {number.name: number for number in table_for(mode).inputs}
+    free = {name for name, number in numbers.items() if number.variable}
     of_springs = {"wire_diameter", "coil_diameter", "coil_count", "preload_angle"}
     assert free & of_springs == (set() if mode == "lock" else of_springs)
     assert "placement_radius" in free
     # A property of a material or of what is bought, the air, or what the user asks for is nobody's to choose.
-    of_records = {name for name, found in numbers.items() if found.record is not None and not found.falls_back}
+    of_records = {name for name, number in numbers.items() if number.record is not None and not number.falls_back}
     assert not free & of_records
     assert not free & {"stroke", "ambient_temperature", "temperature", "frequency", "pcl_density", "target_temperature"}

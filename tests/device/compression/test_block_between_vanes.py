@@ -84,12 +84,12 @@ def test_a_molten_film_softens_the_joint_as_a_block_of_its_own_depth_would(squee
     support = complex(700.0, 30.0)
     whole = 1.0 / np.mean(1.0 / (storage + 1j * loss))
     moduli = {"slice_moduli": (storage, loss), "layer_moduli": (whole.real, whole.imag)}
-    found = TABLE.evaluate({**squeezed, **moduli, "support_now": (support.real, support.imag)}, names)
+    values = TABLE.evaluate({**squeezed, **moduli, "support_now": (support.real, support.imag)}, names)
     width, height, thick = 14e-3, 3.5e-3, 0.25 * 7e-3
     shape = width * height / (2.0 * thick * (width + height))
     film = 6 * 3.0 * complex(2e4, 3e4) * (1.0 + 2.0 * shape**2) * width * height * 33e-3**2 / thick
-    star = found["spring_stiffness"] + 1.0 / (1.0 / film + 1.0 / support)
-    assert found["impedance_now"] == pytest.approx(abs(star), rel=1e-6)
+    star = values["spring_stiffness"] + 1.0 / (1.0 / film + 1.0 / support)
+    assert values["impedance_now"] == pytest.approx(abs(star), rel=1e-6)
 
 
 def test_structure_and_strain_of_blocks_are_by_hand(joint: dict[str, Any]) -> None:
@@ -106,11 +106,11 @@ def test_a_slender_block_has_three_times_the_shear_modulus(squeezed: dict[str, A
         **squeezed, "pcl_poissons_ratio": 0.5 - 1e-9, "block_height": 1e-6, "structure_youngs_modulus": 1e20,
         "peltier_shear_modulus": 1e20, "preload_angle": 0.15,
     }  # fmt: skip
-    found = TABLE.evaluate(
+    values = TABLE.evaluate(
         ideal, ["joint_stiffness@hot", "spring_stiffness", "storage_modulus@hot", "joint_damping@hot"]
     )
-    blocks = 6 * 3.0 * found["storage_modulus@hot"] * 14e-3 * 1e-6 * 33e-3**2 / 7e-3
-    assert found["joint_stiffness@hot"] - found["spring_stiffness"] == pytest.approx(blocks, rel=1e-4)
+    blocks = 6 * 3.0 * values["storage_modulus@hot"] * 14e-3 * 1e-6 * 33e-3**2 / 7e-3
+    assert values["joint_stiffness@hot"] - values["spring_stiffness"] == pytest.approx(blocks, rel=1e-4)
 
 
 def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
@@ -151,22 +151,22 @@ def test_each_gap_of_the_chamber_is_what_its_drawing_gives(squeezed: dict[str, A
         "slot_edge_margin": 0.05 + 0.1, "slot_bridge_margin": 10.0 - roof,
         "squeezed_block_gap": 57.0 - reach - pressed_out - 1.0,
     }  # fmt: skip
-    found = TABLE.evaluate(squeezed, list(drawn))
-    assert {name: value / mm for name, value in found.items()} == pytest.approx(drawn)
+    values = TABLE.evaluate(squeezed, list(drawn))
+    assert {name: value / mm for name, value in values.items()} == pytest.approx(drawn)
 
 
 def test_blocks_shrink_from_their_vanes_and_creep_at_their_sides() -> None:
     rows = "freezing_gap freezing_travel stop_play axial_play"
-    found = values_of(rows, "compression", block_depth="7 mm", axial_preload="wave_21x25")
-    assert found["freezing_gap"] == pytest.approx(7e-3 * (1.0 - (1070.0 / 1145.0) ** (1.0 / 3.0)), rel=1e-9)
-    assert found["freezing_gap"] == pytest.approx(0.156e-3, rel=0.01)
+    values = values_of(rows, "compression", block_depth="7 mm", axial_preload="wave_21x25")
+    assert values["freezing_gap"] == pytest.approx(7e-3 * (1.0 - (1070.0 / 1145.0) ** (1.0 / 3.0)), rel=1e-9)
+    assert values["freezing_gap"] == pytest.approx(0.156e-3, rel=0.01)
     # Blocks have room above and below: the rotor stands still and its stop touches.
-    assert found["freezing_travel"] == found["stop_play"] == found["axial_play"] == 0.0
-    found = values_of("melt_creep pcl_viscosity@hot", "compression", block_depth="4 mm")
+    assert values["freezing_travel"] == values["stop_play"] == values["axial_play"] == 0.0
+    values = values_of("melt_creep pcl_viscosity@hot", "compression", block_depth="4 mm")
     # Between two vanes 4 mm apart, upright: h^2 rho g/(12 eta), by hand. A thin layer creeps a twentieth of that.
-    speed = 4e-3**2 * 1070.0 * 9.80665 / (12.0 * found["pcl_viscosity@hot"])
-    assert found["melt_creep"] == pytest.approx(3600.0 * speed, rel=1e-6)
-    assert found["melt_creep"] > 10e-3
+    speed = 4e-3**2 * 1070.0 * 9.80665 / (12.0 * values["pcl_viscosity@hot"])
+    assert values["melt_creep"] == pytest.approx(3600.0 * speed, rel=1e-6)
+    assert values["melt_creep"] > 10e-3
 
 
 # Nothing but block and pads takes heat, and nothing loses it.
@@ -228,14 +228,14 @@ def test_twice_the_depth_of_a_whole_module() -> None:
     module = {**resolve(study), **STIFF_WHEN_WARM, **lossless, "horizon": 1e5, "vane_count": 5.0}
 
     def ratios(depth: float, current: float) -> tuple[float, float]:
-        found = []
+        pairs_of_times = []
         for times in (1.0, 2.0):
             given = {**module, "block_depth": times * depth, "current": current}
             model = DeviceFunctions(TABLE, given, ("cold", "hot"), 24)
             assert float(TABLE.evaluate(given, ["slot_opening"])["slot_opening"]) > 2e-3
             values = tight(model).run(model.start, phases=["softening"]).values
-            found.append((values["far_face_time"], values["softening_time"]))
-        return found[1][0] / found[0][0], found[1][1] / found[0][1]
+            pairs_of_times.append((values["far_face_time"], values["softening_time"]))
+        return pairs_of_times[1][0] / pairs_of_times[0][0], pairs_of_times[1][1] / pairs_of_times[0][1]
 
     weak, deep, strong = ratios(2e-3, 1.5), ratios(3.25e-3, 1.5), ratios(3.25e-3, 10.0)
     assert 1.4 < weak[0] < deep[0] < 2.0 < strong[0] < 4.0
@@ -245,8 +245,8 @@ def test_twice_the_depth_of_a_whole_module() -> None:
 
 
 def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, Any]) -> None:
-    found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
-    stack = found["stack"]
+    values = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
+    stack = values["stack"]
     assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
     # Six roots of 14 by 5 mm. Where no heat passes the clearance below, the mean of a vane's heated 3.5 mm is a third
     # of these away, and 0.4 mm beside the clearance come before the plate, where heat turns to the side.
@@ -268,15 +268,15 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     assert chamber == pytest.approx((5.0 + shine) * rims, rel=1e-9)
     assert stack.plate_surface.coefficient == 0.0
     vanes = stack.plate_heat_capacity * stack.area * stack.plate_thickness
-    parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
+    parts = values["rotor_mass"] + values["link_mass"] + values["retainer_mass"]
     around = sum(stack.around[place].capacity for place in (RIM, WITHIN, *ABOVE_WALLS, *ABOVE_PADS))
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
 
 
 def test_floor_below_pads_gives_by_mean_and_cosine(squeezed: dict[str, Any]) -> None:
-    found = TABLE.evaluate(squeezed, ["stack", "wall_depth"])
-    deep, wall, pad, wide = squeezed["floor_thickness"], found["wall_depth"], squeezed["peltier_thickness"], 12 * 14e-3
-    links = {(link.first, link.second): link.conductance for link in found["stack"].links}
+    values = TABLE.evaluate(squeezed, ["stack", "wall_depth"])
+    deep, wall, pad, wide = squeezed["floor_thickness"], values["wall_depth"], squeezed["peltier_thickness"], 12 * 14e-3
+    links = {(link.first, link.second): link.conductance for link in values["stack"].links}
     upper, _, lower = (("around", place) for place in BELOW_PADS)
     # 0.029 of the vane's depth from its edge is what is next to the pads; 0.087 and 0.666 are shares of the depth.
     even = 0.24 * wide * deep / (0.25 * pad + 0.029 * wall)

@@ -35,11 +35,11 @@ def values_of(rows: str, of: dict[str, Any] = VANE_TILES, **module: Any) -> dict
     ],
 )
 def test_a_module_without_room_breaks_its_rule(rule: str, of: dict[str, Any], module: dict[str, float]) -> None:
-    def kept(**changes: float) -> bool:
+    def is_valid(**changes: float) -> bool:
         return bool(values_of(rule, of, **changes)[rule] >= TABLE.output(rule).rules[0].value)
 
-    assert kept()
-    assert not kept(**module)
+    assert is_valid()
+    assert not is_valid(**module)
 
 
 def test_they_cover_weigh_and_take_depth_as_the_sheet_says() -> None:
@@ -79,16 +79,16 @@ def link_between(stack: heat.Stack, first: lumps.Place, second: lumps.Place) -> 
 
 def test_spreaders_lose_heat_at_their_edges_and_backs() -> None:
     # What a spreader of twice the thickness passes more to floor and plate, through the air of 0.3 mm clearances.
-    one, two = (values_of("stack ring_places", spreader_thickness=t)["stack"] for t in (1 * MM, 2 * MM))
+    low, two = (values_of("stack ring_places", spreader_thickness=t)["stack"] for t in (1 * MM, 2 * MM))
     floor, above, walls, housing = values_of("ring_places")["ring_places"]
     known = inputs_of("compression", **VANE_TILES)
     gap = known["air_conductivity"] * 8 * 16 * 1.0 * MM**2 / known["running_clearance"]
     for face in (floor, above):
-        assert link_between(two, ("spreader", 0), face) - link_between(one, ("spreader", 0), face) == pytest.approx(gap)
+        assert link_between(two, ("spreader", 0), face) - link_between(low, ("spreader", 0), face) == pytest.approx(gap)
     # Beside the tiles 3.8 mm of air lie behind the spreaders.
     backs = known["air_conductivity"] * 8 * (16 * 15.5 - 15 * 15) * MM**2 / (3.8 * MM)
-    assert link_between(one, ("spreader", 0), walls) == pytest.approx(backs)
-    assert link_between(two, ("spreader", 0), housing) > link_between(one, ("spreader", 0), housing)
+    assert link_between(low, ("spreader", 0), walls) == pytest.approx(backs)
+    assert link_between(two, ("spreader", 0), housing) > link_between(low, ("spreader", 0), housing)
 
 
 def test_heat_of_closed_modules_is_stored() -> None:
@@ -116,8 +116,8 @@ def in_the_plane(width: float, height: float, row: int, tile: tuple[float, float
     pitch = width / row
     fed = (np.abs(x % pitch - 0.5 * pitch) < 0.5 * tile[0])[:, None] & (z < tile[1])[None, :]
     # A fed cell is at one temperature up to its side, as a wall is.
-    found = conducted(~fed, np.where(fed, 0.0, np.nan), step**2 / (k * depth))
-    return float(np.nansum(found)) / found.size
+    rises = conducted(~fed, np.where(fed, 0.0, np.nan), step**2 / (k * depth))
+    return float(np.nansum(rises)) / rises.size
 
 
 @pytest.mark.parametrize(
@@ -129,9 +129,9 @@ def test_spreading_in_two_directions_costs_no_less_than_a_thin_plate_does(
     module = {"pcl_outer_radius": 16 * MM + width, "block_height": height, "tiles_per_block": row}
     # What goes around the tiles' corners into the plate's thickness is in the plate's own test: thin, it is little.
     module["spreader_thickness"] = 0.2 * MM
-    found = values_of("spreader_resistance", VANE_TILES, **module)["spreader_resistance"]
+    resistance = values_of("spreader_resistance", VANE_TILES, **module)["spreader_resistance"]
     plane = in_the_plane(width, height, row, (15 * MM, 15 * MM), 0.2 * MM, 167.0)
-    assert plane < found < 1.3 * plane
+    assert plane < resistance < 1.3 * plane
 
 
 @pytest.mark.parametrize("of", [VANE_TILES, VANE_TILE_ROWS], ids=["one a block", "two a block"])
@@ -159,10 +159,10 @@ def test_tiles_and_spreaders_bear_the_block_in_series() -> None:
     assert values["heater_pressure@cold"] > 0.0
     # Young's modulus three times the shear modulus of 1 GPa on 15 by 15 mm, 3.8 mm thick; 1 mm of aluminium, 71.7 GPa.
     tile, sheet = 3e9 * 225e-6 / 3.8e-3, 71.7e9 * 16 * 15.5e-6 / 1e-3
-    found = values_of("pad_press_stiffness structure_compliances")
-    assert found["pad_press_stiffness"] == pytest.approx(1.0 / (1.0 / tile + 1.0 / sheet), rel=1e-9)
-    about_the_axis = 4 * found["pad_press_stiffness"] * (24e-3) ** 2
-    assert found["structure_compliances"][-1] == pytest.approx(1.0 / about_the_axis, rel=1e-9)
+    squeezed = values_of("pad_press_stiffness structure_compliances")
+    assert squeezed["pad_press_stiffness"] == pytest.approx(1.0 / (1.0 / tile + 1.0 / sheet), rel=1e-9)
+    about_the_axis = 4 * squeezed["pad_press_stiffness"] * (24e-3) ** 2
+    assert squeezed["structure_compliances"][-1] == pytest.approx(1.0 / about_the_axis, rel=1e-9)
     values = values_of("vane_webs slot_width housing_vane_angle", VANE_TILE_ROWS)
     along = 24.4 * MM * np.cos(0.5 * values["housing_vane_angle"])
     assert values["vane_webs"] == pytest.approx(along - 2 * values["slot_width"], rel=1e-9)

@@ -46,7 +46,7 @@ def apart(*groups: list[Disc]) -> float:
 
 def within(inner: list[Disc], radius: float) -> float:
     """Least distance of discs from a circle about the axis that holds them."""
-    return float(min(radius - abs(one.centre) - one.radius for one in inner))
+    return float(min(radius - abs(circle.centre) - circle.radius for circle in inner))
 
 
 @pytest.fixture(scope="module", params=SIZES)
@@ -87,7 +87,7 @@ def test_springs_pins_and_feet_stand_where_they_are_drawn(p: dict[str, Any]) -> 
     beside = 0.5 * (p["coil_diameter"] + wire + p["pin_diameter"])
     assert reach == pytest.approx(abs(pins[0].centre - p["placement_radius"]) - beside, abs=1e-12)
     wall, pad = of(p, "mount_wall_gap", "mount_pad_gap")
-    skirt = max(abs(one.centre) + one.radius for one in springs(p)) + p["radial_clearance"]
+    skirt = max(abs(spring.centre) + spring.radius for spring in springs(p)) + p["radial_clearance"]
     assert wall == pytest.approx(within(feet(p), skirt) - p["minimum_running_clearance"], abs=1e-12)
     assert pad == pytest.approx(apart(feet(p), [Disc(0j, p["pcl_outer_radius"])]) - p["radial_clearance"], abs=1e-12)
 
@@ -146,8 +146,8 @@ def test_a_margin_is_what_is_left_below_the_limit_and_negative_above_it(
 ) -> None:
     known = {**inputs, limit: inputs.get(limit, 30.0)}
     for left in (expected, -expected):
-        found = TABLE.evaluate({**known, supplied: known[limit] - left}, [margin])[margin]
-        assert found == pytest.approx(left, rel=1e-9)
+        gap = TABLE.evaluate({**known, supplied: known[limit] - left}, [margin])[margin]
+        assert gap == pytest.approx(left, rel=1e-9)
     row = TABLE.output(margin)
     (rule,) = (*row.ratings, *row.advice)
     assert (rule.sense, rule.value) == (">=", 0.0)
@@ -177,11 +177,11 @@ def test_thresholds_stand_apart_by_the_logarithm_of_their_ratio(
 
 def test_a_fillet_stays_below_legs_rim_and_the_other_fillet() -> None:
     rows = ["foot_fillet", "coil_end_level", "rotor_top_level", "rotor_radius", "pin_radius"]
-    asked = values_of(rows, largest_foot_fillet=9.0 * MM)
+    filleted = values_of(rows, largest_foot_fillet=9.0 * MM)
     wire, pin, play = 2.413 * MM, 4.0 * MM, 0.4 * MM
-    rooms = [asked["coil_end_level"] - 0.5 * wire - asked["rotor_top_level"] - play,
-             asked["rotor_radius"] - asked["pin_radius"] - 0.5 * pin - 0.1 * MM]  # fmt: skip
-    assert 0.0 < asked["foot_fillet"] <= min(rooms) + 1e-12
+    rooms = [filleted["coil_end_level"] - 0.5 * wire - filleted["rotor_top_level"] - play,
+             filleted["rotor_radius"] - filleted["pin_radius"] - 0.5 * pin - 0.1 * MM]  # fmt: skip
+    assert 0.0 < filleted["foot_fillet"] <= min(rooms) + 1e-12
     assert values_of(rows, largest_foot_fillet=0.3 * MM)["foot_fillet"] == pytest.approx(0.3 * MM)
     # At the rim two circles that touch left a mesh that does not close; `paper_shear` has its pins that near.
     rows = ["foot_fillet", "rotor_radius", "pin_radius"]
@@ -201,12 +201,12 @@ def test_the_strength_of_core_and_pins_counts_it(mode: str) -> None:
 
 
 @drawn(strategies.floats(-5e-3, 5e-3), strategies.floats(-5e-3, 5e-3))
-def test_the_evened_least_is_smooth_and_least_away_from_ties(one: float, other: float) -> None:
-    found, least = evened_least(one, other), min(one, other)
-    assert least - EVENED / 6.0 - 1e-12 <= found <= least
-    assert found == evened_least(other, one)
-    if abs(one - other) >= EVENED:
-        assert found == least
+def test_the_evened_least_is_smooth_and_least_away_from_ties(first: float, other: float) -> None:
+    smooth, least = evened_least(first, other), min(first, other)
+    assert least - EVENED / 6.0 - 1e-12 <= smooth <= least
+    assert smooth == evened_least(other, first)
+    if abs(first - other) >= EVENED:
+        assert smooth == least
     step = 1e-3 * EVENED
     at = np.arange(-1.5 * EVENED, 1.5 * EVENED, step)
     slope = np.diff(evened_least(at, 0.0)) / step

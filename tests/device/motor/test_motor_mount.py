@@ -39,12 +39,12 @@ def test_parts_have_their_seats_and_the_magnet_its_gap() -> None:
     assert list(printed.values()) == pytest.approx([34.7 * MM, 20.8 * MM, 12.05 * MM, 7.45 * MM])
     assert list(milled.values()) == pytest.approx([34.55 * MM, 20.95 * MM, 12.0015 * MM, 7.4985 * MM])
     rows = "motor_bottom_level motor_retainer_level motor_retainer_thickness encoder_board_height motor_sink_radius"
-    found = values_of(rows, **DRIVEN)
+    values = values_of(rows, **DRIVEN)
     # Below the head of 1.65 mm: 1 mm of gap and a magnet of 2.5 mm; it looks at a board 3 mm high, 1 mm away.
-    assert found["motor_retainer_thickness"] == pytest.approx((2.0 + 1.65 + 1.0 + 2.5) * MM)
-    magnet = found["motor_retainer_level"] - found["motor_retainer_thickness"]
-    assert magnet - (found["motor_bottom_level"] + 3.0 * MM) == pytest.approx(1.0 * MM)
-    assert found["motor_sink_radius"] == pytest.approx((2.85 + 0.4) * MM)
+    assert values["motor_retainer_thickness"] == pytest.approx((2.0 + 1.65 + 1.0 + 2.5) * MM)
+    magnet = values["motor_retainer_level"] - values["motor_retainer_thickness"]
+    assert magnet - (values["motor_bottom_level"] + 3.0 * MM) == pytest.approx(1.0 * MM)
+    assert values["motor_sink_radius"] == pytest.approx((2.85 + 0.4) * MM)
     # 11.2 mm in the middle of 22.6 mm.
     assert values_of("motor_rotor_bottom_level", **DRIVEN)["motor_rotor_bottom_level"] == pytest.approx(-33.9 * MM)
     small = values_of("motor_sink_radius", **DRIVEN | {"motor_screw": "iso_4762_m2"})
@@ -59,17 +59,17 @@ def test_the_drive_is_in_the_mass_and_inertia_of_the_module() -> None:
     assert driven["parts_inertia"] == bare["parts_inertia"]
     assert driven["structure_stiffness"] == bare["structure_stiffness"]
     rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass cutout_mass"
-    found = values_of(rows, **DRIVEN)
-    springs = found["springs_mass"] * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
-    on_arcs = found["pcl_mass"] + found["peltier_mass"] + found["cutout_mass"]
+    values = values_of(rows, **DRIVEN)
+    springs = values["springs_mass"] * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
+    on_arcs = values["pcl_mass"] + values["peltier_mass"] + values["cutout_mass"]
     between = on_arcs * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
-    whole = found["drive_inertia"] + found["housing_inertia"] + springs + between
-    assert found["driven_inertia"] == pytest.approx(whole)
+    whole = values["drive_inertia"] + values["housing_inertia"] + springs + between
+    assert values["driven_inertia"] == pytest.approx(whole)
     assert values_of("driven_inertia") == {"driven_inertia": 0.0}
 
 
 def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one() -> None:
-    found = values_of("drive_mass drive_inertia motor_hub_volume motor_hub_inertia motor_housing_volume", **DRIVEN)
+    values = values_of("drive_mass drive_inertia motor_hub_volume motor_hub_inertia motor_housing_volume", **DRIVEN)
 
     def tube(inner: float, outer: float, length: float) -> np.ndarray:
         """Volume [mm^3] and polar moment of volume [mm^5] of a tube about its own axis."""
@@ -85,52 +85,52 @@ def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one() -> None:
     housing = tube(0.0, 37.2, 8.0) + tube(34.7, 37.2, 22.6) + tube(0.0, 14.55, 22.6)
     housing -= tube(0.0, 12.05, 16.15 + 5.0) + tube(0.0, 11.0, 30.6 - 21.15) + 4 * tube(0.0, 1.25, 6.8)
     board = tube(12.05, 14.2, 3.0)[0] + 3.0 * groove(14.2, 37.2)
-    assert found["motor_housing_volume"] / MM**3 == pytest.approx(housing[0] - 5.0 * groove(34.7, 37.2) - board)
+    assert values["motor_housing_volume"] / MM**3 == pytest.approx(housing[0] - 5.0 * groove(34.7, 37.2) - board)
     retainer = tube(1.7, 8.5, 2.0) + tube(3.25, 8.5, 5.15)
     screw = tube(0.0, 1.25, 12.0) + tube(0.0, 2.85, 1.65)
     mounts = 4 * (tube(0.0, 1.25, 16.0) + tube(0.0, 2.75, 3.0))
     mounts[1] += mounts[0] * 57.0**2
     magnet = tube(0.0, 3.0, 2.5)
-    made = 1270.0 * (found["motor_hub_volume"] / MM**3 + housing[0] - 5.0 * groove(34.7, 37.2) - board + retainer[0])
+    made = 1270.0 * (values["motor_hub_volume"] / MM**3 + housing[0] - 5.0 * groove(34.7, 37.2) - board + retainer[0])
     grams = 1e-6 * (made + 7900.0 * screw[0] + 7850.0 * mounts[0] + 7500.0 * magnet[0])
     # Stator 189 g and rotor 41 g, two bearings of 7 g, a board of 3 g.
-    assert 1e3 * found["drive_mass"] == pytest.approx(grams + 189.0 + 41.0 + 14.0 + 3.0)
+    assert 1e3 * values["drive_mass"] == pytest.approx(grams + 189.0 + 41.0 + 14.0 + 3.0)
     # The rotor's 21 kg mm^2 is its record's; of a bearing of 15 and 24 turns what is inside of 19.5.
     inner = 14.0 / tube(7.5, 12.0, 1.0)[0] * tube(7.5, 9.75, 1.0)[1]
     turning = 1e-6 * (1270.0 * retainer[1] + 7900.0 * screw[1] + 7850.0 * mounts[1] + 7500.0 * magnet[1]) + inner
-    hub = found["motor_hub_inertia"] * 1e9
-    assert found["drive_inertia"] * 1e9 - hub == pytest.approx(21e3 + turning)
+    hub = values["motor_hub_inertia"] * 1e9
+    assert values["drive_inertia"] * 1e9 - hub == pytest.approx(21e3 + turning)
 
 
 def test_the_motor_turns_cover_and_adjusters_as_well() -> None:
     rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass cutout_mass adjusters_mass "
     radii = "housing_inner_radius housing_outer_radius"
-    found = values_of(rows + radii, **DRIVEN | {"cover": "plate", "preload_adjuster": "rotary"})
-    springs = (found["springs_mass"] + found["adjusters_mass"]) * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
-    on_arcs = found["pcl_mass"] + found["peltier_mass"] + found["cutout_mass"]
+    values = values_of(rows + radii, **DRIVEN | {"cover": "plate", "preload_adjuster": "rotary"})
+    springs = (values["springs_mass"] + values["adjusters_mass"]) * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
+    on_arcs = values["pcl_mass"] + values["peltier_mass"] + values["cutout_mass"]
     between = on_arcs * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
     # A plate of 1.5 mm, less the core's hole of 10.4 mm, four of 1.2 mm on the wall's radius and four of 3.5 on 57 mm.
-    polar = 0.5 * np.pi * (found["housing_outer_radius"] ** 4 - (10.4 * MM) ** 4)
-    for radius, circle in ((1.2 * MM, found["housing_inner_radius"]), (3.5 * MM, 57.0 * MM)):
+    polar = 0.5 * np.pi * (values["housing_outer_radius"] ** 4 - (10.4 * MM) ** 4)
+    for radius, circle in ((1.2 * MM, values["housing_inner_radius"]), (3.5 * MM, 57.0 * MM)):
         polar -= 4 * np.pi * radius**2 * (circle**2 + 0.5 * radius**2)
-    whole = found["drive_inertia"] + found["housing_inertia"] + springs + between + 1270.0 * 1.5 * MM * polar
-    assert found["driven_inertia"] == pytest.approx(whole)
+    whole = values["drive_inertia"] + values["housing_inertia"] + springs + between + 1270.0 * 1.5 * MM * polar
+    assert values["driven_inertia"] == pytest.approx(whole)
 
 
 def test_torque_and_tilt_are_borne_by_motor_and_bearings() -> None:
     rows = "motor_torque_margin spring_stiffness"
-    found = values_of(rows, **DRIVEN)
-    assert found["motor_torque_margin"] == pytest.approx(0.7 - 0.104 * found["spring_stiffness"])
+    values = values_of(rows, **DRIVEN)
+    assert values["motor_torque_margin"] == pytest.approx(0.7 - 0.104 * values["spring_stiffness"])
     weak = values_of("motor_torque_margin", **DRIVEN | {"motor": "frameless_50x08", "motor_bearing": "ball_6700"})
     assert weak["motor_torque_margin"] < 0.0  # 0.3 N m against the paper's springs
     rows = "motor_bearing_load motor_bearing_margin holding_torque link_length link_bottom_level motor_retainer_level"
-    found = values_of(rows, **DRIVEN)
+    values = values_of(rows, **DRIVEN)
     # Moments about the lower bearing, 5 mm wide above the retainer; the upper one is below -17 mm, the link 4 mm thick.
-    lower, upper = found["motor_retainer_level"] + 2.5 * MM, (-17.0 - 2.5) * MM
-    middle = found["link_bottom_level"] + 2.0 * MM
-    force = found["holding_torque"] / found["link_length"]
-    assert found["motor_bearing_load"] == pytest.approx(force * (middle - lower) / (upper - lower))
-    assert found["motor_bearing_margin"] == pytest.approx(1260.0 - found["motor_bearing_load"])
+    lower, upper = values["motor_retainer_level"] + 2.5 * MM, (-17.0 - 2.5) * MM
+    middle = values["link_bottom_level"] + 2.0 * MM
+    force = values["holding_torque"] / values["link_length"]
+    assert values["motor_bearing_load"] == pytest.approx(force * (middle - lower) / (upper - lower))
+    assert values["motor_bearing_margin"] == pytest.approx(1260.0 - values["motor_bearing_load"])
 
 
 def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives() -> None:
@@ -151,5 +151,5 @@ def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives() -> None:
         "encoder_floor_margin": 8.0 - 3.0 - 1.2,
     }  # fmt: skip
     assert set(drawn) == RULES | ENCODER_RULES
-    found = {name: value / MM for name, value in values_of(" ".join(drawn), **DRIVEN).items()}
-    assert found == pytest.approx(drawn, abs=1e-9)
+    gaps = {name: value / MM for name, value in values_of(" ".join(drawn), **DRIVEN).items()}
+    assert gaps == pytest.approx(drawn, abs=1e-9)

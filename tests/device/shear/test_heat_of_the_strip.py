@@ -36,17 +36,17 @@ def rows(name: str = "results") -> list[dict[str, str]]:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper_shear", "paper_compression", "wrist_compression", "wrist_joint"])
 def test_times_are_those_of_the_plane(name: str) -> None:
-    for time, one in compared(model_of(study_path(name))).items():
-        assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time
+    for time, pair in compared(model_of(study_path(name))).items():
+        assert pair.product == pytest.approx(pair.plane, rel=THREE_PERCENT), time
 
 
 @pytest.mark.parametrize("name", ["paper_reconstructed", "paper_compression", "elbow_machined"])
 def test_the_table_has_the_times_of_today_s_product(name: str) -> None:
     ours = product_times(model_of(study_path(name)))
-    kept = {
+    ours_before = {
         row["time"]: float(row["product [s]"]) for row in rows() if (row["study"], row["design"]) == (name, "start")
     }
-    assert ours == pytest.approx(kept, rel=2e-3)
+    assert ours == pytest.approx(ours_before, rel=2e-3)
 
 
 KELVINS = {"elbow_machined": 3.0}
@@ -78,9 +78,9 @@ def beyond(name: str) -> list[dict[str, str]]:
 )
 def test_rigid_modules_are_drawn_as_large_as_they_are(study: str, length: str, within: float) -> None:
     model = model_of(ROOT / f"{study}.yaml")
-    found, known = plane_of(model), inputs_of(model)
+    plane, known = plane_of(model), inputs_of(model)
     sizes = model.table.evaluate(known, ["pcl_area", length, "spreader_volume", "heater_count"])
-    drawn = {name: np.sum(found.volume[found.cells(name)]) for name in found.materials}
+    drawn = {name: np.sum(plane.volume[plane.cells(name)]) for name in plane.materials}
     tiles = sizes["heater_count"] * known["peltier_length"] * known["peltier_width"] * known["peltier_thickness"]
     assert drawn["hot"] + drawn["legs"] + drawn["cold"] == pytest.approx(tiles / sizes[length], rel=1e-9)
     around = sizes["pcl_area"] * known["peltier_thickness"] - tiles
@@ -89,22 +89,22 @@ def test_rigid_modules_are_drawn_as_large_as_they_are(study: str, length: str, w
 
 
 @pytest.mark.slow
-def test_a_fresh_design_of_each_mode_is_compared_anew() -> None:
+def test_a_fresh_design_of_each_mode_is_compared_again() -> None:
     for study in ("wrist_joint", "wrist_compression"):
         for name, model in designs(study, 1):
-            kept = {row["time"]: row for row in rows("fresh") if (row["study"], row["design"]) == (study, name)}
-            found = compared(model)
-            assert found.keys() == kept.keys()
-            for time, one in found.items():
-                assert one.product == pytest.approx(float(kept[time]["product [s]"]), rel=5e-3), time
-                assert one.plane == pytest.approx(float(kept[time]["plane [s]"]), rel=5e-3), time
+            recorded = {row["time"]: row for row in rows("fresh") if (row["study"], row["design"]) == (study, name)}
+            times = compared(model)
+            assert times.keys() == recorded.keys()
+            for time, pair in times.items():
+                assert pair.product == pytest.approx(float(recorded[time]["product [s]"]), rel=5e-3), time
+                assert pair.plane == pytest.approx(float(recorded[time]["plane [s]"]), rel=5e-3), time
 
 
 @pytest.mark.parametrize("block_height", [0.0071, 0.0083, 0.0097, 0.0113])
 def test_pads_between_vanes_are_drawn_as_high_as_their_blocks(block_height: float) -> None:
-    found = plane_of(model_of(study_path("wrist_compression"), block_height=block_height))
-    assert np.min(found.volume) > 0.0
-    assert "beside tiles" not in found.material
+    plane = plane_of(model_of(study_path("wrist_compression"), block_height=block_height))
+    assert np.min(plane.volume) > 0.0
+    assert "beside tiles" not in plane.material
 
 
 THICKNESS, CONDUCTIVITY = 3.9e-3, 25.0  # m, W/m K, a rigid module's sides
@@ -126,12 +126,14 @@ def with_cold_area(side: floor_heat.ColdSide, area: float) -> Module:
 
 @pytest.mark.parametrize("ledges", [0.2, 0.4, 0.7])
 def test_heat_goes_to_the_ledges_as_along_a_fin(ledges: float) -> None:
-    """A fin heated evenly that gives its heat evenly over its first share s is warmer in the mean by (1 - s)^2/3 of
-    its heat over its conductance along (Carslaw and Jaeger, ch. IV: twice integrated)."""
+    """Compare with a fin heated evenly that gives its heat evenly over its first share s.
+
+    Its mean is warmer by (1 - s)^2/3 of its heat over its conductance along (Carslaw and Jaeger, ch. IV).
+    """
     side = slab(up=CONDUCTIVITY * 200.0)  # legs that conduct up so well that all of their height conducts along
-    found = floor_heat.cold_to_ledges(with_cold_area(side, (1.0 - ledges) * AREA))
+    share = floor_heat.cold_to_ledges(with_cold_area(side, (1.0 - ledges) * AREA))
     along = CONDUCTIVITY * (1.0 - SIDE_SHARE) * THICKNESS * EDGES / (AREA / EDGES)
-    assert found == pytest.approx((1.0 - ledges) ** 2 / 3.0 / along, rel=0.02)
+    assert share == pytest.approx((1.0 - ledges) ** 2 / 3.0 / along, rel=0.02)
 
 
 def test_sinks_and_poor_legs_leave_a_fin_s_way() -> None:
@@ -140,9 +142,9 @@ def test_sinks_and_poor_legs_leave_a_fin_s_way() -> None:
     assert floor_heat.cold_to_sink(with_cold_area(side, 0.3 * AREA)) == pytest.approx(to_ledges)
     assert floor_heat.cold_to_sink(with_cold_area(side, AREA)) == pytest.approx(0.0, abs=1e-12)
     # With next to nothing up, heat stays in the side: a fin of its thickness alone.
-    found = floor_heat.cold_to_ledges(with_cold_area(slab(up=1e-6), 0.6 * AREA))
+    share = floor_heat.cold_to_ledges(with_cold_area(slab(up=1e-6), 0.6 * AREA))
     along = CONDUCTIVITY * SIDE_SHARE * THICKNESS * EDGES / (AREA / EDGES)
-    assert found == pytest.approx(0.6**2 / 3.0 / along, rel=0.02)
+    assert share == pytest.approx(0.6**2 / 3.0 / along, rel=0.02)
 
 
 ROWS = "ledge_tension freezing_traction pcl_area"

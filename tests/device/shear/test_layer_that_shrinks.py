@@ -29,11 +29,11 @@ def advised(row: str, value: float) -> bool:
 
 
 def test_layers_shrink_and_leave_play_where_nothing_holds_the_rotor() -> None:
-    found = values_of("freezing_shrinkage freezing_travel", key_count=0)
+    values = values_of("freezing_shrinkage freezing_travel", key_count=0)
     # 1040 to 1100 of 1145 kg/m3: 4 to 9 %.
-    assert 0.04 < found["freezing_shrinkage"] < 0.092
-    assert found["freezing_shrinkage"] == pytest.approx(1.0 - 1070.0 / 1145.0)
-    assert found["freezing_travel"] == pytest.approx(70.1e-6, rel=1e-3)
+    assert 0.04 < values["freezing_shrinkage"] < 0.092
+    assert values["freezing_shrinkage"] == pytest.approx(1.0 - 1070.0 / 1145.0)
+    assert values["freezing_travel"] == pytest.approx(70.1e-6, rel=1e-3)
     rows = "axial_play layer_play expansion_travel rotor_bottom_level hub_bottom_level core_temperature@hot"
     bare = values_of(rows, pcl_thickness="0.6 mm", structure_expansion="6e-5 1/K")
     assert bare["axial_play"] == pytest.approx(0.4e-3)  # the running clearance of a print, below the hub
@@ -74,25 +74,25 @@ def test_a_layer_that_shrinks_pulls_until_it_yields_or_has_no_spring() -> None:
     assert stiff["freezing_traction"] == pytest.approx(16e6)
     rows = "preload_rate frozen_preload molten_preload stop_force_margin preload_spring_mass stop_play"
     assert set(values_of(rows).values()) == {0.0}
-    found = values_of("melt_lip_margin melt_lip_hub_gap", melt_lip="rings", pcl_thickness="0.45 mm")
-    assert found["melt_lip_margin"] == pytest.approx(-0.05e-3)  # 0.05 mm high
-    assert found["melt_lip_hub_gap"] == pytest.approx((26.0 - 1.5 - 13.4 - 0.4) * 1e-3)
+    values = values_of("melt_lip_margin melt_lip_hub_gap", melt_lip="rings", pcl_thickness="0.45 mm")
+    assert values["melt_lip_margin"] == pytest.approx(-0.05e-3)  # 0.05 mm high
+    assert values["melt_lip_hub_gap"] == pytest.approx((26.0 - 1.5 - 13.4 - 0.4) * 1e-3)
 
 
 def test_the_spring_holds_some_times_the_weight_and_rubs_little() -> None:
     rows = ("preload_rate frozen_preload molten_preload stop_force_margin turning_mass preload_friction_torque "
             "spring_stiffness preload_spring_mass preload_spring_stress stop_play")  # fmt: skip
-    found = values_of(rows, axial_preload="wave_21x25", key_count=0)
-    assert found["preload_rate"] == pytest.approx(STEEL_RATE, rel=0.005)
-    assert found["frozen_preload"] == pytest.approx(STEEL_RATE * 0.6e-3, rel=0.005)
-    assert found["molten_preload"] == pytest.approx(STEEL_RATE * (0.6e-3 - 70.1e-6), rel=0.005)
-    assert found["stop_force_margin"] == pytest.approx(found["molten_preload"] - 2.0 * G * found["turning_mass"])
-    assert advised("stop_force_margin", found["stop_force_margin"])
+    values = values_of(rows, axial_preload="wave_21x25", key_count=0)
+    assert values["preload_rate"] == pytest.approx(STEEL_RATE, rel=0.005)
+    assert values["frozen_preload"] == pytest.approx(STEEL_RATE * 0.6e-3, rel=0.005)
+    assert values["molten_preload"] == pytest.approx(STEEL_RATE * (0.6e-3 - 70.1e-6), rel=0.005)
+    assert values["stop_force_margin"] == pytest.approx(values["molten_preload"] - 2.0 * G * values["turning_mass"])
+    assert advised("stop_force_margin", values["stop_force_margin"])
     # At 11.5 mm on the spring and 11.8 mm on the retainer, friction 0.2: two faces rub.
-    torque = 0.2 * found["molten_preload"] * (11.5e-3 + 11.75e-3)
-    assert found["preload_friction_torque"] == pytest.approx(torque, rel=0.01)
-    assert found["preload_spring_mass"] == pytest.approx(pi / 4.0 * (25.0**2 - 21.0**2) * 0.2 * 7.85e-6, rel=1e-6)
-    assert found["preload_spring_stress"] < 0.5 * 1500e6  # of spring-steel strip
+    torque = 0.2 * values["molten_preload"] * (11.5e-3 + 11.75e-3)
+    assert values["preload_friction_torque"] == pytest.approx(torque, rel=0.01)
+    assert values["preload_spring_mass"] == pytest.approx(pi / 4.0 * (25.0**2 - 21.0**2) * 0.2 * 7.85e-6, rel=1e-6)
+    assert values["preload_spring_stress"] < 0.5 * 1500e6  # of spring-steel strip
 
 
 def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge() -> None:
@@ -109,11 +109,11 @@ def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge() -> None:
 
 
 def test_melt_creeps_by_its_viscosity_along_arcs_and_out_of_edges() -> None:
-    found = values_of("melt_creep pcl_viscosity@hot", melt_lip="rings")
+    values = values_of("melt_creep pcl_viscosity@hot", melt_lip="rings")
     # As between flat faces, by hand: h^2 rho g/(12 eta), 1.07 mm high, an hour.
-    speed = 1.0701e-3**2 * 1070.0 * G / (12.0 * found["pcl_viscosity@hot"])
-    assert found["melt_creep"] == pytest.approx(3600.0 * speed, rel=1e-3)
-    assert found["melt_creep"] < 3e-3  # the narrowest web between two pads
+    speed = 1.0701e-3**2 * 1070.0 * G / (12.0 * values["pcl_viscosity@hot"])
+    assert values["melt_creep"] == pytest.approx(3600.0 * speed, rel=1e-3)
+    assert values["melt_creep"] < 3e-3  # the narrowest web between two pads
     rows = "melt_loss melt_head melt_hold pcl_viscosity@hot"
     bare = values_of(rows)
     # 14 mm of melt stand on the lower edge, nothing holds it: the layer slides at h^2 rho g/(12 eta).
@@ -146,15 +146,15 @@ def test_the_viscosity_is_that_of_the_record_at_its_temperature() -> None:
 
 
 def test_a_rotor_that_hangs_on_the_melt_draws_it_thicker_in_minutes() -> None:
-    found = values_of("layer_drawing_time turning_mass pcl_viscosity@hot")
+    values = values_of("layer_drawing_time turning_mass pcl_viscosity@hot")
     length = 4.0 * radians(48.962) * 33e-3
-    force = G * found["turning_mass"]
+    force = G * values["turning_mass"]
     steps, time = 2000, 0.0
     for i in range(steps):  # h' = F h^3/(eta L w^3), by the midpoint rule in thickness
         h = 1e-3 * (1.0 + 0.1 * (i + 0.5) / steps)
-        time += (0.1e-3 / steps) * found["pcl_viscosity@hot"] * length * 14e-3**3 / (force * h**3)
-    assert found["layer_drawing_time"] == pytest.approx(time, rel=1e-4)
-    assert 60.0 < found["layer_drawing_time"] < 600.0
+        time += (0.1e-3 / steps) * values["pcl_viscosity@hot"] * length * 14e-3**3 / (force * h**3)
+    assert values["layer_drawing_time"] == pytest.approx(time, rel=1e-4)
+    assert 60.0 < values["layer_drawing_time"] < 600.0
 
 
 def test_a_derated_bond_loses_by_cycles_and_temperature() -> None:
@@ -181,24 +181,24 @@ MM = 1e-3
 CELLS = 12
 
 
-def found(*names: str, **module: Any) -> dict[str, Any]:
-    """Values of a milled module with lips, but for what is said (SI, records by name), beside its inputs."""
+def evaluated(*names: str, **module: Any) -> dict[str, Any]:
+    """Values of a milled module with lips and some inputs changed (SI, records by name), beside its inputs."""
     milled = {"process": "machine_6061", "melt_lip": "rings", "pcl_thickness": 1.5 * MM, "running_clearance": 0.1 * MM}
     return all_of(names, **{**milled, **module})
 
 
 def test_a_metal_lip_takes_what_a_cold_wall_takes() -> None:
-    one = found("cold_end", hot_contact=1e9, rotor_contact=1e9)
-    conductivity = 0.5 * (one["pcl_conductivity_solid"] + one["pcl_conductivity_melt"])
+    values = evaluated("cold_end", hot_contact=1e9, rotor_contact=1e9)
+    conductivity = 0.5 * (values["pcl_conductivity_solid"] + values["pcl_conductivity_melt"])
     # Slices that fall evenly from a kelvin to none are half a kelvin above it; a cold wall takes 2/pi ln cot(pi f/4).
     wall = -2.0 / pi * np.log(np.tan(0.25 * pi * 0.1 / 1.5))
-    given_heat = 0.5 * one["cold_end"].of_layer + one["cold_end"].of_pads
+    given_heat = 0.5 * values["cold_end"].of_layer + values["cold_end"].of_pads
     # Slices keep less than an even fall leaves them, so that they are asked for more by that.
     assert conductivity * wall < given_heat < 1.2 * conductivity * wall
 
 
 def alike(_: Any) -> tuple[Any, Any]:
-    """A polymer whose phases conduct alike."""
+    """Return a polymer whose phases conduct alike."""
     return np.ones(CELLS), 1.0
 
 
@@ -209,7 +209,7 @@ def at_the_edge(excess: float) -> Callable[[Place], float]:
 
 def test_temperature_of_metal_and_plastic_lips() -> None:
     metal, plastic = (
-        warm_lip(found("lip", structure_conductivity=k)["lip"], np.full(CELLS, 0.5), at_the_edge(1.0), alike)
+        warm_lip(evaluated("lip", structure_conductivity=k)["lip"], np.full(CELLS, 0.5), at_the_edge(1.0), alike)
         for k in (167.0, 0.2)
     )
     assert metal.temperature == pytest.approx(0.0, abs=0.01)
@@ -229,12 +229,12 @@ def test_temperature_of_metal_and_plastic_lips() -> None:
 )
 def test_a_plastic_lip_takes_what_the_plane_says(study: str, warm: tuple[float, ...], given_heat: float) -> None:
     inputs = given(read_study(study_path(study)))
-    one = TABLE.evaluate(inputs, ["lip", "edge_length", "pcl_melting"])
+    values = TABLE.evaluate(inputs, ["lip", "edge_length", "pcl_melting"])
     names = [("spreader", 0), ("layer", 0), ("face", 0), ("plate", 0), *(("beside", i) for i in range(3)),
              ("around", 7), ("around", 1), ("around", 2)]  # fmt: skip
     at = dict(zip(names, warm, strict=True))
     phases = Conductivities(inputs["pcl_conductivity_solid"], inputs["pcl_conductivity_melt"])
-    melting, cells = one["pcl_melting"], np.full(CELLS, at["layer", 0])
+    melting, cells = values["pcl_melting"], np.full(CELLS, at["layer", 0])
 
     def conducting(wall: float) -> tuple[Any, Any]:
         kelvin, pads, cold = (celsius + 273.15 for celsius in (cells, at["spreader", 0], wall))
@@ -243,64 +243,65 @@ def test_a_plastic_lip_takes_what_the_plane_says(study: str, warm: tuple[float, 
         to_lip = (mean_conductivity(place, own[0], cold, phases, melting) / mean for place in (kelvin, pads))
         return next(to_lip), next(to_lip)
 
-    lip = warm_lip(one["lip"], cells, at.__getitem__, conducting)
+    lip = warm_lip(values["lip"], cells, at.__getitem__, conducting)
     taken = np.sum(lip.from_layer) + lip.from_places["spreader", 0]
-    assert taken / one["edge_length"] == pytest.approx(given_heat, rel=0.12)
+    assert taken / values["edge_length"] == pytest.approx(given_heat, rel=0.12)
 
 
 def test_a_lip_gives_what_it_takes_and_less_from_the_melt() -> None:
-    one = found("lip", structure_conductivity=0.2)
+    values = evaluated("lip", structure_conductivity=0.2)
     at = {("spreader", 0): 90.0, ("face", 0): 60.0, ("plate", 0): 55.0, ("around", 7): 50.0, ("around", 1): 40.0,
           ("around", 2): 30.0, ("beside", 0): 45.0, ("beside", 1): 35.0, ("beside", 2): 25.0}  # fmt: skip
     cells = np.linspace(85.0, 62.0, CELLS)
-    lip = warm_lip(one["lip"], cells, at.__getitem__, lambda _: (np.linspace(0.9, 1.1, CELLS), 0.9))
+    lip = warm_lip(values["lip"], cells, at.__getitem__, lambda _: (np.linspace(0.9, 1.1, CELLS), 0.9))
     assert np.sum(lip.from_layer) + sum(lip.from_places.values()) == pytest.approx(0.0, abs=1e-9)
-    one = found("lip")["lip"]
+    values = evaluated("lip")["lip"]
     molten, frozen = (
-        warm_lip(one, np.full(CELLS, 0.5), at_the_edge(1.0), lambda _, k=k: (np.full(CELLS, k), k)) for k in (0.9, 1.1)
+        warm_lip(values, np.full(CELLS, 0.5), at_the_edge(1.0), lambda _, k=k: (np.full(CELLS, k), k))
+        for k in (0.9, 1.1)
     )
     assert np.sum(molten.from_layer) / np.sum(frozen.from_layer) == pytest.approx(0.9 / 1.1, rel=0.01)
 
 
 def test_lips_stand_over_the_floor_and_stiffen_the_plate_s_heat() -> None:
     names = ("rotor_beside", "melt_lip_moments", "beside_area")
-    lips, bare = (found(*names, melt_lip=kind) for kind in ("rings", "none"))
+    lips, bare = (evaluated(*names, melt_lip=kind) for kind in ("rings", "none"))
     more = sum(a.capacity - b.capacity for a, b in zip(lips["rotor_beside"], bare["rotor_beside"], strict=True))
     volumetric = lips["structure_density"] * lips["structure_specific_heat"]
     assert more == pytest.approx(lips["melt_lip_moments"].area * volumetric, rel=0.05)
     deeper = (lips["rotor_thickness"] + 1.4 * MM) / lips["rotor_thickness"]
-    second = [one["rotor_beside"][1].conductance for one in (lips, bare)]
+    second = [values["rotor_beside"][1].conductance for values in (lips, bare)]
     assert 1.0 < second[0] / second[1] < deeper
-    one = found("below_lips", "beside_area", "edge_length")
+    values = evaluated("below_lips", "beside_area", "edge_length")
     # Air and, as between 335 and 295 K, radiation of grey faces of 0.9.
     shine = 5.670374419e-8 / (2.0 / 0.9 - 1.0) * (335.0**2 + 295.0**2) * (335.0 + 295.0)
-    more = (one["air_conductivity"] / (0.1 * MM) + shine) * one["edge_length"]
-    assert 0.9 * one["rotor_rim"] < sum(one["below_lips"]) / more < 1.005 * one["rotor_rim"]
-    widths = np.array(STRIP) * one["beside_area"] / one["edge_length"]
-    assert np.all(np.array(one["below_lips"]) / more < widths)
-    one = found("cold_end", "below_lips", melt_lip="none")
-    assert one["cold_end"] is None
-    assert sum(one["below_lips"]) == 0.0
+    more = (values["air_conductivity"] / (0.1 * MM) + shine) * values["edge_length"]
+    assert 0.9 * values["rotor_rim"] < sum(values["below_lips"]) / more < 1.005 * values["rotor_rim"]
+    widths = np.array(STRIP) * values["beside_area"] / values["edge_length"]
+    assert np.all(np.array(values["below_lips"]) / more < widths)
+    values = evaluated("cold_end", "below_lips", melt_lip="none")
+    assert values["cold_end"] is None
+    assert sum(values["below_lips"]) == 0.0
 
 
 @pytest.mark.parametrize("thickness", [0.05, 0.3, 0.4, 0.45])
 def test_a_lip_that_has_no_room_has_finite_numbers_and_a_rule_that_says_so(thickness: float) -> None:
-    one = found("cold_end", "melt_lip_margin", pcl_thickness=thickness * MM, running_clearance=0.4 * MM)
-    assert one["melt_lip_margin"] < 0.0
-    assert all(np.isfinite(value) for value in one["cold_end"])
-    assert one["cold_end"].near > 0.0
+    values = evaluated("cold_end", "melt_lip_margin", pcl_thickness=thickness * MM, running_clearance=0.4 * MM)
+    assert values["melt_lip_margin"] < 0.0
+    assert all(np.isfinite(value) for value in values["cold_end"])
+    assert values["cold_end"].near > 0.0
 
 
 def test_a_stack_s_layer_gives_to_its_lip_as_its_phase_conducts() -> None:
-    one = found("stack")
-    stack = one["stack"]
+    values = evaluated("stack")
+    stack = values["stack"]
     for celsius, phase in ((90.0, "melt"), (40.0, "solid")):
         state = heat.initial_state(stack, CELLS, celsius + 273.15)
         edge = 2 + CELLS + stack.plate_cells
         state[edge] -= 0.05
         now = heat.profile(state, stack)
-        mean = 0.5 * (one["pcl_conductivity_solid"] + one["pcl_conductivity_melt"])
+        mean = 0.5 * (values["pcl_conductivity_solid"] + values["pcl_conductivity_melt"])
         excess = celsius + 273.15 - now.lip.temperature
         assert excess > 1.0
-        given_heat = stack.lip.slices * one[f"pcl_conductivity_{phase}"] / mean * excess
+        given_heat = stack.lip.slices * values[f"pcl_conductivity_{phase}"] / mean * excess
         assert np.sum(now.lip.from_layer) == pytest.approx(given_heat, rel=2e-3)

@@ -38,7 +38,7 @@ def corners(values: dict[str, Any], known: dict[str, Any], index: int) -> np.nda
     return np.array([(x * cos(turn) - y * sin(turn), x * sin(turn) + y * cos(turn)) for x, y in points])
 
 
-def apart(one: np.ndarray, other: np.ndarray) -> float:
+def apart(first: np.ndarray, other: np.ndarray) -> float:
     """Distance of two rectangles [m], by points along their outlines; the corners are nearest."""
 
     def outline(points: np.ndarray) -> np.ndarray:
@@ -46,7 +46,7 @@ def apart(one: np.ndarray, other: np.ndarray) -> float:
             [a + np.linspace(0, 1, 400)[:, None] * (b - a) for a, b in zip(points, np.roll(points, -1, 0), strict=True)]
         )
 
-    a, b = outline(one), outline(other)
+    a, b = outline(first), outline(other)
     return float(min(np.min(np.hypot(*(b - point).T)) for point in a))
 
 
@@ -101,14 +101,14 @@ def test_as_wired_they_are_six_modules_that_share_current_and_voltage(wiring: st
     # Heats, voltage and power of six modules one by one, against the one the stack is given.
     values = values_of("pads heater_strings", heater_wiring=wiring)
     record = Catalog().record("peltiers", "ma10_063_05_1")
-    one = peltier.PeltierModule(*(record.value(name) for name in ("seebeck", "resistance", "conductance")))
+    alone = peltier.PeltierModule(*(record.value(name) for name in ("seebeck", "resistance", "conductance")))
     current, hot, cold = 2.4, 370.0, 320.0
     assert values["heater_strings"] == strings
     for heat_of in (peltier.hot_side_heat, peltier.cold_side_heat):
         assert heat_of(values["pads"], current, hot, cold) == pytest.approx(
-            6 * heat_of(one, current / strings, hot, cold)
+            6 * heat_of(alone, current / strings, hot, cold)
         )
-    in_series = 6 / strings * peltier.voltage(one, current / strings, hot, cold)
+    in_series = 6 / strings * peltier.voltage(alone, current / strings, hot, cold)
     assert peltier.voltage(values["pads"], current, hot, cold) == pytest.approx(in_series)
 
 
@@ -137,7 +137,7 @@ def test_spreading_below_random_arcs_is_that_of_a_thin_plate(study: str) -> None
 
 
 def foil(resistance: float = 5.0) -> Record:
-    """A foil heater of the shelf's form: a rigid module's record without Seebeck coefficient."""
+    """Return a foil heater of the shelf's form: a rigid module's record without Seebeck coefficient."""
     known = Catalog().record("peltiers", "ma10_063_05_1")
     entries = dict(known.entries)
     entries["seebeck"] = type(entries["seebeck"])(0.0, "V/K", "a test", "measured")
@@ -178,10 +178,10 @@ def test_spreaders_face_ledges_and_meet_walls_at_edges() -> None:
     bare, length, web = values["pcl_area"] - values["heated_area"], values["edge_length"], values["floor_web"]
     # Still air as thick as the tiles, 3.2 mm, between parallel grey plates of 0.9 (Incropera, ch. 13); the pocket's
     # wall takes some of what would come to the ledge, and more from the spreader next to it.
-    found = links[spreader, ledges]
+    to_ledges = links[spreader, ledges]
     even = known["air_conductivity"] * bare / 3.2e-3
-    assert 0.2 * even < found.conductance < even
-    assert found.radiating_area == pytest.approx(bare / (2.0 / 0.9 - 1.0), rel=1e-9)
+    assert 0.2 * even < to_ledges.conductance < even
+    assert to_ledges.radiating_area == pytest.approx(bare / (2.0 / 0.9 - 1.0), rel=1e-9)
     # From where the heated part of a ledge has its mean on to its root, along what no tile lies on, into the floor.
     way = (values["heated_area"] - values["cold_area"]) / 3.0 + bare + 0.029 * values["beside_area"]
     onward = known["structure_conductivity"] * web * length / (way / length)
@@ -222,9 +222,9 @@ def test_no_keys_weigh_hold_and_forbid_nothing() -> None:
     assert min(none[name] for name in RULES) > 0.0
     full = of_default(rows, key_count=0)
     keyed = of_default(rows)
-    one = np.pi * 1.25e-3**2
-    assert full["rotor_volume"] - keyed["rotor_volume"] == pytest.approx(12 * one * 2.8e-3, rel=1e-9)
-    about_axis = 12 * one * 2.8e-3 * 1270.0 * (33e-3**2 + 0.5 * 1.25e-3**2)
+    section = np.pi * 1.25e-3**2
+    assert full["rotor_volume"] - keyed["rotor_volume"] == pytest.approx(12 * section * 2.8e-3, rel=1e-9)
+    about_axis = 12 * section * 2.8e-3 * 1270.0 * (33e-3**2 + 0.5 * 1.25e-3**2)
     assert full["rotor_inertia"] - keyed["rotor_inertia"] == pytest.approx(about_axis, rel=1e-9)
 
 
@@ -236,8 +236,8 @@ def test_each_margin_of_the_keys_is_what_its_drawing_gives() -> None:
         "key_margin": 2.5 - 2.0, "key_depth_margin": 4.0 - 1.2 - 0.625, "key_width_margin": 14.0 - 2.5 - 1.2,
         "key_pitch_margin": abs(33.0 - 33.0 * np.exp(1j * span / 3.0)) - 2.8 - 1.2,
     }  # fmt: skip
-    found = of_default(" ".join(RULES), arc_span=span)
-    assert {name: value / MM for name, value in found.items()} == pytest.approx(drawn)
+    margins = of_default(" ".join(RULES), arc_span=span)
+    assert {name: value / MM for name, value in margins.items()} == pytest.approx(drawn)
     # One key in an arc has half of it to either end.
     alone = of_default("key_pitch_margin", arc_span=span, key_count=1)["key_pitch_margin"]
     assert alone / MM == pytest.approx(abs(33.0 - 33.0 * np.exp(1j * span)) - 2.8 - 1.2)

@@ -29,7 +29,7 @@ def everywhere(m: Module) -> Any:
     if first:
         return helper(m) + m.record.value("x") + f"{m.in_text}"
     if m.second:
-        return [m.in_list * i for i in m.over if m.when] + sorted(last, key=lambda one: one * m.in_lambda)
+        return [m.in_list * i for i in m.over if m.when] + sorted(last, key=lambda number: number * m.in_lambda)
     return {name: sorted(name, key=lambda m: m.of_another) for name in m.table("names")}
 
 
@@ -56,7 +56,7 @@ def renamed(m: Module) -> Any:
         lambda m: helper(m.x) + max(m, m.x),
         lambda m: max(m) + 1,
         lambda m: [helper for helper in m.x if helper(m)],
-        lambda m: sorted(m.x, key=lambda one: one == m),
+        lambda m: sorted(m.x, key=lambda place: place == m),
         lambda m: setattr(m, "x", 1),
         assigned,
         renamed,

@@ -28,18 +28,18 @@ def study(mode: str, module: str) -> Study:
 @pytest.mark.parametrize(("mode", "count"), [("shear", 4.0), ("compression", 12.0)])
 def test_resistance_of_layers_in_series(mode: str, count: float) -> None:
     values = given(study(mode, f"{COMB}, electrode_gap: 12 mm"))
-    found = table_for(mode).evaluate(values, [*WANTED, "heater_count"])
-    assert found["heater_count"] == count
-    one = shape_factors.comb_resistance(0.15, found["pcl_depth"], found["pcl_area"] / count, 12e-3, 1e-3)
-    assert found["layer_resistance"] == pytest.approx(count * one, rel=1e-12)
+    resistances = table_for(mode).evaluate(values, [*WANTED, "heater_count"])
+    assert resistances["heater_count"] == count
+    comb = shape_factors.comb_resistance(0.15, resistances["pcl_depth"], resistances["pcl_area"] / count, 12e-3, 1e-3)
+    assert resistances["layer_resistance"] == pytest.approx(count * comb, rel=1e-12)
     halves = table_for(mode).evaluate({**values, "heater_strings": 2.0}, WANTED)
-    assert halves["layer_resistance"] == pytest.approx(found["layer_resistance"] / 4.0, rel=1e-12)
-    assert found["electrode_gap_margin"] == pytest.approx(12e-3 - found["pcl_depth"])
+    assert halves["layer_resistance"] == pytest.approx(resistances["layer_resistance"] / 4.0, rel=1e-12)
+    assert resistances["electrode_gap_margin"] == pytest.approx(12e-3 - resistances["pcl_depth"])
 
 
 def test_what_cannot_heat_or_be_held_is_named() -> None:
-    found = table_for("shear").evaluate(given(study("shear", "")), WANTED)
-    assert (found["layer_resistance"], found["electrode_gap_margin"]) == (0.0, 0.0)
+    cold_start = table_for("shear").evaluate(given(study("shear", "")), WANTED)
+    assert (cold_start["layer_resistance"], cold_start["electrode_gap_margin"]) == (0.0, 0.0)
     module = "heat_source: layer, peltier_module: qc_17, pcl_resistivity: 0.1 ohm.m, electrode_gap: 2 mm, "
     values = given(study("shear", f"{module} electrode_width: 1 mm"))
     with pytest.raises(InputError, match="heat_source: layer needs a heater that lies on the layer; qc_17 is rigid"):
@@ -51,16 +51,16 @@ def test_what_cannot_heat_or_be_held_is_named() -> None:
 
 
 @pytest.mark.parametrize(
-    ("module", "said"),
+    ("module", "message"),
     [
         ("peltier_module: comb_electrodes", "pcl_resistivity has no value, needed as heat_source is layer .*pcl_80k"),
         ("heat_source: layer", "electrode_gap has no value, needed as heat_source is layer .*flexible_1600"),
         (f"{COMB}, cooling_current: 1 A", "cooling_current of 1 A and peltier_module comb_electrodes"),
     ],
 )
-def test_what_cannot_stand_together_is_named(module: str, said: str) -> None:
+def test_what_cannot_stand_together_is_named(module: str, message: str) -> None:
     own = "pcl_resistivity: 0.1 ohm.m, " if module.startswith("heat_source") else ""
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         given(study("shear", own + module))
 
 
@@ -69,7 +69,7 @@ RECORD = Catalog().record("thermal_fuses", "ultimheat_5ma3")
 
 def chosen(hottest: float, current: float, **bears: float) -> HeaterFuse:
     """For a heater in degC and A, with what each thing bears in degC."""
-    ratings = {what: one + ZERO_CELSIUS for what, one in bears.items()}
+    ratings = {what: celsius + ZERO_CELSIUS for what, celsius in bears.items()}
     return heater_fuse(RECORD, hottest + ZERO_CELSIUS, current, ratings)
 
 
@@ -87,12 +87,12 @@ def test_the_cut_out_opens_before_the_least_rating(
     hottest: float, current: float, bears: dict[str, float], designation: str, opens: float, holds: float,
     above: tuple[str, ...],
 ) -> None:  # fmt: skip
-    found = chosen(hottest, current, **bears)
-    assert found.designation == designation
-    assert (found.opens_at - ZERO_CELSIUS, found.holds - ZERO_CELSIUS) == pytest.approx((opens, holds))
-    assert found.opens_at - found.opens_from == pytest.approx(10.0)
-    assert found.opens_from >= hottest + ZERO_CELSIUS + 5.0
-    assert found.above == above
+    fuse = chosen(hottest, current, **bears)
+    assert fuse.designation == designation
+    assert (fuse.opens_at - ZERO_CELSIUS, fuse.holds - ZERO_CELSIUS) == pytest.approx((opens, holds))
+    assert fuse.opens_at - fuse.opens_from == pytest.approx(10.0)
+    assert fuse.opens_from >= hottest + ZERO_CELSIUS + 5.0
+    assert fuse.above == above
 
 
 @pytest.mark.parametrize(
@@ -107,8 +107,8 @@ def test_a_second_maker_has_a_type_for_polycarbonate(
     hottest: float, structure: float, designation: str, above: tuple[str, ...]
 ) -> None:
     record = Catalog().record("thermal_fuses", "microtemp_g4a")
-    found = heater_fuse(record, hottest + ZERO_CELSIUS, 2.5, {"structure": structure + ZERO_CELSIUS})
-    assert (found.designation, found.above) == (designation, above)
+    fuse = heater_fuse(record, hottest + ZERO_CELSIUS, 2.5, {"structure": structure + ZERO_CELSIUS})
+    assert (fuse.designation, fuse.above) == (designation, above)
     with pytest.raises(InputError, match=r"no type bears the heater's 10\.1 A, the strongest 10 A"):
         heater_fuse(record, 330.0, 10.1, {"structure": 400.0})
 

@@ -25,8 +25,8 @@ def known(inputs: dict[str, Any]) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def stack(known: dict[str, Any]) -> heat.Stack:
-    found: heat.Stack = TABLE.evaluate(known, ["stack"])["stack"]
-    return found
+    layers: heat.Stack = TABLE.evaluate(known, ["stack"])["stack"]
+    return layers
 
 
 def test_pads_and_windows_scale_the_catalogue_s_module(stack: heat.Stack) -> None:
@@ -56,7 +56,7 @@ TO_EDGE = AREA / EDGE / 3.0
 SLIM = AREA / EDGE * np.sqrt(0.2025 / 1e-3 / (0.24 * 4e-3))
 PLATE_TO_EDGE = AREA / EDGE * (np.cosh(SLIM) - np.sinh(SLIM) / SLIM) / (SLIM * np.sinh(SLIM))
 PAD, WEB = 1.5e-3, 2.5e-3
-REST = PLATE - AREA
+BESIDE = PLATE - AREA
 
 
 def along_cold_sides(share: float) -> float:
@@ -71,18 +71,18 @@ def along_cold_sides(share: float) -> float:
 
 
 def between(stack: heat.Stack, first: lumps.Place, second: lumps.Place) -> lumps.Link:
-    """The first link from one place to the other."""
+    """Return the first link from one place to the other."""
     return next(link for link in stack.links if (link.first, link.second) == (first, second))
 
 
 def test_plate_beside_the_arcs_is_a_strip_heated_at_its_edge(stack: heat.Stack) -> None:
     bodies = stack.beside[:-1]
-    assert sum(lump.capacity for lump in bodies) == pytest.approx(1270.0 * 1200.0 * 4e-3 * REST, rel=1e-9)
-    assert sum(lump.surface.area for lump in bodies) == pytest.approx(REST, rel=1e-9)
-    middles = TO_LAST * REST / EDGE
+    assert sum(lump.capacity for lump in bodies) == pytest.approx(1270.0 * 1200.0 * 4e-3 * BESIDE, rel=1e-9)
+    assert sum(lump.surface.area for lump in bodies) == pytest.approx(BESIDE, rel=1e-9)
+    middles = TO_LAST * BESIDE / EDGE
     along = sum(1.0 / lump.conductance for lump in bodies[1:])
     assert 1.0 / along == pytest.approx(0.24 * 4e-3 * EDGE / middles, rel=1e-9)
-    to_first = TO_FIRST * REST / EDGE
+    to_first = TO_FIRST * BESIDE / EDGE
     assert stack.beside[0].conductance == pytest.approx(0.24 * 4e-3 * EDGE / (PLATE_TO_EDGE + to_first), rel=1e-9)
     # A plate that warms up evenly is colder at its face by a third of its depth.
     assert all(lump.surface.behind == pytest.approx(4e-3 / 3.0 / 0.24, rel=1e-9) for lump in bodies)
@@ -93,21 +93,21 @@ def test_plate_beside_the_arcs_is_a_strip_heated_at_its_edge(stack: heat.Stack) 
 def test_floor_beside_the_pockets_is_two_strips_one_above_the_other(stack: heat.Stack) -> None:
     bodies = stack.around
     volumes = [body.capacity / (1270.0 * 1200.0) for body in bodies[:6]]
-    upper, lower = ([share * REST * depth for share in (FIRST, SECOND, LAST)] for depth in (PAD, WEB))
+    upper, lower = ([share * BESIDE * depth for share in (FIRST, SECOND, LAST)] for depth in (PAD, WEB))
     upper[0] *= 0.5  # the other half is the corner next to the hot sides
     assert volumes == pytest.approx(upper + lower, rel=1e-9)
-    assert sum(body.surface.area for body in bodies[3:5]) == pytest.approx((FIRST + SECOND) * REST, rel=1e-9)
+    assert sum(body.surface.area for body in bodies[3:5]) == pytest.approx((FIRST + SECOND) * BESIDE, rel=1e-9)
     # What of the last one's face is not its own counts at the housing.
-    assert 0.0 < bodies[5].surface.area < LAST * REST
+    assert 0.0 < bodies[5].surface.area < LAST * BESIDE
     # A side of the pads conducts with 6 W/m K in its plane; its edge of 0.75 mm touches the wall with 150 W/m2 K, and
     # behind that is the way to the first body of the floor.
-    edge = TO_EDGE / (6.0 * 0.75e-3) + 1.0 / (150.0 * 0.75e-3) + TO_FIRST * REST / EDGE / (0.24 * 0.75e-3)
+    edge = TO_EDGE / (6.0 * 0.75e-3) + 1.0 / (150.0 * 0.75e-3) + TO_FIRST * BESIDE / EDGE / (0.24 * 0.75e-3)
     # A twelfth of the pads is a side, so a sixth of their half; the rest of that is half of the legs.
     for side, half, place in (("hot", 1, 7), ("cold", 2, 0)):
         for first, share in (((side, 0), 1.0 / 6.0), (("legs", half), 5.0 / 6.0)):
-            found = between(stack, first, ("around", place)).conductance
-            assert found == pytest.approx(share * EDGE / edge, rel=1e-9)
-    area = LAST * REST
+            conductance = between(stack, first, ("around", place)).conductance
+            assert conductance == pytest.approx(share * EDGE / edge, rel=1e-9)
+    area = LAST * BESIDE
     onto, across = (0.5 * PAD + WEB / 3.0) / (0.24 * area), WEB / 6.0 / (0.24 * area)
     assert taken(stack, ("around", 2), 5) == pytest.approx(heat_into_slab(stack, 5, onto, across), rel=1e-9)
 
@@ -141,7 +141,7 @@ def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.
     onto += along_cold_sides(ledges / AREA)
     assert taken(stack, ("cold", 0), 6) == pytest.approx(heat_into_slab(stack, 6, onto, across), rel=1e-3)
     to_root = between(stack, ("around", 6), ("around", 3)).conductance
-    beyond = TO_FIRST * REST / EDGE
+    beyond = TO_FIRST * BESIDE / EDGE
     assert to_root == pytest.approx(0.24 * WEB * EDGE / (width / 3.0 + beyond), rel=1e-9)
 
 
@@ -151,14 +151,14 @@ def test_air_walls_and_core_take_heat_by_their_sizes(known: dict[str, Any], stac
     conducting = TABLE.evaluate({**known, "structure_conductivity": 1e9}, ["stack"])["stack"]
     gaps = [link for link in conducting.links if link.first[0] == "beside"]
     warm, cool = 353.15, 313.15
-    through = REST * (0.028 / 1e-3 * 40.0 + 5.670374419e-8 * (warm**4 - cool**4) / (1.0 / 0.9 + 1.0 / 0.9 - 1.0))
+    through = BESIDE * (0.028 / 1e-3 * 40.0 + 5.670374419e-8 * (warm**4 - cool**4) / (1.0 / 0.9 + 1.0 / 0.9 - 1.0))
     assert sum(lumps.link_heat(gap, warm, cool) for gap in gaps) == pytest.approx(through, rel=1e-6)
     mass = TABLE.evaluate(known, ["housing_mass"])["housing_mass"]
     assert sum(lump.capacity for lump in stack.around) == pytest.approx(1200.0 * mass, rel=1e-9)
     core = stack.beside[-1]
     radii = np.linspace(10e-3, INNER, 20001)
     ring = np.trapezoid(1.0 / (2.0 * np.pi * radii * 4e-3 * 0.24), radii)
-    strip = TO_END * REST / EDGE / (0.24 * 4e-3 * EDGE)
+    strip = TO_END * BESIDE / EDGE / (0.24 * 4e-3 * EDGE)
     assert core.conductance == pytest.approx(1.0 / (ring + strip))
     masses = TABLE.evaluate(known, ["rotor_mass", "link_mass", "retainer_mass"]).values()
     plate = stack.plate_heat_capacity * stack.area * stack.plate_thickness
@@ -210,8 +210,8 @@ def test_the_supply_gives_volts_in_size_and_takes_nothing_back(known: dict[str, 
         assert volts == pytest.approx(abs(signed), rel=1e-9)
         assert power == pytest.approx(signed * current, rel=1e-9)
     for at_terminals, given_by_supply in ((8.0, 8.0), (-8.0, 0.0), (0.0, 0.005)):
-        found = TABLE.evaluate({**known, "terminal_power": at_terminals}, ["electrical_power"])["electrical_power"]
-        assert found == pytest.approx(given_by_supply, abs=1e-5)  # a corner of 0.01 W, half as high in the middle
+        watts = TABLE.evaluate({**known, "terminal_power": at_terminals}, ["electrical_power"])["electrical_power"]
+        assert watts == pytest.approx(given_by_supply, abs=1e-5)  # a corner of 0.01 W, half as high in the middle
 
 
 def test_a_switch_ends_by_the_criterion_that_was_chosen(stack: heat.Stack) -> None:
@@ -227,5 +227,5 @@ def test_a_switch_ends_by_the_criterion_that_was_chosen(stack: heat.Stack) -> No
     left = {"near_face": -0.05, "mean": -0.15, "far_face": -0.25, "softening": np.log(15.0 / 30.0)}
     for criterion, expected in left.items():
         m.response_criterion = criterion
-        found = softening.response_time(m)
-        assert found == pytest.approx(expected, rel=1e-9), criterion
+        time = softening.response_time(m)
+        assert time == pytest.approx(expected, rel=1e-9), criterion

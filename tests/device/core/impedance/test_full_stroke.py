@@ -23,7 +23,7 @@ ROWS = [
 
 @pytest.fixture(scope="module")
 def bent(inputs: dict[str, Any]) -> dict[str, Any]:
-    """The paper's module with its springs on pins, a stroke twice as long, and every row of interest."""
+    """Return the paper's module with its springs on pins, a stroke twice as long, and every row of interest."""
     given = {**inputs, "transmission": "geometry", "stroke": 0.2, "preload_angle": 0.35}
     return {**given, **TABLE.evaluate(given, ROWS)}
 
@@ -39,9 +39,9 @@ def direction(module: dict[str, Any], angle: float) -> float:
 
 
 def test_springs_are_linear_by_unity_and_follow_either_standard(inputs: dict[str, Any]) -> None:
-    found = TABLE.evaluate({**inputs, "transmission": "unity"}, ROWS)
-    assert found["spring_torque_full_stroke"] == pytest.approx(4 * found["held_spring_rate"] * 0.104, rel=1e-12)
-    assert found["stiffness_over_stroke"] == pytest.approx(1.0, rel=1e-12)
+    values = TABLE.evaluate({**inputs, "transmission": "unity"}, ROWS)
+    assert values["spring_torque_full_stroke"] == pytest.approx(4 * values["held_spring_rate"] * 0.104, rel=1e-12)
+    assert values["stiffness_over_stroke"] == pytest.approx(1.0, rel=1e-12)
     index = 24.4094 / 2.413
     ours, theirs = (
         TABLE.evaluate({**inputs, "coil_count": 3.6, "stress_factor": name}, ["coil_stress_per_angle"])[
@@ -104,28 +104,28 @@ LEFT = ["hold_angle", "pcl_relaxation", "set_angle", "backlash", "relaxation_los
 
 def at(table: Any, given: dict[str, Any], point: str, *more: str) -> dict[str, Any]:
     rows = ["hold_torque", "spring_stiffness", *more]
-    found = table.evaluate(given, [*rows, *(f"{name}@{point}" for name in [*LEFT, "elastic_support", "pcl_modes"])])
-    return {name.partition("@")[0]: value for name, value in found.items()}
+    values = table.evaluate(given, [*rows, *(f"{name}@{point}" for name in [*LEFT, "elastic_support", "pcl_modes"])])
+    return {name.partition("@")[0]: value for name, value in values.items()}
 
 
 def test_loads_turn_springs_and_blocks_relax(squeezed: dict[str, Any]) -> None:
-    found = at(COMPRESSION, {**squeezed, "hold_share": 0.4}, "hot")
-    assert found["hold_torque"] == pytest.approx(0.4 * found["spring_stiffness"] * 0.104, rel=1e-12)
+    loaded = at(COMPRESSION, {**squeezed, "hold_share": 0.4}, "hot")
+    assert loaded["hold_torque"] == pytest.approx(0.4 * loaded["spring_stiffness"] * 0.104, rel=1e-12)
     # The melt has let go within ten seconds.
-    assert found["hold_angle"] == pytest.approx(0.4 * 0.104, rel=1e-5)
-    found = at(COMPRESSION, squeezed, "hot")
-    assert found["backlash"] == pytest.approx(0.104, rel=1e-5)
-    assert found["pcl_relaxation"] == pytest.approx(1.0, rel=1e-9)
-    at_once = sum(stiffness for _, stiffness in found["pcl_modes"])
-    branch = 1.0 / (1.0 / at_once + 1.0 / found["elastic_support"])
-    left = found["spring_stiffness"] / (found["spring_stiffness"] + branch)
-    assert found["relaxation_loss"] == pytest.approx(1.0 - left, rel=1e-5)
+    assert loaded["hold_angle"] == pytest.approx(0.4 * 0.104, rel=1e-5)
+    loaded = at(COMPRESSION, squeezed, "hot")
+    assert loaded["backlash"] == pytest.approx(0.104, rel=1e-5)
+    assert loaded["pcl_relaxation"] == pytest.approx(1.0, rel=1e-9)
+    at_once = sum(stiffness for _, stiffness in loaded["pcl_modes"])
+    branch = 1.0 / (1.0 / at_once + 1.0 / loaded["elastic_support"])
+    left = loaded["spring_stiffness"] / (loaded["spring_stiffness"] + branch)
+    assert loaded["relaxation_loss"] == pytest.approx(1.0 - left, rel=1e-5)
     gaps = [at(COMPRESSION, {**squeezed, "hold_time": time}, "cold")["backlash"] for time in (0.1, 10.0, 1000.0)]
     assert 0.0 < gaps[0] < gaps[1] < gaps[2] < 1e-3 * 0.104
     elastic = [(1e16, 4e4), (1e16, 1e3)]
-    found = at(COMPRESSION, {**squeezed, "pcl_modes@cold": elastic}, "cold")
-    assert found["backlash"] == pytest.approx(0.0, abs=1e-15)
-    assert found["relaxation_loss"] == pytest.approx(0.0, abs=1e-12)
+    loaded = at(COMPRESSION, {**squeezed, "pcl_modes@cold": elastic}, "cold")
+    assert loaded["backlash"] == pytest.approx(0.0, abs=1e-15)
+    assert loaded["relaxation_loss"] == pytest.approx(0.0, abs=1e-12)
     assert not any("contact_lost" in name for name in COMPRESSION.names(("cold", "hot")))
     with pytest.raises(InputError, match="has no value"):
         COMPRESSION.evaluate(squeezed, ["contact_lost@hot"])
@@ -133,15 +133,15 @@ def test_loads_turn_springs_and_blocks_relax(squeezed: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("point", ["cold", "hot"])
 def test_bonded_layer_relaxes_and_cannot_part(inputs: dict[str, Any], point: str) -> None:
-    found = at(SHEAR, inputs, point, "parting_share")
-    assert found["parting_share"] == 0.0
-    assert found["set_angle"] > 0.0
-    assert found["pcl_relaxation"] > 0.1
-    assert found["backlash"] == 0.0
-    assert found["relaxation_loss"] == 0.0
+    bonded = at(SHEAR, inputs, point, "parting_share")
+    assert bonded["parting_share"] == 0.0
+    assert bonded["set_angle"] > 0.0
+    assert bonded["pcl_relaxation"] > 0.1
+    assert bonded["backlash"] == 0.0
+    assert bonded["relaxation_loss"] == 0.0
     # The same layer that could part would leave its set as a gap: it is the bond that makes the difference.
     parted = at(SHEAR, {**inputs, "parting_share": 1.0}, point)
-    assert parted["backlash"] == pytest.approx(found["set_angle"], rel=1e-12)
+    assert parted["backlash"] == pytest.approx(bonded["set_angle"], rel=1e-12)
     assert parted["relaxation_loss"] > 0.0
 
 
@@ -153,9 +153,9 @@ def test_same_spectrum_and_support_leave_the_same_set_in_either_mode(
         "elastic_support@hot": 700.0,
         "spring_stiffness": 5.6,
     }
-    one, other = at(SHEAR, {**inputs, **from_template}, "hot"), at(COMPRESSION, {**squeezed, **from_template}, "hot")
+    arc, other = (at(SHEAR, {**inputs, **from_template}, "hot"), at(COMPRESSION, {**squeezed, **from_template}, "hot"))
     for name in ("hold_angle", "pcl_relaxation", "set_angle"):
-        assert one[name] == pytest.approx(other[name], rel=1e-9), name
+        assert arc[name] == pytest.approx(other[name], rel=1e-9), name
 
 
 def test_bond_and_blocks_bear_the_load_when_it_has_just_come_on(
@@ -163,9 +163,9 @@ def test_bond_and_blocks_bear_the_load_when_it_has_just_come_on(
 ) -> None:
     def borne(table: Any, given: dict[str, Any], row: str) -> tuple[float, float]:
         support = "elastic_support@hot"
-        found = table.evaluate(given, [row, "hold_torque", "spring_stiffness", support, "pcl_modes@hot"])
-        branch = 1.0 / (1.0 / sum(k for _, k in found["pcl_modes@hot"]) + 1.0 / found[support])
-        return found[row], found["hold_torque"] * branch / (branch + found["spring_stiffness"])
+        values = table.evaluate(given, [row, "hold_torque", "spring_stiffness", support, "pcl_modes@hot"])
+        branch = 1.0 / (1.0 / sum(k for _, k in values["pcl_modes@hot"]) + 1.0 / values[support])
+        return values[row], values["hold_torque"] * branch / (branch + values["spring_stiffness"])
 
     traction, torque = borne(SHEAR, inputs, "bond_traction@hot")
     # Four arcs of 48.962 degrees between 26 and 40 mm.

@@ -139,10 +139,10 @@ def test_core_holds_until_its_foot_or_the_wall_of_a_hole_yields_in_shear(inputs:
 def test_the_edges_of_the_arcs_bear_more_than_a_layer_between_rigid_faces(inputs: dict[str, Any]) -> None:
     # FE of the module as published: 0.0448 MPa at 1 N*m, a mean over one thickness in from the edge; 2 MPa of bond.
     names = ["layer_edge_traction", "layer_edge_safety", "holding_torque", "layer_holding_torque"]
-    found = TABLE.evaluate(inputs, names)
-    even = 2e6 * found["holding_torque"] / found["layer_holding_torque"]
-    assert 1.8 * even < found["layer_edge_traction"] < 2.4 * even
-    assert found["layer_edge_safety"] == pytest.approx(2e6 / found["layer_edge_traction"], rel=1e-9)
+    values = TABLE.evaluate(inputs, names)
+    even = 2e6 * values["holding_torque"] / values["layer_holding_torque"]
+    assert 1.8 * even < values["layer_edge_traction"] < 2.4 * even
+    assert values["layer_edge_safety"] == pytest.approx(2e6 / values["layer_edge_traction"], rel=1e-9)
     # Between faces that are nearly rigid what is above the windows bears no more for that: 1.718 by hand, no shear lag.
     rigid = TABLE.evaluate({**inputs, "structure_youngs_modulus": 2e14}, ["layer_edge_rise"])["layer_edge_rise"]
     assert rigid == pytest.approx(1.718, rel=0.01)
@@ -158,8 +158,8 @@ INNER = OPTIMUM["pcl_inner_radius"] / OPTIMUM["pcl_outer_radius"]
 
 
 def module(mode: str = "shear", **changes: Any) -> dict[str, Any]:
-    found = {**inputs_of(mode), **STIFF_WHEN_WARM, **SMOOTH, **changes}
-    return {**found, **table_for(mode).evaluate(found, ROWS)}
+    inputs = {**inputs_of(mode), **STIFF_WHEN_WARM, **SMOOTH, **changes}
+    return {**inputs, **table_for(mode).evaluate(inputs, ROWS)}
 
 
 def six_modes(viscosity: float) -> list[tuple[float, float]]:
@@ -180,16 +180,16 @@ def test_stress_at_full_stroke_is_what_an_independent_reading_found(hertz: float
 
 def test_damping_falls_to_a_seventh_if_the_melt_remembers_the_whole_stroke() -> None:
     # Found for the drawn optimum: linear 1.85, at 413 % 0.25 N m s/rad. Its strain law alone, over the ring's torque.
-    found = module(**OPTIMUM, pcl_zero_shear_viscosity=2824.889)
+    thinning = module(**OPTIMUM, pcl_zero_shear_viscosity=2824.889)
     law, _ = quad(lambda r: r**3 / (1.0 + (4.133 * r / 0.3) ** 2 / 19.0), INNER, 1.0)
     whole, _ = quad(lambda r: r**3, INNER, 1.0)
     assert law / whole == pytest.approx(0.25 / 1.85, rel=0.02)
-    ratio = found["hot_damping_at_stroke_least"] / found["joint_damping@hot"]
+    ratio = thinning["hot_damping_at_stroke_least"] / thinning["joint_damping@hot"]
     assert ratio == pytest.approx(law / whole, rel=5e-3)
 
 
 def test_damping_at_stroke_is_wagners_over_the_ring() -> None:
-    found = module(**OPTIMUM)
+    stroked = module(**OPTIMUM)
     angular, modes = 2.0 * np.pi, six_modes(4200.0)
 
     def share(radius: float, part: int) -> float:
@@ -200,40 +200,40 @@ def test_damping_at_stroke_is_wagners_over_the_ring() -> None:
     small = polymer.maxwell_moduli(angular, modes)
     assert small[1] > loss > 0.6 * small[1]
     # The structure in series is hundreds of times stiffer than the melt.
-    damping = found["joint_damping@hot"] * loss / small[1]
-    assert found["hot_damping_at_stroke"] == pytest.approx(damping, rel=0.03)
-    assert 0.0 < found["hot_damping_at_stroke_least"] < found["hot_damping_at_stroke"]
-    stiffness = (found["joint_stiffness@hot"] - found["spring_stiffness"]) * storage / small[0]
-    assert found["hot_stiffness_at_stroke"] - found["spring_stiffness"] == pytest.approx(stiffness, rel=0.1)
+    damping = stroked["joint_damping@hot"] * loss / small[1]
+    assert stroked["hot_damping_at_stroke"] == pytest.approx(damping, rel=0.03)
+    assert 0.0 < stroked["hot_damping_at_stroke_least"] < stroked["hot_damping_at_stroke"]
+    stiffness = (stroked["joint_stiffness@hot"] - stroked["spring_stiffness"]) * storage / small[0]
+    assert stroked["hot_stiffness_at_stroke"] - stroked["spring_stiffness"] == pytest.approx(stiffness, rel=0.1)
 
 
 # At 30 Hz the melt is stiff enough for the structure's own loss to count: 2.5 % of the damping.
 @pytest.mark.parametrize("hertz", [1.0, 30.0])
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 def test_at_a_small_stroke_it_is_the_joint_of_small_motions(mode: str, hertz: float) -> None:
-    found = module(mode, stroke=1e-3, **{"frequency@hot": hertz})
-    assert found["hot_stiffness_at_stroke"] == pytest.approx(found["joint_stiffness@hot"], rel=1e-3)
-    assert found["hot_damping_at_stroke"] == pytest.approx(found["joint_damping@hot"], rel=1e-3)
-    assert found["hot_damping_at_stroke_least"] == pytest.approx(found["joint_damping@hot"], rel=0.02)
+    small_stroke = module(mode, stroke=1e-3, **{"frequency@hot": hertz})
+    assert small_stroke["hot_stiffness_at_stroke"] == pytest.approx(small_stroke["joint_stiffness@hot"], rel=1e-3)
+    assert small_stroke["hot_damping_at_stroke"] == pytest.approx(small_stroke["joint_damping@hot"], rel=1e-3)
+    assert small_stroke["hot_damping_at_stroke_least"] == pytest.approx(small_stroke["joint_damping@hot"], rel=0.02)
 
 
 def test_stress_and_the_free_edge_follow_from_the_strain_at_the_rim() -> None:
-    found = module()
-    stress = 40.0 * 0.104 / 1.0 * np.hypot(found["storage_modulus@hot"], found["loss_modulus@hot"])
-    assert found["melt_stress"] == pytest.approx(stress, rel=1e-9)
-    assert found["melt_stress_safety"] == pytest.approx(0.2e6 / stress, rel=1e-9)
-    strain = found["edge_fracture_angle"] * 40e-3 / 1e-3
-    assert 0.2 * found["storage_modulus@hot"] * strain**2 == pytest.approx(2.0 * 0.035 / (3.0 * 1e-3), rel=1e-9)
-    assert found["edge_fracture_angle"] < 0.2 * found["stroke"]
+    sheared = module()
+    stress = 40.0 * 0.104 / 1.0 * np.hypot(sheared["storage_modulus@hot"], sheared["loss_modulus@hot"])
+    assert sheared["melt_stress"] == pytest.approx(stress, rel=1e-9)
+    assert sheared["melt_stress_safety"] == pytest.approx(0.2e6 / stress, rel=1e-9)
+    strain = sheared["edge_fracture_angle"] * 40e-3 / 1e-3
+    assert 0.2 * sheared["storage_modulus@hot"] * strain**2 == pytest.approx(2.0 * 0.035 / (3.0 * 1e-3), rel=1e-9)
+    assert sheared["edge_fracture_angle"] < 0.2 * sheared["stroke"]
 
 
 def test_strain_of_a_block_costs_what_its_squeeze_costs() -> None:
-    found = {**module("compression")}
-    found |= table_for("compression").evaluate(found, ["block_strain", "shape_factor"])
-    squeeze, shape = found["block_strain"], found["shape_factor"]
-    modulus = np.hypot(found["storage_modulus@hot"], found["loss_modulus@hot"])
+    squeezed = {**module("compression")}
+    squeezed |= table_for("compression").evaluate(squeezed, ["block_strain", "shape_factor"])
+    squeeze, shape = squeezed["block_strain"], squeezed["shape_factor"]
+    modulus = np.hypot(squeezed["storage_modulus@hot"], squeezed["loss_modulus@hot"])
     energy = 0.5 * 3.0 * modulus * (1.0 + 2.0 * shape**2) * squeeze**2
-    assert 0.5 * found["melt_stress"] ** 2 / modulus == pytest.approx(energy, rel=1e-9)
+    assert 0.5 * squeezed["melt_stress"] ** 2 / modulus == pytest.approx(energy, rel=1e-9)
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
@@ -243,22 +243,22 @@ def test_friction_adds_at_the_stroke_what_its_energy_in_a_cycle_says(mode: str) 
     names = [*ROWS, *more, *cold_rows, "cold_stroke", "cold_damping_at_stroke"]
     rough = {"pin_friction": 0.25, "bore_friction": 0.3}
     table, smooth = table_for(mode), module(mode)
-    found = {**smooth, **table.evaluate({**{k: v for k, v in smooth.items() if k not in ROWS}, **rough}, names)}
+    rough_joint = {**smooth, **table.evaluate({**{k: v for k, v in smooth.items() if k not in ROWS}, **rough}, names)}
     omega, phase = 2.0 * np.pi, np.linspace(0.0, 2.0 * np.pi, 100_001)
 
     def damping(stiffness: float, viscous: float, reach: float) -> float:
         load = stiffness * reach * np.sin(phase) + viscous * omega * reach * np.cos(phase)
-        share = found["bearing_friction_torque"] / found["spring_torque_full_stroke"]
-        rubbed = found["pin_friction_torque"] + share * np.abs(load)
+        share = rough_joint["bearing_friction_torque"] / rough_joint["spring_torque_full_stroke"]
+        rubbed = rough_joint["pin_friction_torque"] + share * np.abs(load)
         return float(np.trapezoid(rubbed * np.abs(reach * np.cos(phase)), phase) / (np.pi * omega * reach**2))
 
     viscous = smooth["hot_damping_at_stroke"]
-    hot = damping(found["hot_stiffness_at_stroke"], viscous, found["stroke"])
-    assert found["hot_damping_at_stroke"] == pytest.approx(viscous + hot, rel=1e-6)
-    stiffness, small = found["joint_stiffness@cold"], found["joint_damping@cold"]
-    reach = min(found["stroke"], found["holding_torque"] / stiffness)
-    assert found["cold_stroke"] == pytest.approx(reach, rel=1e-12)
+    hot = damping(rough_joint["hot_stiffness_at_stroke"], viscous, rough_joint["stroke"])
+    assert rough_joint["hot_damping_at_stroke"] == pytest.approx(viscous + hot, rel=1e-6)
+    stiffness, small = rough_joint["joint_stiffness@cold"], rough_joint["joint_damping@cold"]
+    reach = min(rough_joint["stroke"], rough_joint["holding_torque"] / stiffness)
+    assert rough_joint["cold_stroke"] == pytest.approx(reach, rel=1e-12)
     cold = damping(stiffness, small, reach)
-    assert found["cold_damping_at_stroke"] == pytest.approx(small + cold, rel=1e-6)
+    assert rough_joint["cold_damping_at_stroke"] == pytest.approx(small + cold, rel=1e-6)
     # Small motions and pure torques know nothing of it.
-    assert smooth["joint_damping@hot"] == found["joint_damping@hot"]
+    assert smooth["joint_damping@hot"] == rough_joint["joint_damping@hot"]
