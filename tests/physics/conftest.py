@@ -17,7 +17,7 @@ settings.load_profile("no deadline")
 
 @pytest.fixture(scope="session")
 def bare_stack() -> Callable[..., heat.Stack]:
-    """A layer that neither melts nor loses heat nor is heated, with what is said otherwise (validation/comparisons)."""
+    """Return the builder of a layer without melting, losses and heating (validation/comparisons)."""
     return make_bare_stack
 
 

@@ -92,15 +92,15 @@ def stack(resistance: float) -> heat.Stack:
 
 
 def test_all_that_the_terminals_give_is_stored_where_nothing_is_lost() -> None:
-    one = stack(1.5)._replace(plate_surface=lumps.Surface(1e-3, 1e-9))
-    state = heat.initial_state(one, CELLS, 310.0)
+    losing = stack(1.5)._replace(plate_surface=lumps.Surface(1e-3, 1e-9))
+    state = heat.initial_state(losing, CELLS, 310.0)
     state = state + 0.05 * np.sin(np.arange(len(state)))
     step = 1e-6
-    rate = heat.rates(state, one, CURRENT)
-    stored = (heat.stored_energy(state + step * rate, one) - heat.stored_energy(state - step * rate, one)) / (
+    rate = heat.rates(state, losing, CURRENT)
+    stored = (heat.stored_energy(state + step * rate, losing) - heat.stored_energy(state - step * rate, losing)) / (
         2.0 * step
     )
-    power = heat.electrical_power(heat.profile(state, one), one, CURRENT)
+    power = heat.electrical_power(heat.profile(state, losing), losing, CURRENT)
     assert power == pytest.approx(CURRENT**2 * (0.5 + 1.5), rel=1e-12)
     assert stored == pytest.approx(power, rel=1e-6)
 

@@ -25,8 +25,8 @@ def test_a_layer_is_below_its_mean_as_in_two_dimensions(width: float) -> None:
     heights = (np.arange(deep) + 0.5) / deep
     waves = np.pi * np.arange(1, columns.SINES + 1)
     flux = 2.0 * np.sum(np.sin(np.outer(waves, heights)), axis=0)
-    found = layer_that_loses(flux, width, across)
-    below = np.mean(found, axis=0) - found
+    rises = layer_that_loses(flux, width, across)
+    below = np.mean(rises, axis=0) - rises
     places = (np.arange(across) + 0.5) / across
     for column, place in enumerate(places):
         if place < 0.97:
@@ -48,7 +48,7 @@ def test_evenly_falling_heat_cools_the_mean_as_the_end_does() -> None:
 @pytest.mark.parametrize("slenderness", [0.04, 0.5, 1.9, 4.0])
 def test_a_sheet_is_below_its_mean_as_a_fin_whose_edge_is_cooled(slenderness: float) -> None:
     # t'' = x^2 (t - 1) over the half width, nothing passes its middle, the edge is at 0.
-    found = solve_bvp(
+    solved = solve_bvp(
         lambda _, t: np.array([t[1], slenderness**2 * (t[0] - 1.0)]),
         lambda at_middle, at_edge: np.array([at_middle[1], at_edge[0]]),
         np.linspace(0.0, 1.0, 401),
@@ -56,9 +56,9 @@ def test_a_sheet_is_below_its_mean_as_a_fin_whose_edge_is_cooled(slenderness: fl
         tol=1e-8,
     )
     fine = np.linspace(0.0, 1.0, 4001)
-    mean = np.trapezoid(found.sol(fine)[0], fine)
+    mean = np.trapezoid(solved.sol(fine)[0], fine)
     for place in columns.DENSE.places:
-        assert columns.in_sheet(place, slenderness) == pytest.approx((mean - found.sol(place)[0]) / mean, abs=2e-4)
+        assert columns.in_sheet(place, slenderness) == pytest.approx((mean - solved.sol(place)[0]) / mean, abs=2e-4)
     if slenderness < 0.1:
         for place in columns.DENSE.places:
             assert columns.fed_evenly(place) == pytest.approx(columns.in_sheet(place, slenderness), abs=1e-3)
@@ -80,9 +80,9 @@ def test_columns_have_no_mean_of_their_own(them: columns.Columns) -> None:
 def test_what_leaves_below_a_wall_cools_the_end_and_moves_no_mean() -> None:
     heights = (np.arange(12) + 0.5) / 12
     _, cooled = columns.wall_profile(columns.wall_places(heights, 3.0, 0.01, 0.98, 0.1))
-    found = np.array(columns.below_wall(cooled))
-    assert np.abs(np.array(columns.DENSE.shares) @ found).max() < 1e-12
-    at_end, away = found[-1], found[0]
+    falls = np.array(columns.below_wall(cooled))
+    assert np.abs(np.array(columns.DENSE.shares) @ falls).max() < 1e-12
+    at_end, away = falls[-1], falls[0]
     assert at_end[0] > at_end[-1]  # the heat leaves next to the pads
     assert np.all(at_end >= away)
     assert np.abs(away).max() < 0.05 * at_end[0]
@@ -112,11 +112,11 @@ def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat() -> Non
     cells = np.array([350.0, 340.0, 330.0, 320.0])
     places = {"hot": [360.0], "around": [310.0]}
     link = lumps.Link(("hot", 0), ("around", 0), 0.2)
-    found = lumps.linked([link._replace(of_layer=0.7)], places, {"layer": cells})
-    assert found["around"][0] == pytest.approx(10.0)
-    assert found["hot"][0] == pytest.approx(-3.0)
+    flows = lumps.linked([link._replace(of_layer=0.7)], places, {"layer": cells})
+    assert flows["around"][0] == pytest.approx(10.0)
+    assert flows["hot"][0] == pytest.approx(-3.0)
     # Seven, five, three and one sixteenth: it falls evenly to nothing at the far face.
-    assert found["layer"][0] == pytest.approx(-7.0 * np.array([7.0, 5.0, 3.0, 1.0]) / 16.0)
+    assert flows["layer"][0] == pytest.approx(-7.0 * np.array([7.0, 5.0, 3.0, 1.0]) / 16.0)
 
 
 @pytest.mark.parametrize("slenderness", [0.8, 2.0, 6.0])
@@ -125,8 +125,8 @@ def test_a_row_is_below_the_mean_by_what_conduction_in_two_dimensions_says(slend
     deep, high, lost = 120, 120, (1.5, 0.6)
     source = np.zeros((deep, high))
     source[:, 0], source[:, -1] = -lost[0] * high / 2.0, -lost[1] * high / 2.0
-    found = in_rectangle(source, (slenderness, 2.0, 2.0), (2.0, 0.0, 0.0))
-    below = np.mean(found, axis=1)[:, None] - found
+    rises = in_rectangle(source, (slenderness, 2.0, 2.0), (2.0, 0.0, 0.0))
+    below = np.mean(rises, axis=1)[:, None] - rises
     depths = (np.arange(deep) + 0.5) / deep
     for row, place in enumerate((np.arange(high) + 0.5) / high * 2.0 - 1.0):
         if abs(place) < 0.93:
@@ -141,8 +141,8 @@ def test_uneven_heat_passes_an_edge_as_in_two_dimensions(slenderness: float) -> 
     edge = np.cos(np.pi * (np.arange(high) + 0.5) / high)
     source = np.zeros((along, high))
     source[0] = 2.0 * (along / slenderness) ** 2 * edge
-    found = in_rectangle(source, (slenderness, 2.0, 0.0), (1.0, 0.0, 0.0))
-    passed = 2.0 * along / slenderness * (edge - found[0])
+    rises = in_rectangle(source, (slenderness, 2.0, 0.0), (1.0, 0.0, 0.0))
+    passed = 2.0 * along / slenderness * (edge - rises[0])
     way = shape_factors.uneven_way(slenderness)
     assert passed == pytest.approx(edge / way, abs=0.01 / way)
 
@@ -152,9 +152,9 @@ def test_a_layer_gives_each_place_of_what_falls_before_it_its_own_heat() -> None
     cells = np.array([90.0, 70.0, 50.0])
     slope = Slope(((("around", 1), 0.25), (("around", 3), 0.75)), ("around", 2), 0.5)
     link = Link(("layer", 0), ("around", 0), 3.0, slope=slope)
-    found = lumps.linked([link], {"around": np.array([40.0, 50.0, 35.0, 46.0])}, {"layer": cells})
-    assert found["layer"][0] == pytest.approx(np.array([42.0, 40.0, 38.0]) - cells)
-    assert found["around"] == pytest.approx([90.0, 0.0, 0.0, 0.0])
+    flows = lumps.linked([link], {"around": np.array([40.0, 50.0, 35.0, 46.0])}, {"layer": cells})
+    assert flows["layer"][0] == pytest.approx(np.array([42.0, 40.0, 38.0]) - cells)
+    assert flows["around"] == pytest.approx([90.0, 0.0, 0.0, 0.0])
 
 
 @pytest.mark.parametrize(("cells", "slot"), [(48, 4), (48, 12)])
@@ -165,12 +165,12 @@ def test_the_end_of_a_gap_gives_as_in_two_dimensions(cells: int, slot: int) -> N
     inside = np.zeros((long + 2, deep + cells + 2), dtype=bool)
     inside[1:-1, deep + 1 : -1] = True
     inside[1 : slot + 1, 1 : deep + 1] = True
-    kept = np.full(inside.shape, np.nan)
+    fixed = np.full(inside.shape, np.nan)
     height = (np.arange(cells) + 0.5) / cells
-    kept[0, 1 : deep + 1], kept[0, deep + 1 : -1] = 1.0, 1.0 - height
-    kept[slot + 1 :, deep] = kept[slot + 1, 1 : deep + 1] = kept[:, -1] = 0.0
-    found = conducted(inside, kept)
-    flux = 2.0 * (1.0 - height - found[1, deep + 1 : -1])
+    fixed[0, 1 : deep + 1], fixed[0, deep + 1 : -1] = 1.0, 1.0 - height
+    fixed[slot + 1 :, deep] = fixed[slot + 1, 1 : deep + 1] = fixed[:, -1] = 0.0
+    rises = conducted(inside, fixed)
+    flux = 2.0 * (1.0 - height - rises[1, deep + 1 : -1])
     assert sum(shape_factors.gap_end(slot / cells)) == pytest.approx(np.sum(flux), rel=0.01)
     # And how deep it lies in what ends there.
     assert shape_factors.gap_end_depth(slot / cells) == pytest.approx(
@@ -184,12 +184,12 @@ def test_a_ledge_conducts_as_two_dimensions_say(slenderness: float) -> None:
     high, wide = 30, round(30 * slenderness)
     inside = np.zeros((wide + 3 * high + 1, high), dtype=bool)
     inside[:-1] = True
-    kept, source = np.full(inside.shape, np.nan), np.zeros(inside.shape)
-    kept[-1], source[:wide, -1] = 0.0, 1.0 / wide
-    found = conducted(inside, kept, source)
-    face = np.mean(found[:wide, -1]) + 0.5 / wide
-    ledge = np.mean(found[:wide])
-    root = 0.5 * np.mean(found[wide - 1] + found[wide])
+    fixed, source = np.full(inside.shape, np.nan), np.zeros(inside.shape)
+    fixed[-1], source[:wide, -1] = 0.0, 1.0 / wide
+    rises = conducted(inside, fixed, source)
+    face = np.mean(rises[:wide, -1]) + 0.5 / wide
+    ledge = np.mean(rises[:wide])
+    root = 0.5 * np.mean(rises[wide - 1] + rises[wide])
     onto, onward = shape_factors.ledge_ways(wide / high)
     assert onto == pytest.approx(face - ledge, rel=0.02)
     assert onward == pytest.approx(ledge - root, rel=0.02)
@@ -200,14 +200,14 @@ def test_a_partly_heated_slab_resists_as_conduction_says(share: float) -> None:
     high, deep = 60, 90
     inside = np.zeros((deep + 2, high + 2), dtype=bool)
     inside[1:-1, 1:-1] = True
-    kept = np.full(inside.shape, np.nan)
-    kept[-1, 1:-1] = 0.0
+    fixed = np.full(inside.shape, np.nan)
+    fixed[-1, 1:-1] = 0.0
     source = np.zeros(inside.shape)
     heated = slice(1, 1 + round(share * high))
     source[1, heated] = 1.0 / (share * high)
-    found = conducted(inside, kept, source)
+    rises = conducted(inside, fixed, source)
     # Half a cell lies between the face and the first row, which the heated share passes in less width.
-    onto = np.mean(found[1, heated]) - np.mean(found[1, 1:-1]) + 0.5 / high * (1.0 / share - 1.0)
+    onto = np.mean(rises[1, heated]) - np.mean(rises[1, 1:-1]) + 0.5 / high * (1.0 / share - 1.0)
     assert shape_factors.constriction(share) == pytest.approx(onto, rel=0.01, abs=1e-3)
 
 
@@ -217,10 +217,10 @@ def test_a_step_in_a_sheet_resists_what_conduction_in_two_dimensions_says(share:
     low = round(share * deep)
     inside = np.zeros((2 * long + 2, deep + 2), dtype=bool)
     inside[1 : long + 1, 1 : low + 1] = inside[long + 1 : -1, 1:-1] = True
-    kept = np.full(inside.shape, np.nan)
-    kept[0], kept[-1] = 1.0, 0.0
-    found = conducted(inside, kept)
-    passed = np.nansum(2.0 * (1.0 - found[1]))
+    fixed = np.full(inside.shape, np.nan)
+    fixed[0], fixed[-1] = 1.0, 0.0
+    rises = conducted(inside, fixed)
+    passed = np.nansum(2.0 * (1.0 - rises[1]))
     assert shape_factors.step(share) == pytest.approx(1.0 / passed - long / low - long / deep, rel=0.02)
 
 
@@ -230,14 +230,14 @@ def test_heat_from_a_lip_s_side_spreads_as_in_two_dimensions(plate: int, lip: in
     long = 3 * plate
     inside = np.zeros((2 * long + 2, plate + lip + 2), dtype=bool)
     inside[1:-1, lip + 1 : -1] = inside[long + 1 : long + wide + 1, 1 : lip + 1] = True
-    kept = np.full(inside.shape, np.nan)
-    kept[0] = kept[-1] = 0.0
+    fixed = np.full(inside.shape, np.nan)
+    fixed[0] = fixed[-1] = 0.0
     source = np.zeros(inside.shape)
     source[long + 1, 1 : lip + 1] = 1.0 / lip
-    found = conducted(inside, kept, source)
-    side = np.mean(found[long + 1, 1 : lip + 1]) + 0.5 / lip
+    rises = conducted(inside, fixed, source)
+    side = np.mean(rises[long + 1, 1 : lip + 1]) + 0.5 / lip
     # What the plate's mean over its depth, falling evenly far from the lip, comes to at the lip's side.
-    mean = np.mean(found[:, lip + 1 : -1], axis=1)
+    mean = np.mean(rises[:, lip + 1 : -1], axis=1)
     away = np.arange(2 * long + 2) - long - 0.5
     before, behind = away < -plate, (away > wide + plate) & (away < long)
     before[0] = False
@@ -252,9 +252,9 @@ def in_two_dimensions(slenderness: float, across: int = 60) -> float:
     """
     lost = np.zeros((round(across * slenderness), across))
     lost[:, -1] = -across
-    found = in_rectangle(lost, (slenderness, 2.0, 2.0), (1.0, 0.0, 0.0))
-    face = found[:, -1] - 0.5 / across
-    return float(np.mean(found) - np.mean(face))
+    rises = in_rectangle(lost, (slenderness, 2.0, 2.0), (1.0, 0.0, 0.0))
+    face = rises[:, -1] - 0.5 / across
+    return float(np.mean(rises) - np.mean(face))
 
 
 @pytest.mark.parametrize("slenderness", [0.7, 1.3, 2.0, 4.0])

@@ -70,7 +70,7 @@ ALL_BUT_ISOTHERMAL = polymer.Melting(SPECIFIC_HEAT, SPECIFIC_HEAT, LATENT, MELTI
 
 
 class Front(NamedTuple):
-    """How a front that goes through the first millimetre compares with 2 l sqrt(a t)."""
+    """Compare a front that goes through the first millimetre with 2 l sqrt(a t)."""
 
     mean: float
     """Its depth over the exact one, on the mean from a quarter of the millimetre on."""
@@ -89,7 +89,7 @@ def front_over_exact(
     depths = np.linspace(0.23e-3, 0.97e-3, 371)
     times = (depths / (2.0 * speed)) ** 2 / diffusivity
     fractions = np.array([p.fractions for p in run(stack, begin, list(times), tolerance=1e-7).profiles()])
-    found = stack.thickness * (1.0 - np.mean(fractions, axis=1))
+    depth = stack.thickness * (1.0 - np.mean(fractions, axis=1))
     middles = (np.arange(per_millimetre) + 0.5) * 1e-3 / per_millimetre
     passed = [
         np.interp(-0.5, -fractions[:, cell], depths) / middle - 1.0
@@ -97,28 +97,28 @@ def front_over_exact(
         if 0.25e-3 < middle < 0.95e-3
     ]
     return Front(
-        mean=float(np.mean(found / depths)),
-        wobble=float(np.max(np.abs(found - depths)) / 1e-3),
+        mean=float(np.mean(depth / depths)),
+        wobble=float(np.max(np.abs(depth - depths)) / 1e-3),
         in_cells=float(np.max(np.abs(passed))),
         time=(1.0 + passed[-1]) ** 2,
     )
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize("stefan", [0.5, *(pytest.param(one, marks=pytest.mark.slow) for one in (0.1, 1.0, 2.0))])
+@pytest.mark.parametrize("stefan", [0.5, *(pytest.param(number, marks=pytest.mark.slow) for number in (0.1, 1.0, 2.0))])
 def test_front_of_one_phase_advances_as_stefan_found(stefan: float, bare_stack: Make, integrate: Run) -> None:
     speed = brentq(lambda x: np.sqrt(np.pi) * x * np.exp(x**2) * erf(x) - stefan, 1e-3, 3.0)
     stack = bare_stack(hot_capacity=1e12, melting=ALL_BUT_ISOTHERMAL)
-    found = {}
+    ratios = {}
     for cells in (CELLS, 2 * CELLS):
         begin = heat.initial_state(stack, cells, MELTING_POINT)
         begin[1] += stefan * LATENT / SPECIFIC_HEAT / heat.TEMPERATURE_SCALE
         diffusivity = 0.2 / (1145.0 * SPECIFIC_HEAT)
-        found[cells] = front_over_exact(stack, begin, integrate, speed, diffusivity, cells)
-    assert found[CELLS].mean == pytest.approx(1.0, abs=HALF_PERCENT)
-    assert found[CELLS].wobble < HALF_PERCENT
-    assert found[CELLS].in_cells < HALF_PERCENT
-    assert found[2 * CELLS].wobble < 0.6 * found[CELLS].wobble
+        ratios[cells] = front_over_exact(stack, begin, integrate, speed, diffusivity, cells)
+    assert ratios[CELLS].mean == pytest.approx(1.0, abs=HALF_PERCENT)
+    assert ratios[CELLS].wobble < HALF_PERCENT
+    assert ratios[CELLS].in_cells < HALF_PERCENT
+    assert ratios[2 * CELLS].wobble < 0.6 * ratios[CELLS].wobble
 
 
 def neumann(solid: float, melt: float, far: float, face: float) -> float:
@@ -154,9 +154,9 @@ def test_front_between_two_phases_advances_as_neumann_found(
     )
     begin = heat.initial_state(stack, 4 * CELLS, far)
     begin[1] = (face - 273.15) / heat.TEMPERATURE_SCALE
-    found = front_over_exact(stack, begin, integrate, speed, melt / capacity, CELLS)
-    assert found.mean == pytest.approx(1.0, abs=2.0 * HALF_PERCENT)
-    assert found.time == pytest.approx(1.0, abs=2.0 * HALF_PERCENT)
+    ratio = front_over_exact(stack, begin, integrate, speed, melt / capacity, CELLS)
+    assert ratio.mean == pytest.approx(1.0, abs=2.0 * HALF_PERCENT)
+    assert ratio.time == pytest.approx(1.0, abs=2.0 * HALF_PERCENT)
 
 
 def test_two_bodies_that_touch_meet_by_their_effusivities(bare_stack: Make, integrate: Run) -> None:
@@ -215,8 +215,8 @@ def test_a_wall_at_rest_has_the_drops_of_its_resistances(bare_stack: Make, integ
     )  # fmt: skip
     profile = integrate(stack, heat.initial_state(stack, 5, COLD), [6000.0], current=2.0).profiles()[-1]
     flux = 2000.0
-    found = [profile.hot, profile.near, profile.far, profile.plate_face, *profile.plate, COLD]
+    temperatures = [profile.hot, profile.near, profile.far, profile.plate_face, *profile.plate, COLD]
     third = flux * 1e-3 / 0.8
     drops = [flux / 4000, flux * 1e-3 / 0.2, flux / 500, 0.5 * third, third, third, 0.5 * third + flux / 40]
-    assert -np.diff(found) == pytest.approx(drops, rel=1e-5)
+    assert -np.diff(temperatures) == pytest.approx(drops, rel=1e-5)
     assert [*profile.through_layer, *profile.through_plate] == pytest.approx(10 * [2.0], rel=1e-5)

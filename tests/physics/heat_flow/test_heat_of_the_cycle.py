@@ -33,7 +33,7 @@ LINKS = (
 
 
 def cycle_stack(**changes: Any) -> heat.Stack:
-    """A stack with everything: a sink, a strip and a core beside the plate, floor and housing around the pads."""
+    """Return a full stack: a sink, a strip and a core beside the plate, floor and housing around the pads."""
     stack = heat.Stack(
         area=AREA, thickness=1e-3, density=1145.0, conductivity_solid=0.225, conductivity_melt=0.18, melting=PCL,
         peltier=PADS, cold_capacity=4.0, hot_capacity=2.5, cold_surface=lumps.NOWHERE, hot_contact=1e4,
@@ -71,7 +71,7 @@ def run(stack: heat.Stack, begin: Array, current: float, seconds: float) -> tupl
 
 @pytest.fixture(scope="module")
 def heated() -> tuple[Array, float, float]:
-    """The stack after two minutes of heating at 1.5 A: molten but for the far cells; energy put in and lost."""
+    """Return the stack after two minutes of heating at 1.5 A: molten but for the far cells; energy put in and lost."""
     stack = cycle_stack()
     return run(stack, heat.initial_state(stack, 8, AMBIENT), 1.5, 120.0)
 

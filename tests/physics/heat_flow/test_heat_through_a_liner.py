@@ -22,7 +22,7 @@ POLYMER = (1e-3, 0.2, 1145.0 * 1900.0)
 
 
 def lined(make: Make, sheet: tuple[float, float, float], **kwargs: Any) -> heat.Stack:
-    """The bare stack with a sheet of so much thickness, conductivity and capacity, and a bond of 0.1 mm of epoxy."""
+    """Return the bare stack with a sheet of a thickness, conductivity and capacity, and a bond of 0.1 mm of epoxy."""
     thickness, conductivity, capacity = sheet
     liner = Liner(thickness / conductivity / AREA, 1e-4 / 0.2 / AREA, thickness * capacity * AREA)
     return make(liner=liner, **kwargs)
@@ -53,15 +53,15 @@ def wall(
     Backward Euler on 120 cells a sheet, in steps of 5 ms: nothing of the product's.
     """
     cells = 120
-    width = np.repeat([one[0] / cells for one in sheets], cells)
-    half = np.repeat([0.5 * one[0] / cells / one[1] for one in sheets], cells)
-    capacity = np.repeat([one[2] for one in sheets], cells) * width
+    width = np.repeat([sheet[0] / cells for sheet in sheets], cells)
+    half = np.repeat([0.5 * sheet[0] / cells / sheet[1] for sheet in sheets], cells)
+    capacity = np.repeat([sheet[2] for sheet in sheets], cells) * width
     way = half[:-1] + half[1:]
     way[2 * cells - 1] += bond
     step, across = 5e-3, 1.0 / way
     onward, back = np.append(across, 0.0), np.append(0.0, across)
     matrix = np.array([np.append(0.0, -across), capacity / step + onward + back, np.append(-across, 0.0)])
-    rise, found = np.zeros(3 * cells), []
+    rise, drops = np.zeros(3 * cells), []
     for count in range(1, round(times[-1] / step) + 1):
         into = capacity / step * rise
         into[0] += flux
@@ -69,8 +69,8 @@ def wall(
         if any(abs(count * step - time) < 0.5 * step for time in times):
             drop = (rise[cells - 1] - rise[cells]) / way[cells - 1]
             onto = (rise[2 * cells - 1] - rise[2 * cells]) / way[2 * cells - 1]
-            found.append((rise[cells - 1] - drop * half[cells - 1], rise[2 * cells] + onto * half[2 * cells]))
-    far, behind = zip(*found, strict=True)
+            drops.append((rise[cells - 1] - drop * half[cells - 1], rise[2 * cells] + onto * half[2 * cells]))
+    far, behind = zip(*drops, strict=True)
     return list(far), list(behind)
 
 
@@ -117,7 +117,7 @@ CELLS = 60
 
 
 def behind(conductivity: float) -> BehindPolymer:
-    """A plate of 4 mm on 1500 mm^2, a rim that loses heat, and a core with a link beyond it."""
+    """Return a plate of 4 mm on 1500 mm^2, a rim that loses heat, and a core with a link beyond it."""
     lumps = (
         Lump(1000.0 * conductivity / 7000.0, 1.0, Surface(9e-3, 5.0, 0.9)),
         Lump(0.024 * conductivity, 1.0, Surface(2.4e-3, 5.0, 0.9)),
@@ -145,11 +145,11 @@ def balanced(stack: BehindPolymer) -> Any:
         uneven = first.conductance if stack.uneven_conductance is None else stack.uneven_conductance
         sideways = (first.conductance * (mean - rim) + uneven * (plate - mean)) / CELLS
         onward = second.conductance * (rim - core)
-        rest = [np.sum(sideways) - onward - lost(first.surface, rim), onward - lost(second.surface, core)]
-        return np.concatenate([-np.diff(flows) - sideways, rest])
+        balances = [np.sum(sideways) - onward - lost(first.surface, rim), onward - lost(second.surface, core)]
+        return np.concatenate([-np.diff(flows) - sideways, balances])
 
-    found = fsolve(left, np.full(CELLS + 2, 340.0))
-    return found[:CELLS], found[CELLS:]
+    solution = fsolve(left, np.full(CELLS + 2, 340.0))
+    return solution[:CELLS], solution[CELLS:]
 
 
 @pytest.mark.parametrize("uneven", [None, 0.3])

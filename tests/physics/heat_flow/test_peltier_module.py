@@ -72,8 +72,8 @@ def test_best_coefficient_of_performance_is_the_textbooks(
     m = np.sqrt(1.0 + figure * 0.5 * (hot + cold))
     current = module.seebeck * difference / (module.resistance * (m - 1.0))
     power = current * peltier.voltage(module, current, hot, cold)
-    found = peltier.cold_side_heat(module, current, hot, cold) / power
-    assert found == pytest.approx(cold / difference * (m - hot / cold) / (m + 1.0), rel=1e-6, abs=1e-6)
+    performance = peltier.cold_side_heat(module, current, hot, cold) / power
+    assert performance == pytest.approx(cold / difference * (m - hot / cold) / (m + 1.0), rel=1e-6, abs=1e-6)
 
 
 def test_heat_goes_with_the_current_and_back_without() -> None:
@@ -131,9 +131,9 @@ def test_spreading_is_what_a_fins_efficiency_leaves_out(conductance: float) -> N
     k, thickness, width = 167.0, 1e-3, 2e-3
     mw = width * np.sqrt(conductance / (k * thickness))
     exact = 1.0 / (conductance * (0.5 + 0.5 * np.tanh(mw) / mw)) - 1.0 / conductance
-    found = peltier.spreading_resistance(2.0 * width, width, 1.0, k, thickness)  # per metre along the edge
+    resistance = peltier.spreading_resistance(2.0 * width, width, 1.0, k, thickness)  # per metre along the edge
     around_the_corner = 0.5 * width / k * peltier.AROUND_CORNER
-    assert found - around_the_corner == pytest.approx(exact, rel=0.02)
+    assert resistance - around_the_corner == pytest.approx(exact, rel=0.02)
 
 
 def in_two_dimensions(fed: float, beside: float, thickness: float, k: float, across: int = 20) -> float:
@@ -154,9 +154,9 @@ def in_two_dimensions(fed: float, beside: float, thickness: float, k: float, acr
 def test_a_plate_in_two_dimensions_falls_as_far(beside: float) -> None:
     # What the plate adds across its thickness, t/k, is counted apart (`contact_resistance`).
     fed, thickness, k = 4e-3, 0.8e-3, 167.0
-    found = peltier.spreading_resistance(fed + beside, fed, 1.0, k, thickness)
+    resistance = peltier.spreading_resistance(fed + beside, fed, 1.0, k, thickness)
     through = thickness / k
-    assert found + through == pytest.approx(in_two_dimensions(fed, beside, thickness, k), rel=0.05)
+    assert resistance + through == pytest.approx(in_two_dimensions(fed, beside, thickness, k), rel=0.05)
 
 
 def test_a_plate_that_is_fed_evenly_spreads_nothing() -> None:
@@ -189,7 +189,7 @@ def mean_above(seconds: float) -> float:
     return float(POWER / (12.0 * SLAB.conductance) * (1.0 - np.sum(dying)))
 
 
-def kept(stack: heat.Stack, seconds: float, steps: int = 800) -> float:
+def stored_energy(stack: heat.Stack, seconds: float, steps: int = 800) -> float:
     """Heat [J] that the legs keep after some time; by the trapezium rule in so many steps."""
     state = begin = heat.initial_state(stack, 2, BEGIN)
     for _ in range(steps):
@@ -197,7 +197,7 @@ def kept(stack: heat.Stack, seconds: float, steps: int = 800) -> float:
         ahead = state + step * heat.rates(state, stack, CURRENT)
         state = 0.5 * (state + ahead + step * heat.rates(ahead, stack, CURRENT))
     now, before = heat.profile(state, stack), heat.profile(begin, stack)
-    warmer = [peltier.legs_temperature(BEGIN, one.legs[0], BEGIN) for one in (now, before)]
+    warmer = [peltier.legs_temperature(BEGIN, profile_of.legs[0], BEGIN) for profile_of in (now, before)]
     return CAPACITY * float(warmer[0] - warmer[1])
 
 
@@ -205,7 +205,7 @@ def kept(stack: heat.Stack, seconds: float, steps: int = 800) -> float:
 def test_legs_keep_the_heat_of_a_slab_that_is_heated_evenly(over: float, within: float) -> None:
     seconds = over * CAPACITY / SLAB.conductance
     whole = CAPACITY * POWER / (12.0 * SLAB.conductance)
-    assert kept(between(), seconds) == pytest.approx(CAPACITY * mean_above(seconds), abs=within * whole)
+    assert stored_energy(between(), seconds) == pytest.approx(CAPACITY * mean_above(seconds), abs=within * whole)
 
 
 def state_of(cold: float, hot: float, middle: float) -> np.ndarray:
@@ -216,8 +216,8 @@ def state_of(cold: float, hot: float, middle: float) -> np.ndarray:
 
 def test_settled_legs_give_half_of_the_current_s_heat_to_either_side() -> None:
     middle = peltier.settled_middle(SLAB, CURRENT, 350.0, 310.0)
-    state, one = state_of(310.0, 350.0, middle), between(1e6)
-    rates = 100.0 * heat.rates(state, one, CURRENT)
+    state, joined = state_of(310.0, 350.0, middle), between(1e6)
+    rates = 100.0 * heat.rates(state, joined, CURRENT)
     assert rates[-1] == pytest.approx(0.0, abs=1e-12)
     through = SLAB.conductance * 40.0
     sides = 1e6 + CAPACITY / 6.0

@@ -37,8 +37,8 @@ def largest_difference(module: peltier.PeltierModule, hot: float) -> float:
         joule = 0.5 * current**2 * module.resistance
         return (joule + module.conductance * hot) / (module.seebeck * current + module.conductance)
 
-    found = minimize_scalar(coldest, bounds=(1e-3, module.seebeck * hot / module.resistance), method="bounded")
-    return float(hot - found.fun)
+    optimum = minimize_scalar(coldest, bounds=(1e-3, module.seebeck * hot / module.resistance), method="bounded")
+    return float(hot - optimum.fun)
 
 
 def test_a_fifth_of_the_values_of_sheets_are_assumed() -> None:
@@ -46,7 +46,9 @@ def test_a_fifth_of_the_values_of_sheets_are_assumed() -> None:
     without_sheet = {"qc_17", "flexible_1600", "polyimide_foil_12v", "polyimide_foil_24v", "comb_electrodes"}
     with_sheet = [CATALOG.record("peltiers", n) for n in CATALOG.names("peltiers") if n not in without_sheet]
     of_makers = [
-        one for one in with_sheet if all(one.entries[name].status != "assumed" for name in READ if name in one.entries)
+        sheet
+        for sheet in with_sheet
+        if all(sheet.entries[name].status != "assumed" for name in READ if name in sheet.entries)
     ]
     assert len(of_makers) >= 30
     statuses = [[entry.status for entry in record.entries.values()] for record in with_sheet]
@@ -92,13 +94,13 @@ CONTRADICT = {
 def test_cooling_power_is_that_of_the_sheet_within_a_tenth() -> None:
     def check(name: str) -> None:
         record = CATALOG.record("peltiers", name)
-        found = peltier.max_cooling_power(module_of(record), record.value("hot_side_temperature"))
+        power = peltier.max_cooling_power(module_of(record), record.value("hot_side_temperature"))
         sheet = record.entry("max_cooling_power")
         if name in CONTRADICT:
-            assert found > 1.1 * sheet.value
-            assert f"S and R give {found:.0f} W" in sheet.source
+            assert power > 1.1 * sheet.value
+            assert f"S and R give {power:.0f} W" in sheet.source
         else:
-            assert found == pytest.approx(sheet.value, rel=0.1)
+            assert power == pytest.approx(sheet.value, rel=0.1)
 
     of_every(RIGID, check)
 
@@ -160,7 +162,7 @@ INSULATED = {"plate_surface": lumps.Surface(AREA, 1e-9)}
 
 
 def stack_of(module: peltier.PeltierModule, side_capacity: float, **changes: Any) -> heat.Stack:
-    """The shear module's stack, the cold side in free air."""
+    """Return the shear module's stack, the cold side in free air."""
     stack = heat.Stack(
         area=AREA, thickness=1e-3, density=1145.0, conductivity_solid=0.225, conductivity_melt=0.18, melting=PCL,
         peltier=module, cold_capacity=side_capacity, hot_capacity=side_capacity,
@@ -172,7 +174,7 @@ def stack_of(module: peltier.PeltierModule, side_capacity: float, **changes: Any
 
 
 def face_times(stack: heat.Stack, current: float = 1.5, cells: int = 12) -> tuple[float, float]:
-    """Times at which the near and the far face of the layer reach 100 degC, at the paper's 1.5 A unless said."""
+    """Times at which the near and the far face of the layer reach 100 degC, by default at the paper's 1.5 A."""
 
     begin = heat.initial_state(stack, cells, AMBIENT)
     # Compiled: a stack has some thousand steps, and numpy takes ten times as long for each.
@@ -191,19 +193,19 @@ def face_times(stack: heat.Stack, current: float = 1.5, cells: int = 12) -> tupl
         return float(gaps(y)[1])
 
     far.terminal = True
-    found = solve_ivp(
+    solved = solve_ivp(
         lambda _, y: np.asarray(rates(y)).ravel(), (0.0, 2000.0), begin,
         method="LSODA", lband=1, uband=1, rtol=1e-6, atol=1e-8, events=(near, far),
     )  # fmt: skip
-    return float(found.t_events[0][0]), float(found.t_events[1][0])
+    return float(solved.t_events[0][0]), float(solved.t_events[1][0])
 
 
 def test_stored_energy_is_mass_times_specific_heat_times_warming() -> None:
     stack = stack_of(FLEXIBLE, 2.5, cold_capacity=4.0)
     layer = 1145.0 * AREA * 1e-3 * (231.65e3)  # 22 to 100 degC: 51.8 + 106.375 + 73.5 kJ/kg
-    rest = (4.0 + 2.5 + 1270.0 * 1200.0 * AREA * 4e-3) * 78.0
+    others = (4.0 + 2.5 + 1270.0 * 1200.0 * AREA * 4e-3) * 78.0
     warm, cold = (heat.stored_energy(heat.initial_state(stack, 12, t), stack) for t in (TARGET, AMBIENT))
-    assert warm - cold == pytest.approx(layer + rest, rel=1e-3)
+    assert warm - cold == pytest.approx(layer + others, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -223,8 +225,8 @@ def test_response_times_come_near_an_independent_calculation(
     # Another model of these stacks, cold side in free air (15 W/m^2 K), PETG behind the layer. It is met where the PETG
     # stores no heat and takes 3 W/m^2 K, and a side of the pads holds 2.9 J/K, of which that model said nothing. The
     # 3.9 and 8.6 J/K are 930 and 820 J/kg K in half of the rigid modules' 8.4 and 21 g, near alumina's 880.
-    found = face_times(stack_of(module, side_capacity, **changes))
-    assert found == pytest.approx((near, far), rel=0.02)
+    times = face_times(stack_of(module, side_capacity, **changes))
+    assert times == pytest.approx((near, far), rel=0.02)
 
 
 BEHIND = {"insulated": {"plate_heat_capacity": 1.0, **INSULATED}, "aluminium": ALUMINIUM}

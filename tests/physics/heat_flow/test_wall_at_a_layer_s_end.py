@@ -44,14 +44,14 @@ def heights() -> NDArray[np.float64]:
 
 @pytest.mark.parametrize("free", [0.1, 0.25, 0.5])
 def test_the_wall_takes_what_conduction_in_two_dimensions_says(free: float) -> None:
-    found, ours = walled_layer(free), layer_end.walled_end(free)
-    assert ours.near == pytest.approx(np.sum(2.0 * (1.0 - found[:, 0])) - LONG, rel=0.02)
-    into = 2.0 * found[0, heights() > free]
+    rises, ours = walled_layer(free), layer_end.walled_end(free)
+    assert ours.near == pytest.approx(np.sum(2.0 * (1.0 - rises[:, 0])) - LONG, rel=0.02)
+    into = 2.0 * rises[0, heights() > free]
     assert ours.wall == pytest.approx(np.sum(into), rel=0.02)
     even = 1.0 - heights()
-    assert ours.deep == pytest.approx(np.sum(even - found) / ACROSS**2, rel=0.015)
+    assert ours.deep == pytest.approx(np.sum(even - rises) / ACROSS**2, rel=0.015)
     for column in (3, 20, 60):
-        lost = 1.0 - found[column] / even
+        lost = 1.0 - rises[column] / even
         assert layer_end.fallen(free, (column + 0.5) / ACROSS, heights()) == pytest.approx(lost, abs=0.02)
 
 
@@ -64,11 +64,11 @@ def test_contacts_are_more_free_height_as_in_two_dimensions(free: float, contact
 
 @pytest.mark.parametrize(("free", "layer"), [(0.1, 0.4), (0.2, 0.5), (0.15, 0.25)])
 def test_layer_and_sheet_give_the_wall_as_in_two_dimensions(free: float, layer: float) -> None:
-    found, ours = walled_layer(free), layer_end.sheeted_end(free, layer)
+    rises, ours = walled_layer(free), layer_end.sheeted_end(free, layer)
     own, above = heights() < layer, heights() > layer
-    assert ours.wall == pytest.approx(np.sum(2.0 * found[0, own & (heights() > free)]), rel=0.03)
-    assert ours.rim == pytest.approx(np.sum(2.0 * found[0, above]), rel=0.01)
-    missed = (1.0 - heights() - found) / ACROSS**2
+    assert ours.wall == pytest.approx(np.sum(2.0 * rises[0, own & (heights() > free)]), rel=0.03)
+    assert ours.rim == pytest.approx(np.sum(2.0 * rises[0, above]), rel=0.01)
+    missed = (1.0 - heights() - rises) / ACROSS**2
     mean = 1.0 - 0.5 * layer
     assert 2.0 * mean * ours.colder == pytest.approx(np.sum(missed[:, own]) / layer, rel=0.03)
     assert ours.sheet_colder == pytest.approx(np.sum(missed[:, above]) / (1.0 - layer), rel=0.08)
@@ -76,9 +76,9 @@ def test_layer_and_sheet_give_the_wall_as_in_two_dimensions(free: float, layer: 
 
 @pytest.mark.parametrize("layer", [0.25, 0.5])
 def test_a_sheet_alone_gives_the_wall_as_in_two_dimensions(layer: float) -> None:
-    found, ours = walled_layer(layer), layer_end.sheet_end(layer)
-    assert ours.rim == pytest.approx(np.sum(2.0 * found[0, heights() > layer]), rel=0.015)
-    missed = (1.0 - heights() - found)[:, heights() > layer] / ACROSS**2
+    rises, ours = walled_layer(layer), layer_end.sheet_end(layer)
+    assert ours.rim == pytest.approx(np.sum(2.0 * rises[0, heights() > layer]), rel=0.015)
+    missed = (1.0 - heights() - rises)[:, heights() > layer] / ACROSS**2
     assert ours.sheet_colder == pytest.approx(np.sum(missed) / (1.0 - layer), rel=0.08)
 
 
@@ -95,11 +95,11 @@ def test_a_layer_below_a_sheet_is_as_cold_in_the_mean() -> None:
 
 def test_heat_from_the_free_end_cools_as_in_two_dimensions() -> None:
     free = 0.15
-    found = -walled_layer(free, lost=1.0)
+    rises = -walled_layer(free, lost=1.0)
     # What leaves rises with the height, as in sin a near the corner; the near face gives half of it.
     for column in (3, 8, 16):
         ours = 0.5 * layer_end.cooled_end(free, (column + 0.5) / ACROSS, heights())
-        assert found[column] == pytest.approx(ours, abs=0.05 * np.max(found[0]))
+        assert rises[column] == pytest.approx(ours, abs=0.05 * np.max(rises[0]))
 
 
 Array = NDArray[np.float64]
@@ -110,7 +110,7 @@ temperatures = st.floats(280.0, 400.0)
 
 @st.composite
 def lips(draw: st.DrawFn) -> tuple[layer_end.Lip, Array, dict[Place, float]]:
-    """A lip, cells beside it and temperatures of what else is there."""
+    """Return a lip, the cells beside it and the temperatures of its other neighbours."""
     arms = (
         layer_end.Arm(draw(conductances), ((AIR, 1.0),)),
         layer_end.Arm(draw(conductances), ((AIR, 0.3), (PLATE, 0.5)), 0.8),
@@ -143,8 +143,8 @@ def test_temperatures_that_leave_no_residual_are_those_of_the_closed_form(
     assert closed.residuals == (0.0, 0.0)
 
     def residuals(given: Array) -> Array:
-        found = layer_end.warm_lip(lip, cells, places.__getitem__, conducting, (given[0], given[1]))
-        return np.array(found.residuals)
+        warmed = layer_end.warm_lip(lip, cells, places.__getitem__, conducting, (given[0], given[1]))
+        return np.array(warmed.residuals)
 
     solved = root(residuals, np.array([340.0, 300.0]), tol=1e-12)
     assert solved.success
@@ -200,11 +200,11 @@ def passed(conductivities: Conductivities, low: float, high: float) -> float:
 def test_two_conductivities_share_the_potential(share: float, place: float, wall: float) -> None:
     both = Conductivities(0.20, 0.16)  # about PCL's
     whole = passed(both, wall, place)
-    exact = brentq(lambda one: passed(both, wall, one) - share * whole, wall, place)
-    found = shared(share, place, wall, both, MELTING)
-    assert found == pytest.approx(exact, abs=0.02 * (place - wall))
+    exact = brentq(lambda middle: passed(both, wall, middle) - share * whole, wall, place)
+    shown = shared(share, place, wall, both, MELTING)
+    assert shown == pytest.approx(exact, abs=0.02 * (place - wall))
     even = wall + share * (place - wall)
-    assert abs(found - exact) <= max(0.25 * abs(even - exact), 0.02)  # the step takes most of what the share misses
+    assert abs(shown - exact) <= max(0.25 * abs(even - exact), 0.02)  # the step takes most of what the share misses
 
 
 N = 48
@@ -212,9 +212,9 @@ N = 48
 
 
 def framed(shape: tuple[int, int], inside: float = np.nan) -> tuple[NDArray[np.bool_], Array]:
-    """A frame around so many cells: of no cell yet, and walls that let no heat pass, those within of a temperature."""
-    kept = np.pad(np.full(shape, inside), 1, constant_values=np.nan)
-    return np.zeros(kept.shape, dtype=bool), kept
+    """Return a frame of so many cells, none of them solid, and insulated walls; those within are at a temperature."""
+    fixed = np.pad(np.full(shape, inside), 1, constant_values=np.nan)
+    return np.zeros(fixed.shape, dtype=bool), fixed
 
 
 @pytest.mark.parametrize("width", [0.5, 1.0, 2.0])
@@ -222,19 +222,19 @@ def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width:
     slot, gap = 4 / N, 4
     # The ceiling, at one, ends before the wall; above the slot its own edge is as warm as it is. The tile's side falls
     # evenly; floor and wall are at nothing.
-    inside, kept = framed((int(width * N) + gap, 2 * N), 1.0)
+    inside, fixed = framed((int(width * N) + gap, 2 * N), 1.0)
     inside[1:-1, 1 : N + 1] = inside[-gap - 1 : -1, N + 1 : -1] = True
-    kept[0, 1:-1] = (np.arange(2 * N) + 0.5) / N
-    kept[-1] = kept[:, 0] = 0.0
-    found = conducted(inside, kept)
-    edge = np.sum(2.0 * (1.0 - found[-gap - 1, N + 1 : -1])) - N / gap
+    fixed[0, 1:-1] = (np.arange(2 * N) + 0.5) / N
+    fixed[-1] = fixed[:, 0] = 0.0
+    rises = conducted(inside, fixed)
+    edge = np.sum(2.0 * (1.0 - rises[-gap - 1, N + 1 : -1])) - N / gap
     tile, floor, ceiling = (np.zeros(inside.shape, dtype=bool) for _ in range(3))
     tile[0] = floor[:, 0] = ceiling[1:-1, 1:-1] = True
     ours = layer_end.room(width + slot, slot)
     # An even fall brings as much from ceiling to floor as the room is wide below that.
-    assert ours.ceiling + width == pytest.approx(given_off(ceiling, found, kept) - N / gap, abs=0.06)
-    assert width + slot - ours.floor == pytest.approx(-given_off(floor, found, kept), abs=0.02)
-    assert ours.tile == pytest.approx(given_off(tile, found, kept), abs=0.02)
+    assert ours.ceiling + width == pytest.approx(given_off(ceiling, rises, fixed) - N / gap, abs=0.06)
+    assert width + slot - ours.floor == pytest.approx(-given_off(floor, rises, fixed), abs=0.02)
+    assert ours.tile == pytest.approx(given_off(tile, rises, fixed), abs=0.02)
     assert edge > 0.0
 
 
@@ -242,28 +242,28 @@ def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width:
 def test_a_clearance_gives_lip_and_floor_as_in_two_dimensions(slot: float) -> None:
     n = 24
     gap, deep, long = int(slot * n), 4 * int(max(slot, 1.0) * n), 5 * n
-    inside, kept = framed((gap + long, deep + n), 0.0)
+    inside, fixed = framed((gap + long, deep + n), 0.0)
     inside[1:-1, deep + 1 : -1] = inside[1 : gap + 1, 1:-1] = True
     warm = np.append(np.ones(deep), 1.0 - 2.0 / np.pi * np.arcsin((np.arange(n) + 0.5) / n))
-    kept[0, 1:-1] = warm
-    kept[1:-1, -1] = 0.0
-    found = conducted(inside, kept)
+    fixed[0, 1:-1] = warm
+    fixed[1:-1, -1] = 0.0
+    rises = conducted(inside, fixed)
     pads, lip = (np.zeros(inside.shape, dtype=bool) for _ in range(2))
     pads[0] = lip[1:-1, -1] = True
     passed = deep / gap
-    from_pads = np.sum(warm * 2.0 * (warm - found[1, 1:-1])) - passed
+    from_pads = np.sum(warm * 2.0 * (warm - rises[1, 1:-1])) - passed
     to_lip, to_floor = layer_end.below_lip(slot)
-    floor = given_off(pads, found, kept) - passed + given_off(lip, found, kept)
+    floor = given_off(pads, rises, fixed) - passed + given_off(lip, rises, fixed)
     assert to_floor == pytest.approx(floor, abs=0.06)
     assert to_lip == pytest.approx(from_pads - floor, abs=0.06)
 
 
 def heated_strip(sources: Array) -> Array:
     """Temperatures of a strip that is heated in some cells and kept at nothing beyond its end."""
-    inside, kept = framed(sources.shape)
+    inside, fixed = framed(sources.shape)
     inside[1:-1, 1:-1] = True
-    kept[-1] = 0.0
-    return conducted(inside, kept, np.pad(sources, 1))[1:-1, 1:-1]
+    fixed[-1] = 0.0
+    return conducted(inside, fixed, np.pad(sources, 1))[1:-1, 1:-1]
 
 
 @pytest.mark.parametrize("slenderness", [0.5, 0.8, 2.0])
@@ -271,8 +271,8 @@ def test_a_ledge_s_lower_face_is_colder_as_in_two_dimensions(slenderness: float)
     wide = int(slenderness * N)
     sources = np.zeros((wide + 3 * N, N))
     sources[:wide, -1] = 1.0 / wide
-    found = heated_strip(sources)
-    ledge = found[:wide]
+    rises = heated_strip(sources)
+    ledge = rises[:wide]
     top, bottom = (np.mean(ledge[:, k] + 0.5 * (ledge[:, k] - ledge[:, near])) for k, near in ((-1, -2), (0, 1)))
     assert ledge_ways(slenderness)[0] == pytest.approx(top - np.mean(ledge), rel=0.03)
     assert ledge_across(slenderness) == pytest.approx(np.mean(ledge) - bottom, rel=0.03)
@@ -283,8 +283,8 @@ def test_a_lip_s_lower_face_is_warmer_as_in_two_dimensions(begin: float, width: 
     share = 1.0 / 3.0
     sources = np.zeros((3 * N, N))
     sources[0, : N // 3] = 3.0 / N
-    found = heated_strip(sources)
+    rises = heated_strip(sources)
     first, last = round(begin * N), round((begin + width) * N)
-    face = found[first:last, 0] + 0.5 * (found[first:last, 0] - found[first:last, 1])
-    warmer = np.mean(face - np.mean(found[first:last], axis=1))
+    face = rises[first:last, 0] + 0.5 * (rises[first:last, 0] - rises[first:last, 1])
+    warmer = np.mean(face - np.mean(rises[first:last], axis=1))
     assert beyond_constriction(share, begin, width) == pytest.approx(warmer, rel=0.04)

@@ -60,12 +60,12 @@ def test_block_is_within_thirteen_percent_below_finite_elements(
 ) -> None:
     width, height, depth = sides
     elements = bonded_block.apparent_modulus(width, height, depth, poissons_ratio, (10, 10, 7))
-    found = apparent_modulus(
+    modulus = apparent_modulus(
         1.0 / (2.0 * (1.0 + poissons_ratio)),
         block.bulk_modulus(1.0, poissons_ratio),
         block.shape_factor(width, height, depth),
     )
-    assert 0.87 < found / elements < 1.01
+    assert 0.87 < modulus / elements < 1.01
 
 
 def test_stiffness_is_force_times_arm_over_angle() -> None:
@@ -107,12 +107,12 @@ def test_a_molten_film_is_as_stiff_as_a_block_of_its_depth(molten: int) -> None:
     share = block.soft_share(storage, loss)
     assert share == pytest.approx(molten / 12.0, rel=1e-6)
     shape = block.shape_factor(width, height, depth) / share
-    found = block.stiffness(3.0 * series * block.shape_stiffening(shape), 6, width * height, 18.5e-3, depth)
+    stiffness = block.stiffness(3.0 * series * block.shape_stiffening(shape), 6, width * height, 18.5e-3, depth)
     # By hand: 3 G (1 + 2 S^2) A r^2 over the film's own thickness, S = w h/(2 t (w + h)).
     thick = depth * molten / 12.0
     own = width * height / (2.0 * thick * (width + height))
     alone = 6 * 3.0 * complex(2e4, 3e4) * (1.0 + 2.0 * own**2) * width * height * 18.5e-3**2 / thick
-    assert found == pytest.approx(alone, rel=1e-5)
+    assert stiffness == pytest.approx(alone, rel=1e-5)
 
 
 def test_the_soft_share_hangs_on_moduli_not_on_their_order() -> None:
@@ -138,19 +138,19 @@ def test_a_thin_pad_is_as_stiff_as_the_pressure_in_it_makes_it(width: float, hei
     odd = np.arange(1, 60, 2)
     torsion = a * b**3 / 3.0 * (1.0 - 192.0 * b / (np.pi**5 * a) * np.sum(np.tanh(odd * np.pi * a / (2 * b)) / odd**5))
     thin = 0.1
-    found = block.pad_stiffness((1.0, RIGID), (width, height), thin, (0.0, 0.0))
+    stiffness = block.pad_stiffness((1.0, RIGID), (width, height), thin, (0.0, 0.0))
     # Gent and Lindley's shape factor is a few percent to 12 % below the series for rectangles.
-    assert 0.87 < found / (3.0 * torsion / thin**3) < 1.01
+    assert 0.87 < stiffness / (3.0 * torsion / thin**3) < 1.01
 
 
 def test_a_tall_pad_is_a_bar_and_a_slot_of_no_width_costs_nothing() -> None:
     youngs = 9.0 * 5.0 * 1.0 / (3.0 * 5.0 + 1.0)
-    found = block.pad_stiffness((1.0, 5.0), (1.0, 2.0), 100.0, (0.0, 0.0))
-    assert found == pytest.approx(youngs * 2.0 / 100.0, rel=1e-3)
+    stiffness = block.pad_stiffness((1.0, 5.0), (1.0, 2.0), 100.0, (0.0, 0.0))
+    assert stiffness == pytest.approx(youngs * 2.0 / 100.0, rel=1e-3)
     widths = np.linspace(0.0, 4.0, 400)
-    found = np.array([block.pad_stiffness((1.0, 1e3), (8.0, 10.0), 1.6, (w, 8.0)) for w in widths])
-    assert found[0] == pytest.approx(block.pad_stiffness((1.0, 1e3), (8.0, 10.0), 1.6, (0.0, 0.0)), rel=1e-12)
-    assert np.all(np.diff(found) <= 1e-9)
+    stiffness = np.array([block.pad_stiffness((1.0, 1e3), (8.0, 10.0), 1.6, (w, 8.0)) for w in widths])
+    assert stiffness[0] == pytest.approx(block.pad_stiffness((1.0, 1e3), (8.0, 10.0), 1.6, (0.0, 0.0)), rel=1e-12)
+    assert np.all(np.diff(stiffness) <= 1e-9)
 
 
 @pytest.mark.parametrize(
@@ -159,6 +159,6 @@ def test_a_tall_pad_is_a_bar_and_a_slot_of_no_width_costs_nothing() -> None:
 def test_a_pad_over_a_slot_gives_as_in_fe(pad: dict[str, float]) -> None:
     sides, slot = (pad["width"], pad["height"]), (pad["slot_width"], pad["slot_height"])
     moduli = 1.0, 2.0 * (1.0 + pad["poissons_ratio"]) / (3.0 * (1.0 - 2.0 * pad["poissons_ratio"]))
-    found = block.pad_stiffness(moduli, sides, pad["thickness"], slot)
+    stiffness = block.pad_stiffness(moduli, sides, pad["thickness"], slot)
     plain = 3.0 * sides[0] * sides[1] / pad["thickness"]
-    assert found / plain == pytest.approx(pad["over_three_g"], rel=0.13 if slot[0] == 0.0 else 0.09)
+    assert stiffness / plain == pytest.approx(pad["over_three_g"], rel=0.13 if slot[0] == 0.0 else 0.09)

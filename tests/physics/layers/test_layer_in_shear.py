@@ -45,8 +45,8 @@ def test_strain_and_torque_of_a_layer_by_hand() -> None:
     assert layer.shear_strain(50e-3, 0.104, 1e-3) == pytest.approx(5.2, rel=1e-12)
     limit = 2e6
     expected, _ = quad(lambda r: (limit * r / OUTER) * r * SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
-    found = layer.torque_at_traction(limit, sector(SPAN, INNER, OUTER).polar, OUTER)
-    assert found == pytest.approx(expected, rel=1e-10)
+    torque = layer.torque_at_traction(limit, sector(SPAN, INNER, OUTER).polar, OUTER)
+    assert torque == pytest.approx(expected, rel=1e-10)
 
 
 SPRINGS, STRUCTURE, LOAD = 5.61, 919.0, 0.583
@@ -63,11 +63,11 @@ def test_one_mode_beside_springs_creeps_as_zeners_solid(time: float) -> None:
     k, tau = 300.0, 0.1
     fading = np.exp(-time / (tau * (SPRINGS + k) / SPRINGS))
     angle = LOAD / SPRINGS * (1.0 - k / (SPRINGS + k) * fading)
-    found = lasting_load.held(LOAD, time, SPRINGS, 1e14, [(tau, k)])
-    assert found.angle == pytest.approx(angle, rel=WITHIN)
+    creep = lasting_load.held(LOAD, time, SPRINGS, 1e14, [(tau, k)])
+    assert creep.angle == pytest.approx(angle, rel=WITHIN)
     # The one dashpot is where the mode is free of stress: theta less its torque over k.
     free = angle - (LOAD - SPRINGS * angle) / k
-    assert found.set_angle == pytest.approx(free, rel=WITHIN)
+    assert creep.set_angle == pytest.approx(free, rel=WITHIN)
 
 
 def by_radau(modes: Modes, time: float) -> tuple[float, float]:

@@ -25,8 +25,8 @@ def test_the_edge_of_a_lap_of_like_sheets_bears_what_volkersen_says(reach: float
     layer, width = 5e10, 0.012  # Pa/m, m
     sheet = 0.5 * reach**2 / (layer * width**2)
     # Volkersen 1938, sheets alike: highest over mean stress (p/2) coth(p/2).
-    found = shear_lag.edge_rise(layer, sheet, sheet, width)
-    assert found == pytest.approx(0.5 * reach / np.tanh(0.5 * reach), rel=1e-12)
+    rise = shear_lag.edge_rise(layer, sheet, sheet, width)
+    assert rise == pytest.approx(0.5 * reach / np.tanh(0.5 * reach), rel=1e-12)
 
 
 @pytest.mark.parametrize(("first", "second"), [(3e-7, 8e-7), (8e-7, 3e-7)])
@@ -160,32 +160,32 @@ def solved(coupled: np.ndarray, enters: np.ndarray, lap: shear_lag.AnnularLap) -
         return np.concatenate([at[:count], to[:count] - 1.0, at[2 * count :]])
 
     grid = np.linspace(a, b, 100)
-    found = solve_bvp(slopes, ends, grid, np.ones((2 * count + 2, grid.size)), tol=1e-6)
+    solution = solve_bvp(slopes, ends, grid, np.ones((2 * count + 2, grid.size)), tol=1e-6)
     even = 0.25 * (b**4 - a**4) / b
-    share = found.sol(b)[-2] / (0.5 * (a**-2 - b**-2))
-    square = found.sol(b)[-1] * 0.25 * (b**4 - a**4)
-    return found.sol(a)[count] * even / a**2, found.sol(b)[count] * even / b**2, share, square
+    share = solution.sol(b)[-2] / (0.5 * (a**-2 - b**-2))
+    square = solution.sol(b)[-1] * 0.25 * (b**4 - a**4)
+    return solution.sol(a)[count] * even / a**2, solution.sol(b)[count] * even / b**2, share, square
 
 
 def agrees(lap: shear_lag.AnnularLap, by_numbers: tuple[float, float, float, float]) -> None:
     at_inner, at_outer, share, square = by_numbers
-    found = shear_lag.edge_rises(lap)
-    assert found[0] == pytest.approx(at_inner, rel=0.04)
-    assert found[1] == pytest.approx(at_outer, rel=0.01)
+    rises = shear_lag.edge_rises(lap)
+    assert rises[0] == pytest.approx(at_inner, rel=0.04)
+    assert rises[1] == pytest.approx(at_outer, rel=0.01)
     assert shear_lag.upper_share(lap) == pytest.approx(share, rel=0.01)
     assert shear_lag.unevenness(lap) == pytest.approx(square, rel=0.03)
 
 
-@pytest.mark.parametrize("rest", [0.0, 0.16, 0.5, 0.9])
+@pytest.mark.parametrize("outer_share", [0.0, 0.16, 0.5, 0.9])
 @pytest.mark.parametrize("reach", [0.5, 1.5, 3.4, 5.0])
 @pytest.mark.parametrize("inner", [15e-3, 21e-3])
 def test_edges_and_sheet_of_a_lap_in_the_round_are_as_its_equation_says(
-    rest: float, reach: float, inner: float
+    outer_share: float, reach: float, inner: float
 ) -> None:
     outer = 27.5e-3
     lag = reach / (outer - inner)
-    lap = shear_lag.annular_lap(lag**2, 1.0 - rest, rest, (inner, outer))
-    agrees(lap, solved(np.array([[lag**2]]), np.array([lag**2 * (1.0 - rest)]), lap))
+    lap = shear_lag.annular_lap(lag**2, 1.0 - outer_share, outer_share, (inner, outer))
+    agrees(lap, solved(np.array([[lag**2]]), np.array([lag**2 * (1.0 - outer_share)]), lap))
 
 
 @pytest.mark.parametrize("inward", [0.1, 0.5])

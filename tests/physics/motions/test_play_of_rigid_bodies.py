@@ -38,19 +38,19 @@ def largest_turn(arm: float, leaning: bool) -> float:
 
     bounds = [(-2, 2), (-2, 2), (-500, 500), *([(-500, 500)] * 2 if leaning else [(0, 0)] * 2)]
     draw = np.random.default_rng(1).uniform(-1.0, 1.0, (12, 5)) * [0.1, 0.1, 50.0, 20.0, 20.0]
-    found = [
+    optima = [
         minimize(given_way, start * (1.0 if leaning else [1, 1, 1, 0, 0]), method="SLSQP", bounds=bounds,
                  constraints={"type": "ineq", "fun": clear}, options={"maxiter": 400, "ftol": 1e-12})
         for start in draw
     ]  # fmt: skip
-    return max(-1e-3 * one.fun for one in found if np.all(clear(one.x) > -1e-6))
+    return max(-1e-3 * optimum.fun for optimum in optima if np.all(clear(optimum.x) > -1e-6))
 
 
 def test_loose_springs_turn_as_far_as_rigid_ones_can() -> None:
     bound = float(contacts.spring_play(TANG, LENGTH, LEVER, POST, LEVELS, ARM))
-    found = largest_turn(ARM, leaning=True)
-    assert found <= bound * (1.0 + 1e-6)
-    assert found == pytest.approx(bound, rel=0.02)  # the bound is nearly reached
+    turn = largest_turn(ARM, leaning=True)
+    assert turn <= bound * (1.0 + 1e-6)
+    assert turn == pytest.approx(bound, rel=0.02)  # the bound is nearly reached
     # The reading from outside had 13 degrees with the lean; this one is a bound of its own geometry.
     assert np.degrees(bound) == pytest.approx(13.0, rel=0.1)
     upright = float(contacts.spring_play(TANG, 1e9, LEVER, POST, LEVELS, 1e9))
@@ -139,8 +139,8 @@ def test_friction_that_grows_with_the_load_over_a_cycle(degrees: float) -> None:
     phase = np.linspace(0.0, 2.0 * np.pi, 200_001)
     torque = share * size * reach * np.abs(np.sin(phase + delta))
     energy = np.trapezoid(torque * np.abs(reach * np.cos(phase)), phase)
-    found = contacts.loaded_damping(share, size * np.cos(delta), size * np.sin(delta), omega)
-    assert found == pytest.approx(energy / (np.pi * omega * reach**2), rel=1e-8)
+    damping = contacts.loaded_damping(share, size * np.cos(delta), size * np.sin(delta), omega)
+    assert damping == pytest.approx(energy / (np.pi * omega * reach**2), rel=1e-8)
 
 
 @pytest.mark.parametrize(("diameter", "pitch"), [(2.0, 0.4), (3.0, 0.5), (4.0, 0.7), (5.0, 0.8)])
@@ -182,10 +182,10 @@ def test_modes_and_springs_of_a_layer_by_hand() -> None:
     assert motion.branch_torque(0.1, [0.0, 0.0, 0.0], JOINT, MODES) == pytest.approx(31.96, rel=1e-3)
     assert motion.layer_angle(0.1, [0.0, 0.0, 0.0], JOINT, MODES) == pytest.approx(0.1 * 919.0 / 1409.0)
     assert motion.module_torque(0.1, [0.1, 0.1, 0.1], JOINT, MODES) == pytest.approx(-0.561)
-    one = [(1.0, 200.0)]
+    modes = [(1.0, 200.0)]
     phi = (919.0 * 0.1 + 200.0 * 0.02) / 1119.0
     by_hand = 0.5 * (4.156e-4 * 3.0**2 + 5.61 * 0.1**2 + 919.0 * (0.1 - phi) ** 2 + 200.0 * (phi - 0.02) ** 2)
-    assert motion.stored_energy(0.1, 3.0, [0.02], JOINT, one) == pytest.approx(by_hand, rel=1e-12)
+    assert motion.stored_energy(0.1, 3.0, [0.02], JOINT, modes) == pytest.approx(by_hand, rel=1e-12)
     speed, acceleration = motion.kelvin_voigt_rates(0.1, 2.0, 0.5, 0.25, 10.0)
     assert (speed, acceleration) == (2.0, pytest.approx(-(0.25 * 2.0 + 10.0 * 0.1) / 0.5))
     assert motion.kelvin_voigt_torque(0.1, 2.0, 0.25, 10.0) == pytest.approx(-1.5)
@@ -226,8 +226,8 @@ PAIRS: dict[str, tuple[Callable[[float], float], Callable[[float], float]]] = {
 @pytest.mark.parametrize("time", [0.03, 0.4, 2.0])
 def test_what_fades_or_creeps_comes_back_to_the_stated_accuracy(name: str, time: float) -> None:
     transform, expected = PAIRS[name]
-    (found,) = motion.inverse(lambda s: (transform(s),), time)
-    assert found == pytest.approx(expected(time), rel=4e-4)
+    (inverse,) = motion.inverse(lambda s: (transform(s),), time)
+    assert inverse == pytest.approx(expected(time), rel=4e-4)
 
 
 def test_the_weights_are_those_that_stehfest_printed() -> None:

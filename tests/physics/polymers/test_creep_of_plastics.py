@@ -32,12 +32,12 @@ def test_creep_and_ageing_are_those_of_the_sheets() -> None:
 @pytest.mark.parametrize("give", [0.02, 0.1])
 def test_preload_that_is_left_is_that_of_volterras_equation(give: float) -> None:
     # Winding a, spring k, support J(t) = c (1 + m t^n): M/k + J * dM = a, stepped over 4000 moments spaced as the log.
-    rate, found = 1.3, law("petg")
+    rate, creep_law = 1.3, law("petg")
     compliance = give / rate
     times = np.concatenate([[0.0], np.geomspace(1e-3, 1000.0, 4000)]) * HOURS
 
     def support(since: np.ndarray) -> np.ndarray:
-        return compliance * (1.0 + plastics.growth(since, found))
+        return compliance * (1.0 + plastics.growth(since, creep_law))
 
     steps = [1.0 / (1.0 / rate + compliance)]
     for i in range(1, len(times)):
@@ -48,7 +48,7 @@ def test_preload_that_is_left_is_that_of_volterras_equation(give: float) -> None
         steps.append((1.0 - crept) / (1.0 / rate + float(support(np.array(last)))))
     left = float(np.sum(steps)) / rate
     at_once = plastics.winding_left(rate, (compliance, 0.0))
-    quick = plastics.winding_left(rate, (compliance, plastics.growth(times[-1], found)))
+    quick = plastics.winding_left(rate, (compliance, plastics.growth(times[-1], creep_law)))
     # The loss, not what is left, within 2 %.
     assert at_once - quick == pytest.approx(at_once - left, rel=0.02)
 
@@ -91,17 +91,17 @@ def test_creep_and_relaxation_convolve_to_the_time(body: Body, time: float) -> N
 @pytest.mark.parametrize("body", BODIES, ids=lambda body: type(body).__name__)
 @pytest.mark.parametrize("omega", [0.4, 5.0])
 def test_modulus_is_the_fourier_integral_of_relaxation(body: Body, omega: float) -> None:
-    rest = float(body.relaxation(1e9))
-    sine, _ = quad(lambda t: body.relaxation(t) - rest, 0.0, np.inf, weight="sin", wvar=omega, limlst=500)
-    cosine, _ = quad(lambda t: body.relaxation(t) - rest, 0.0, np.inf, weight="cos", wvar=omega, limlst=500)
-    assert body.modulus(omega) == pytest.approx(rest + omega * (sine + 1j * cosine), rel=1e-6)
+    relaxed = float(body.relaxation(1e9))
+    sine, _ = quad(lambda t: body.relaxation(t) - relaxed, 0.0, np.inf, weight="sin", wvar=omega, limlst=500)
+    cosine, _ = quad(lambda t: body.relaxation(t) - relaxed, 0.0, np.inf, weight="cos", wvar=omega, limlst=500)
+    assert body.modulus(omega) == pytest.approx(relaxed + omega * (sine + 1j * cosine), rel=1e-6)
 
 
 def test_kelvin_voigt_obeys_its_equation_and_maxwell_forgets_all() -> None:
     # sigma = G gamma + eta gamma'; under a constant stress of one, and in a sine.
     body = KelvinVoigt(4.0, 2.0)
-    found = solve_ivp(lambda _, strain: (1.0 - 4.0 * strain) / 2.0, (0.0, 1.3), [0.0], rtol=1e-10, atol=1e-12)
-    assert body.creep(1.3) == pytest.approx(found.y[0, -1], rel=1e-8)
+    solved = solve_ivp(lambda _, strain: (1.0 - 4.0 * strain) / 2.0, (0.0, 1.3), [0.0], rtol=1e-10, atol=1e-12)
+    assert body.creep(1.3) == pytest.approx(solved.y[0, -1], rel=1e-8)
     assert body.modulus(3.0) == pytest.approx(4.0 + 6.0j)
     assert KelvinVoigt(4.0, 2.0).relaxation(1e6) == 4.0
     assert Maxwell(4.0, 2.0).relaxation(1e6) == 0.0
@@ -142,8 +142,8 @@ def test_plastics_are_as_stiff_as_their_deflection_temperatures_say(
 
 def test_aluminium_is_as_stiff_as_eurocode_9_says() -> None:
     for celsius, share in ((50, 0.990), (100, 0.970), (150, 0.930), (200, 0.860), (250, 0.780)):
-        found = modulus("aluminum_6061_t6", celsius, 1.0) / modulus("aluminum_6061_t6", 20, 1.0)
-        assert found == pytest.approx(share, rel=0.01), celsius
+        stiffness_ratio = modulus("aluminum_6061_t6", celsius, 1.0) / modulus("aluminum_6061_t6", 20, 1.0)
+        assert stiffness_ratio == pytest.approx(share, rel=0.01), celsius
 
 
 @pytest.mark.parametrize("material", ["petg", "abs", "polycarbonate", "aluminum_6061_t6", "aluminum_7075_t6"])
@@ -157,10 +157,10 @@ def test_modulus_falls_smoothly_and_never_to_nothing(material: str) -> None:
 
 
 def test_loss_peaks_where_the_plastic_softens_and_is_the_records_far_below() -> None:
-    found = warm_law("petg")
+    softening_law = warm_law("petg")
     temperatures = np.linspace(296.15, 400.0, 2000)
-    loss = plastics.loss_factor(temperatures, found)
-    assert temperatures[np.argmax(loss)] == pytest.approx(found.temperature, abs=0.1)
+    loss = plastics.loss_factor(temperatures, softening_law)
+    assert temperatures[np.argmax(loss)] == pytest.approx(softening_law.temperature, abs=0.1)
     assert np.max(loss) == pytest.approx(1.5, rel=1e-4)
     assert loss[0] == pytest.approx(0.03, rel=1e-3)
 
@@ -176,7 +176,7 @@ def beam(
 ) -> float:
     """Traction [Pa] at the edge of a layer of a finite length, by cubic beam elements.
 
-    Those of the span give way in shear as well (Timoshenko). They do not turn at the hub; a force [N/m] parts them
+    Those of the span deform in shear as well (Timoshenko). They do not turn at the hub; a force [N/m] parts them
     there, or, where it is zero, they do not move there.
     """
     cells, layer = 100, 300
@@ -217,8 +217,8 @@ def test_the_edge_of_a_free_rotor_pulls_as_the_force_at_the_hub_asks() -> None:
     rigidity, foundation, span = transitions.flexural_rigidity(2.1e9, 0.37, 4e-3), 1.8e11, 12.6e-3
     length = 12.0 / transitions.decay_rate(foundation, rigidity)
     expected = beam(foundation, rigidity, 2.6e6, span, length, 0.0, 50.0)
-    found = transitions.edge_traction_of_force(50.0, foundation, rigidity, span)
-    assert found == pytest.approx(expected, rel=1e-3)
+    traction = transitions.edge_traction_of_force(50.0, foundation, rigidity, span)
+    assert traction == pytest.approx(expected, rel=1e-3)
 
 
 def test_arcs_are_long_enough_and_spans_limit_what_gives_way() -> None:
@@ -258,7 +258,7 @@ def test_solids_in_finite_elements_pull_no_harder_and_not_much_less(
     # scikit-fem 12.0.
     both = (plate, 4e-3)
     bending, shear = (
-        1.0 / sum(1.0 / one for one in rigidities)
+        1.0 / sum(1.0 / rigidity for rigidity in rigidities)
         for rigidities in (
             [transitions.flexural_rigidity(youngs, poisson, h) for h in both],
             [transitions.shear_rigidity(youngs / (2.0 * (1.0 + poisson)), h) for h in both],
@@ -266,5 +266,5 @@ def test_solids_in_finite_elements_pull_no_harder_and_not_much_less(
     )
     layer = transitions.confined_modulus(411e6, 0.45)
     foundation = 1.0 / (1e-3 / layer + 1.5e-3 / 300e6 + 0.5 * sum(both) / youngs)
-    found = transitions.edge_traction(65.5e-6, foundation, bending, shear, 12.6e-3)
-    assert solid < found < 1.35 * solid
+    traction = transitions.edge_traction(65.5e-6, foundation, bending, shear, 12.6e-3)
+    assert solid < traction < 1.35 * solid

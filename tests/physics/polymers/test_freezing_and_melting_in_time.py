@@ -31,11 +31,11 @@ def calorimeter(rate: float, kinetics: transitions.Kinetics) -> tuple[Array, Arr
     """Celsius and solid fraction of a melt cooled from 100 degC at a constant rate [K/min]."""
     per_second = rate / 60.0
     times = np.linspace(0.0, 110.0 / per_second, 20001)
-    found = solve_ivp(
+    solved = solve_ivp(
         lambda t, psi: transitions.rate(CELSIUS + 100.0 - per_second * t, psi, kinetics, MELTING),
         (0.0, times[-1]), [0.0], method="LSODA", t_eval=times, rtol=1e-9, atol=1e-11,
     )  # fmt: skip
-    return 100.0 - per_second * times, transitions.solid_fraction(found.y[0], kinetics)
+    return 100.0 - per_second * times, transitions.solid_fraction(solved.y[0], kinetics)
 
 
 def peak(rate: float, kinetics: transitions.Kinetics) -> float:
@@ -67,11 +67,11 @@ def test_avrami_plot_of_a_quenched_melt_is_straight_with_slope_n(celsius: float,
     kinetics = PCL._replace(avrami_exponent=exponent)
     half = float(textbook.half_time(CELSIUS + celsius, kinetics))
     times = half * np.array([0.2, 0.4, 0.7, 1.0, 1.3])
-    found = solve_ivp(
+    solved = solve_ivp(
         lambda _, psi: transitions.rate(CELSIUS + celsius, psi, kinetics, MELTING),
         (0.0, times[-1]), [0.0], t_eval=times, rtol=1e-10, atol=1e-12,
     )  # fmt: skip
-    fraction = transitions.solid_fraction(found.y[0], kinetics)
+    fraction = transitions.solid_fraction(solved.y[0], kinetics)
     assert fraction[3] == pytest.approx(0.5, abs=1e-3)
     slopes = np.diff(np.log(-np.log(1.0 - fraction))) / np.diff(np.log(times))
     assert slopes == pytest.approx(np.full(4, exponent), rel=5e-3)
@@ -109,15 +109,15 @@ def test_nothing_freezes_above_the_equilibrium_melting_temperature(celsius: floa
     assert 0.0 <= transitions.rate_constant(CELSIUS + celsius, PCL) < 1e-30
     assert 1e30 < textbook.half_time(CELSIUS + celsius, PCL) < np.inf
     times = (0.0, 600.0)
-    found = solve_ivp(lambda _, psi: transitions.rate(CELSIUS + celsius, psi, PCL, MELTING), times, [0.0])
-    assert transitions.solid_fraction(found.y[0, -1], PCL) < 1e-6
+    solved = solve_ivp(lambda _, psi: transitions.rate(CELSIUS + celsius, psi, PCL, MELTING), times, [0.0])
+    assert transitions.solid_fraction(solved.y[0, -1], PCL) < 1e-6
 
 
 @pytest.mark.parametrize("begin", [-0.01, 0.0, 0.05])
 def test_a_melt_without_a_crystal_is_no_stuck_point(begin: float) -> None:
     psi = float(transitions.extended(begin, PCL))
-    found = solve_ivp(lambda _, y: transitions.rate(CELSIUS + 35.0, y, PCL, MELTING), (0.0, 600.0), [psi])
-    assert transitions.solid_fraction(found.y[0, -1], PCL) > 0.99
+    solved = solve_ivp(lambda _, y: transitions.rate(CELSIUS + 35.0, y, PCL, MELTING), (0.0, 600.0), [psi])
+    assert transitions.solid_fraction(solved.y[0, -1], PCL) > 0.99
 
 
 @given(fraction=st.floats(0.01, 0.999))
@@ -144,11 +144,11 @@ def test_heated_solid_melts_half_a_second_behind_equilibrium(speed: float) -> No
     start = CELSIUS + 48.0
     times = np.linspace(0.0, 20.0 / speed, 401)
     psi = float(transitions.extended(1.0, PCL))
-    found = solve_ivp(
+    solved = solve_ivp(
         lambda t, y: transitions.rate(start + speed * t, y, PCL, MELTING), (0.0, times[-1]), [psi],
         method="LSODA", t_eval=times, rtol=1e-9, atol=1e-11,
     )  # fmt: skip
-    fraction = transitions.solid_fraction(found.y[0], PCL)
+    fraction = transitions.solid_fraction(solved.y[0], PCL)
     inside = (fraction > 0.1) & (fraction < 0.9)
     lag = 48.0 + speed * times[inside] - (65.0 - 15.0 * fraction[inside])
     assert np.all(np.abs(lag) < 0.5 * speed + 0.05)
@@ -171,8 +171,8 @@ def test_heats_follow_kirchhoffs_law_and_the_melting_curve() -> None:
     assert latent(57.5) == pytest.approx(76.75e3, rel=1e-9)
     assert latent(27.5) == pytest.approx(76.75e3 - 30.0 * 250.0, rel=1e-9)
     for celsius, fraction in ((20.0, 1.0), (49.9, 1.0), (65.1, 0.0), (120.0, 0.0)):
-        found = transitions.enthalpy(CELSIUS + celsius, fraction, MELTING)
-        assert found == pytest.approx(polymer.enthalpy(CELSIUS + celsius, MELTING), rel=1e-12)
+        enthalpy = transitions.enthalpy(CELSIUS + celsius, fraction, MELTING)
+        assert enthalpy == pytest.approx(polymer.enthalpy(CELSIUS + celsius, MELTING), rel=1e-12)
 
 
 def test_symbols_give_numbers_with_finite_derivatives() -> None:
@@ -196,7 +196,7 @@ LIMIT = 0.3
 MELT = polymer.melt_spectrum(4200.0, 0.95e6, 6)
 
 
-def kept(strain: np.ndarray | float) -> np.ndarray | float:
+def damping_function(strain: np.ndarray | float) -> np.ndarray | float:
     """Share of the modulus after a step, 5 % less at 30 % of strain: written out once more."""
     return 1.0 / (1.0 + (strain / 0.3) ** 2 / 19.0)
 
@@ -208,7 +208,7 @@ def by_brute_force(strain: float, angular: float) -> tuple[float, float]:
     ages, stress = 15.0 * (nodes + 1.0), np.zeros(48)
     for time, modulus in MELT:
         relative = strain * (np.sin(phases)[:, None] - np.sin(phases[:, None] - angular * time * ages))
-        stress += modulus * np.sum(15.0 * weights * np.exp(-ages) * kept(relative) * relative, axis=1)
+        stress += modulus * np.sum(15.0 * weights * np.exp(-ages) * damping_function(relative) * relative, axis=1)
     return 2.0 / 48 * float(stress @ np.sin(phases)) / strain, 2.0 / 48 * float(stress @ np.cos(phases)) / strain
 
 
@@ -216,39 +216,39 @@ def by_brute_force(strain: float, angular: float) -> tuple[float, float]:
 @pytest.mark.parametrize("strain", [0.3, 1.0, 4.13])
 def test_moduli_are_the_first_harmonics_of_wagners_integral(strain: float, hertz: float) -> None:
     angular = 2.0 * np.pi * hertz
-    found = melt.wagner_moduli(strain, angular, MELT, LIMIT)
-    assert found == pytest.approx(by_brute_force(strain, angular), rel=2e-3)
+    moduli = melt.wagner_moduli(strain, angular, MELT, LIMIT)
+    assert moduli == pytest.approx(by_brute_force(strain, angular), rel=2e-3)
 
 
 def test_slow_or_small_motion_is_linear() -> None:
     linear = polymer.maxwell_moduli(0.01, MELT)
     assert melt.wagner_moduli(4.0, 0.01, MELT, LIMIT) == pytest.approx(linear, rel=1e-3)
     assert melt.unrelaxed_moduli(4.0, 0.01, MELT, LIMIT)[1] < 0.1 * linear[1]
-    found = melt.wagner_moduli(1e-4, 600.0, MELT, LIMIT)
-    assert found == pytest.approx(polymer.maxwell_moduli(600.0, MELT), rel=1e-6)
+    moduli = melt.wagner_moduli(1e-4, 600.0, MELT, LIMIT)
+    assert moduli == pytest.approx(polymer.maxwell_moduli(600.0, MELT), rel=1e-6)
 
 
 @given(strain=st.floats(0.01, 10.0), hertz=st.floats(0.05, 20.0))
 def test_strain_only_softens_and_never_below_none(strain: float, hertz: float) -> None:
     angular = 2.0 * np.pi * hertz
     linear = polymer.maxwell_moduli(angular, MELT)
-    for found, most in zip(melt.wagner_moduli(strain, angular, MELT, LIMIT), linear, strict=True):
-        assert 0.0 < found <= most * (1.0 + 1e-9)
+    for modulus, most in zip(melt.wagner_moduli(strain, angular, MELT, LIMIT), linear, strict=True):
+        assert 0.0 < modulus <= most * (1.0 + 1e-9)
 
 
 @pytest.mark.parametrize("strain", [1e-5, 0.3, 3.0])
 def test_softening_is_the_first_harmonic_of_the_strain_law(strain: float) -> None:
-    share, _ = quad(lambda p: kept(strain * np.cos(p)) * np.cos(p) ** 2 / np.pi, 0.0, 2.0 * np.pi)
+    share, _ = quad(lambda p: damping_function(strain * np.cos(p)) * np.cos(p) ** 2 / np.pi, 0.0, 2.0 * np.pi)
     assert melt.softening(strain, LIMIT) == pytest.approx(1.0 - share, rel=1e-6, abs=1e-12)
 
 
 def test_a_ring_s_torque_and_an_edge_that_gives() -> None:
     inner, rim = 0.6, 4.0
-    share, _ = quad(lambda r: kept(rim * r) * r**3, inner, 1.0)
+    share, _ = quad(lambda r: damping_function(rim * r) * r**3, inner, 1.0)
     whole, _ = quad(lambda r: r**3, inner, 1.0)
     nodes = melt.ring(inner)
     assert sum(weight for _, weight in nodes) == pytest.approx(1.0, rel=1e-12)
-    assert sum(w * float(kept(rim * reach)) for reach, w in nodes) == pytest.approx(share / whole, rel=1e-4)
+    assert sum(w * float(damping_function(rim * reach)) for reach, w in nodes) == pytest.approx(share / whole, rel=1e-4)
     # 2 0.035/(3 1 mm) = 23.3 Pa; a fifth of 1 kPa times the strain squared passes it at 34 %.
     strain = melt.edge_strain(1e-3, 0.035, 0.2, 1000.0)
     assert 0.2 * 1000.0 * strain**2 == pytest.approx(23.333, rel=1e-3)
@@ -302,5 +302,5 @@ def test_a_strip_is_squeezed_as_long_as_reynolds_equation_says() -> None:
 
     done.terminal = True
     run = solve_ivp(closing, (0.0, 1e4), [start], events=done, rtol=1e-7, atol=1e-12)
-    found = melt.squeeze_time(force, viscosity, length, width, end, start)
-    assert found == pytest.approx(run.t_events[0][0], rel=1e-3)
+    time = melt.squeeze_time(force, viscosity, length, width, end, start)
+    assert time == pytest.approx(run.t_events[0][0], rel=1e-3)

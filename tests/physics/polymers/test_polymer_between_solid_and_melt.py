@@ -86,8 +86,8 @@ def test_maxwell_moduli_are_the_fourier_integral_of_the_relaxation_modulus(frequ
     kind = {"epsabs": 1e-9, "limlst": 500, "limit": 500}
     sine, _ = quad(relaxation, 0.0, np.inf, weight="sin", wvar=frequency, **kind)
     cosine, _ = quad(relaxation, 0.0, np.inf, weight="cos", wvar=frequency, **kind)
-    found = polymer.maxwell_moduli(frequency, MODES)
-    assert found == pytest.approx((1e5 * frequency * sine, 1e5 * frequency * cosine), rel=1e-5)
+    moduli = polymer.maxwell_moduli(frequency, MODES)
+    assert moduli == pytest.approx((1e5 * frequency * sine, 1e5 * frequency * cosine), rel=1e-5)
 
 
 @pytest.mark.parametrize(("grade", "low", "high"), [("pcl_50k", 430.0, 661.0), ("pcl_80k", 1900.0, 4201.0)])
@@ -111,8 +111,8 @@ def test_spectrum_of_a_melt_is_the_power_law_by_hand() -> None:
 
 
 def test_viscosity_moves_times_and_falls_as_arrhenius_says() -> None:
-    one, thicker, stiffer = (polymer.melt_spectrum(*how, 6) for how in ((1e3, 1e6), (1e2, 1e6), (1e3, 1e4)))
-    for (time, modulus), (own_time, own_modulus), (longer, softer) in zip(one, thicker, stiffer, strict=True):
+    thin, thicker, stiffer = (polymer.melt_spectrum(*how, 6) for how in ((1e3, 1e6), (1e2, 1e6), (1e3, 1e4)))
+    for (time, modulus), (own_time, own_modulus), (longer, softer) in zip(thin, thicker, stiffer, strict=True):
         assert (own_time, own_modulus) == pytest.approx((0.1 * time, modulus))
         assert (longer, softer) == pytest.approx((100.0 * time, 0.01 * modulus))
     # 35 kJ/mol from 100 to 120 degC: exp(35000/8.3145 (1/393.15 - 1/373.15)) = exp(-0.57388) = 0.5633.

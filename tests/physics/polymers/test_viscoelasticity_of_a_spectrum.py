@@ -96,9 +96,9 @@ def test_strain_is_what_the_internal_equations_integrate_to(modes: Modes) -> Non
     assert loaded.success
     after = solve_ivp(rates, (0.0, 60.0), loaded.y[:, -1] - jump, "Radau", rtol=1e-9, atol=1e-20)
     assert after.success
-    found = viscoelasticity.creep_and_recovery(np.array([30.0 - 1e-9, 90.0]), 50.0, 30.0, retardation(modes))
-    assert found[0] == pytest.approx(loaded.y[-1, -1], rel=1e-6)
-    assert found[1] == pytest.approx(after.y[-1, -1], rel=1e-3, abs=1e-7 * loaded.y[-1, -1])
+    strains = viscoelasticity.creep_and_recovery(np.array([30.0 - 1e-9, 90.0]), 50.0, 30.0, retardation(modes))
+    assert strains[0] == pytest.approx(loaded.y[-1, -1], rel=1e-6)
+    assert strains[1] == pytest.approx(after.y[-1, -1], rel=1e-3, abs=1e-7 * loaded.y[-1, -1])
 
 
 @NAMED
@@ -155,8 +155,8 @@ def pla() -> transitions.Glass:
     [(10.0, -2.8312), (20.0, -4.8715), (40.0, -7.6157)],  # 17.44 dT/(51.6 + dT) by hand
 )
 def test_above_the_transition_times_shift_by_wlf(above: float, decades: float) -> None:
-    found = np.log10(transitions.shift(TRANSITION.temperature + above, TRANSITION))
-    assert found == pytest.approx(decades, abs=0.01)
+    shifted = np.log10(transitions.shift(TRANSITION.temperature + above, TRANSITION))
+    assert shifted == pytest.approx(decades, abs=0.01)
 
 
 def test_below_the_transition_times_shift_by_arrhenius_round_the_corner() -> None:
@@ -169,21 +169,21 @@ def test_below_the_transition_times_shift_by_arrhenius_round_the_corner() -> Non
 
 
 def test_a_glass_has_its_reference_modulus_whatever_is_frozen() -> None:
-    one = pla()
-    at = polymer.maxwell_moduli(PINNED_FREQUENCY, one.at(one.reference_temperature))
+    glass = pla()
+    at = polymer.maxwell_moduli(PINNED_FREQUENCY, glass.at(glass.reference_temperature))
     assert at[0] == pytest.approx(1e9, rel=1e-12)
-    rubber = polymer.moduli(CELSIUS + 110.0, 0.0, PINNED_FREQUENCY, one)[0]
+    rubber = polymer.moduli(CELSIUS + 110.0, 0.0, PINNED_FREQUENCY, glass)[0]
     assert rubber == pytest.approx(1e9 * 1.2 / 1045.7, rel=0.02)
     assert polymer.spectrum(CELSIUS + 60.0, 0.0, pla()) == polymer.spectrum(CELSIUS + 60.0, 1.0, pla())
 
 
 def test_slower_at_a_warmer_place_is_the_same() -> None:
     """Time-temperature superposition: a faster test stands for a colder one."""
-    one = pla()
+    glass = pla()
     colder, warmer = CELSIUS + 65.0, CELSIUS + 70.0
-    faster = transitions.shift(colder, one.transition) / transitions.shift(warmer, one.transition)
-    cold = polymer.maxwell_moduli(1.0, one.at(colder))
-    warm = polymer.maxwell_moduli(faster, one.at(warmer))
+    faster = transitions.shift(colder, glass.transition) / transitions.shift(warmer, glass.transition)
+    cold = polymer.maxwell_moduli(1.0, glass.at(colder))
+    warm = polymer.maxwell_moduli(faster, glass.at(warmer))
     assert warm == pytest.approx(cold, rel=1e-9)
 
 

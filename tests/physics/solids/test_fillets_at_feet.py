@@ -126,8 +126,8 @@ def test_mean_deflection_is_that_of_a_beam_with_shear(height: float, free: float
     grid = np.union1d(np.linspace(0.0, free, 101), np.linspace(free, free + height, 201))
     solved = solve_bvp(slopes, ends, grid, np.zeros((4, grid.size)), tol=1e-8)
     mean = quad(lambda x: solved.sol(x)[0], free, free + height)[0] / height
-    found = vane.stiffness(YOUNGS, SHEAR, WIDTH, THICKNESS, height, free)
-    assert found == pytest.approx(load * height / mean, rel=1e-5 if free == 0.0 else 1e-3)
+    stiffness = vane.stiffness(YOUNGS, SHEAR, WIDTH, THICKNESS, height, free)
+    assert stiffness == pytest.approx(load * height / mean, rel=1e-5 if free == 0.0 else 1e-3)
 
 
 @pytest.mark.parametrize("thickness", [0.5e-3, 1.5e-3, 6e-3])
@@ -155,9 +155,9 @@ def test_a_root_s_moment_turns_the_plate_as_a_beam() -> None:
     )
     slope = np.linalg.solve(beam, np.ones(count))[0]
     footing = vane.Footing(height, vane.strip_beside(radius, count, thickness), 0.0, 0.0, 2.0)
-    found = vane.on_footing((YOUNGS, SHEAR), (WIDTH, thickness), between(1e-9), footing)
-    assert found.leaning == pytest.approx(slope * (0.4e-3 + 0.5 * HEIGHT) ** 2, rel=1e-9)
-    assert found.aside == 0.0
+    rooted = vane.on_footing((YOUNGS, SHEAR), (WIDTH, thickness), between(1e-9), footing)
+    assert rooted.leaning == pytest.approx(slope * (0.4e-3 + 0.5 * HEIGHT) ** 2, rel=1e-9)
+    assert rooted.aside == 0.0
 
 
 def test_a_rim_beyond_the_vane_bends_with_its_strips() -> None:
@@ -177,29 +177,29 @@ def between(modulus: float) -> vane.BlockBetween:
 def test_two_vanes_under_a_block_stand_where_their_energy_and_its_is_least() -> None:
     # Angles of both vanes by a search for the least of strain energy less the work of a force between them. The block
     # goes with the vanes' faces, which lie half a thickness beside the lines that turn.
-    one, other, block = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(8e-7, 0.0, 6e-3), between(140e6)
+    lower, other, block = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(8e-7, 0.0, 6e-3), between(140e6)
     arm, width, height, depth = 0.4e-3 + 0.5 * HEIGHT, WIDTH, HEIGHT, 5e-3
 
     def energy(angles: np.ndarray) -> float:
         first, second = 1e-3 * angles
-        up = np.array([0.5 * one.thickness * first, -0.5 * other.thickness * second])  # along the faces
+        up = np.array([0.5 * lower.thickness * first, -0.5 * other.thickness * second])  # along the faces
         shear = 0.5 * (first + second) + (up[0] - up[1]) / depth
         levels, weights = np.polynomial.legendre.leggauss(4)
         squeeze = 0.5 * height * levels * (first - second) / depth
         stored = 0.5 * vane.SHEARED * 140e6 * width * height * depth * shear**2
         stored += 0.5 * vane.TILTED * 3.0 * 140e6 * width * depth * 0.5 * height * np.sum(weights * squeeze**2)
-        stored += 0.5 * arm**2 * (first**2 / one.leaning + second**2 / other.leaning)
+        stored += 0.5 * arm**2 * (first**2 / lower.leaning + second**2 / other.leaning)
         return float(1e3 * (stored - 10.0 * arm * (first + second)))
 
-    found = minimize(energy, np.zeros(2), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-15}).x * 1e-3
-    assert vane.compliance(one, other, block) == pytest.approx(found[0] * arm / 10.0, rel=1e-5)
-    assert vane.compliance(other, one, block) == pytest.approx(found[1] * arm / 10.0, rel=1e-5)
+    optimum = minimize(energy, np.zeros(2), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-15}).x * 1e-3
+    assert vane.compliance(lower, other, block) == pytest.approx(optimum[0] * arm / 10.0, rel=1e-5)
+    assert vane.compliance(other, lower, block) == pytest.approx(optimum[1] * arm / 10.0, rel=1e-5)
 
 
 def test_soft_blocks_leave_vanes_alone_and_stiff_ones_hold_them() -> None:
-    one, other = vane.Vane(3e-7, 1e-8, 4e-3), vane.Vane(8e-7, 0.0, 6e-3)
-    assert vane.compliance(one, other, between(1e-3)) == pytest.approx(one.leaning + one.aside, rel=1e-9)
+    first, other = vane.Vane(3e-7, 1e-8, 4e-3), vane.Vane(8e-7, 0.0, 6e-3)
+    assert vane.compliance(first, other, between(1e-3)) == pytest.approx(first.leaning + first.aside, rel=1e-9)
     soft = vane.BlockBetween((140e6, 1e-3), (4e-3, 1e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
-    assert vane.compliance(one, other, soft) == pytest.approx(one.leaning + one.aside, rel=1e-9)
-    one, other = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(1e-15, 0.0, 6e-3)
-    assert vane.compliance(one, other, between(1e15)) < 1e-3 * one.leaning
+    assert vane.compliance(first, other, soft) == pytest.approx(first.leaning + first.aside, rel=1e-9)
+    first, other = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(1e-15, 0.0, 6e-3)
+    assert vane.compliance(first, other, between(1e15)) < 1e-3 * first.leaning

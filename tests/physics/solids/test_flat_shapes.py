@@ -29,9 +29,9 @@ def test_rectangle_off_the_axis_is_its_strips(corner: float) -> None:
         return 0.5 * along - corner + np.sqrt(corner**2 - into_corner**2)
 
     strips = by_strips(height, distance - 0.5 * radial, distance + 0.5 * radial)
-    found = shapes.rectangle_at(radial, along, distance, corner)
-    assert found.area == pytest.approx(strips.area, rel=1e-7)
-    assert found.polar == pytest.approx(strips.polar, rel=1e-3 if corner else 1e-8)  # fillets count at the corners
+    section = shapes.rectangle_at(radial, along, distance, corner)
+    assert section.area == pytest.approx(strips.area, rel=1e-7)
+    assert section.polar == pytest.approx(strips.polar, rel=1e-3 if corner else 1e-8)  # fillets count at the corners
 
 
 def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
@@ -50,7 +50,7 @@ def test_fillets_take_from_a_sector_what_is_beyond_their_arcs(radius: float, off
     inner, outer = 12e-3, 24e-3
 
     def touching(circle: float, middle: float) -> tuple[float, tuple[float, float]]:
-        """Where the fillet touches the line, along it, and where it touches the circle."""
+        """Return where the fillet touches the line, along it, and where it touches the circle."""
         along = np.sqrt(middle**2 - (offset + radius) ** 2)
         return along, (along * circle / middle, (offset + radius) * circle / middle)
 
@@ -87,9 +87,9 @@ def test_beyond_a_depth_fillets_take_what_is_further_from_the_radial_lines(depth
         inside = integrate(lambda y: near - fillet(y) - np.sqrt(inner**2 - y**2), min(start, ends[1]), ends[1])
         return outside + inside
 
-    found = shapes.corners_beyond(radius, inner, outer, offset, depth)
-    assert found == pytest.approx(2.0 * taken(depth), rel=1e-6, abs=1e-18)
-    assert (found > 0.0) == (depth < 3e-3)  # a fillet ends 2.5 mm from the line, or a little further
+    moment = shapes.corners_beyond(radius, inner, outer, offset, depth)
+    assert moment == pytest.approx(2.0 * taken(depth), rel=1e-6, abs=1e-18)
+    assert (moment > 0.0) == (depth < 3e-3)  # a fillet ends 2.5 mm from the line, or a little further
     whole = shapes.corners(radius, inner, outer, offset)
     assert shapes.corners_beyond(radius, inner, outer, offset, offset) == pytest.approx(whole, rel=1e-9)
 

@@ -39,7 +39,7 @@ WITHOUT = ("foot_fillet", "adjuster_radius", "adjuster_thickness", "slip_clearan
 
 @cache
 def module(name: str) -> dict[str, Any]:
-    """A module's inputs, and in place of those quantities that FE was given: lengths, counts and moduli."""
+    """Return a module's inputs, and in place of those quantities that FE was given: lengths, counts and moduli."""
     case = CASES[name]
     mm = {row: size * (1.0 if row.endswith(("_count", "_span")) else 1e-3) for row, size in case["mm"].items()}
     words = {"liner_material": "peek"} if "liner_shear_modulus" in case else {}
@@ -74,7 +74,7 @@ def module(name: str) -> dict[str, Any]:
 def quantities(name: str, *wanted: str) -> list[Any]:
     """Return quantities of a module by name."""
     values = table_for(CASES[name]["mode"]).evaluate(module(name), wanted)
-    return [values[one] for one in wanted]
+    return [values[wanted_name] for wanted_name in wanted]
 
 
 def quantity(name: str, wanted: str) -> Any:
@@ -113,7 +113,7 @@ def test_the_core_yields_where_fe_has_its_highest_stress(name: str) -> None:
     beside, foot = fe["core_mises"], fe.get("foot_highest", 0.0)
     radius, rise, *bores = quantities(name, "core_radius", "core_foot_rise", "core_screw_bores", "core_dowel_bores")
     plain = 1e-6 / structure.shaft_torque(1.0 / np.sqrt(3.0), radius)
-    holes = max(max(1.0, 2.0 * one.circle_radius / radius) / (1.0 - one.weakening) for one in bores)
+    holes = max(max(1.0, 2.0 * bore.circle_radius / radius) / (1.0 - bore.weakening) for bore in bores)
     assert plain * holes == pytest.approx(beside, rel=0.11)
     mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), radius, rise, *bores)
     assert mises > 0.95 * beside
@@ -163,11 +163,11 @@ def test_the_plate_over_a_spreader_is_as_stiff_as_in_fe(name: str) -> None:
     ),
 )
 def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -> None:
-    found = SHIPPED[name]["found"]
-    assert highest_traction(name) == pytest.approx(found["edge_highest"], rel=0.08)
+    fe_rows = SHIPPED[name]["found"]
+    assert highest_traction(name) == pytest.approx(fe_rows["edge_highest"], rel=0.08)
     if "liner_shear_modulus" not in SHIPPED[name]:  # beside walls the inner rim takes more than the form gives it
         inner, outer = shear_lag.edge_rises(quantity(name, "lap_on_spreader"))
-        assert (inner > outer) == (found["edge_inner"] > found["edge_outer"])
+        assert (inner > outer) == (fe_rows["edge_inner"] > fe_rows["edge_outer"])
 
 
 @pytest.mark.parametrize("name", BLOCKS)
@@ -188,11 +188,11 @@ def test_random_modules_are_as_stiff_as_in_fe_within_a_tenth() -> None:
     ratios = {
         name: np.array([float(row["ratio"]) for row in BY_FE if row["quantity"] == name]) for name in ("hub", "link")
     }
-    for name, found in ratios.items():
-        assert len(found) >= 48
-        assert np.mean(np.abs(found - 1.0) < 0.1) >= 0.9, name
+    for name, of_modules in ratios.items():
+        assert len(of_modules) >= 48
+        assert np.mean(np.abs(of_modules - 1.0) < 0.1) >= 0.9, name
         factor = next(row for row in table_for("shear").inputs if row.name == "branch_factor")
-        assert factor.low <= np.min(1.0 / found) < np.max(1.0 / found) <= factor.high
+        assert factor.low <= np.min(1.0 / of_modules) < np.max(1.0 / of_modules) <= factor.high
 
 
 def fresh_designs(study: str) -> dict[str, Design]:
@@ -278,8 +278,8 @@ def test_all_around_a_core_the_plate_is_stressed_as_in_fe(name: str) -> None:
 @pytest.mark.parametrize("fillet", [0.5, 1.0])
 def test_a_fillet_bears_what_stands_on_the_plate_there(fillet: float) -> None:
     # A plate that is thick against the fillet: the fillet's section (1 - pi/4) q^2 makes it thicker by its mean height.
-    found = plates.thicker_by_fillet(50.0, fillet, 1.0)
-    assert found == pytest.approx(1.0 - (1.0 - 0.25 * np.pi) * fillet**2 / 50.0, rel=2e-4)
+    share = plates.thicker_by_fillet(50.0, fillet, 1.0)
+    assert share == pytest.approx(1.0 - (1.0 - 0.25 * np.pi) * fillet**2 / 50.0, rel=2e-4)
     assert plates.thicker_by_fillet(4.0, 0.0, 1.0) == 1.0
 
 

@@ -24,8 +24,8 @@ def test_springs_ring_and_rings_bearings_and_ledges_share_by_hand() -> None:
     # A ring of radius r, width dr and thickness h sheared in its plane turns by T dr/(2 pi r^3 h G).
     modulus, thickness, inner, outer = 0.76e9, 4e-3, 10e-3, 33e-3
     compliance, _ = quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * thickness * modulus), inner, outer, epsabs=0.0)
-    found = structure.ring_stiffness(modulus, thickness, inner, outer)
-    assert found == pytest.approx(1.0 / compliance, rel=1e-9)
+    stiffness = structure.ring_stiffness(modulus, thickness, inner, outer)
+    assert stiffness == pytest.approx(1.0 / compliance, rel=1e-9)
     force, height, spread = 120.0, 0.05, 0.02
     far, near = np.linalg.solve([[1.0, 1.0], [0.0, spread]], [-force, -force * (height + spread)])
     assert structure.overhung_load(force, height, spread) == pytest.approx(-near)
@@ -56,8 +56,8 @@ def test_shafts_have_the_handbooks_stiffness_and_strength() -> None:
 
 def test_a_foot_moves_as_timoshenkos_beam_built_in_below_a_thick_floor() -> None:
     # Steel pin of 10 mm, 300 mm long, both ends built in: 12 E I/h^3 = 4.494e4 N/m; the shear adds under 1 %.
-    found = structure.foot_stiffness(206e9, 79e9, 5e-3, 0.0, 300e-3)
-    assert found == pytest.approx(12.0 * 206e9 * 4.9087e-10 / 27e-3, rel=0.01)
+    stiffness = structure.foot_stiffness(206e9, 79e9, 5e-3, 0.0, 300e-3)
+    assert stiffness == pytest.approx(12.0 * 206e9 * 4.9087e-10 / 27e-3, rel=0.01)
     # A cantilever bends four times as far as a beam whose ends keep their directions: h^3/(3 E I) for h^3/(12 E I).
     assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1.0) == pytest.approx(1.0, abs=1e-3)
     assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1e-6) == pytest.approx(4.0, rel=1e-3)
@@ -67,10 +67,10 @@ def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> Non
     # Flamant, along the edge: u = 2 F ln(l/r)/(pi E h) but for what does not grow with l. The closed form is 14 %
     # stiffer at nu 0.3, and half as stiff as what a force within a sheet meets, (3 - nu)(1 + nu) F ln(l/r)/(4 pi E h).
     youngs, nu, h, spot, reach = 2.1e9, 0.3, 4e-3, 3.5e-3, 30e-3
-    found = structure.spot_stiffness(structure.shear_modulus(youngs, nu), nu, h, spot, reach)
-    assert found == pytest.approx(np.pi * youngs * h / (2.0 * np.log(reach / spot)), rel=0.15)
+    stiffness = structure.spot_stiffness(structure.shear_modulus(youngs, nu), nu, h, spot, reach)
+    assert stiffness == pytest.approx(np.pi * youngs * h / (2.0 * np.log(reach / spot)), rel=0.15)
     whole = 4.0 * np.pi * youngs * h / ((3.0 - nu) * (1.0 + nu) * np.log(reach / spot))
-    assert found == pytest.approx(0.5 * whole, rel=1e-9)
+    assert stiffness == pytest.approx(0.5 * whole, rel=1e-9)
 
 
 def test_pushed_bars_and_driven_plates_keep_their_shares() -> None:

@@ -92,10 +92,10 @@ def test_output_stiffness_is_the_curvature_of_the_springs_energy(
     # A right-hand coil winds up where its leg turns counterclockwise, a left-hand one clockwise.
     offset, rate = share * (placement - pin), 1.4
     assume(placement - pin > 8e-3)
-    rest = {hand: constructed_direction(pin, placement, 0.0, offset, hand) for hand in HANDS}
+    free = {hand: constructed_direction(pin, placement, 0.0, offset, hand) for hand in HANDS}
 
     def energy(angle: float) -> float:
-        windings = [hand * (constructed_direction(pin, placement, angle, offset, hand) - rest[hand]) for hand in HANDS]
+        windings = [hand * (constructed_direction(pin, placement, angle, offset, hand) - free[hand]) for hand in HANDS]
         return sum(2.0 * 0.5 * rate * (preload + winding) ** 2 for winding in windings)
 
     step = 0.02 * (1.0 - share) * min(1.0, (placement - pin) / pin)

@@ -183,9 +183,9 @@ def test_a_wave_spring_is_beams_and_its_factor_is_the_makers() -> None:
     inner, outer, thickness, waves = SIZES
     wave, moment = np.pi * 0.5 * (inner + outer) / waves, 0.5 * (outer - inner) * thickness**3 / 12.0
     free, clamped = (waves * factor * YOUNGS * moment / wave**3 for factor in (48.0, 192.0))
-    found = spring.wave_spring_rate(YOUNGS, *SIZES)
-    assert free < found < clamped
-    assert found == pytest.approx(2.0 * free * outer / inner)
+    rate = spring.wave_spring_rate(YOUNGS, *SIZES)
+    assert free < rate < clamped
+    assert rate == pytest.approx(2.0 * free * outer / inner)
     # Rotor Clip and others: K = 3.88 for 2.0 to 4.0 waves a turn.
     assert pytest.approx(3.88, abs=0.005) == spring.WAVE_FACTOR
     printed = spring.wave_spring_rate(YOUNGS, *SIZES, factor=3.88)
