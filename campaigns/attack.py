@@ -22,8 +22,8 @@ TRIED, SIMULATED = 6000, 150
 """Designs an attack tries at most, and those of them whose cycle it simulates, which takes a hundred times as long."""
 STEPS, FIRST_STEP = 120, 0.01
 """Designs that COBYLA tries beside an optimum, and its first step as a share of each range."""
-KEPT = 1e-4
-"""Share of a limit by which a design of an attack may break it; what is told as optimal is re-checked to 2e-3."""
+TOLERANCE = 1e-4
+"""Share of a limit by which a design of an attack may break it; what is reported as optimal is re-checked to 2e-3."""
 NO_MODULE = 100.0
 """The residual where no module can be built."""
 Array = NDArray[np.float64]
@@ -53,16 +53,16 @@ class Attack:
         self.sizes = [sorted(v.values) if isinstance(v := study.vary[name], Options) else [] for name in self.names]
         self.tried = self.simulated = 0
         self.least = np.inf
-        """The residual of the best design so far; a design that keeps all limits has none above zero."""
+        """The residual of the best design so far; a feasible design has none above zero."""
 
     def shares(self, values: Mapping[str, float]) -> Array:
-        """A design's variables as shares of their ranges."""
+        """Return a design's variables as shares of their ranges."""
         return np.array(
             [(values[name] - low) / (high - low) for name, (low, high) in zip(self.names, self.ends, strict=True)]
         )
 
     def inputs(self, shares: Array) -> Array:
-        """The inputs of a module; its listed numbers are the nearest sizes."""
+        """Return the inputs of a module; its listed numbers are the nearest sizes."""
         inputs: Array = self.model.start.copy()
         for name, share, (low, high), sizes in zip(self.names, shares, self.ends, self.sizes, strict=True):
             value = low + share * (high - low)
@@ -71,7 +71,7 @@ class Attack:
         return inputs
 
     def evaluated(self, shares: Array) -> dict[str, float] | None:
-        """What is limited and minimised of a module; None where there is no such module."""
+        """Return what is limited and minimised of a module; None where there is no such module."""
         inputs = self.inputs(shares)
         wanted = list(dict.fromkeys([*self.outputs, *self.study.minimize]))
         try:
@@ -83,27 +83,29 @@ class Attack:
         return self.model.some_values(wanted, inputs, cycle)
 
     def residual(self, values: Mapping[str, float] | None) -> float:
-        """The largest residual of the limits whose values are known."""
+        """Return the largest residual of the limits whose values are known."""
         if values is None:
             return NO_MODULE
         known = [limit for limit in self.limits if limit.output in values]
-        found = [float(limit.residual(values[limit.output])) for limit in known]
-        return NO_MODULE if any(np.isnan(found)) else min(max(found, default=-1.0), NO_MODULE)
+        residuals = [float(limit.residual(values[limit.output])) for limit in known]
+        return NO_MODULE if any(np.isnan(residuals)) else min(max(residuals, default=-1.0), NO_MODULE)
 
     def worst(self, shares: Array) -> float:
-        """The largest residual of any limit of the design at these shares; where one that depends on no working cycle
-        is broken the cycle is not simulated, and the residual is more than that of any design for which it is.
+        """Return the largest residual of any limit of the design at these shares.
+
+        Where a limit that depends on no working cycle is violated, the cycle is not simulated. The residual is then
+        more than that of any simulated design.
         """
         never = dict.fromkeys(self.model.switch_names, np.inf)
-        found = self.residual(self.model.some_values(self.at_once, self.inputs(shares), never))
+        residual = self.residual(self.model.some_values(self.at_once, self.inputs(shares), never))
         self.tried += 1
-        self.simulated += found <= 0.0
-        found = NO_MODULE + found if found > 0.0 else self.residual(self.evaluated(shares))
-        self.least = min(self.least, found)
-        return found
+        self.simulated += residual <= 0.0
+        residual = NO_MODULE + residual if residual > 0.0 else self.residual(self.evaluated(shares))
+        self.least = min(self.least, residual)
+        return residual
 
     def finds_a_design(self, seed: int) -> bool:
-        """Whether random search or differential evolution come to a design that keeps every limit."""
+        """Return whether random search or differential evolution come to a design that meets every limit."""
         draw = np.random.default_rng(seed)
         for shares in draw.random((RANDOM, len(self.names))):
             if self.worst(shares) <= 0.0:
@@ -119,7 +121,7 @@ class Attack:
         return bool(self.least <= 0.0 or self.tried >= TRIED or self.simulated >= SIMULATED)
 
     def improved(self, optimum: Mapping[str, float], reference: Mapping[str, float]) -> float:
-        """The share by which COBYLA, begun at an optimum, makes what is minimised less without breaking a limit.
+        """Return the share by which COBYLA, started at an optimum, lowers the objective within the limits.
 
         Listed numbers stay as they are.
         """
@@ -138,21 +140,21 @@ class Attack:
             nonlocal best
             values = self.evaluated(moved(some))
             beyond = self.residual(values)
-            told = (
+            objective = (
                 sum(weight * values[name] / reference[name] for name, weight in weights.items()) if values else np.nan
             )
-            if np.isfinite(told) and beyond <= KEPT:
-                best = min(best, told)
-            return (told if np.isfinite(told) else 10.0 * first), beyond
+            if np.isfinite(objective) and beyond <= TOLERANCE:
+                best = min(best, objective)
+            return (objective if np.isfinite(objective) else 10.0 * first), beyond
 
         first = tried(begin[free])[0]
-        kept: dict[bytes, tuple[float, float]] = {}
+        known: dict[bytes, tuple[float, float]] = {}
 
         def once(some: Array) -> tuple[float, float]:
             key = some.tobytes()
-            if key not in kept:
-                kept[key] = tried(some)
-            return kept[key]
+            if key not in known:
+                known[key] = tried(some)
+            return known[key]
 
         if free:
             minimize(
@@ -164,18 +166,18 @@ class Attack:
 
 
 def supplied_behind(names: Iterable[str], table: Table) -> list[Event | Path | Steady]:
-    """What is simulated of what these outputs depend on."""
+    """Return the simulated quantities that these outputs depend on."""
     behind = {base for name in names for base in (name.partition("@")[0], *table.ancestors(name))}
     return [row for row in table.supplied if row.name in behind and isinstance(row, Event | Path | Steady)]
 
 
 def phases_of(names: Iterable[str], table: Table) -> set[str]:
-    """The phases of the working cycle on which these outputs depend."""
+    """Return the phases of the working cycle on which these outputs depend."""
     return {row.phase for row in supplied_behind(names, table)}
 
 
 def ends_of(names: Iterable[str], table: Table) -> set[str]:
-    """The events that must come for these outputs: ends of phases whose course they tell of, and of those before."""
+    """Return the events that these outputs need: ends of their phases, and of those before."""
     rows = supplied_behind(names, table)
     before = [after for row in rows if (after := table.phase(row.phase).after)]
     return {table.phase(name).ends for name in (*(row.phase for row in rows if not isinstance(row, Event)), *before)}

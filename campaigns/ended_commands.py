@@ -64,9 +64,9 @@ exec '{python}' "$@"
 
 
 def coarse_python(python: Path, folder: Path) -> Path:
-    """An interpreter for `verify` that is this one, and has its solvers make larger elements.
+    """Write an interpreter for `verify` that is this one, and has its solvers make larger elements.
 
-    But for the heat's first mesh, which is told from the second by its size.
+    But for the heat's first mesh, which is distinguished from the second by its size.
     """
     path = folder / "coarse_python"
     path.write_text(_COARSE.format(python=python.absolute(), coarser=COARSER))

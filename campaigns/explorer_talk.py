@@ -24,49 +24,49 @@ class Conversation:
     """Values set one after the other, each once the one before is kept."""
 
     def __init__(self, seed: int) -> None:
-        """Nothing is said yet."""
+        """Start without messages."""
         self._draw = random.Random(seed)
         self.history: Changes = {}
         """What the explorer said that it kept."""
-        self.asked: Changes = {}
+        self.requested: Changes = {}
         """The same, and what it has not answered yet."""
 
     async def lead(self, address: str) -> None:
         """Talk to the explorer at an address until it is gone."""
         with contextlib.suppress(aiohttp.ClientError, OSError, json.JSONDecodeError, TypeError):
             async with aiohttp.ClientSession() as client, client.ws_connect(f"{address}socket") as socket:
-                await _said(socket, lambda _: True)
+                await _wait_for_state(socket, lambda _: True)
                 await socket.send_json({"kind": "way", "way": "evaluate"})
-                await _said(socket, lambda state: state["way"] == "evaluate")
+                await _wait_for_state(socket, lambda state: state["way"] == "evaluate")
                 while True:
                     name, text = self._draw.choice([
                         ("pcl_thickness", f"{self._draw.uniform(0.6, 2.0):.4f} mm"),
                         ("current", f"{self._draw.uniform(0.8, 2.5):.4f} A"),
                     ])  # fmt: skip
-                    self.asked = {**self.history, name: text}
+                    self.requested = {**self.history, name: text}
                     await socket.send_json({"kind": "set", "name": name, "text": text})
-                    await _said(socket, partial(_has, name=name, text=text))
-                    self.history = self.asked
+                    await _wait_for_state(socket, partial(_has, name=name, text=text))
+                    self.history = self.requested
 
 
-async def _said(socket: aiohttp.ClientWebSocketResponse, wanted: Callable[[dict[str, Any]], bool]) -> None:
+async def _wait_for_state(socket: aiohttp.ClientWebSocketResponse, wanted: Callable[[dict[str, Any]], bool]) -> None:
     """Wait for a state that is wanted."""
     while True:
-        told = await socket.receive_json()
-        if told["kind"] == "state" and wanted(told):
+        message = await socket.receive_json()
+        if message["kind"] == "state" and wanted(message):
             return
 
 
 def _has(state: dict[str, Any], *, name: str, text: str) -> bool:
-    return any(one["name"] == name and one["text"] == text for one in state["controls"]["variables"])
+    return any(variable["name"] == name and variable["text"] == text for variable in state["controls"]["variables"])
 
 
 def not_kept(conversation: Conversation, study: Path, folder: Path) -> list[str]:
-    """What an explorer that is opened again does not have of what was kept."""
+    """Return what an explorer that is opened again has lost."""
     source = open_source(study)
     try:
         there = open_history(folder, source.text, source.first).state.at
     except TvimError as error:
         return [f"cannot be opened again: {error}"]
-    told = [{**source.first.at, **changes} for changes in (conversation.history, conversation.asked)]
-    return [] if there in told else [f"kept {there}, said {told[0]}"]
+    wanted = [{**source.first.at, **changes} for changes in (conversation.history, conversation.requested)]
+    return [] if there in wanted else [f"kept {there}, said {wanted[0]}"]

@@ -153,11 +153,11 @@ def killed_at(number: int) -> Iterator[None]:
 def replay(command: str, files: dict[str, bytes], out: Path, flags: list[str], meanwhile: Any) -> None:
     """Write a command's files through its results folder, as the command does; `meanwhile` is called in between."""
     if command == SERVES:
-        kept = open_history(out, b"study", State(way="evaluate"), overwrite="--overwrite" in flags)
+        history = open_history(out, b"study", State(way="evaluate"), overwrite="--overwrite" in flags)
         out.mkdir(parents=True, exist_ok=True)
         before = written_digest(out)
         meanwhile()
-        write_history(out, kept, before)
+        write_history(out, history, before)
         return
     goes_on = GOES_ON.get(command, PROGRESS)
     with ResultsFolder(out, "--overwrite" in flags, "--resume" in flags, goes_on) as folder:
@@ -235,13 +235,13 @@ def in_a_child(
 def run_whole(command: str, flags: list[str], out: Path) -> int:
     """Run a command as people do; returns its exit code."""
     words = [word.replace("../swept/out", str(out.parent / "../swept/out")) for word in COMMANDS[command]]
-    said = subprocess.run(
+    done = subprocess.run(
         [sys.executable, "-m", "tvimdesign", *words, *flags, "--out", str(out)],
         cwd=out.parent, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=False,
     )  # fmt: skip
-    if "Traceback" in said.stderr:
-        raise SystemExit(f"{command}: {said.stderr}")
-    return said.returncode
+    if "Traceback" in done.stderr:
+        raise SystemExit(f"{command}: {done.stderr}")
+    return done.returncode
 
 
 def written_by(command: str, folder: Path) -> dict[str, bytes]:
@@ -278,8 +278,8 @@ def campaign(folders: int, real: int, seed: int, commands: list[str]) -> Counter
             lost, done = one_folder(number, seed, written, place, real=number >= folders)
             counts["folders"] += 1
             counts["lost"] += bool(lost)
-            for one in lost:
-                print(f"folder {number}: {one} ({done})", flush=True)
+            for output in lost:
+                print(f"folder {number}: {output} ({done})", flush=True)
             shutil.rmtree(place)
             if number % 1000 == 999:
                 print(f"{number + 1} folders, {counts['lost']} with a loss", flush=True)
@@ -295,9 +295,9 @@ def main() -> int:
     )
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), help="all but the one that needs FE")
-    asked = parser.parse_args()
-    commands = asked.commands or [name for name in COMMANDS if name != NEEDS_FE]
-    counts = campaign(asked.folders, asked.real, asked.seed, commands)
+    options = parser.parse_args()
+    commands = options.commands or [name for name in COMMANDS if name != NEEDS_FE]
+    counts = campaign(options.folders, options.real, options.seed, commands)
     print(f"{counts['folders']} folders, {counts['lost']} in which something of the user's was changed or removed")
     return int(counts["lost"] > 0)
 

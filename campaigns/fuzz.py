@@ -63,22 +63,22 @@ class Chunk:
 
     @property
     def name(self) -> tuple[str, int, int]:
-        """What tells it from others."""
+        """Return its kind, seed and first number."""
         return self.kind, self.seed, self.first
 
 
 def drawn(kind: str, seed: int, number: int) -> Drawn:
-    """An input, by nothing but its kind, seed and number."""
+    """Draw an input, by nothing but its kind, seed and number."""
     return KINDS[kind].draw(random.Random(f"{kind} {seed} {number}"))
 
 
-def handed_in(kind: str, one: Drawn, folder: Path) -> tuple[str, bool]:
-    """What is wrong with how an input is taken, and whether it is refused; what it wrote is removed."""
-    path = one.written(folder)
-    found = ending(KINDS[kind], path)
+def handed_in(kind: str, sample: Drawn, folder: Path) -> tuple[str, bool]:
+    """Return what is wrong with how an input is taken, and whether it is refused; remove what it wrote."""
+    path = sample.written(folder)
+    verdict = ending(KINDS[kind], path)
     for there in folder.iterdir():
         shutil.rmtree(there) if there.is_dir() else there.unlink()
-    return found
+    return verdict
 
 
 def done(chunk: Chunk, at: Any = None) -> Chunk:
@@ -87,40 +87,40 @@ def done(chunk: Chunk, at: Any = None) -> Chunk:
     for number in range(chunk.first, chunk.end):
         if at is not None:
             at.value = number
-        one = drawn(chunk.kind, chunk.seed, number)
-        fault, refused = handed_in(chunk.kind, one, folder)
-        chunk.inputs += one.parts
+        sample = drawn(chunk.kind, chunk.seed, number)
+        fault, refused = handed_in(chunk.kind, sample, folder)
+        chunk.inputs += sample.parts
         chunk.refused += refused
         if fault:
-            chunk.failures.append(f"{number}: {fault}; kept as {kept(chunk.kind, one)}")
+            chunk.failures.append(f"{number}: {fault}; kept as {stored(chunk.kind, sample)}")
     shutil.rmtree(folder)
     chunk.seconds = time.process_time() - began
     chunk.most_memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     return chunk
 
 
-def kept(kind: str, one: Drawn) -> str:
+def stored(kind: str, sample: Drawn) -> str:
     """Keep an input in the corpus, by its hash."""
-    where = CORPUS / kind / hashlib.sha256(one.data).hexdigest()[:12]
-    one.written(where)
+    where = CORPUS / kind / hashlib.sha256(sample.data).hexdigest()[:12]
+    sample.written(where)
     return where.relative_to(CORPUS).as_posix()
 
 
 def known_failures() -> list[str]:
-    """The inputs that failed in an earlier campaign and still do."""
-    found = []
+    """Return the inputs that failed in an earlier campaign and still do."""
+    failures = []
     for path in sorted(path for path in CORPUS.rglob("*") if path.is_file()):
         kind, number, *name = path.relative_to(CORPUS).parts
         with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:
             fault, _ = handed_in(kind, Drawn("/".join(name), path.read_bytes()), Path(folder))
         if fault:
-            found.append(f"{kind}/{number}: {fault}")
-    return found
+            failures.append(f"{kind}/{number}: {fault}")
+    return failures
 
 
-def _child(chunk: Chunk, at: Any, told: Connection) -> None:
+def _child(chunk: Chunk, at: Any, connection: Connection) -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (MOST_PROCESSOR, MOST_PROCESSOR))
-    told.send(done(chunk, at))
+    connection.send(done(chunk, at))
 
 
 def in_processes(chunks: Iterable[Chunk], jobs: int) -> Iterable[Chunk]:
@@ -136,30 +136,34 @@ def in_processes(chunks: Iterable[Chunk], jobs: int) -> Iterable[Chunk]:
             its.close()
             at_work[child.sentinel] = child, chunk, at, mine
         for ready in wait([*at_work, *(mine for *_, mine in at_work.values())]):
-            key = ready if isinstance(ready, int) else next((k for k, one in at_work.items() if one[3] is ready), None)
+            key = (
+                ready
+                if isinstance(ready, int)
+                else next((k for k, worker in at_work.items() if worker[3] is ready), None)
+            )
             if key not in at_work:
                 continue  # its end was heard before its word
             child, chunk, at, mine = at_work.pop(key)
             try:
-                found: Chunk = mine.recv()
+                result: Chunk = mine.recv()
             except EOFError:
                 child.join()
                 number = int(at.value)
-                one = drawn(chunk.kind, chunk.seed, number)
-                words = f"{number}: ends the process ({child.exitcode}); kept as {kept(chunk.kind, one)}"
-                found = Chunk(
+                sample = drawn(chunk.kind, chunk.seed, number)
+                words = f"{number}: ends the process ({child.exitcode}); kept as {stored(chunk.kind, sample)}"
+                result = Chunk(
                     chunk.kind, chunk.seed, chunk.first, number + 1, number + 1 - chunk.first, failures=[words]
                 )
                 if number + 1 < chunk.end:
                     left.append(Chunk(chunk.kind, chunk.seed, number + 1, chunk.end))
             child.join()
-            yield found
+            yield result
 
 
 def chunks_of(kinds: Sequence[str], inputs: int, seed: int, there: Sequence[Chunk]) -> list[Chunk]:
-    """What is to be done and is not there, the kinds by turns so that a campaign that is ended has some of each."""
+    """Return the chunks that are still to be done, the kinds by turns: a campaign cut short has some of each."""
     ends = {chunk.name: chunk.end for chunk in there}
-    found = []
+    turns = []
     for kind in kinds:
         count, first = max(round(inputs * KINDS[kind].share), 1), 0
         size = max(round(CHUNK * KINDS[kind].share), 1)
@@ -167,13 +171,13 @@ def chunks_of(kinds: Sequence[str], inputs: int, seed: int, there: Sequence[Chun
             end = ends.get((kind, seed, first))
             if end is None:
                 end = min(first + size, count)
-                found.append((first / count, Chunk(kind, seed, first, end)))
+                turns.append((first / count, Chunk(kind, seed, first, end)))
             first = end
-    return [chunk for _, chunk in sorted(found, key=lambda one: one[0])]
+    return [chunk for _, chunk in sorted(turns, key=lambda turn: turn[0])]
 
 
 def summary(chunks: Sequence[Chunk]) -> list[str]:
-    """A line a kind."""
+    """Return a line for each kind."""
     inputs, failures, seconds, refused, handed = (
         Counter[str](),
         Counter[str](),
@@ -202,16 +206,16 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=1, help="processes at once")
     parser.add_argument("--kinds", nargs="+", choices=list(KINDS), default=list(KINDS))
     parser.add_argument("--out", type=Path, help="file to which each chunk that is done is appended")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     warnings.simplefilter("ignore")
     sys.dont_write_bytecode = True
     known = known_failures()
     print(*known, sep="\n", end="\n" * bool(known), flush=True)
-    lines = asked.out.read_text().splitlines() if asked.out and asked.out.exists() else []
+    lines = options.out.read_text().splitlines() if options.out and options.out.exists() else []
     every = [Chunk(**json.loads(line)) for line in lines]
-    for kind in asked.kinds:  # imports and what is read once are no input's
-        done(Chunk(kind, asked.seed - 1, 0, 3))
-    for chunk in in_processes(chunks_of(asked.kinds, asked.inputs, asked.seed, every), asked.jobs):
+    for kind in options.kinds:  # imports and what is read once are no input's
+        done(Chunk(kind, options.seed - 1, 0, 3))
+    for chunk in in_processes(chunks_of(options.kinds, options.inputs, options.seed, every), options.jobs):
         every.append(chunk)
         print(
             *(f"{chunk.kind} {words}" for words in chunk.failures),
@@ -219,8 +223,8 @@ def main() -> int:
             end="\n" * bool(chunk.failures),
             flush=True,
         )
-        if asked.out:
-            with asked.out.open("a") as out:
+        if options.out:
+            with options.out.open("a") as out:
                 out.write(json.dumps(asdict(chunk)) + "\n")
     print(*summary(every), sep="\n")
     return int(bool(known) or any(chunk.failures for chunk in every))

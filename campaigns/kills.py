@@ -58,7 +58,7 @@ class Try:
 
 
 def environment(own: Path) -> dict[str, str]:
-    """A temporary folder of its own, no kept parts, and a mark of its processes."""
+    """Return the environment: a temporary folder, no kept parts, and a mark of its processes."""
     (own / "tmp").mkdir(parents=True, exist_ok=True)
     return {
         **os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(own / "tmp"),
@@ -72,10 +72,10 @@ def start(words: list[str], own: Path) -> subprocess.Popen[bytes]:
 
     The folder is named as it stands from there: a page that names it is the same of each try.
     """
-    with (own / "said.txt").open("ab") as said, (own / "told.txt").open("ab") as told:
+    with (own / "said.txt").open("ab") as errors, (own / "told.txt").open("ab") as output:
         return subprocess.Popen(
             [sys.executable, "-m", "tvimdesign", *words, "--out", "out"],
-            cwd=own, stdout=told, stderr=said, env=environment(own), start_new_session=True,
+            cwd=own, stdout=output, stderr=errors, env=environment(own), start_new_session=True,
         )  # fmt: skip
 
 
@@ -84,9 +84,9 @@ def processor_time(process: subprocess.Popen[bytes]) -> float:
     seconds = 0.0
     with suppress(psutil.Error):  # it ended meanwhile
         mine = psutil.Process(process.pid)
-        for one in [mine, *mine.children(recursive=True)]:
+        for member in [mine, *mine.children(recursive=True)]:
             with suppress(psutil.Error):
-                seconds += sum(one.cpu_times()[:4])
+                seconds += sum(member.cpu_times()[:4])
     return seconds
 
 
@@ -117,7 +117,7 @@ def ended_within(process: subprocess.Popen[bytes], seconds: float) -> tuple[int 
 
 
 def address_of(own: Path) -> str:
-    """Where an explorer serves; empty where it does not yet."""
+    """Return where an explorer serves; empty where it does not yet."""
     words = (own / "told.txt").read_text(errors="replace").split()
     return next((word for word in words if word.startswith("http://")), "")
 
@@ -139,7 +139,7 @@ class Talking:
             asyncio.run(self._conversation.lead(address))
 
     def not_kept(self) -> list[str]:
-        """What an explorer that is opened again does not have of what it said that it kept."""
+        """Return what an explorer that is opened again has lost of what it reported as kept."""
         self._thread.join(10.0)
         if not (self._own / "out/explore.json").exists():
             return ["nothing is kept"] if self._conversation.history else []
@@ -148,65 +148,65 @@ class Talking:
 
 def at_work(own: Path) -> list[psutil.Process]:
     """Processes with the mark that have not ended."""
-    found = []
+    processes = []
     for process in psutil.process_iter():
         with suppress(psutil.Error):  # it ended meanwhile, or is another user's
             if process.environ().get(MARK) == str(own) and process.status() != psutil.STATUS_ZOMBIE:
-                found.append(process)
-    return found
+                processes.append(process)
+    return processes
 
 
-def faults_after(one: Try, own: Path, seed: int = 1) -> list[str]:
+def faults_after(attempt: Try, own: Path, seed: int = 1) -> list[str]:
     """Run a command, end it, and say what is not as it should be."""
-    process = start(COMMANDS[one.command], own)
-    talk = Talking(process, own, seed) if one.command == SERVES else None
-    until(process, one.after)
+    process = start(COMMANDS[attempt.command], own)
+    talk = Talking(process, own, seed) if attempt.command == SERVES else None
+    until(process, attempt.after)
     ended = process.poll() is not None  # it was through before
-    process.send_signal(one.number)
+    process.send_signal(attempt.number)
     began = time.monotonic()
     code, more = ended_within(process, 30.0 * load())
     if code is None:
         process.kill()
         process.wait()
-        return [f"still at work 30 s after {one.number.name}"]
-    found = [f"went on for {more:.1f} s of the processor, to its end"] if code == 0 and more > GONE else []
+        return [f"still at work 30 s after {attempt.number.name}"]
+    faults = [f"went on for {more:.1f} s of the processor, to its end"] if code == 0 and more > GONE else []
     while at_work(own) and time.monotonic() < began + GONE * load():
         time.sleep(0.05)
     if left := at_work(own):
-        found.append(f"{len(left)} processes left after {GONE:g} s")
+        faults.append(f"{len(left)} processes left after {GONE:g} s")
         for one_left in left:
             one_left.kill()
     if list((own / "tmp").iterdir()):
-        found.append(f"left in the temporary folder: {', '.join(path.name for path in (own / 'tmp').iterdir())}")
-    expected = {signal.SIGKILL: -signal.SIGKILL}.get(one.number, 128 + one.number)
+        faults.append(f"left in the temporary folder: {', '.join(path.name for path in (own / 'tmp').iterdir())}")
+    expected = {signal.SIGKILL: -signal.SIGKILL}.get(attempt.number, 128 + attempt.number)
     if talk:
-        found += talk.not_kept()
-    early = {-one.number} if _status(own / "out") is None else set()  # Python was not up yet
+        faults += talk.not_kept()
+    early = {-attempt.number} if _status(own / "out") is None else set()  # Python was not up yet
     through = ended or code == 0  # each ends with 0 where nobody ends it; its work may be done when the signal comes
     if code not in ({0} if ended else {expected, 0, *early}):
-        found.append(f"exit code {code}")
+        faults.append(f"exit code {code}")
     if "Traceback" in (own / "said.txt").read_text(errors="replace"):
-        found.append("a traceback")
-    return found + broken_files(own / "out", one, through=through)
+        faults.append("a traceback")
+    return faults + broken_files(own / "out", attempt, through=through)
 
 
-def broken_files(out: Path, one: Try, *, through: bool) -> list[str]:
-    """What is not whole in a folder of results."""
-    found = []
+def broken_files(out: Path, attempt: Try, *, through: bool) -> list[str]:
+    """Return what is not whole in a folder of results."""
+    faults = []
     for path in sorted(path for path in out.rglob("*") if path.is_file()):
         name, data = path.relative_to(out).as_posix(), path.read_bytes()
         if any(part.startswith(".") for part in path.relative_to(out).parts):
-            if one.number != signal.SIGKILL:
-                found.append(f"{name} is left half written")
+            if attempt.number != signal.SIGKILL:
+                faults.append(f"{name} is left half written")
         elif not whole(path, data):
-            found.append(f"{name} is broken")
+            faults.append(f"{name} is broken")
     if status := _status(out):
-        wanted = "running" if one.number == signal.SIGKILL else "interrupted"
+        wanted = "running" if attempt.number == signal.SIGKILL else "interrupted"
         if through and status in _UNFINISHED:
-            found.append(f"the folder says {status} of what was through")
+            faults.append(f"the folder says {status} of what was through")
         elif not through and status != wanted:
-            found.append(f"the folder says {status}, not {wanted}")
-    return found
+            faults.append(f"the folder says {status}, not {wanted}")
+    return faults
 
 
 def _status(out: Path) -> str | None:
@@ -224,7 +224,7 @@ def _status(out: Path) -> str | None:
 
 
 def whole(path: Path, data: bytes) -> bool:
-    """Whether a file of its kind has its end."""
+    """Return whether a file of its kind has its end."""
     if path.suffix == ".json":
         try:
             json.loads(data)
@@ -243,8 +243,8 @@ def resumed_differs(command: str, own: Path, reference: Path) -> list[str]:
     if process.wait(timeout=600.0 * load()) != 0:
         return [f"resumed, it ends with {process.returncode}"]
     files, other = (_compared(folder) for folder in (reference, own / "out"))
-    found = [f"resumed, {name} is not there" for name in sorted(files - other)]
-    return found + [
+    differences = [f"resumed, {name} is not there" for name in sorted(files - other)]
+    return differences + [
         f"resumed, {name} differs"
         for name in sorted(files & other)
         if (reference / name).read_bytes() != (own / "out" / name).read_bytes()
@@ -253,33 +253,33 @@ def resumed_differs(command: str, own: Path, reference: Path) -> list[str]:
 
 def _compared(folder: Path) -> set[Path]:
     """Files that must be the same: neither the manifest, which has times, nor who wrote which cell of a sweep."""
-    found = {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
-    return {path for path in found if path.name != "manifest.json" and path.parts[0] != "shards"}
+    files = {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+    return {path for path in files if path.name != "manifest.json" and path.parts[0] != "shards"}
 
 
 def tried(
     command: str, number: int, *, signals: Sequence[signal.Signals], seed: int, through: Through, folder: Path
 ) -> dict[str, Any]:
-    """One try: when and how the command was ended, whether it was resumed, and what was not as it should be."""
+    """Return when and how the command was ended, whether it was resumed, and its faults."""
     draw = random.Random(f"{command} {seed} {number}")
-    one = Try(command, draw.choice(signals), draw.uniform(0.3, 0.95 * through.seconds))
+    attempt = Try(command, draw.choice(signals), draw.uniform(0.3, 0.95 * through.seconds))
     own = folder / f"{command}-{number}"
     own.mkdir()
-    faults = faults_after(one, own, number)
-    begun = [own / "out" / part / GOES_ON[command] for part in ("", "unfinished") if command in GOES_ON]
-    resumed = any(folder.is_dir() for folder in begun)
+    faults = faults_after(attempt, own, number)
+    resumable = [own / "out" / part / GOES_ON[command] for part in ("", "unfinished") if command in GOES_ON]
+    resumed = any(folder.is_dir() for folder in resumable)
     if resumed:
         faults += resumed_differs(command, own, through.out)
-    told = {"signal": one.number.name, "after": round(one.after, 2), "resumed": resumed, "faults": faults}
+    report = {"signal": attempt.number.name, "after": round(attempt.after, 2), "resumed": resumed, "faults": faults}
     if faults:
-        told["said"] = (own / "said.txt").read_text(errors="replace")[-2000:]
+        report["said"] = (own / "said.txt").read_text(errors="replace")[-2000:]
     shutil.rmtree(own)
-    return {"command": command, "seed": seed, "number": number, **told}
+    return {"command": command, "seed": seed, "number": number, **report}
 
 
 @dataclass(frozen=True)
 class Through:
-    """What a command comes to that is not ended."""
+    """Return the result of a command that is not ended."""
 
     out: Path
     seconds: float
@@ -309,28 +309,28 @@ def run_through(command: str, folder: Path) -> Through:
     return Through(own / "out", after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
 
 
-def campaign(asked: argparse.Namespace, folder: Path) -> list[dict[str, Any]]:
+def campaign(options: argparse.Namespace, folder: Path) -> list[dict[str, Any]]:
     """End each command so many times; every try, the earlier ones too. Failures are printed."""
-    signals = [signal.Signals[name] for name in asked.signals]
-    lines = asked.out.read_text().splitlines() if asked.out and asked.out.exists() else []
+    signals = [signal.Signals[name] for name in options.signals]
+    lines = options.out.read_text().splitlines() if options.out and options.out.exists() else []
     every = [json.loads(line) for line in lines]
-    there = {(one["command"], one["seed"], one["number"]) for one in every}
-    for command in asked.commands:
-        left = [number for number in range(asked.tries) if (command, asked.seed, number) not in there]
+    there = {(past["command"], past["seed"], past["number"]) for past in every}
+    for command in options.commands:
+        left = [number for number in range(options.tries) if (command, options.seed, number) not in there]
         if not left:
             continue
         through = run_through(command, folder)
         print(f"{command}: {through.seconds:.1f} s of the processor where it runs through", flush=True)
-        with ThreadPoolExecutor(asked.jobs) as pool:
-            one_try = partial(tried, command, signals=signals, seed=asked.seed, through=through, folder=folder)
-            for one in pool.map(one_try, left):
-                every.append(one)
-                for fault in one["faults"]:
-                    when = f"{one['signal']} after {one['after']:.1f} s"
-                    print(f"{command} {one['number']}: {when}: {fault}", flush=True)
-                if asked.out:
-                    with asked.out.open("a") as out:
-                        out.write(json.dumps(one) + "\n")
+        with ThreadPoolExecutor(options.jobs) as pool:
+            one_try = partial(tried, command, signals=signals, seed=options.seed, through=through, folder=folder)
+            for attempt in pool.map(one_try, left):
+                every.append(attempt)
+                for fault in attempt["faults"]:
+                    when = f"{attempt['signal']} after {attempt['after']:.1f} s"
+                    print(f"{command} {attempt['number']}: {when}: {fault}", flush=True)
+                if options.out:
+                    with options.out.open("a") as out:
+                        out.write(json.dumps(attempt) + "\n")
     return every
 
 
@@ -340,24 +340,24 @@ def main() -> int:
     parser.add_argument("--tries", type=int, default=20, help="of each command")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2, help="tries at once")
-    names = [one.name for one in SIGNALS]
+    names = [sent.name for sent in SIGNALS]
     parser.add_argument("--signals", nargs="+", choices=names, default=names, help="that end commands")
     parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), help="all that the machine has the tools for")
     parser.add_argument("--out", type=Path, help="file that tries are appended to")
     parser.add_argument("--fe-python", type=Path, help=f"a Python that has netgen and ngsolve, for {NEEDS_FE}")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     follow_signals()
-    asked.commands = asked.commands or [name for name in COMMANDS if name != NEEDS_FE or asked.fe_python]
+    options.commands = options.commands or [name for name in COMMANDS if name != NEEDS_FE or options.fe_python]
     with tempfile.TemporaryDirectory(prefix="kills-") as folder:
-        if asked.fe_python:
-            COMMANDS[NEEDS_FE] += ["--fe-python", str(coarse_python(asked.fe_python, Path(folder)))]
-        every = campaign(asked, Path(folder))
-    every = [one for one in every if one["command"] in asked.commands]
-    for command in dict.fromkeys(one["command"] for one in every):
-        some = [one for one in every if one["command"] == command]
-        failed, resumed = (sum(bool(one[what]) for one in some) for what in ("faults", "resumed"))
+        if options.fe_python:
+            COMMANDS[NEEDS_FE] += ["--fe-python", str(coarse_python(options.fe_python, Path(folder)))]
+        every = campaign(options, Path(folder))
+    every = [attempt for attempt in every if attempt["command"] in options.commands]
+    for command in dict.fromkeys(attempt["command"] for attempt in every):
+        some = [attempt for attempt in every if attempt["command"] == command]
+        failed, resumed = (sum(bool(attempt[what]) for attempt in some) for what in ("faults", "resumed"))
         print(f"{command}: {len(some)} tries, {failed} failures, {resumed} resumed")
-    return int(any(one["faults"] for one in every))
+    return int(any(attempt["faults"] for attempt in every))
 
 
 if __name__ == "__main__":

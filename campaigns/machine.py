@@ -4,7 +4,7 @@
 
 A run that can be done is done (0). Any other ends with one line on stderr that says what is wrong, with the exit code
 of what it is, and every file that is there is whole. Read-only and full file systems are mounted in a namespace of
-their own, which Linux lets a user do; elsewhere they are left out, and that is said.
+their own, which Linux lets a user do; elsewhere they are left out, and a line says so.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Limit = tuple[int, int]
 
 @dataclass(frozen=True)
 class Lack:
-    """What is not there, and how a run of a study ends then."""
+    """A resource that lacks, and how a run of a study ends then."""
 
     name: str
     code: int
@@ -68,7 +68,7 @@ LACKS = (
 
 
 def mounts() -> bool:
-    """Whether this user may mount a file system in a namespace of their own."""
+    """Return whether this user may mount a file system in a namespace of their own."""
     try:
         return subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode == 0
     except OSError:
@@ -83,29 +83,31 @@ def faults_of(lack: Lack, folder: Path) -> list[str]:
     words += [] if lack.parts else ["--no-cad"]
     if lack.mount:
         tmpfs = f"mount -t tmpfs -o {lack.mount} none {out.parent}"
-        kept = f"cp -r {out.parent} {folder / 'kept'}"  # the mount is gone with the namespace
-        words = ["unshare", "-rm", "sh", "-c", f'{tmpfs} && "$@"; code=$?; {kept}; exit $code', "sh", *words]
+        copy = f"cp -r {out.parent} {folder / 'kept'}"  # the mount is gone with the namespace
+        words = ["unshare", "-rm", "sh", "-c", f'{tmpfs} && "$@"; code=$?; {copy}; exit $code', "sh", *words]
     uncached = {"TVIMDESIGN_CACHE": ""} if lack.parts else {}  # parts that are kept would not be made
     environment = {**os.environ, **uncached, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1", **lack.environment}
-    with Path(lack.stdout or folder / "told.txt").open("wb") as told:
+    with Path(lack.stdout or folder / "told.txt").open("wb") as output:
         done = subprocess.run(
-            words, stdout=told, stderr=subprocess.PIPE, check=False, cwd=folder, preexec_fn=_limited(lack.limits),
+            words, stdout=output, stderr=subprocess.PIPE, check=False, cwd=folder, preexec_fn=_limited(lack.limits),
             env={name: value for name, value in environment.items() if value is not None},
         )  # fmt: skip
-    said = done.stderr.decode(errors="replace")
-    lines = [line for line in said.splitlines() if line.strip() and not line.startswith(PROGRESS)]
-    found = [f"exit code {done.returncode}, not {lack.code}: {said[-300:]!r}"] if done.returncode != lack.code else []
-    if "Traceback" in said:
-        found.append("a traceback")
-    if lack.says and (len(lines) != 1 or lack.says not in said):
-        found.append(f"not one line about {lack.says!r}: {said[-300:]!r}")
+    errors = done.stderr.decode(errors="replace")
+    lines = [line for line in errors.splitlines() if line.strip() and not line.startswith(PROGRESS)]
+    faults = (
+        [f"exit code {done.returncode}, not {lack.code}: {errors[-300:]!r}"] if done.returncode != lack.code else []
+    )
+    if "Traceback" in errors:
+        faults.append("a traceback")
+    if lack.says and (len(lines) != 1 or lack.says not in errors):
+        faults.append(f"not one line about {lack.says!r}: {errors[-300:]!r}")
     if lack.parts and not lack.code and not list(out.rglob("*.step")):
-        found.append("no parts")
+        faults.append("no parts")
     results = folder / "kept" if lack.mount else out
     for path in sorted(path for path in results.rglob("*") if path.is_file()):
         if path.name.startswith(".") or not whole(path, path.read_bytes()):
-            found.append(f"{path.relative_to(results)} is broken")
-    return found
+            faults.append(f"{path.relative_to(results)} is broken")
+    return faults
 
 
 def _limited(limits: tuple[Limit, ...]) -> Callable[[], None]:
@@ -120,9 +122,9 @@ def main() -> int:
     """Run all; 1 where one does not end as it should."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", help="those whose name has this word")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     failed, can_mount = 0, mounts()
-    for lack in (one for one in LACKS if asked.only in one.name):
+    for lack in (candidate for candidate in LACKS if options.only in candidate.name):
         if lack.mount and not can_mount:
             print(f"{lack.name}: not tried, as this user may not mount")
             continue

@@ -60,12 +60,12 @@ class Comparison:
     values: int = 0
     differences: list[Difference] = field(default_factory=list)
 
-    def add(self, values: int, found: Sequence[Difference]) -> None:
+    def add(self, values: int, changed: Sequence[Difference]) -> None:
         """Add a subject and print its differences."""
         self.subjects += 1
         self.values += values
-        self.differences += found
-        for difference in found:
+        self.differences += changed
+        for difference in changed:
             print(difference, flush=True)
 
     def __str__(self) -> str:
@@ -100,29 +100,29 @@ def compare_optima(options: Options) -> Comparison:
     for name in options.studies or study_outputs.study_files():
         frozen = read_frozen(study_outputs.frozen_file(name))["optimum"]
         try:
-            found = optima.search(name)
+            search = optima.search(name)
         except tvimdesign.TvimError as error:
             done.add(1, [Difference(name, "optimum:status", frozen["status"], type(error).__name__)])
             continue
-        now = found.found["optimum"]
+        now = search.outcome["optimum"]
         done.add(1, list(optima.optimum_differences(name, frozen, now, options.renames)))
         change = optima.objective_change(frozen, now)
         better = "  BETTER" if change < -optima.OBJECTIVE_TOLERANCE else ""
-        print(f"# {name}: objective {now['objective']}, {change:+.2e}, {found.seconds:.0f} s{better}", flush=True)
+        print(f"# {name}: objective {now['objective']}, {change:+.2e}, {search.seconds:.0f} s{better}", flush=True)
     return done
 
 
 def freeze(kind: str, options: Options) -> None:
     """Write the values of now in place of the frozen ones, at the frozen designs; other studies keep theirs."""
     commit = code_version()
-    kept = {} if kind == "outputs" or not FILES[kind].exists() else read_frozen(FILES[kind])["values"]
+    frozen = {} if kind == "outputs" or not FILES[kind].exists() else read_frozen(FILES[kind])["values"]
     values = {name: compute() for name, compute in subjects(kind, options.studies, options.renames)}
     if kind == "outputs":
         for name, outputs in values.items():
             path = study_outputs.frozen_file(name)
             write_frozen(path, read_frozen(path) | {"commit": commit, "outputs": outputs})
     else:
-        write_frozen(FILES[kind], {"commit": commit, "values": (kept if kind == "parts" else {}) | values})
+        write_frozen(FILES[kind], {"commit": commit, "values": (frozen if kind == "parts" else {}) | values})
     print(f"froze {kind}: {len(values)} subjects, {sum(map(len, values.values()))} values", flush=True)
 
 
@@ -134,7 +134,7 @@ def freeze_optima(options: Options, runs: Path | None) -> None:
             design = tvimdesign.read_design(runs / name / "design.json")
             chosen = study_outputs.chosen_by_search(study_outputs.load_study(name), design)
         else:
-            chosen = dict(optima.search(name).found)
+            chosen = dict(optima.search(name).outcome)
         write_frozen(study_outputs.frozen_file(name), {"commit": code_version(), **chosen})
         objective, seconds = chosen["optimum"]["objective"], time.process_time() - start
         print(f"froze the optimum of {name}: objective {objective}, {seconds:.0f} s", flush=True)

@@ -3,7 +3,7 @@
     python campaigns/sweep_kills.py [--tries 20] [--seed 1]
 
 A try on shards runs the parts of a sweep side by side, kills one by SIGKILL and starts it again until it ends. The
-tables are held against those of one process.
+tables are compared with those of one process.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ def swept(out: Path, *words: str) -> subprocess.Popen[bytes]:
 
 def through(process: subprocess.Popen[bytes]) -> None:
     """Wait for a sweep; one that fails ends the campaign with what it said."""
-    _, said = process.communicate(timeout=600.0)
+    _, errors = process.communicate(timeout=600.0)
     if process.returncode:
-        sys.exit(f"exit code {process.returncode}: {said.decode(errors='replace')}")
+        sys.exit(f"exit code {process.returncode}: {errors.decode(errors='replace')}")
 
 
 def on_shards(out: Path, after: float, dice: random.Random) -> None:
@@ -72,8 +72,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tries", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
-    asked = parser.parse_args()
-    dice = random.Random(asked.seed)
+    options = parser.parse_args()
+    dice = random.Random(options.seed)
     wrong = 0
     with tempfile.TemporaryDirectory(prefix="sweep-kills-") as name:
         folder = Path(name)
@@ -82,7 +82,7 @@ def main() -> None:
         through(swept(folder / "whole", "--workers", "1"))
         seconds = time.monotonic() - began
         expected = [(folder / "whole" / table).read_bytes() for table in TABLES]
-        for number in range(asked.tries):
+        for number in range(options.tries):
             out, after = folder / f"try-{number}", dice.uniform(0.2, 1.0) * seconds
             on_shards(out, after, dice)
             same = [(out / table).read_bytes() for table in TABLES] == expected

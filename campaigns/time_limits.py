@@ -42,8 +42,8 @@ class Measured:
     """Whether nothing but the time limit is given as a reason."""
 
     @property
-    def kept(self) -> bool:
-        """Whether the limit was kept by the clock."""
+    def in_time(self) -> bool:
+        """Return whether the limit was kept by the clock."""
         return self.clock <= allowed(self.limit)
 
 
@@ -60,9 +60,9 @@ def measure(study: Path, limit: float, folder: Path) -> Measured:
     environment = {**os.environ, "COLUMNS": "1000"}
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, env=environment)
     clock, processor = time.monotonic() - began, _processor() - before
-    said = done.stdout + done.stderr
+    text = done.stdout + done.stderr
     return Measured(
-        study.stem, limit, clock, processor, done.returncode, _in_short(done.stdout, done.stderr), _right(said)
+        study.stem, limit, clock, processor, done.returncode, _in_short(done.stdout, done.stderr), _right(text)
     )
 
 
@@ -71,13 +71,13 @@ def _processor() -> float:
     return used.ru_utime + used.ru_stime
 
 
-def _right(said: str) -> bool:
-    """Whether no line claims that there is no design without naming the time limit."""
-    return all(_LATE in line for line in said.splitlines() if _CLAIMS.search(line))
+def _right(message: str) -> bool:
+    """Return whether no line claims that there is no design without naming the time limit."""
+    return all(_LATE in line for line in message.splitlines() if _CLAIMS.search(line))
 
 
 def _in_short(printed: str, errors: str) -> str:
-    """The status and what was left out; where there is no screen, the error."""
+    """Return the status and what was left out; where there is no screen, the error."""
     head = printed.splitlines()[0].split(" · ")[2:3] if printed else []
     left_out = [line.split("done: ")[-1] for line in printed.splitlines() if line.startswith("Left out")]
     last = [line for line in errors.splitlines() if _LATE in line][-1:] or errors.splitlines()[-1:]
@@ -88,20 +88,20 @@ def table(runs: Sequence[Measured]) -> str:
     """Write the runs as a table in Markdown."""
     lines = ["| study | limit | clock | processor | kept | exit | says |", "|---|---|---|---|---|---|---|"]
     for run in runs:
-        kept = "yes" if run.kept else f"no, {run.clock - allowed(run.limit):.1f} s over"
+        within = "yes" if run.in_time else f"no, {run.clock - allowed(run.limit):.1f} s over"
         says = run.says if run.right else f"WRONG: {run.says}"
         seconds = f"{run.limit:g} s | {run.clock:.1f} s | {run.processor:.1f} s"
-        lines.append(f"| {run.study} | {seconds} | {kept} | {run.code} | {says} |")
+        lines.append(f"| {run.study} | {seconds} | {within} | {run.code} | {says} |")
     return "\n".join(lines)
 
 
 def main() -> None:
     """Measure, one run after another, and exit with 1 where a limit is not kept or a reason is wrong."""
-    asked = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    asked.add_argument("--limits", default="5,20,60", help="seconds, with commas between them")
-    asked.add_argument("--only", default="", help="studies whose name has this word")
-    asked.add_argument("--out", type=Path, help="file that gets a line of JSON for each run")
-    given = asked.parse_args()
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--limits", default="5,20,60", help="seconds, with commas between them")
+    parser.add_argument("--only", default="", help="studies whose name has this word")
+    parser.add_argument("--out", type=Path, help="file that gets a line of JSON for each run")
+    given = parser.parse_args()
     studies = sorted(path for path in (ROOT / "studies").glob("*.yaml") if given.only in path.stem)
     runs: list[Measured] = []
     with tempfile.TemporaryDirectory() as folder:
@@ -111,8 +111,10 @@ def main() -> None:
                 print(table(runs[-1:]).splitlines()[-1], flush=True)
                 if given.out:
                     with given.out.open("a", encoding="utf-8") as file:
-                        file.write(json.dumps({**asdict(runs[-1]), "kept": runs[-1].kept}) + "\n")
-    over, wrong = ([run for run in runs if test(run)] for test in (lambda run: not run.kept, lambda run: not run.right))
+                        file.write(json.dumps({**asdict(runs[-1]), "kept": runs[-1].in_time}) + "\n")
+    over, wrong = (
+        [run for run in runs if test(run)] for test in (lambda run: not run.in_time, lambda run: not run.right)
+    )
     print(f"{len(runs)} runs: {len(over)} over their limit, {len(wrong)} with a wrong reason")
     raise SystemExit(bool(over or wrong))
 

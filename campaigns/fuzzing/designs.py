@@ -20,13 +20,13 @@ from tvimdesign.study.written_studies import result_text
 @cache
 def _designs() -> list[tuple[str, list[tuple[object, ...]], list[tuple[object, ...]]]]:
     """Text of each released design, its places, and those that are not one of its thousand values."""
-    found = []
+    texts = []
     for path in sorted((ROOT / "cad").glob("*/design.json")):
         plain = _of_today(json.loads(path.read_text()))
         text = json.dumps(plain, indent=2)
         every = [place for place in paths(plain) if place[0] != "solution"]
-        found.append((text, every, [place for place in every if place[0] != "values"]))
-    return found
+        texts.append((text, every, [place for place in every if place[0] != "values"]))
+    return texts
 
 
 def _of_today(plain: dict[str, Any]) -> dict[str, Any]:
@@ -47,7 +47,7 @@ def _design(draw: random.Random) -> Drawn:
 
 
 def _use(path: Path) -> None:
-    """What `simulate`, `cad` and `new --from` do first with a design."""
+    """Do what `simulate`, `cad` and `new --from` do first with a design."""
     design = read_design(path)
     resolve_design(design)
     dimensions(design)

@@ -20,7 +20,7 @@ class Drawn:
     """Inputs in it, such as the messages of a conversation."""
 
     def written(self, folder: Path) -> Path:
-        """The file in a folder."""
+        """Return the file in a folder."""
         path = folder / self.name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(self.data)
@@ -29,7 +29,7 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Kind:
-    """What a user can hand in."""
+    """Kind of input that a user can hand in."""
 
     draw: Callable[[random.Random], Drawn]
     use: Callable[[Path], None]

@@ -33,7 +33,7 @@ def _samples() -> list[tuple[str, bytes]]:
 
 
 def _workbook(data: bytes, draw: random.Random) -> bytes:
-    """A workbook with one of its parts changed, or some of its bytes."""
+    """Return a workbook with one of its parts changed, or some of its bytes."""
     if draw.random() < 0.3:
         return mutated_bytes(data, draw)
     made = BytesIO()
@@ -65,7 +65,7 @@ def _data_file(draw: random.Random) -> Drawn:
 
 
 def _use_data(path: Path) -> None:
-    """What `fit` does before it fits: reads, shows what it read, and looks which kind it is and what it lacks."""
+    """Do what `fit` does before it fits: read, show what was read, and look which kind it is and what it lacks."""
     file = read_data_file(path)
     file.shown()
     for block in file.blocks:
@@ -92,12 +92,12 @@ def _use_map(path: Path) -> None:
 @cache
 def _kinds() -> dict[str, dict[str, str]]:
     """Settings that each kind of the samples needs."""
-    found: dict[str, dict[str, str]] = json.loads((SAMPLES / "settings.json").read_text())
-    return found
+    settings: dict[str, dict[str, str]] = json.loads((SAMPLES / "settings.json").read_text())
+    return settings
 
 
 def _fit(draw: random.Random) -> Drawn:
-    """A table whose numbers or headings are changed, the kind it is fitted as, and settings.
+    """Return a table whose numbers or headings are changed, the kind it is fitted as, and settings.
 
     Most spectra may have two modes at most, which is a tenth of the work.
     """
@@ -105,20 +105,20 @@ def _fit(draw: random.Random) -> Drawn:
     few = {"largest_modes": "2"} if "largest_modes" in kind_sheets()[kind].settings and draw.random() < 0.95 else {}
     settings = {**given, **few}
     text = (SAMPLES / f"{kind}.csv").read_text()
-    told = {"kind": kind if draw.random() < 0.8 else draw.choice(list(kind_sheets())), "settings": dict(settings)}
+    request = {"kind": kind if draw.random() < 0.8 else draw.choice(list(kind_sheets())), "settings": dict(settings)}
     if draw.random() < 0.4:
         name = draw.choice([*kind_sheets()[kind].settings, "x"])
-        told["settings"][name] = str(draw.choice([*ODD, "0", "-1 mm", "1e9 K"]))
+        request["settings"][name] = str(draw.choice([*ODD, "0", "-1 mm", "1e9 K"]))
     data = text if draw.random() < 0.2 else mutated_table(text, draw)
-    return Drawn("input.json", encoded(json.dumps({**told, "data": data, "columns": {}})))
+    return Drawn("input.json", encoded(json.dumps({**request, "data": data, "columns": {}})))
 
 
 def _use_fit(path: Path) -> None:
-    """What `fit` does: the file beside the one that says how."""
-    told = json.loads(path.read_bytes())
+    """Do what `fit` does: read the file beside the one that says how."""
+    request = json.loads(path.read_bytes())
     data = path.with_name("data.csv")
-    data.write_bytes(encoded(told["data"]))
-    measure_files([data], told["kind"], told["settings"], column_map(told["columns"], "columns")).read()
+    data.write_bytes(encoded(request["data"]))
+    measure_files([data], request["kind"], request["settings"], column_map(request["columns"], "columns")).read()
 
 
 DATA_FILES = Kind(_data_file, _use_data)

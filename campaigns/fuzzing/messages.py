@@ -1,4 +1,4 @@
-"""What a page of the explorer sends: conversations of messages, taken by the server's own session in this process.
+"""Messages of a page of the explorer: conversations of messages, taken by the server's own session in this process.
 
 The session is the product's; the worker process it starts is replaced by one that answers at once with the values of
 the study's start. `ANSWERS` hands the state that a conversation ends in to the worker's engine as well.
@@ -58,22 +58,22 @@ class _Talk:
         self.runner = asyncio.Runner()
 
     async def hears(self, texts: list[str], folder: Path) -> History:
-        """Everything a server does with these messages; what is kept then."""
+        """Do all that a server does with these messages; return what is kept then."""
         started = {name: _Answered for name in _PROCESSES if hasattr(explored, name)}
         with patch.multiple(explored, open_source=lambda *_: self.source, **started):
             session = Session(STUDY, folder, _sent)
         for text in texts:
-            for told in session.receive(text):
-                _sent(told)
+            for reply in session.receive(text):
+                _sent(reply)
         _sent(session.state_shown())
         if session._timer:
             session._timer.cancel()
         return session.history
 
 
-def _sent(told: dict[str, Any]) -> None:
+def _sent(message: dict[str, Any]) -> None:
     """As the server sends it; what is not JSON, or not text, cannot be sent."""
-    json.dumps(told, allow_nan=False).encode()
+    json.dumps(message, allow_nan=False).encode()
 
 
 @cache
@@ -90,7 +90,7 @@ def _name(draw: random.Random) -> str:
 
 
 def _message(draw: random.Random) -> str:
-    """A message of any kind with likely and unlikely fields; some are no JSON any more."""
+    """Return a message of any kind with likely and unlikely fields; some are no JSON any more."""
     kind = draw.choice(["set", "set", "set", "require", "range", "weight", "way", "undo", "redo", "reset", "pin",
                         "unpin", "recall", "point", "save", "confirm", "cad", "x"])  # fmt: skip
     fields: dict[str, Any] = {
@@ -125,9 +125,9 @@ def _use(path: Path) -> None:
 
 def _use_answers(path: Path) -> None:
     talk = _talk()
-    kept = talk.runner.run(talk.hears(json.loads(path.read_bytes()), path.parent / "out"))
-    found = talk.engine.answer(kept.state, "quick")
-    _sent(found.shown)
+    state_of_talk = talk.runner.run(talk.hears(json.loads(path.read_bytes()), path.parent / "out"))
+    result = talk.engine.answer(state_of_talk.state, "quick")
+    _sent(result.shown)
 
 
 MESSAGES = Kind(_conversation, _use, writes=True)

@@ -27,7 +27,7 @@ def encoded(text: str) -> bytes:
 
 
 def mutated_text(text: str, draw: random.Random) -> bytes:
-    """A text with some letters, words or lines changed, or cut somewhere; not always UTF-8."""
+    """Return a text with some letters, words or lines changed, or cut somewhere; not always UTF-8."""
     for _ in range(draw.choice((1, 1, 1, 2, 5))):
         lines, place = text.split("\n"), draw.randrange(len(text) + 1)
         row = draw.randrange(len(lines))
@@ -54,7 +54,7 @@ def mutated_text(text: str, draw: random.Random) -> bytes:
 
 
 def mutated_table(text: str, draw: random.Random) -> str:
-    """A table as text with cells, rows or its signs changed."""
+    """Return a table as text with cells, rows or its signs changed."""
     rows = text.split("\n")
     for _ in range(draw.choice((1, 1, 2, 4, 8))):
         at = draw.randrange(len(rows))
@@ -87,7 +87,7 @@ def mutated_bytes(data: bytes, draw: random.Random) -> bytes:
 
 
 def paths(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """Every place in plain data but the whole."""
+    """Yield the places in plain data but the whole."""
     items = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
     for key, value in items:
         yield (*path, key)
@@ -95,13 +95,13 @@ def paths(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 
 def mutated_data(text: str, places: list[tuple[Any, ...]], draw: random.Random) -> Any:
-    """The plain data of a JSON text with a value or two changed, renamed or taken away."""
+    """Return the plain data of a JSON text with a value or two changed, renamed or taken away."""
     changed = json.loads(text)
     for _ in range(draw.choice((1, 1, 2, 4))):
         path, node = draw.choice(places), changed
         try:
-            for one in path[:-1]:
-                node = node[one]
+            for key in path[:-1]:
+                node = node[key]
             kind = draw.random()
             if kind < 0.25:
                 del node[path[-1]]

@@ -41,10 +41,10 @@ def _study(draw: random.Random) -> Drawn:
 
 
 def _settings(draw: random.Random) -> Drawn:
-    odd = [str(one) for one in ODD]
+    odd = [str(odd_value) for odd_value in ODD]
     names, values = _NAMES if draw.random() < 0.8 else odd, _LIKELY if draw.random() < 0.5 else odd
     chosen = [f"{draw.choice(names)}={draw.choice(values)}" for _ in range(draw.choice((1, 1, 3)))]
-    data = [mutated_text(one, draw).decode("utf-8", "replace") if draw.random() < 0.5 else one for one in chosen]
+    data = [mutated_text(text, draw).decode("utf-8", "replace") if draw.random() < 0.5 else text for text in chosen]
     return Drawn("input.json", json.dumps(data).encode())
 
 
@@ -61,7 +61,7 @@ def _sweep(draw: random.Random) -> Drawn:
 
 
 def _use_sweep(path: Path) -> None:
-    """What `sweep` does before its first cell; the texts of its first and last cell."""
+    """Do what `sweep` does before its first cell; return the texts of its first and last cell."""
     plan = plan_of(tree_of_file(path))
     plan.points.texts(0)
     plan.points.texts(plan.count - 1)
@@ -70,12 +70,12 @@ def _use_sweep(path: Path) -> None:
 @cache
 def _records() -> list[tuple[str, str, str, list[tuple[object, ...]]]]:
     """Path within the catalogue, text, the same as JSON, and its places, of every record."""
-    found = []
+    records = []
     for path in sorted(RECORDS.rglob("*.yaml")):
         text = path.read_text(encoding="utf-8")
         plain = yaml.load(text, Loader=_FAST)
-        found.append((path.relative_to(RECORDS).as_posix(), text, json.dumps(plain, default=str), list(paths(plain))))
-    return found
+        records.append((path.relative_to(RECORDS).as_posix(), text, json.dumps(plain, default=str), list(paths(plain))))
+    return records
 
 
 def _record(draw: random.Random) -> Drawn:

@@ -37,19 +37,19 @@ class _Watch:
         self.on = False
         self.folder: Path | None = None
         """Where files may be written."""
-        self.found: list[str] = []
+        self.events: list[str] = []
         sys.addaudithook(self._heard)
 
-    def _heard(self, event: str, told: tuple[Any, ...]) -> None:
+    def _heard(self, event: str, arguments: tuple[Any, ...]) -> None:
         if not self.on:
             return
-        if event == "open" and isinstance(told[2], int) and told[2] & _WRITES:
-            self._changed(event, told[0])
+        if event == "open" and isinstance(arguments[2], int) and arguments[2] & _WRITES:
+            self._changed(event, arguments[0])
         elif event in _CHANGES:
-            for path in told[: _CHANGES[event]]:
+            for path in arguments[: _CHANGES[event]]:
                 self._changed(event, path)
         elif event in _STARTS:
-            self.found.append(event)
+            self.events.append(event)
 
     def _changed(self, event: str, path: Any) -> None:
         if isinstance(path, int):
@@ -58,20 +58,20 @@ class _Watch:
         if str(where) != os.devnull and (
             self.folder is None or ".." in where.parts or self.folder not in where.parents
         ):
-            self.found.append(f"{event} of {where}")
+            self.events.append(f"{event} of {where}")
 
     @contextmanager
     def within(self, folder: Path | None) -> Iterator[list[str]]:
-        """What is changed outside a folder meanwhile; anywhere where there is none. The user's cache is off.
+        """Watch for changes outside a folder; anywhere where there is none. The user's cache is off.
 
         A module imported meanwhile for the first time leaves no bytecode: that is the interpreter's, not the input's.
         """
         bytecode = sys.dont_write_bytecode
         sys.dont_write_bytecode = True
-        self.folder, self.found, self.on = folder, [], True
+        self.folder, self.events, self.on = folder, [], True
         try:
             with mock.patch.dict(os.environ, {FOLDER_VARIABLE: ""}):
-                yield self.found
+                yield self.events
         finally:
             self.on = False
             sys.dont_write_bytecode = bytecode
@@ -82,7 +82,7 @@ _WATCH: list[_Watch] = []
 
 
 def watch() -> _Watch:
-    """The watch of this process."""
+    """Return the watch of this process."""
     if not _WATCH:
         _WATCH.append(_Watch())
     return _WATCH[0]
@@ -93,7 +93,7 @@ def _too_long(*_: object) -> None:
 
 
 def ending(kind: Kind, path: Path) -> tuple[str, bool]:
-    """What is wrong with how an input is taken, empty where nothing is; and whether it was refused."""
+    """Return what is wrong with how an input is taken, empty where nothing is; and whether it was refused."""
     began, fault, refused = time.process_time(), "", False
     signal.signal(signal.SIGPROF, _too_long)
     signal.setitimer(signal.ITIMER_PROF, HANG * kind.most_seconds)
@@ -107,7 +107,7 @@ def ending(kind: Kind, path: Path) -> tuple[str, bool]:
             if isinstance(error, KeyboardInterrupt):
                 raise
             places = traceback.extract_tb(error.__traceback__)
-            last = next((one for one in reversed(places) if "tvimdesign" in one.filename), places[-1])
+            last = next((place for place in reversed(places) if "tvimdesign" in place.filename), places[-1])
             fault = f"{type(error).__name__} in {Path(last.filename).name}:{last.name}: {str(error)[:120]!r}"
         finally:
             signal.setitimer(signal.ITIMER_PROF, 0.0)

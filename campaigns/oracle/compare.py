@@ -58,13 +58,13 @@ class Renames:
 
     def expected(self, frozen: Values) -> dict[str, Value]:
         """Return the frozen values by the names of today, without those that were removed."""
-        kept = {name: value for name, value in frozen.items() if base_name(name) not in self.removed}
-        return {self.name_now(name): value for name, value in kept.items()}
+        remaining = {name: value for name, value in frozen.items() if base_name(name) not in self.removed}
+        return {self.name_now(name): value for name, value in remaining.items()}
 
     def name_now(self, name: str) -> str:
         """Return the name that a frozen one has today."""
-        base, (group, colon, rest) = base_name(name), name.rpartition(":")
-        return group + colon + self.renamed[base] + rest[len(base) :] if base in self.renamed else name
+        base, (group, colon, suffix) = base_name(name), name.rpartition(":")
+        return group + colon + self.renamed[base] + suffix[len(base) :] if base in self.renamed else name
 
 
 def base_name(name: str) -> str:

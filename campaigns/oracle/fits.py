@@ -19,7 +19,7 @@ from tvimdesign.simulation.measurement.reading.data_file import read_data_file
 SAMPLES = CODE / "campaigns/fuzzing/samples"
 CORPUS = CODE / "campaigns/corpus/fits"
 MEASUREMENTS = FOLDER / "measurements.json"
-"""Content by name, decoded as Latin-1, of files that the tests write, and of a log, of which there is no sample."""
+"""Content by name, decoded as Latin-1, of files that the tests write, and of a log, which has no sample."""
 _LOGGED = {
     "study": str(CODE / "studies/paper_reconstructed.yaml"),
     "fitted": "rotor_contact rotor_coefficient cold_side_coefficient",
@@ -47,9 +47,9 @@ def fit_cases() -> Iterator[FitCase]:
             kind = path.stem if path.stem in settings and path.suffix == ".csv" else ""
             yield FitCase(f"samples/{path.name}", path.name, path.read_bytes(), kind, settings.get(kind, {}))
     for path in sorted(CORPUS.glob("*/input.json")):
-        told = json.loads(path.read_text(encoding="utf-8"))
-        data = told["data"].encode("utf-8", "surrogatepass")
-        yield FitCase(f"corpus/{path.parent.name}", "data.csv", data, told["kind"], told["settings"])
+        request = json.loads(path.read_text(encoding="utf-8"))
+        data = request["data"].encode("utf-8", "surrogatepass")
+        yield FitCase(f"corpus/{path.parent.name}", "data.csv", data, request["kind"], request["settings"])
     for name, text in read_frozen(MEASUREMENTS).items():
         yield FitCase(f"measurements/{name}", name, text.encode("latin-1"), "", _LOGGED if "log" in name else {})
 
@@ -72,12 +72,12 @@ def _columns(path: Path) -> dict[str, Value]:
         blocks = read_data_file(path).blocks
     except tvimdesign.TvimError as error:
         return {"read:refused": type(error).__name__}
-    found: dict[str, Value] = {}
+    values: dict[str, Value] = {}
     for index, block in enumerate(blocks):
         for name, column in block.columns.items():
-            found |= digest(f"read:{index}.{name}", column.values)
-        found |= {f"read:{index}.{name}[problem]": 1.0 for name in block.problems}
-    return found
+            values |= digest(f"read:{index}.{name}", column.values)
+        values |= {f"read:{index}.{name}[problem]": 1.0 for name in block.problems}
+    return values
 
 
 def _fitted(path: Path, case: FitCase) -> dict[str, Value]:
@@ -86,10 +86,10 @@ def _fitted(path: Path, case: FitCase) -> dict[str, Value]:
     except tvimdesign.TvimError as error:
         return {"fit:refused": type(error).__name__}
     counts: dict[str, Value] = {f"fit:{words}[count]": float(len(data[words])) for words in ("notes", "words")}
-    found = {f"fit:{name}": value for name, value in _plain("", data)}
+    values = {f"fit:{name}": value for name, value in _plain("", data)}
     # Channels are named after the file, which is in another folder each time.
     return counts | {name: value.replace(f"{path.parent}/", "") if isinstance(value, str) else value
-                     for name, value in found.items()}  # fmt: skip
+                     for name, value in values.items()}  # fmt: skip
 
 
 def _plain(name: str, value: Any) -> Iterator[tuple[str, Value]]:

@@ -22,7 +22,7 @@ class Optimum:
     """Hold what a search found, as `chosen_by_search` describes it, with the design and the processor time."""
 
     design: tvimdesign.Design
-    found: Mapping[str, Any]
+    outcome: Mapping[str, Any]
     seconds: float
 
 

@@ -25,10 +25,10 @@ def part_volumes(design: tvimdesign.Design) -> dict[str, Value]:
 
     dims = dimensions(design)
     drawn = {kind: drawn_part(dims, kind) for kind in MODULES[design.mode].drawn(dims)}
-    found: Counter[str] = Counter()
+    volumes: Counter[str] = Counter()
     for name, solid in place(dims, drawn).items():
         kind = kind_of(name)
-        found[f"count:{kind}"] += 1
-        found[f"volume:{kind}"] += solid.Volume()
-        found[f"area:{kind}"] += solid.Area()
-    return {name: float(value) for name, value in found.items()}
+        volumes[f"count:{kind}"] += 1
+        volumes[f"volume:{kind}"] += solid.Volume()
+        volumes[f"area:{kind}"] += solid.Area()
+    return {name: float(value) for name, value in volumes.items()}

@@ -98,18 +98,18 @@ def outputs(result: tvimdesign.Result) -> dict[str, Value]:
     module under other conditions.
     """
     design, data = result.design, result.data
-    found: dict[str, Value] = {f"choice:{name}": word for name, word in design.choices.items()}
-    found |= {"choice:above_rating": " ".join(design.above_rating), "choice:accepting": " ".join(design.accepting)}
-    found |= design.values
+    values: dict[str, Value] = {f"choice:{name}": word for name, word in design.choices.items()}
+    values |= {"choice:above_rating": " ".join(design.above_rating), "choice:accepting": " ".join(design.accepting)}
+    values |= design.values
     for name, ends in design.intervals.items():
-        found |= {f"low:{name}": ends[0], f"high:{name}": ends[1]}
-    found |= dict(_margins("limit", data["checks"])) | dict(_margins("advice", data["warnings"]))
-    found |= {f"unpowered:{name}": entry["si"]["value"] for name, entry in data["cooling"]["unpowered"].items()}
-    found |= {f"default current:{name}": entry["si"]["value"] for name, entry in data["at_default_currents"].items()}
+        values |= {f"low:{name}": ends[0], f"high:{name}": ends[1]}
+    values |= dict(_margins("limit", data["checks"])) | dict(_margins("advice", data["warnings"]))
+    values |= {f"unpowered:{name}": entry["si"]["value"] for name, entry in data["cooling"]["unpowered"].items()}
+    values |= {f"default current:{name}": entry["si"]["value"] for name, entry in data["at_default_currents"].items()}
     for idealization in data["idealizations"]:
         for name, entry in idealization["as_drawn"].items():
-            found[f"without {idealization['choice']}:{name}"] = entry["si"]["value"]
-    return found | hidden_values(design)
+            values[f"without {idealization['choice']}:{name}"] = entry["si"]["value"]
+    return values | hidden_values(design)
 
 
 def _margins(group: str, checks: Any) -> Iterator[tuple[str, Value]]:
@@ -128,13 +128,13 @@ def hidden_values(design: tvimdesign.Design) -> dict[str, Value]:
     """
     table, known = table_for(design.mode), {**resolve_design(design).values, **design.values}
     points = tuple(design.study["operating_points"])
-    found: dict[str, Value] = {}
+    values: dict[str, Value] = {}
     for row in table.outputs:
         if row.hidden and not row.instant:
             for name in [f"{row.name}@{point}" for point in points] if row.per_point else [row.name]:
                 with suppress(tvimdesign.InputError):  # it needs the state of a phase
-                    found |= digest(f"hidden:{name}", table.resolve(known, [name])[name])
-    return found
+                    values |= digest(f"hidden:{name}", table.resolve(known, [name])[name])
+    return values
 
 
 def digest(name: str, value: Any) -> dict[str, Value]:

@@ -41,11 +41,11 @@ def _parts(name: str, renames: Renames) -> Values:
 
 def frozen_values(kind: str, studies: Sequence[str]) -> dict[str, Values]:
     """Return the frozen values of every subject of a kind, as `subjects` lists them."""
-    found: dict[str, Values]
+    by_subject: dict[str, Values]
     if kind == "outputs":
         files = {path.stem: read_frozen(path) for path in sorted((FOLDER / "studies").glob("*.json"))}
-        found = {name: data["outputs"] for name, data in files.items() if "outputs" in data}
+        by_subject = {name: data["outputs"] for name, data in files.items() if "outputs" in data}
     else:
-        found = read_frozen(FILES[kind])["values"]
+        by_subject = read_frozen(FILES[kind])["values"]
     every = not studies or kind not in OF_STUDIES
-    return {name: values for name, values in found.items() if every or name in studies}
+    return {name: values for name, values in by_subject.items() if every or name in studies}

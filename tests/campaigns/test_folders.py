@@ -47,7 +47,7 @@ def losses(tmp_path: Path, count: int) -> Iterator[str]:
         place = tmp_path / str(number)
         place.mkdir()
         lost, done = folders.one_folder(number, 7, WRITTEN, place, real=False)
-        yield from (f"{number}: {one} ({done})" for one in lost)
+        yield from (f"{number}: {output} ({done})" for output in lost)
 
 
 @pytest.mark.gate
@@ -78,17 +78,17 @@ def test_a_run_is_done_or_ends_in_one_line(lack: machine.Lack, tmp_path: Path) -
 
 @pytest.mark.slow
 def test_another_end_than_the_one_expected_is_a_fault(tmp_path: Path) -> None:
-    lack = next(one for one in machine.LACKS if one.name == "files of 20 kB at most")
-    found = machine.faults_of(dataclasses.replace(lack, code=0, says="no such words"), tmp_path)
-    assert [fault.partition(":")[0] for fault in found] == ["exit code 4, not 0", "not one line about 'no such words'"]
+    lack = next(known for known in machine.LACKS if known.name == "files of 20 kB at most")
+    faults = machine.faults_of(dataclasses.replace(lack, code=0, says="no such words"), tmp_path)
+    assert [fault.partition(":")[0] for fault in faults] == ["exit code 4, not 0", "not one line about 'no such words'"]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 5])
 def test_a_random_study_is_answered_and_its_answer_stands(seed: int) -> None:
-    found = random_studies.judged(seed)
-    assert found["wrong"] == ""
-    assert found["status"] == {3: "above_rating", 5: "infeasible"}[seed]
+    verdict = random_studies.judged(seed)
+    assert verdict["wrong"] == ""
+    assert verdict["status"] == {3: "above_rating", 5: "infeasible"}[seed]
 
 
 def test_the_attack_counts_only_designs_whose_switch_ends() -> None:
@@ -98,8 +98,8 @@ def test_the_attack_counts_only_designs_whose_switch_ends() -> None:
     assert attack.residual(attack.evaluated(attack.shares(optimum))) <= random_studies.CYCLE_TOLERANCE
     assert attack.worst(np.ones(len(attack.names))) > 100.0  # springs, layer and current at their largest together
     # Its peak of power is that of what it has come to: an attack that took it would better every optimum.
-    asked = "mode: shear\nvary: {current: [0.1 A, 3 A]}\nminimize: peak_power\nsolver: {cells: 6}\n"
-    attack = Attack(read_study_text(asked, "test"))
+    text = "mode: shear\nvary: {current: [0.1 A, 3 A]}\nminimize: peak_power\nsolver: {cells: 6}\n"
+    attack = Attack(read_study_text(text, "test"))
     assert attack.evaluated(attack.shares({"current": 1.0})) is None
     assert attack.evaluated(attack.shares({"current": 1.5})) is not None
 
@@ -182,8 +182,8 @@ def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
     (tmp_path / "results.json").write_text('{"a": ')
     (tmp_path / "cycle.png").write_bytes(b"\x89PNG")
     (tmp_path / ".why.csv.x.part").write_text("a")
-    found = kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), through=False)
-    assert found == [
+    faults = kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), through=False)
+    assert faults == [
         ".why.csv.x.part is left half written", "cycle.png is broken", "results.json is broken",
         "the folder says running, not interrupted",
     ]  # fmt: skip
@@ -195,12 +195,12 @@ def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
 
 def test_the_campaign_sees_what_an_explorer_has_lost(tmp_path: Path) -> None:
     source, talk = open_source(kills.SMALL), Conversation(1)
-    kept = open_history(tmp_path, source.text, source.first)
-    kept.state = kept.state.model_copy(update={"at": {**source.first.at, "current": "1.1 A"}})
-    write_history(tmp_path, kept, written_digest(tmp_path))
-    talk.kept = talk.asked = {"current": "1.2 A"}
+    history = open_history(tmp_path, source.text, source.first)
+    history.state = history.state.model_copy(update={"at": {**source.first.at, "current": "1.1 A"}})
+    write_history(tmp_path, history, written_digest(tmp_path))
+    talk.history = talk.requested = {"current": "1.2 A"}
     assert not_kept(talk, kills.SMALL, tmp_path)[0].startswith("kept {")
-    talk.asked = {"current": "1.1 A"}  # it was under way when the explorer was ended
+    talk.requested = {"current": "1.1 A"}  # it was under way when the explorer was ended
     assert not_kept(talk, kills.SMALL, tmp_path) == []
     (tmp_path / "explore.json").write_text("{")
     assert not_kept(talk, kills.SMALL, tmp_path)[0].startswith("cannot be opened again: ")
@@ -220,9 +220,9 @@ USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "c
     ],
 )
 def test_mutated_inputs_are_read_or_refused_in_words(kind: str, inputs: int) -> None:
-    found = fuzz.done(fuzz.Chunk(kind, 5, 0, inputs))
-    assert found.failures == []
-    assert found.inputs >= inputs
+    chunk = fuzz.done(fuzz.Chunk(kind, 5, 0, inputs))
+    assert chunk.failures == []
+    assert chunk.inputs >= inputs
 
 
 def test_what_failed_once_fails_no_more() -> None:

@@ -26,16 +26,16 @@ FROZEN: dict[str, Value] = {
 OPTIMUM = {"status": "optimal", "objective": 1.0, "reference": {"mass": 0.2}}
 
 
-def found(now: Mapping[str, Value], **options: Any) -> list[tuple[str, str, str]]:
-    return [(one.quantity, one.frozen, one.now) for one in differences("study", FROZEN, now, **options)]
+def changes_of(now: Mapping[str, Value], **options: Any) -> list[tuple[str, str, str]]:
+    return [(change.quantity, change.frozen, change.now) for change in differences("study", FROZEN, now, **options)]
 
 
-def test_lost_added_and_different_values_are_told_apart() -> None:
-    assert found(dict(FROZEN)) == []
-    assert found({name: value for name, value in FROZEN.items() if name != "mass"}) == [("mass", "0.1", "lost")]
-    assert found({**FROZEN, "size": 3.0}) == [("size", "added", "3.0")]
+def test_lost_added_and_different_values_are_distinguished() -> None:
+    assert changes_of(dict(FROZEN)) == []
+    assert changes_of({name: value for name, value in FROZEN.items() if name != "mass"}) == [("mass", "0.1", "lost")]
+    assert changes_of({**FROZEN, "size": 3.0}) == [("size", "added", "3.0")]
     frozen, now = {"limit:mass <=": 1e-12, "mass": 1e-12}, {"limit:mass <=": 3e-12, "mass": 3e-12}
-    assert [one.quantity for one in differences("study", frozen, now, tolerance=1e-9)] == ["mass"]
+    assert [change.quantity for change in differences("study", frozen, now, tolerance=1e-9)] == ["mass"]
     assert relative_difference(2.0, 1.0) == 0.5
     assert relative_difference(-1.0, 1.0) == 2.0
     assert relative_difference(math.inf, math.inf) == relative_difference(math.nan, math.nan) == 0.0
@@ -54,22 +54,22 @@ def test_lost_added_and_different_values_are_told_apart() -> None:
     ],
 )
 def test_a_changed_value(name: str, value: Value, difference: tuple[str, str, str]) -> None:
-    assert found({**FROZEN, name: value}) == [difference]
+    assert changes_of({**FROZEN, name: value}) == [difference]
 
 
 @pytest.mark.parametrize(("change", "count"), [(1e-10, 0), (1e-8, 1)])
 def test_tolerance(change: float, count: int) -> None:
-    assert len(found({**FROZEN, "stiffness@hot": 5.0 * (1.0 + change)}, tolerance=1e-9)) == count
+    assert len(changes_of({**FROZEN, "stiffness@hot": 5.0 * (1.0 + change)}, tolerance=1e-9)) == count
 
 
 def test_renames() -> None:
     now = {**FROZEN, "rate@hot": 5.0, "size": 3.0}
     del now["stiffness@hot"], now["mass"]
     renames = Renames({"stiffness": "rate"}, frozenset({"mass"}), frozenset({"size"}))
-    assert found(now, renames=renames) == []
-    assert found({**now, "rate@hot": 5.1}, renames=renames) == [("rate@hot", "5.0", "5.1")]
-    assert found(now, renames=replace(renames, added=frozenset())) == [("size", "added", "3.0")]
-    assert found(now, renames=replace(renames, renamed={})) == [
+    assert changes_of(now, renames=renames) == []
+    assert changes_of({**now, "rate@hot": 5.1}, renames=renames) == [("rate@hot", "5.0", "5.1")]
+    assert changes_of(now, renames=replace(renames, added=frozenset())) == [("size", "added", "3.0")]
+    assert changes_of(now, renames=replace(renames, renamed={})) == [
         ("stiffness@hot", "5.0", "lost"), ("rate@hot", "added", "5.0"),
     ]  # fmt: skip
 
@@ -112,8 +112,8 @@ def test_frozen_numbers_keep_every_bit(tmp_path: Path) -> None:
     ],
 )
 def test_an_optimum(change: dict[str, Any], quantities: list[str]) -> None:
-    found = optima.optimum_differences("study", OPTIMUM, OPTIMUM | change)
-    assert [one.quantity for one in found] == quantities
+    changes = optima.optimum_differences("study", OPTIMUM, OPTIMUM | change)
+    assert [difference.quantity for difference in changes] == quantities
 
 
 def test_objectives_places_and_fits_are_compared_without_wording() -> None:
@@ -146,7 +146,7 @@ def test_a_frozen_design_has_the_frozen_names() -> None:
     frozen = read_frozen(study_outputs.frozen_file("paper_shear"))
     renames = Renames.read(same.RENAMES)
     now = study_outputs.outputs(study_outputs.evaluate_frozen("paper_shear", renames))
-    found = list(differences("paper_shear", frozen["outputs"], now, tolerance=1e-3, renames=renames))
-    assert [str(difference) for difference in found if difference.now == "lost" or difference.frozen == "added"] == []
+    changes = list(differences("paper_shear", frozen["outputs"], now, tolerance=1e-3, renames=renames))
+    assert [str(difference) for difference in changes if difference.now == "lost" or difference.frozen == "added"] == []
     for name, value in frozen["chosen"].items():
         assert now[name] == value
