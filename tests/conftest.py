@@ -1,4 +1,4 @@
-"""What all tests share: the command line as a user calls it."""
+"""Shared by all tests: the command line as a user calls it."""
 
 import gc
 import subprocess
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browsers import said_of_no_browser
+from browsers import no_browser_message
 from hypothesis import settings
 from shell_signals import follow_signals
 from support import ROOT, Command, called, environment, run_process, store_equations
@@ -44,7 +44,7 @@ share what takes long to make."""
 
 
 def place(file: str) -> int:
-    """Where a file stands among the longest; behind them if it is none."""
+    """Return a file's place among the longest; behind them if it is none."""
     return next((rank for rank, begin in enumerate(LONGEST) if file.startswith(begin)), len(LONGEST))
 
 
@@ -57,7 +57,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def pytest_unconfigure(config: pytest.Config) -> None:
     """Say in the last line that there was no browser, where there was none."""
     reporter = config.pluginmanager.get_plugin("terminalreporter")
-    words = said_of_no_browser(reporter.stats.get("skipped", [])) if reporter else ""
+    words = no_browser_message(reporter.stats.get("skipped", [])) if reporter else ""
     if words:
         reporter.write_line(words)
 

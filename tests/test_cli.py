@@ -174,7 +174,7 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
     assert "placement_radius" in done.stderr
 
 
-def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_switch_that_never_ends_is_reported(tvimdesign: Command, tmp_path: Path) -> None:
     file = tmp_path / "weak.yaml"
     file.write_text("mode: shear\nmodule: {current: 0.2 A}\n")
     done = tvimdesign("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")
@@ -185,7 +185,7 @@ def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path
 
 
 @pytest.mark.gate
-def test_a_module_that_never_stiffens_is_said_so_and_leaves_a_whole_folder(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_module_that_never_stiffens_is_reported_with_a_whole_folder(tvimdesign: Command, tmp_path: Path) -> None:
     # In free air an ampere heats the module more than it cools the layer.
     study = tmp_path / "study.yaml"
     study.write_text("mode: shear\nmodule: {cooling_current: 1 A}\n")
@@ -219,10 +219,10 @@ def test_an_interrupt_ends_with_its_code_and_a_reusable_folder(
     assert wait_until((out / "unfinished/.run.json").exists)
     time.sleep(after)
     os.killpg(process.pid, number)
-    _, said = communicate(process)
-    assert process.returncode == 128 + number, said
-    assert "interrupted" in said
-    assert "Traceback" not in said
+    _, message = communicate(process)
+    assert process.returncode == 128 + number, message
+    assert "interrupted" in message
+    assert "Traceback" not in message
     assert json.loads((out / "manifest.json").read_text())["status"] == "interrupted"
     again = tvimdesign("run", "studies/paper_reconstructed.yaml", "--no-cad", "--no-plots", "--out", out, "--overwrite")
     assert again.returncode == 0, again.stderr

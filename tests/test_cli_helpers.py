@@ -41,9 +41,9 @@ def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Comman
     assert done.returncode == 0, done.stderr
     wire = json.loads(done.stdout)["values"]["wire_diameter"]
     assert (wire["value"], wire["unit"]) == (2.0, "mm")
-    kept = tmp_path / "out/study.yaml"
-    assert "# --set wire_diameter=2 mm" in kept.read_text()
-    assert read_study(kept).module["wire_diameter"] == pytest.approx(2e-3)
+    study_file = tmp_path / "out/study.yaml"
+    assert "# --set wire_diameter=2 mm" in study_file.read_text()
+    assert read_study(study_file).module["wire_diameter"] == pytest.approx(2e-3)
 
 
 @pytest.mark.gate
@@ -59,7 +59,7 @@ def test_a_setting_changes_what_is_tested(tvimdesign: Command, tmp_path: Path) -
         done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "step", *settings, "--json",
                           "--out", tmp_path / name)  # fmt: skip
         assert done.returncode == 0, done.stderr
-        return [found["value"] for found in json.loads(done.stdout)["findings"] if "value" in found]
+        return [finding["value"] for finding in json.loads(done.stdout)["findings"] if "value" in finding]
 
     assert tested("as it is") != tested("thicker", "--set", "pcl_thickness=2 mm")
     assert "# --set pcl_thickness=2 mm" in (tmp_path / "thicker/tested.yaml").read_text()
@@ -142,7 +142,7 @@ def test_tab_completes() -> None:
         assert OFFERED[words] in zsh, words
 
 
-def test_the_shell_is_told_how(tvimdesign: Command) -> None:
+def test_help_names_the_completion_options(tvimdesign: Command) -> None:
     shown = tvimdesign("--help").stdout
     assert "--install-completion" in shown
     assert "--show-completion" in shown
@@ -167,7 +167,7 @@ NASTY = "name: '[/bold] [red] N·m 名 :key:'\nmode: shear\n"
 
 
 def run(*words: object, **more: str) -> subprocess.CompletedProcess[bytes]:
-    """A process of its own, with more in its environment."""
+    """Run the command in a process of its own, with more in its environment."""
     command = [sys.executable, "-m", "tvimdesign", *map(str, words)]
     return run_process(command, env={**environment(), **more})
 

@@ -29,7 +29,7 @@ _BLOCK = re.compile(r'^```(\w+)(?: title="([^"]+)")?\n(.*?)^```', re.M | re.S)
 
 
 def _steps(page: str) -> Iterator[tuple[str, str]]:
-    """What a page has one do, in order: ("FILE:name", text) or ("command", line)."""
+    """Return the steps of a page in order: ("FILE:name", text) or ("command", line)."""
     for language, title, text in _BLOCK.findall((DOCS / page).read_text()):
         if title:
             yield f"FILE:{title}", text
@@ -38,7 +38,7 @@ def _steps(page: str) -> Iterator[tuple[str, str]]:
 
 
 def _place(tmp_path: Path) -> None:
-    """A place like the repository: commands name studies and released parts by their path in it."""
+    """Make a folder like the repository: commands name studies and released parts by their path in it."""
     for name in ("studies", "cad"):
         (tmp_path / name).symlink_to(ROOT / name)
 
@@ -62,7 +62,7 @@ def _do(page: str, tvimdesign: Command, place: Path, more: list[str], skipped: s
 
 
 def _records(page: str, place: Path) -> None:
-    """The record that the page on Peltier modules takes from the catalogue's page."""
+    """Return the record that the page on Peltier modules takes from the catalogue's page."""
     if "peltier" in page:
         for kind, text in _steps("catalogue.md"):
             file = place / kind.removeprefix("FILE:")
@@ -153,7 +153,7 @@ def executed(cells: list[dict[str, Any]], names: dict[str, Any]) -> Iterator[Any
 
 @contextmanager
 def notebook(folder: Path, cells: list[dict[str, Any]]) -> Iterator[list[Any]]:
-    """What cells show that are executed in a folder, then the names they leave, and the folder."""
+    """Execute cells in a folder; return what they show, then the names they leave, and the folder."""
     mpl.use("Agg")
     names: dict[str, Any] = {}
     with chdir(folder):
@@ -163,8 +163,8 @@ def notebook(folder: Path, cells: list[dict[str, Any]]) -> Iterator[list[Any]]:
 @pytest.fixture(scope="module")
 def outputs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[Any]]:
     cells = [cell for cell in CODE if "slow" not in cell["metadata"].get("tags", ())]
-    with notebook(tmp_path_factory.mktemp("tutorial"), cells) as found:
-        yield found
+    with notebook(tmp_path_factory.mktemp("tutorial"), cells) as ran:
+        yield ran
 
 
 @pytest.mark.slow

@@ -15,9 +15,9 @@ OF_CONDA = {"matplotlib": "matplotlib-base"}
 
 def _split(needed: str) -> tuple[str, str]:
     """Name and range of versions."""
-    found = re.fullmatch(r"([A-Za-z0-9_.-]+?)\s*([<>=!~].*)?", needed)
-    assert found, needed
-    return found[1], (found[2] or "").replace(" ", "")
+    match = re.fullmatch(r"([A-Za-z0-9_.-]+?)\s*([<>=!~].*)?", needed)
+    assert match, needed
+    return match[1], (match[2] or "").replace(" ", "")
 
 
 def test_the_recipe_needs_what_the_package_needs() -> None:
@@ -32,7 +32,7 @@ def test_the_recipe_needs_what_the_package_needs() -> None:
 
 
 def test_what_pip_takes_on_an_intel_mac_has_a_wheel_there() -> None:
-    (needed,) = (Requirement(one) for one in PROJECT["project"]["dependencies"] if ";" in one)
+    (needed,) = (Requirement(requirement) for requirement in PROJECT["project"]["dependencies"] if ";" in requirement)
     assert needed.name == "llvmlite"
     assert needed.specifier.contains("0.45.1")
     assert not needed.specifier.contains("0.46.0")
@@ -55,7 +55,7 @@ def test_the_version_is_one() -> None:
     assert RECIPE["about"]["license"] == PROJECT["project"]["license"]
 
 
-def test_each_extra_that_is_told_of_is_checked_from_the_wheel() -> None:
+def test_each_extra_in_the_docs_is_checked_from_the_wheel() -> None:
     extras = set(PROJECT["project"]["optional-dependencies"]) - {"dev", "docs", "bench"}
     page = (ROOT / "docs/install.md").read_text("utf-8")
     assert set(re.findall(r"^\| `pip install 'tvimdesign\[(\w+)\]'`", page, re.M)) == extras
@@ -67,16 +67,16 @@ def test_each_extra_that_is_told_of_is_checked_from_the_wheel() -> None:
 
 def test_container_and_page_name_interpreters_and_extras_that_there_are() -> None:
     text = (ROOT / "Containerfile").read_text("utf-8")
-    versions = {one.rsplit(" ", 1)[1] for one in PROJECT["project"]["classifiers"] if ":: Python ::" in one}
+    versions = {tag.rsplit(" ", 1)[1] for tag in PROJECT["project"]["classifiers"] if ":: Python ::" in tag}
     base = re.search(r"^FROM python:([\d.]+)-slim$", text, re.M)
     extras = re.search(r"\)\[([\w,]+)\]\"", text)
     assert base
     assert base[1] in versions
     assert extras
     assert set(extras[1].split(",")) <= set(PROJECT["project"]["optional-dependencies"])
-    versions = [one.rsplit(" ", 1)[1] for one in PROJECT["project"]["classifiers"] if ":: Python ::" in one]
+    versions = [tag.rsplit(" ", 1)[1] for tag in PROJECT["project"]["classifiers"] if ":: Python ::" in tag]
     page = (ROOT / "docs/install.md").read_text("utf-8")
-    told = re.search(r"Python (3\.\d+) to (3\.\d+) are tested", page)
-    assert told
-    assert [told[1], told[2]] == [versions[0], versions[-1]]
-    assert all(f"on {one}" in page for one in versions)
+    range_of_tests = re.search(r"Python (3\.\d+) to (3\.\d+) are tested", page)
+    assert range_of_tests
+    assert [range_of_tests[1], range_of_tests[2]] == [versions[0], versions[-1]]
+    assert all(f"on {version}" in page for version in versions)

@@ -118,14 +118,19 @@ def test_the_springs_of_a_study_hold_by_a_second_implementation(runs: Runs, stud
     # Geometry and statics written a second time, which shares no code with what found the design.
     design, reported = json.loads((runs[study.stem] / "design.json").read_text()), _results(runs[study.stem])
     module = plain_module.with_strength({**design["values"], **design["choices"]}, design["values"])
-    found = plain_module.statics(module)
-    asked = {
-        (one["output"], one["sense"]): one["limit"] for one in design["study"]["require"] if one["output"] in found
+    statics = plain_module.statics(module)
+    required = {
+        (limit["output"], limit["sense"]): limit["limit"]
+        for limit in design["study"]["require"]
+        if limit["output"] in statics
     }
     rules = {("preload_margin", ">="): 0.0, ("spring_static_safety", ">="): 1.0}
-    assert plain_module.broken(module, rules | asked) == []
+    assert plain_module.broken(module, rules | required) == []
     if reported["status"] == "optimal":
-        stiffness = {one["output"] for one in design["study"]["require"]} & {"spring_stiffness", "joint_stiffness@hot"}
+        stiffness = {limit["output"] for limit in design["study"]["require"]} & {
+            "spring_stiffness",
+            "joint_stiffness@hot",
+        }
         assert stiffness, "every optimum is asked for a stiffness"
         assert design["choices"]["transmission"] == "geometry"
         assert not reported["idealizations"]
@@ -136,9 +141,9 @@ def test_the_springs_of_a_study_hold_by_a_second_implementation(runs: Runs, stud
     name, of = strain[design["mode"]]
     assert design["values"][name] == pytest.approx(of(module), rel=1e-9)
     wider = {"envelope_diameter"} if design["choices"]["motor"] != "none" else set()  # the motor is
-    for name in (one for one in plain_module.COMPARED if one not in wider):
-        within = 1e-4 * max(abs(found[name]), 1e-2)
-        assert design["values"][name] == pytest.approx(found[name], abs=within), name
+    for name in (name_of for name_of in plain_module.COMPARED if name_of not in wider):
+        within = 1e-4 * max(abs(statics[name]), 1e-2)
+        assert design["values"][name] == pytest.approx(statics[name], abs=within), name
 
 
 @pytest.mark.slow
@@ -241,35 +246,35 @@ def test_both_of_the_pair_may_be_compared() -> None:
     shear, compression = pair = _pair()
     refuse_unequal([Case(study_path(name), study) for name, study in zip(PAIR, pair, strict=True)])
     both = (shear.module.keys() & compression.module.keys()) - shear.vary.keys() - compression.vary.keys()
-    assert {one: shear.module[one] for one in both} == {one: compression.module[one] for one in both}
+    assert {key: shear.module[key] for key in both} == {key: compression.module[key] for key in both}
 
 
 def test_both_modes_of_the_pair_are_asked_the_same() -> None:
     shear, compression = _pair()
     only_compression = {row.name for row in compression.table.outputs} - {row.name for row in shear.table.outputs}
-    asked = {
+    required = {
         (limit.output, limit.sense, limit.limit)
         for limit in compression.require
         if limit.output not in only_compression
     }
-    assert asked == {(limit.output, limit.sense, limit.limit) for limit in shear.require}
+    assert required == {(limit.output, limit.sense, limit.limit) for limit in shear.require}
     for what in ("minimize", "operating_points", "robust"):
         assert getattr(shear, what) == getattr(compression, what), what
     both = shear.tolerances.keys() & compression.tolerances.keys()
-    assert {one: shear.tolerances[one] for one in both} == {one: compression.tolerances[one] for one in both}
+    assert {key: shear.tolerances[key] for key in both} == {key: compression.tolerances[key] for key in both}
     assert shear.module["process"] == compression.module["process"]
 
 
 @pytest.mark.slow
 @to_order
 def test_a_study_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path: Path) -> None:
-    found = shipped_answer(path.stem)
-    assert found.design.status == "optimal"
-    assert found.design.accepting == ()
-    assert found.feasible
-    assert found.solution is not None
-    assert found.solution.yield_reached is not None
-    assert found.solution.yield_reached.together >= 0.95
+    result = shipped_answer(path.stem)
+    assert result.design.status == "optimal"
+    assert result.design.accepting == ()
+    assert result.feasible
+    assert result.solution is not None
+    assert result.solution.yield_reached is not None
+    assert result.solution.yield_reached.together >= 0.95
 
 
 STANDARDS = r"ISO \d{3,}|EN \d{5}|ASTM A\d+|JIS G \d{4}|AWG \d+|\b606\d\b"
@@ -295,27 +300,27 @@ FIGURE = re.compile(r"\d+(\.\d+)? (°C|V|A)\b")
 
 
 def bought(path: Path) -> list[Item]:
-    """The lines of the bill that are bought, of a study as it starts, as if it had been through its cycle."""
+    """Return the lines of the bill that are bought, of a study as it starts, as if it had been through its cycle."""
     design = as_it_starts(read_study(path))
     design.values.update(peak_peltier_temperature=356.0, peak_cold_side_temperature=340.0, peak_current=2.0)
     design.values.update(stiffening_peak_current=0.5, peak_voltage=9.0, stiffening_peak_voltage=1.0)
     titles = _titles(design)
     kinds = MODULES[design.mode].kinds(dimensions(design))
     parts = bill(design, titles, {f"{kind}_1": cq.Solid.makeBox(1.0, 1.0, 1.0) for kind in kinds})
-    return [one for one in as_ordered([*parts, *beside(design, titles), *fixtures(design, titles)]) if not one.made]
+    return [item for item in as_ordered([*parts, *beside(design, titles), *fixtures(design, titles)]) if not item.made]
 
 
 @pytest.mark.parametrize("path", ORDERED, ids=lambda path: str(path.stem))
 def test_bought_items_have_a_number_a_standard_or_sizes_to_order_by(path: Path) -> None:
-    found = bought(path)
-    assert {"heater", "polymer", "thermal_cutout", "spring_right", "link_screw"} <= {one.kind for one in found}
-    for one in found:
+    items = bought(path)
+    assert {"heater", "polymer", "thermal_cutout", "spring_right", "link_screw"} <= {line.kind for line in items}
+    for item in items:
         ways = (
-            NUMBERED.search(one.title),
-            re.search(TO_SIZE.get(one.kind, "^$"), one.title),
-            FIGURE.search(one.title) if one.kind in RATED else None,
+            NUMBERED.search(item.title),
+            re.search(TO_SIZE.get(item.kind, "^$"), item.title),
+            FIGURE.search(item.title) if item.kind in RATED else None,
         )
-        assert any(ways), f"{one.kind}: {one.title}"
+        assert any(ways), f"{item.kind}: {item.title}"
 
 
 MADE = ("elbow_printed", "elbow_machined", "wrist_joint", "wrist_compression", "paper_shear", "machined_compression",

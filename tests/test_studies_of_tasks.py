@@ -21,13 +21,13 @@ LONGER = 1.5
 
 @every
 def test_a_task_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path: Path) -> None:
-    found = shipped_answer(path.stem)
-    assert found.design.status == "optimal"
-    assert found.feasible
-    assert found.solution is not None
-    assert found.solution.yield_reached is not None
-    assert found.solution.yield_reached.together >= 0.95
-    values = found.design.values
+    result = shipped_answer(path.stem)
+    assert result.design.status == "optimal"
+    assert result.feasible
+    assert result.solution is not None
+    assert result.solution.yield_reached is not None
+    assert result.solution.yield_reached.together >= 0.95
+    values = result.design.values
     assert values["holding_torque"] >= values["load_safety"] * values["task_torque@cold"] * (1.0 - 1e-6)
 
 

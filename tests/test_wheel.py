@@ -57,7 +57,7 @@ class Installed:
         shutil.rmtree(source)
 
     def says(self, *words: object) -> subprocess.CompletedProcess[str]:
-        """What the command line says in a folder outside the repository."""
+        """Run the command line in a folder outside the repository."""
         return run([self.python, "-m", "tvimdesign", *words], self.folder, check=False)
 
 
@@ -89,20 +89,20 @@ def test_a_fit_and_its_record(installed: Installed) -> None:
     rows = "".join(f"{torque},{angle}\n" for torque, angle in zip(loads, ANGLES, strict=True))
     (installed.folder / "weights.csv").write_text("torque [N.m],angle [rad]\n" + rows)
     sizes = ["--set", "wire_diameter=2 mm", "--set", "coil_diameter=20 mm", "--set", "coil_count=5"]
-    said = installed.says("fit", "weights.csv", *sizes, "--out", "fitted")
-    assert said.returncode == 0, said.stderr
+    done = installed.says("fit", "weights.csv", *sizes, "--out", "fitted")
+    assert done.returncode == 0, done.stderr
     assert "stiffness" in (installed.folder / "fitted/fit.json").read_text()
 
 
 def test_a_verification_of_a_shipped_design(installed: Installed) -> None:
     write_design(shipped_answer("paper_reconstructed").design, installed.folder / "design.json")
     solver = os.environ.get("FE_PYTHON")
-    said = installed.says("verify", "design.json", "--out", "verified", "--fe-python", solver or sys.executable)
+    done = installed.says("verify", "design.json", "--out", "verified", "--fe-python", solver or sys.executable)
     if not solver:
-        assert said.returncode != 0
-        assert "tvimdesign[fe]" in said.stderr + said.stdout
+        assert done.returncode != 0
+        assert "tvimdesign[fe]" in done.stderr + done.stdout
         return
-    assert said.returncode == 0, said.stderr
+    assert done.returncode == 0, done.stderr
     assert (installed.folder / "verified/report.html").stat().st_size > 1e5
 
 
@@ -114,14 +114,14 @@ def test_the_cases_of_the_validation(installed: Installed) -> None:
             if member.name.startswith(("validation/", "studies/", "tests/studies/")):
                 archive.extract(member, installed.folder, filter="data")
     command = [installed.python, "validation/run.py", "--docs", "compared"]
-    said = run(command, installed.folder, check=False)
-    found = verdicts(installed.folder / "compared/validation.md")
-    assert "cannot be compared" not in said.stdout, said.stdout
-    assert found == verdicts(ROOT / "docs/validation.md"), said.stdout
-    assert len(found) == len(list((ROOT / "validation/cases").glob("*/case.yaml")))
+    done = run(command, installed.folder, check=False)
+    outcomes = verdicts(installed.folder / "compared/validation.md")
+    assert "cannot be compared" not in done.stdout, done.stdout
+    assert outcomes == verdicts(ROOT / "docs/validation.md"), done.stdout
+    assert len(outcomes) == len(list((ROOT / "validation/cases").glob("*/case.yaml")))
 
 
 def verdicts(page: Path) -> dict[str, str]:
-    """What the page of the validation says of each case, by its name."""
+    """Return the verdict of each case on the validation's page, by its name."""
     rows = re.findall(r"^\| \[.*\]\(#(\w+)\) \|.*\| ([A-Za-z ]+) \|$", page.read_text(), re.MULTILINE)
     return dict(rows)

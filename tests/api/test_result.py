@@ -64,15 +64,15 @@ def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result[tvim.St
 
 def test_requirements_and_reasons_are_those_of_the_study(result: tvim.Result[tvim.Study]) -> None:
     table = result.requirements()
-    asked = table[table.origin == "require"]
-    said = " ".join(asked.limit)
+    rows = table[table.origin == "require"]
+    limits = " ".join(rows.limit)
     for limit in result.design.study["require"]:
         name, at, point = limit["output"].partition("@")
         shear = table_for("shear")
         for part in shear.output(name).least_of or (name,):
-            assert (f"{part}{at}{point}" in said) == shear.output(part).exists(result.design.choices)
+            assert (f"{part}{at}{point}" in limits) == shear.output(part).exists(result.design.choices)
     # Ten limits: two are on the least of several, which are told one by one, and two on the stiffness, at five angles.
-    assert (len(asked), table.kept.all()) == (27, True)  # so are the places that the core and the pads' seats yield at
+    assert (len(rows), table.kept.all()) == (27, True)  # so are the places that the core and the pads' seats yield at
     assert result.table().loc["holding_torque", "status"] == "active"
     assert result.feasible
     assert result.status == "optimal"
@@ -90,13 +90,13 @@ def test_requirements_and_reasons_are_those_of_the_study(result: tvim.Result[tvi
 @pytest.mark.slow
 def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result[tvim.Study]) -> None:
     table = result.intervals()
-    asked = {limit["output"] for limit in result.design.study["require"]}
-    assert asked | {"module_mass", "softening_time", "frozen_time"} <= set(table.index)
+    required = {limit["output"] for limit in result.design.study["require"]}
+    assert required | {"module_mass", "softening_time", "frozen_time"} <= set(table.index)
     assert (table.low <= table.value + 1e-12 * table.value.abs()).all()
     assert (table.value <= table.high + 1e-12 * table.high.abs()).all()
     soft = table.loc["softening_time"]
     assert soft.low < soft.alone_low < soft["value"] < soft.alone_high < soft.high
-    assert soft.measure_first in {one["name"] for one in result.uncertainty()["unmeasured"]}
+    assert soft.measure_first in {entry["name"] for entry in result.uncertainty()["unmeasured"]}
     assert result.uncertainty() is result.data["uncertainty"]
     assert result.uncertainty()["parts_yield"] != result.uncertainty()["ranges_hold"]
 
@@ -123,9 +123,9 @@ def test_the_command_line_gives_the_same_and_writes_the_same(
     saved = result.save(tmp_path / "saved", plots=False)
     names = {path.relative_to(tmp_path / "run") for path in (tmp_path / "run").rglob("*") if path.is_file()}
     assert {path.relative_to(saved) for path in saved.rglob("*") if path.is_file()} == names
-    told, written = (json.loads((tmp_path / f / "results.json").read_text()) for f in ("run", "saved"))
-    assert written["values"].keys() == told["values"].keys()
-    for name, entry in told["values"].items():
+    printed, written = (json.loads((tmp_path / f / "results.json").read_text()) for f in ("run", "saved"))
+    assert written["values"].keys() == printed["values"].keys()
+    for name, entry in printed["values"].items():
         assert written["values"][name]["value"] == pytest.approx(entry["value"], rel=1e-9), name
     assert tvim.read_design(str(saved / "design.json")) == result.design
 
@@ -249,8 +249,8 @@ def test_the_import_loads_no_library() -> None:
 
 @pytest.mark.gate
 def test_a_run_from_python_waits_for_pandas_until_a_table_is_asked_for() -> None:
-    found = loaded_by("import tvimdesign as t; r = t.example('paper_reconstructed').evaluate(progress=False)")
-    assert not {"pandas", "matplotlib"} & set(found)  # scipy is loaded by numba, which runs the engine
+    modules = loaded_by("import tvimdesign as t; r = t.example('paper_reconstructed').evaluate(progress=False)")
+    assert not {"pandas", "matplotlib"} & set(modules)  # scipy is loaded by numba, which runs the engine
 
 
 def test_public_names_are_there_and_on_the_page() -> None:

@@ -54,7 +54,7 @@ write: {cad: false}
     assert written.resolved == tvim.load(tmp_path / "joint.yaml").resolved
 
 
-def test_all_mistakes_of_a_study_in_python_are_told_at_once() -> None:
+def test_all_mistakes_of_a_study_in_python_are_reported_at_once() -> None:
     with pytest.raises(tvim.StudyError) as caught:
         tvim.Study(mode="shear", module={"curent": "1 A", "coil_count": "3,25"}, require={"module_mass": "<= 3 m"})
     assert [problem.path for problem in caught.value.problems] == [
@@ -79,7 +79,7 @@ def test_copies_are_changed_by_paths_and_the_study_is_not(study: tvim.Study) -> 
     assert study.minimize(module_mass=1, cycle_time=3).resolved.minimize == {"module_mass": 1.0, "cycle_time": 3.0}
     assert study.resolved == before
     assert "current" not in study.vary(current=None).resolved.vary
-    assert "holding_torque" not in {one.output for one in study.require(holding_torque=None).resolved.require}
+    assert "holding_torque" not in {limit.output for limit in study.require(holding_torque=None).resolved.require}
     assert "stroke" not in study.set(stroke=None).resolved.module
     changed = study.set({"operating_points.hot.temperature": "90 degC", "solver.starts": 1}).resolved
     assert changed.operating_points["hot"]["temperature"] == pytest.approx(363.15)

@@ -34,7 +34,9 @@ def test_cell_at_the_optimum_is_the_optimum(optimised: tvim.Sweep[tvim.Study], r
     # Mass and volume trade along a flat valley there, so what is minimised says whether it is the same optimum.
     reference, weights = result.design.solution["reference"], result.design.study["minimize"]
     first = dict(zip(optimised.plan.columns, optimised.kept[0].answer.values, strict=True))
-    cell, alone = (sum(w * one[n] / reference[n] for n, w in weights.items()) for one in (first, result.design.values))
+    cell, alone = (
+        sum(w * values[n] / reference[n] for n, w in weights.items()) for values in (first, result.design.values)
+    )
     assert cell == pytest.approx(alone, rel=SAME_OPTIMUM)
 
 
@@ -43,12 +45,12 @@ def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Swee
     assert optimised.warm_solves == 3
     cell = optimised[2]
     assert cell.result is not None
-    kept = dict(cell.study.resolved.minimize)
+    minimized = dict(cell.study.resolved.minimize)
     cold = cell.study.run(progress=False)
     # The cold run divides by its own start, so its goal is another one: of either goal each design is the best.
-    for one, other in ((cold, cell.result), (cell.result, cold)):
-        reference = one.design.solution["reference"]
-        own, others = (sum(w * r.design.values[n] / reference[n] for n, w in kept.items()) for r in (one, other))
+    for warm, other in ((cold, cell.result), (cell.result, cold)):
+        reference = warm.design.solution["reference"]
+        own, others = (sum(w * r.design.values[n] / reference[n] for n, w in minimized.items()) for r in (warm, other))
         assert own <= others * (1 + 1e-5)
 
 
@@ -87,7 +89,7 @@ def test_requirements_may_be_swept(study: tvim.Study) -> None:
 
 
 @pytest.mark.parametrize(
-    ("axes", "said"),
+    ("axes", "message"),
     [
         ({}, "there is no `sweep:`"),
         ({"pcl_thickness": []}, "pcl_thickness: is an empty list"),
@@ -101,9 +103,9 @@ def test_requirements_may_be_swept(study: tvim.Study) -> None:
     ],
 )
 def test_what_cannot_be_swept_is_refused_before_anything_is_solved(
-    study: tvim.Study, axes: dict[str, list[str]], said: str
+    study: tvim.Study, axes: dict[str, list[str]], message: str
 ) -> None:
-    with pytest.raises(tvim.InputError, match=said):
+    with pytest.raises(tvim.InputError, match=message):
         study.sweep(axes, progress=False)
 
 
@@ -127,24 +129,24 @@ def test_the_study_s_section_is_swept_and_samples_lie_between_its_ends() -> None
 def test_workers_and_a_folder_give_the_table_of_this_process(grid: tvim.Sweep[tvim.Study], tmp_path: Path) -> None:
     study = tvim.example("paper_reconstructed")
     outputs = ["spring_stiffness"]
-    kept = study.sweep(EVALUATED, outputs=outputs, out=tmp_path / "sweep", workers=2, progress=False)
+    stored = study.sweep(EVALUATED, outputs=outputs, out=tmp_path / "sweep", workers=2, progress=False)
     names = ("module_mass", "spring_stiffness")
-    assert kept.table(*names).equals(grid.table(*names))
+    assert stored.table(*names).equals(grid.table(*names))
     assert (tmp_path / "sweep/cells.csv").exists()
     with pytest.raises(tvim.InputError, match="not kept by this sweep"):
-        kept.table("spring_mass")
+        stored.table("spring_mass")
     with pytest.raises(tvim.InputError, match="name it with out="):
         study.sweep(EVALUATED, workers=2)
 
 
 @pytest.fixture
 def notebook(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """A kernel of which nothing is there but what progress asks for; returns what it shows."""
-    said: list[str] = []
+    """Stand in for a notebook's kernel, as far as progress needs it; return what it shows."""
+    messages: list[str] = []
 
     def note(data: dict[str, str], **how: bool) -> Any:
         assert how["raw"]
-        said.append(data["text/plain"])
+        messages.append(data["text/plain"])
         return SimpleNamespace(update=note)
 
     kernel, display = ModuleType("IPython"), ModuleType("IPython.display")
@@ -152,7 +154,7 @@ def notebook(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     monkeypatch.setattr(display, "display", note, raising=False)
     monkeypatch.setitem(sys.modules, "IPython", kernel)
     monkeypatch.setitem(sys.modules, "IPython.display", display)
-    return said
+    return messages
 
 
 def test_a_notebook_s_line_is_empty_in_the_end_and_after_an_error(study: tvim.Study, notebook: list[str]) -> None:

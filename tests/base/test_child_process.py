@@ -234,10 +234,10 @@ def test_limits_count_work_and_start_again_with_progress(monkeypatch: pytest.Mon
 
 @pytest.fixture
 def without_cad(monkeypatch: pytest.MonkeyPatch) -> None:
-    def found(name: str) -> Any:
+    def finder(name: str) -> Any:
         return None if name == "cadquery" else find_spec(name)
 
-    monkeypatch.setattr(environment, "find_spec", found)
+    monkeypatch.setattr(environment, "find_spec", finder)
 
 
 @pytest.mark.slow

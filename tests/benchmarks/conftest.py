@@ -1,4 +1,4 @@
-"""What the benchmarks have written for numba is tested as plain Python: compiling it takes longer than all else."""
+"""Numba is off in tests of the benchmarks: compiling takes longer than all else."""
 
 from importlib import import_module
 from unittest.mock import patch

@@ -39,14 +39,14 @@ def test_the_functions_of_the_rivals_are_those_of_the_product(reference: Referen
 
 
 def test_our_own_row_is_an_optimum_to_an_independent_integrator(reference: Reference) -> None:
-    found = by_tvimdesign(reference, reference.begin)
-    objective, broken = exact(reference, found.design)
+    optimum = by_tvimdesign(reference, reference.begin)
+    objective, broken = exact(reference, optimum.design)
     assert broken < 1e-6
     # No feasible step of a thousandth to either side of any variable is better.
     once = Once(reference, lsoda(1e-9))
-    for i in range(len(found.design)):
+    for i in range(len(optimum.design)):
         for step in (-1e-3, 1e-3):
-            logs = np.log(found.design) + step * (np.arange(len(found.design)) == i)
+            logs = np.log(optimum.design) + step * (np.arange(len(optimum.design)) == i)
             inside = np.all(np.exp(logs) <= reference.upper) and np.all(np.exp(logs) >= reference.lower)
             if inside and np.all(once.room(logs) >= 0.0):
                 assert once.objective(logs) > objective * (1.0 - 1e-6)
@@ -65,19 +65,19 @@ def others(reference: Reference) -> list[np.ndarray]:
 
 @pytest.mark.gate
 def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> None:
-    kept = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in (*CONSTANT, *SEAT)]
-    by_width = np.array([reference.limits[i - 1].output in BY_STOP_WIDTH for i in kept])
+    compared_rows = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in (*CONSTANT, *SEAT)]
+    by_width = np.array([reference.limits[i - 1].output in BY_STOP_WIDTH for i in compared_rows])
     sizes = reference.model.outputs(["envelope_volume", "module_mass", "stop_width"])
     for design in [reference.begin, *reference.random_starts(3)]:
         rows = np.zeros(hand_module.OUTPUTS + hand_module.RESIDUALS)
         hand_module.measure(design, rows, np.zeros(hand_module.HEAT))
         expected = np.asarray(sizes(reference.inputs(design), np.ones(len(reference.model.switch_names)))).ravel()
         assert rows[:2] == pytest.approx(expected[:2], rel=1e-12)
-        residuals, found = reference.rows(design, 100.0)[kept], rows[hand_module.OUTPUTS :]
+        residuals, from_rows = reference.rows(design, 100.0)[compared_rows], rows[hand_module.OUTPUTS :]
         no_room = by_width & (expected[2] <= SLIVER)
-        assert found[~no_room] == pytest.approx(residuals[~no_room], rel=1e-9, abs=1e-12)
+        assert from_rows[~no_room] == pytest.approx(residuals[~no_room], rel=1e-9, abs=1e-12)
         assert np.all(residuals[no_room] > 0.0)
-        assert np.all(found[no_room] > residuals[no_room])
+        assert np.all(from_rows[no_room] > residuals[no_room])
     assert pytest.approx(reference.begin, rel=1e-12) == by_hand.PUBLISHED
     assert by_hand.ByHand().objective(np.log(reference.begin)) == pytest.approx(3.0)
 
@@ -103,9 +103,9 @@ def test_the_slopes_written_by_hand_are_those_of_its_values(reference: Reference
     for i in range(len(reference.begin)):
         aside = 1e-4 * (np.arange(len(reference.begin)) == i)
         low, high = (equations_by_hand(reference.begin * np.exp(side * aside))[0] for side in (-1.0, 1.0))
-        found, expected = slopes[:, i], (high - low) / 2e-4
-        assert found[2] == pytest.approx(expected[2], rel=1e-4, abs=5e-3)  # seconds, of 170
-        assert np.delete(found, 2) == pytest.approx(np.delete(expected, 2), rel=1e-4, abs=1e-7)
+        slope, expected = slopes[:, i], (high - low) / 2e-4
+        assert slope[2] == pytest.approx(expected[2], rel=1e-4, abs=5e-3)  # seconds, of 170
+        assert np.delete(slope, 2) == pytest.approx(np.delete(expected, 2), rel=1e-4, abs=1e-7)
 
 
 @pytest.mark.gate

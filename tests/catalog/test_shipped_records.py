@@ -290,7 +290,7 @@ def test_convection_is_that_of_free_air_in_every_orientation(record: str, diamet
 
 
 def test_a_data_sheet_is_that_of_the_type() -> None:
-    """A sheet's source names the type or grade that the record's title names: a figure printed for another is none."""
+    """Require that a sheet's source names the type or grade of the record's title: a figure of another is wrong."""
     in_doubt = {"flexural_modulus", "reference_temperature"}  # of the polymers: one figure for two grades
 
     def check(item: tuple[str, str]) -> None:
@@ -298,7 +298,7 @@ def test_a_data_sheet_is_that_of_the_type() -> None:
         types = {word.strip("(),.") for word in record.title.split() if any(letter.isdigit() for letter in word)}
         for name, entry in {**record.entries, **record.tables}.items():
             if entry.status == "datasheet" and not (record.category == "polymers" and name in in_doubt):
-                assert any(one in entry.source for one in types), f"{item}: {name}: {entry.source}"
+                assert any(number in entry.source for number in types), f"{item}: {name}: {entry.source}"
 
     of_every(EVERY_RECORD, check)
 

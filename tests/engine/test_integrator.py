@@ -71,7 +71,7 @@ def with_slopes(
 
 
 def order_of(errors: list[float]) -> list[float]:
-    return [float(np.log2(one / other)) for one, other in pairwise(errors)]
+    return [float(np.log2(error / other)) for error, other in pairwise(errors)]
 
 
 def test_the_coefficients_keep_the_conditions_of_third_order() -> None:
@@ -168,8 +168,8 @@ def test_sensitivities_along_the_lengths_of_steps(pendulum: Motion) -> None:
         pendulum, y, np.zeros((2, 2)), lengths, k, np.zeros((2, 2)), np.zeros_like, None, of_lengths
     )
     for j in range(2):
-        found = differences(lambda share, j=j: stepped(pendulum, y, lengths + share * of_lengths[:, j], k))
-        assert slopes[:, j] == pytest.approx(found, rel=1e-6, abs=1e-7)
+        expected = differences(lambda share, j=j: stepped(pendulum, y, lengths + share * of_lengths[:, j], k))
+        assert slopes[:, j] == pytest.approx(expected, rel=1e-6, abs=1e-7)
 
 
 def one_error(motion: Motion, y: Array, h: float, k: Array) -> float:
@@ -202,7 +202,7 @@ def test_a_step_takes_the_length_its_error_allows_and_proposes_the_next(pendulum
         assert y == pytest.approx(stepped(pendulum, np.array([1.0, 0.2]), np.array([length]), k), abs=1e-9)
 
 
-def test_adapted_steps_come_as_near_to_a_solution_as_they_are_told(linear: Motion) -> None:
+def test_adapted_steps_come_as_near_to_a_solution_as_requested(linear: Motion) -> None:
     k, end, counts, errors = np.zeros(3), 2.0, [], []
     begin = np.array([1.0, 2.0, -0.5])
     expected = expm(MATRIX * end) @ begin

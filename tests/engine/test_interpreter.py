@@ -110,8 +110,8 @@ def test_a_power_with_a_number_as_exponent_is_that_of_casadi(exponent: float, x:
     slope = ca.Function("slope", [base], [ca.jacobian(base**exponent, base)])
     tape = Tape.of([base], [base**exponent])
     assert interpreter.CONSTPOW in tape.code.groups[:, 0]
-    ((found, tangent),) = tape.tangents((np.array([x]),), (np.ones((1, 1)),))
-    assert bits(found[0]) == bits(tape.values(np.array([x]))[0][0]) == bits(float(value(x)))
+    ((power, tangent),) = tape.tangents((np.array([x]),), (np.ones((1, 1)),))
+    assert bits(power[0]) == bits(tape.values(np.array([x]))[0][0]) == bits(float(value(x)))
     if np.isfinite(float(slope(x))):
         assert tangent[0, 0] == pytest.approx(float(slope(x)), rel=1e-12)
 
@@ -147,8 +147,8 @@ def grown(taken: list[tuple[int, int, int]]) -> tuple[Any, Any, Any]:
     """Return an expression that grows by an operation of two earlier values at a time, and two of its values."""
     x = ca.SX.sym("x", 3)
     values = [x[0], x[1], x[2], ca.SX(0.7)]
-    for kind, one, other in taken:
-        values.append(STEPS[kind](values[one % len(values)], values[other % len(values)], len(values)))
+    for kind, first, other in taken:
+        values.append(STEPS[kind](values[first % len(values)], values[other % len(values)], len(values)))
     return x, ca.vertcat(*values[-5:]), values[len(values) // 2]
 
 
@@ -161,12 +161,12 @@ def operations(tape: Tape) -> int:
 def test_registers_that_are_used_again_never_lose_what_is_still_read(
     taken: list[tuple[int, int, int]], at: list[float]
 ) -> None:
-    x, many, one = grown(taken)
-    tape, function = Tape.of([x], [many, one]), ca.Function("f", [x], [many, one])
+    x, many, single = grown(taken)
+    tape, function = Tape.of([x], [many, single]), ca.Function("f", [x], [many, single])
     expected = [np.asarray(ca.densify(part)).ravel() for part in function(at)]
     for part, other in zip(tape.values(np.array(at)), function(at), strict=True):
         assert part.tolist() == np.array(other.nonzeros()).tolist()
-    moved = ca.Function("g", [x], [ca.jacobian(ca.vertcat(many, one), x)])
+    moved = ca.Function("g", [x], [ca.jacobian(ca.vertcat(many, single), x)])
     tangents = np.concatenate([slope for _, slope in tape.tangents((np.array(at),), (np.eye(3),))])
     assert tangents == pytest.approx(np.asarray(moved(at)), rel=1e-10, abs=1e-10)
     assert len(expected[0]) == 5
@@ -189,8 +189,8 @@ def test_a_tape_in_two_parts_is_the_whole(taken: list[tuple[int, int, int]], at:
 
 @given(taken=steps)
 def test_no_operation_writes_where_its_own_group_reads(taken: list[tuple[int, int, int]]) -> None:
-    x, many, one = grown(taken)
-    code = Tape.of([x], [many, one]).code
+    x, many, single = grown(taken)
+    code = Tape.of([x], [many, single]).code
     for (_, start), (_, end) in zip(code.groups[:-1], code.groups[1:], strict=True):
         written = code.to[start:end].tolist()
         assert len(set(written)) == len(written)

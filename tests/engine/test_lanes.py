@@ -44,8 +44,8 @@ def test_functions_are_right_over_their_whole_range(name: str, low: float, high:
 def test_powers_are_right_where_their_logarithms_are_small() -> None:
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     given = np.random.default_rng(2).uniform(0.2, 4.0, (2, 5_000))
-    found = Kernel(ca.Function("f", [x, y], [x**y]))(given)[0]
-    assert np.max(np.abs(found / given[0].astype(np.longdouble) ** given[1] - 1.0)) < 3e-15
+    powers = Kernel(ca.Function("f", [x, y], [x**y]))(given)[0]
+    assert np.max(np.abs(powers / given[0].astype(np.longdouble) ** given[1] - 1.0)) < 3e-15
 
 
 def test_quotients_that_share_a_divisor_may_be_products() -> None:
@@ -53,8 +53,8 @@ def test_quotients_that_share_a_divisor_may_be_products() -> None:
     results = [ca.vertcat(x[0] / x[2], x[1] / x[2], x[0] / x[1]), x[2]]
     plain, inverses = Tape.of([x], results), Tape.of([x], results, inverses=True)
     given = np.array([3.0, 7.0, 11.0])
-    for one, other in zip(plain.values(given), inverses.values(given), strict=True):
-        assert one == pytest.approx(other, rel=1e-15)
+    for quotient, other in zip(plain.values(given), inverses.values(given), strict=True):
+        assert quotient == pytest.approx(other, rel=1e-15)
     assert inverses.code.to.size == plain.code.to.size + 1
 
 
@@ -136,13 +136,13 @@ def test_what_stays_is_found_with_its_current(cooling: tuple[Motion, Tape]) -> N
     motion, gap = cooling
     rates = np.linspace(0.5, 3.0, COUNT)
     room, w, where = (lanes.Room(motion), lanes.lanes_of(gap), (np.array([3, 4]), np.array([np.zeros(COUNT), rates])))
-    rest, currents, exists = np.zeros((2, COUNT)), np.ones(COUNT), np.zeros(COUNT, dtype=bool)
+    settled, currents, exists = np.zeros((2, COUNT)), np.ones(COUNT), np.zeros(COUNT, dtype=bool)
     lane_events.settle(
-        motion.system, room.slopes, room.rates, *where, gap.code, w, int(gap.results[0][0]), *where, 3, rest, currents,
-        exists,
+        motion.system, room.slopes, room.rates, *where, gap.code, w, int(gap.results[0][0]), *where, 3, settled,
+        currents, exists,
     )  # fmt: skip
     assert exists.all()
-    assert rest == pytest.approx(np.repeat([[0.5], [0.25]], COUNT, axis=1))
+    assert settled == pytest.approx(np.repeat([[0.5], [0.25]], COUNT, axis=1))
     assert currents == pytest.approx(0.5 * rates)
 
 
@@ -188,13 +188,13 @@ def test_solutions_are_numpys(case: Case, lanes: int, seed: int) -> None:
     pattern, w = factored(case)
     right = np.random.default_rng(seed).uniform(-3.0, 3.0, (len(case.matrix), lanes + 1))
     expected = np.linalg.solve(case.matrix, right)
-    many, one = right[pattern.order].copy(), right[pattern.order, 0].copy()
+    many, single = right[pattern.order].copy(), right[pattern.order, 0].copy()
     solve_many(pattern, w, many)
-    solve(pattern, w, one)
-    found = np.empty_like(many)
-    found[pattern.order] = many
-    assert found == pytest.approx(expected, rel=1e-10, abs=1e-12)
-    assert one == pytest.approx(many[:, 0], rel=1e-12, abs=1e-14)
+    solve(pattern, w, single)
+    solution = np.empty_like(many)
+    solution[pattern.order] = many
+    assert solution == pytest.approx(expected, rel=1e-10, abs=1e-12)
+    assert single == pytest.approx(many[:, 0], rel=1e-12, abs=1e-14)
 
 
 def test_arrows_and_chains_are_eliminated_without_fill_in() -> None:

@@ -102,15 +102,15 @@ class AnotherStack:
         height = v("rotor_thickness")
         rotor = v("pcl_outer_radius") + v("rotor_rim")
         disc = np.pi * rotor**2
-        self.rest = disc - self.area
-        wide, arc = self.rest / self.edge, self.area / self.edge
+        self.beside = disc - self.area
+        wide, arc = self.beside / self.edge, self.area / self.edge
         # A plate that the layer heats has the profile cosh x y: its mean, and how steep it is at the edge.
         x = arc * np.sqrt(
             0.5 * (v("pcl_conductivity_solid") + v("pcl_conductivity_melt")) / v("pcl_thickness") / k / height
         )
         way = arc * (np.cosh(x) - np.sinh(x) / x) / (x * np.sinh(x))
         far = (v("rotor_mass") + v("link_mass") + v("retainer_mass")) / v("structure_density") - disc * height
-        near = STRIPS * self.rest
+        near = STRIPS * self.beside
         inner = v("pcl_inner_radius") / v("core_radius")
         along = way / self.edge
         to_core = (1.0 - np.sum(WAYS)) * wide / self.edge + np.log(inner) / (2.0 * np.pi)
@@ -157,7 +157,7 @@ class AnotherStack:
         air = (
             v("housing_coefficient") + 4.0 * v("surface_emissivity") * STEFAN_BOLTZMANN * v("ambient_temperature") ** 3
         )
-        ends = share * STRIPS[2] * self.rest
+        ends = share * STRIPS[2] * self.beside
         total = along + 1.0 / wall + ends / (1.0 / air + web / (3.0 * k))
         join(LOWER[2], HOUSING, along / (wall * total))
         self.below[LOWER[2]] -= ends * (1.0 - along / total)
@@ -241,7 +241,7 @@ class AnotherStack:
         return state
 
     def going_on(self, state: Array) -> Array:
-        """A state on the equilibrium curve with the psi that belongs to it."""
+        """Return a state on the equilibrium curve with the psi that belongs to it."""
         exponent = self.value("pcl_avrami_exponent")
         molten = np.clip((state[LAYER] - self.curve[1]) / (self.curve[2] - self.curve[1]), 1e-4, 1.0)
         return np.append(state, (-np.log(molten)) ** (1.0 / exponent))

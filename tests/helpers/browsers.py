@@ -13,9 +13,9 @@ ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-san
 MISSING = "install chromium"
 
 
-def said_of_no_browser(skipped: Sequence[pytest.TestReport]) -> str:
+def no_browser_message(skipped: Sequence[pytest.TestReport]) -> str:
     """Return what is to be said last of all where tests were skipped for want of a browser; else nothing."""
-    count = sum(isinstance(one.longrepr, tuple) and MISSING in one.longrepr[-1] for one in skipped)
+    count = sum(isinstance(report.longrepr, tuple) and MISSING in report.longrepr[-1] for report in skipped)
     return f"NO BROWSER: {count} tests of the pages were not run; {MISSING} and run them again" if count else ""
 
 

@@ -39,20 +39,20 @@ class CvodesSimulator:
             phase = self._phase(name)
             before = trajectories[row.after].states[:, -1] if row.after else None
             profile = (profiles or {}).get(row.like or name) or self._constant(name, inputs)
-            found, trajectories[name] = phase.run(inputs, profile, before, float(inputs[self.model.index["horizon"]]))
-            values |= found
-            if np.isfinite(found[row.ends]) and functions.steadies:
+            ends, trajectories[name] = phase.run(inputs, profile, before, float(inputs[self.model.index["horizon"]]))
+            values |= ends
+            if np.isfinite(ends[row.ends]) and functions.steadies:
                 balance = phase.balance(inputs, trajectories[name])
                 if balance is not None:
                     balances[name] = balance
-                    steady = [one.name for one in functions.steadies]
+                    steady = [function.name for function in functions.steadies]
                     values |= zip(steady, phase.seen(steady, balance[:-1], balance[-1:], inputs)[:, 0], strict=True)
         return Cycle(values, trajectories, balances)
 
     def trace(
         self, name: str, inputs: Array, before: Array | None, end: float, current: float | None = None
     ) -> Trajectory:
-        """A phase at a constant current for `end` seconds, whatever happens in it."""
+        """Return a phase at a constant current for `end` seconds, whatever happens in it."""
         profile = self._constant(name, inputs) if current is None else CurrentProfile.constant(current)
         phase = self._phase(name)
         times = end * phase.shares
@@ -203,5 +203,5 @@ class _Phase:
                 x = x - change
                 if np.max(np.abs(change)) < 1e-10:
                     return x
-        found = root(standing, begin, jac=True)
-        return np.asarray(found.x) if found.success else None
+        solution = root(standing, begin, jac=True)
+        return np.asarray(solution.x) if solution.success else None

@@ -44,7 +44,7 @@ def shown_by_cvodes(model: DeviceFunctions, events: Sequence[str], variables: Se
 
 
 def found_by_engine(model: DeviceFunctions, variables: Sequence[str]) -> Supplied:
-    """The engine's values and their derivatives by some inputs, in steps a sixteenth as long as a search's."""
+    """Return the engine's values and their derivatives by some inputs, in steps a sixteenth as long as a search's."""
     engine, grids = CycleEngine(model), dict[str, Grid]()
     along = np.zeros((len(model.start), len(variables)))
     for j, name in enumerate(variables):

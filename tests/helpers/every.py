@@ -9,7 +9,7 @@ Item = TypeVar("Item")
 
 
 def of_every(items: Iterable[Item], check: Callable[[Item], None]) -> None:
-    """Run a check of each item; fail with a line for each of which it fails. Fails, too, where there is no item."""
+    """Run a check of each item; fail with a line for each item that fails it, and where there is no item."""
     wrong, count = [], 0
     for item in items:
         count += 1

@@ -41,7 +41,7 @@ class Talk:
         self.heard: list[dict[str, Any]] = []
 
     async def until(self, wanted: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
-        """The first message from now on that is wanted."""
+        """Return the first message from now on that is wanted."""
         async with asyncio.timeout(LONGEST):
             while True:
                 message = await self.socket.receive_json()
@@ -50,11 +50,11 @@ class Talk:
                     return message
 
     async def kind(self, kind: str) -> dict[str, Any]:
-        """The next message of a kind."""
+        """Return the next message of a kind."""
         return await self.until(lambda message: message["kind"] == kind)
 
     async def answer(self, stage: str) -> dict[str, Any]:
-        """The next answer of a stage."""
+        """Return the next answer of a stage."""
         return await self.until(lambda sent: sent["kind"] == "answer" and sent["shown"]["stage"] == stage)
 
     async def change(self, **message: Any) -> dict[str, Any]:
@@ -74,7 +74,7 @@ class Talk:
 
 @asynccontextmanager
 async def served(study: Path, folder: Path) -> AsyncIterator[tuple[Server, TestClient]]:
-    """The study's server, and a client for it."""
+    """Serve a study, with a client for it."""
     server = Server(study, folder, token=TOKEN)
     async with TestServer(server.app(), host="127.0.0.1") as started, TestClient(started) as client:
         yield server, client
@@ -82,7 +82,7 @@ async def served(study: Path, folder: Path) -> AsyncIterator[tuple[Server, TestC
 
 @asynccontextmanager
 async def talking(study: Path, folder: Path) -> AsyncIterator[Talk]:
-    """One page of the study's server, its state heard."""
+    """Open a page of the study's server, and read its state."""
     async with served(study, folder) as (_, client), client.ws_connect(f"/{TOKEN}/socket") as socket:
         talk = Talk(socket)
         await talk.kind("state")

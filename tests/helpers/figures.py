@@ -16,14 +16,14 @@ LABEL = re.compile(r"^[A-Z][^_]* \((?:[^()]+|\(.*\))\)$", re.DOTALL)
 
 
 def signed(figure: Figure) -> Figure:
-    """The figure as the process that draws finishes it, laid out; its pixels have tests of their own."""
+    """Return the figure as the process that draws finishes it, laid out; its pixels have tests of their own."""
     sign(figure, NAME)
     figure.draw_without_rendering()
     return figure
 
 
 def faults(figure: Figure) -> list[str]:
-    """Everything an editor would send a figure back for."""
+    """Return the faults that an editor would send a figure back for."""
     return [*_cut_off(figure), *_axes_faults(figure), *_covered(figure), *_name_faults(figure)]
 
 
@@ -34,19 +34,19 @@ def _cut_off(figure: Figure) -> list[str]:
 
 
 def _axes_faults(figure: Figure) -> list[str]:
-    found = []
+    axis_faults = []
     for axes in figure.axes:
         for side, axis in (("x", axes.xaxis), ("y", axes.yaxis)):
             siblings = getattr(axes, f"get_shared_{side}_axes")().get_siblings(axes)
-            label = " ".join(getattr(one, f"get_{side}label")() for one in {axes, *siblings}).strip()
+            label = " ".join(getattr(other, f"get_{side}label")() for other in {axes, *siblings}).strip()
             ticks = _numbers(axis)
             if not ticks:
                 continue  # rows, each with its name, or a panel whose neighbour shows the numbers
             if len(ticks) < 2:
-                found.append(f"{side} axis with one tick: {label!r}")
+                axis_faults.append(f"{side} axis with one tick: {label!r}")
             if not LABEL.match(label):
-                found.append(f"{side} axis without words and unit: {label!r}")
-    return found
+                axis_faults.append(f"{side} axis without words and unit: {label!r}")
+    return axis_faults
 
 
 def _numbers(axis: Any) -> list[str]:
@@ -60,16 +60,16 @@ def _numbers(axis: Any) -> list[str]:
 def _covered(figure: Figure) -> list[str]:
     legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
     boxes = [legend.get_window_extent() for legend in legends]
-    found = []
+    covered = []
     for box in boxes:
         for axes in figure.axes:
-            found += [f"a legend covers {line.get_label()!r}" for line in axes.lines if _crosses(box, line)]
-            found += ["a legend covers a bar or band" for patch in axes.patches
+            covered += [f"a legend covers {line.get_label()!r}" for line in axes.lines if _crosses(box, line)]
+            covered += ["a legend covers a bar or band" for patch in axes.patches
                       if patch.get_clip_box() is not None and _area(box, _visible(patch, axes)) > 0.0]  # fmt: skip
-            found += ["a legend covers axes' labels" for text in (axes.xaxis.label, axes.yaxis.label)
+            covered += ["a legend covers axes' labels" for text in (axes.xaxis.label, axes.yaxis.label)
                       if text.get_text() and _area(box, text.get_window_extent()) > 0.0]  # fmt: skip
-        found += ["two legends overlap" for other in boxes if other is not box and _area(box, other) > 0.0]
-    return found
+        covered += ["two legends overlap" for other in boxes if other is not box and _area(box, other) > 0.0]
+    return covered
 
 
 def _visible(patch: Any, axes: Any) -> Bbox | None:
@@ -90,8 +90,8 @@ def _inside(box: Bbox, points: NDArray[np.float64]) -> NDArray[np.bool_]:
     return np.all((points >= box.min) & (points <= box.max), axis=1)
 
 
-def _area(one: Bbox, other: Bbox | None) -> float:
-    shared = Bbox.intersection(one, other) if other is not None else None
+def _area(first: Bbox, other: Bbox | None) -> float:
+    shared = Bbox.intersection(first, other) if other is not None else None
     return float(shared.width * shared.height) if shared is not None else 0.0
 
 

@@ -19,12 +19,12 @@ class Opened:
         self.requests: list[str] = []
         self.complaints: list[str] = []
         page.on("request", lambda request: self.requests.append(request.url))
-        page.on("console", lambda said: self.complaints.append(said.text) if said.type != "log" else None)
+        page.on("console", lambda message: self.complaints.append(message.text) if message.type != "log" else None)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
         page.set_default_timeout(PATIENCE)
 
     def figure(self, name: str) -> Any:
-        """A figure, once it is drawn."""
+        """Return a figure, once it is drawn."""
         figure = self.page.locator(f"#figure-{name}")
         figure.scroll_into_view_if_needed()
         self.page.wait_for_selector(f"#figure-{name}[data-state]")
@@ -34,9 +34,9 @@ class Opened:
 
 @contextmanager
 def opening(browser: Browser, path: Path, **settings: Any) -> Iterator[Opened]:
-    """A file opened as a reader does who has it on the disk; `settings` are those of a browser's context."""
+    """Open a file as a reader does who has it on the disk; `settings` are those of a browser's context."""
     context = browser.new_context(**{"viewport": {"width": 1280, "height": 900}, **settings})
-    found = Opened(context.new_page())
-    found.page.goto(path.as_uri())
-    yield found
+    page = Opened(context.new_page())
+    page.page.goto(path.as_uri())
+    yield page
     context.close()

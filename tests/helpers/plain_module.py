@@ -96,7 +96,7 @@ def tang_lever(module: Numbers) -> float:
 
 
 def wire_of(module: Numbers) -> Wire:
-    """The wire wound up by its preload, which narrows the coil; the straight leg rises on as the coil does."""
+    """Return the wire wound up by its preload, which narrows the coil; the straight leg rises on as the coil does."""
     free = 2.0 * np.pi * module["coil_count"]
     wound = free + module["preload_angle"]
     radius = 0.5 * module["coil_diameter"] * free / wound
@@ -243,11 +243,11 @@ def statics(module: Numbers) -> dict[str, float]:
 
 def broken(module: Numbers, limits: Mapping[tuple[str, str], float]) -> list[str]:
     """Of limits by output and sense (SI) those that do not hold; on the stiffness, at any angle of the stroke."""
-    found = statics(module)
+    values = statics(module)
     lost = []
     for (name, sense), limit in limits.items():
         ends = {"spring_stiffness": ("least_spring_stiffness", "most_spring_stiffness")}.get(name, (name, name))
-        value = found[ends[0] if sense == ">=" else ends[1]]
+        value = values[ends[0] if sense == ">=" else ends[1]]
         slack = NUMERICAL * max(abs(limit), 1e-2)
         if not (value >= limit - slack if sense == ">=" else value <= limit + slack):
             lost.append(f"{name} is {value:.6g}, asked {sense} {limit:.6g}")
@@ -273,8 +273,8 @@ COMPARED = (
 """The product's outputs that stand in `statics`, but those that follow from two others."""
 
 
-def with_strength(module: Numbers, found: Numbers) -> dict[str, Any]:
-    """A module's numbers with its wire's strength, A / d^m for music wire, by which the product's is held too."""
+def with_strength(module: Numbers, springs: Numbers) -> dict[str, Any]:
+    """Return a module's numbers with its wire's strength, A / d^m for music wire, which checks the product's."""
     strength = 2211e6 / (1e3 * module["wire_diameter"]) ** 0.145  # ASTM A228, Shigley, table 10-4
-    assert abs(found["spring_tensile_strength"] / strength - 1.0) < 1e-9, "not music wire"
+    assert abs(springs["spring_tensile_strength"] / strength - 1.0) < 1e-9, "not music wire"
     return {**module, "tensile_strength": strength, "yield_strength": 0.78 * strength, "fatigue_ratio": 0.5}

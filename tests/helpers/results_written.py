@@ -36,6 +36,6 @@ def killed(out: Path, *words: str) -> None:
 
 
 def texts(folder: Path) -> dict[str, str]:
-    """Every file of a folder but manifests."""
+    """Return the files of a folder but manifests."""
     every = (path for path in folder.rglob("*") if path.is_file() and path.name != MANIFEST)
     return {path.relative_to(folder).as_posix(): path.read_text("utf-8-sig") for path in every}

@@ -43,7 +43,7 @@ _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 
 
 @cache
 def answered_study() -> AnsweredStudy:
-    """The study answered with requirements, and a front whose numbers are easy to follow."""
+    """Return the study answered with requirements, and a front whose numbers are easy to follow."""
     answered = answer_study(tree_of_file(STUDY, [f"require.{limit}" for limit in REQUIREMENTS]), lambda _: None)
     names = {"response_time": "s", "module_mass": "g", "pcl_thickness": "mm"}
     points = [(100.0, 60.0, 2.0), (80.0, 70.0, 1.6), (60.0, 90.0, 1.2), (50.0, 120.0, 0.9), (45.0, 160.0, 0.6)]
@@ -91,7 +91,7 @@ def write_parts(cad: Path) -> None:
         scene.add_geometry(trimesh.creation.box(size), node_name=name, geom_name=name, transform=_TO_GLTF @ place)
     scene.add_geometry(_wire(), node_name="spring_right_1", geom_name="spring_right", transform=_TO_GLTF)
     atomic_write(cad / "assembly.glb", scene.export(file_type="glb", include_normals=True))
-    atomic_write(cad / "assembly.json", json.dumps(_told()).encode())
+    atomic_write(cad / "assembly.json", json.dumps(_model_data()).encode())
     atomic_write(cad / "checks.json", json.dumps({"checks": [_check("pass"), _check("warning")]}).encode())
     _table(cad / "bom.csv", {
         "item": 1, "part": "housing", "quantity": 1, "made_or_bought": "made", "title": "PETG", "fit": "",
@@ -113,8 +113,8 @@ def _wire() -> trimesh.Trimesh:
     return trimesh.Trimesh(np.vstack([*rings, rings[0], rings[2]]), [*faces, *ends], process=False)
 
 
-def _told() -> dict[str, Any]:
-    """Return what assembly.json tells of the boxes."""
+def _model_data() -> dict[str, Any]:
+    """Return assembly.json for the boxes."""
     names = [*_BOXES, "spring_right_1"]
     moved = [[0.0] * 6 + [0.0, share * LEG_MOVED, 0.0] for share in (-1.0, -0.5, 0.5, 1.0)]
     return {

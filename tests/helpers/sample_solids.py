@@ -6,7 +6,7 @@ from tvimdesign.cad.cad_report import SolidCheck
 
 
 def box(x: float, y: float, z: float) -> cq.Workplane:
-    """A box that stands on z = 0."""
+    """Return a box that stands on z = 0."""
     return cq.Workplane().box(x, y, z, centered=(True, True, False))
 
 
@@ -17,5 +17,5 @@ def one_solid(work: cq.Workplane) -> cq.Solid:
 
 
 def of(checks: list[SolidCheck]) -> dict[str, SolidCheck]:
-    """The checks by what they are about."""
+    """Return the checks by what they are about."""
     return {check.name.split(": ")[1]: check for check in checks}

@@ -16,7 +16,7 @@ from support import environment
 
 @dataclass
 class Served:
-    """A command that serves, to be ended and begun again at the same address."""
+    """A command that serves, to be ended and started again at the same address."""
 
     study: Path
     folder: Path
@@ -46,7 +46,7 @@ class Explorer:
     def __init__(self, page: Page) -> None:
         self.page = page
         self.complaints: list[str] = []
-        page.on("console", lambda said: self.complaints.append(said.text) if said.type == "error" else None)
+        page.on("console", lambda message: self.complaints.append(message.text) if message.type == "error" else None)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
         page.set_default_timeout(PATIENCE)
 
@@ -78,11 +78,11 @@ class Explorer:
             self.page.wait_for_timeout(50)
 
     def knob(self, label: str) -> Any:
-        """The row of a control, by its label."""
+        """Return the row of a control, by its label."""
         return self.page.locator(".knob").filter(has=self.page.get_by_text(label, exact=True))
 
     def reset(self) -> None:
-        """Where the study begins."""
+        """Return the study's start."""
         before = self.number
         self.page.get_by_role("button", name="Start again").click()
         self.answered(before)
@@ -90,10 +90,10 @@ class Explorer:
 
 @contextmanager
 def exploring(browser: Browser, address: str, **settings: Any) -> Iterator[Explorer]:
-    """A page opened at an address, once it shows an answer."""
+    """Open a page at an address, once it shows an answer."""
     context = browser.new_context(**{"viewport": {"width": 1280, "height": 900}, **settings})
-    found = Explorer(context.new_page())
-    found.page.goto(address)
-    found.answered(0)
-    yield found
+    explorer = Explorer(context.new_page())
+    explorer.page.goto(address)
+    explorer.answered(0)
+    yield explorer
     context.close()

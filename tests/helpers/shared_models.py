@@ -13,7 +13,7 @@ import pytest
 
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
-KEPT = 10
+MOST_MODELS = 10
 """Kinds of model whose equations are kept, those used last: each is some ten megabytes."""
 EQUATIONS = ("_symbols", "_settled", "_known", "phases", "engines", "output_names", "every_output", "functions")
 
@@ -22,7 +22,7 @@ _begin, _outputs = DeviceFunctions.__init__, DeviceFunctions.outputs
 
 
 def kind(model: DeviceFunctions) -> Hashable:
-    """Return what a model's equations hang on; tables and records are told apart by which object they are."""
+    """Return what a model's equations hang on; tables and records are distinguished by identity."""
     words = tuple((name, word if isinstance(word, str) else id(word)) for name, word in model.words.items())
     rotor_cells = model.start[model.index["rotor_cells"]] if "rotor_cells" in model.index else None
     return id(model.table), model.points, model.cells, rotor_cells, tuple(model.names), words
@@ -36,17 +36,17 @@ def _like_the_last(self: DeviceFunctions, *given: Any, **more: Any) -> None:
     if last is not None:
         self.__dict__.update({name: last.__dict__[name] for name in EQUATIONS if name in last.__dict__})
     _by_kind[kind(self)] = self
-    if len(_by_kind) > KEPT:
+    if len(_by_kind) > MOST_MODELS:
         _by_kind.popitem(last=False)
 
 
 def _shared_outputs(self: DeviceFunctions, wanted: Sequence[str], instead: Mapping[str, float] | None = None) -> Any:
-    """The function of some outputs, written once for all models of a kind."""
-    kept = self.__dict__["functions"]
-    asked = tuple(wanted), tuple((instead or {}).items())
-    if asked not in kept:
-        kept[asked] = _outputs(self, wanted, instead)
-    return kept[asked]
+    """Return the function of some outputs, written once for all models of a kind."""
+    built = self.__dict__["functions"]
+    key = tuple(wanted), tuple((instead or {}).items())
+    if key not in built:
+        built[key] = _outputs(self, wanted, instead)
+    return built[key]
 
 
 @pytest.fixture(scope="session", autouse=True)

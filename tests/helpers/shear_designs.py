@@ -26,7 +26,7 @@ DESIGNS: dict[str, dict[str, float | str]] = {
 
 @pytest.fixture(scope="session")
 def build() -> Build:
-    """A model of one of the designs, built once."""
+    """Return a model of one of the designs, built once."""
 
     @cache
     def make(
@@ -44,7 +44,7 @@ def build() -> Build:
 
 @pytest.fixture(scope="session")
 def switch_of(build: Build) -> Callable[[str], Cycle]:
-    """The switch of one of the designs as the product simulates it."""
+    """Return the switch of one of the designs as the product simulates it."""
 
     @cache
     def run(design: str) -> Cycle:

@@ -25,12 +25,12 @@ def plan(path: Path, *settings: str) -> SweepPlan:
 
 
 def swept(path: Path, out: Path, *, resume: bool = False, **where: Any) -> dict[str, Any]:
-    """Sweep a study into a folder, as the command does; returns what it tells of the work."""
-    told = sweep_folder(plan(path), out, Executor(**where), lambda _: None, overwrite=False, resume=resume, plots=False)
-    found: dict[str, Any] = told["run"]
-    return found
+    """Sweep a study into a folder, as the command does; return its report of the run."""
+    done = sweep_folder(plan(path), out, Executor(**where), lambda _: None, overwrite=False, resume=resume, plots=False)
+    run: dict[str, Any] = done["run"]
+    return run
 
 
 def tables(out: Path) -> dict[str, bytes]:
-    """The tables of a folder, to be compared byte for byte."""
+    """Return the tables of a folder, to be compared byte for byte."""
     return {name: (out / name).read_bytes() for name in ("cells.csv", "cells.sqlite", "sweep.json")}

@@ -52,7 +52,7 @@ def refused(what: str) -> list[Any]:
 
 
 def is_at_work(process: int) -> bool:
-    """Whether a process runs; one that has ended and waits to be reaped does not."""
+    """Return whether a process runs; one that has ended and waits to be reaped does not."""
     try:
         return psutil.Process(process).status() != psutil.STATUS_ZOMBIE
     except psutil.NoSuchProcess:
@@ -98,7 +98,7 @@ def fine(model: DeviceFunctions) -> CvodesSimulator:
 
 
 def tight(model: DeviceFunctions) -> Simulator:
-    """The product's simulator at a tenth of its error: values are within 1e-5 of what they converge to."""
+    """Return the product's simulator at a tenth of its error: values are within 1e-5 of what they converge to."""
     return Simulator(model, tolerance=1e-5)
 
 
@@ -115,12 +115,12 @@ def store_equations(home: Path = ROOT / "build/cache") -> None:
 
 
 def environment(spread: str = "off") -> dict[str, str]:
-    """What the command line finds around it in a test."""
+    """Return the command line's environment in a test."""
     return {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "120", "TVIMDESIGN_SPREAD": spread}
 
 
 def called(*arguments: object, cwd: Path = ROOT, spread: str = "off", **more: str) -> CompletedProcess[str]:
-    """The command line called in this process, where the libraries are loaded already; `more` is environment."""
+    """Call the command line in this process, where the libraries are loaded already; `more` is environment."""
     words, out, err = ["tvimdesign", *map(str, arguments)], io.StringIO(), io.StringIO()
     code: object = 0
     threshold = gc.get_threshold()

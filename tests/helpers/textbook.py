@@ -1,4 +1,4 @@
-"""Equations that the product does not need and its tests are held against."""
+"""Equations that only tests need, to compare the product with."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -32,7 +32,7 @@ def dissipation(angle: Any, internal: Sequence[Any], joint: motion.Joint, modes:
 def from_data_sheet(
     max_current: float, max_voltage: float, max_difference: float, hot_side_temperature: float
 ) -> PeltierModule:
-    """A Peltier module's parameters from I_max, V_max, dT_max at the sheet's hot-side temperature [K].
+    """Return a Peltier module's parameters from I_max, V_max, dT_max at the sheet's hot-side temperature [K].
 
     S = V_max/T_h, R = V_max (T_h - dT_max)/(I_max T_h), K = V_max I_max (T_h - dT_max)/(2 T_h dT_max).
     """

@@ -15,15 +15,15 @@ __all__ = ["browser"]
 
 @pytest.fixture(scope="session")
 def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page of a run: a real answer, with a front and the parts of a small model beside it."""
+    """Return the page of a run: a real answer, with a front and the parts of a small model beside it."""
     return sample_pages.run_page(tmp_path_factory.mktemp("page") / "run")
 
 
 @pytest.fixture(scope="module")
 def screen(browser: Browser, report: Path) -> Iterator[Opened]:
-    """The page on a usual screen, for all tests of a file that leave it as they found it."""
-    with opening(browser, report) as found:
-        yield found
+    """Open the page on a usual screen, for all tests of a file that do not change it."""
+    with opening(browser, report) as page:
+        yield page
 
 
 @pytest.fixture

@@ -30,12 +30,12 @@ FIGURES = ("cycle", "front", "solids")
 
 
 def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path) -> None:
-    found = screen
+    view = screen
     for name in FIGURES:
-        found.figure(name)
-    assert [url for url in found.requests if not url.startswith(("file:", "data:", "blob:"))] == []
-    assert [url for url in found.requests if url.startswith("file:")] == [report.as_uri()]
-    assert found.complaints == []
+        view.figure(name)
+    assert [url for url in view.requests if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert [url for url in view.requests if url.startswith("file:")] == [report.as_uri()]
+    assert view.complaints == []
     assert report.stat().st_size < MOST
 
 
@@ -47,20 +47,20 @@ def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path)
     ],
 )
 def test_axe_finds_no_serious_fault(opened: Open, report: Path, colours: str, rules: list[str] | None) -> None:
-    found = opened(report, color_scheme=colours, bypass_csp=True)
+    view = opened(report, color_scheme=colours, bypass_csp=True)
     for name in FIGURES:
-        found.figure(name)
-    found.page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
+        view.figure(name)
+    view.page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
     # Rows of a table are alike, and axe looks at each of thousands of cells.
     alike = (
         "document.querySelectorAll('tbody').forEach(({ rows }) => [...rows].slice(4).forEach((row) => row.remove()))"
     )
-    found.page.evaluate(alike)
-    found.page.evaluate(AXE)
-    asked = {"resultTypes": ["violations"], **({"runOnly": rules} if rules else {})}
-    faults = found.page.evaluate("(asked) => axe.run(document, asked).then(({ violations }) => violations)", asked)
-    serious = [one for one in faults if one["impact"] in SERIOUS]
-    assert [(one["id"], [node["html"][:120] for node in one["nodes"][:3]]) for one in serious] == []
+    view.page.evaluate(alike)
+    view.page.evaluate(AXE)
+    options = {"resultTypes": ["violations"], **({"runOnly": rules} if rules else {})}
+    faults = view.page.evaluate("(asked) => axe.run(document, asked).then(({ violations }) => violations)", options)
+    serious = [fault for fault in faults if fault["impact"] in SERIOUS]
+    assert [(fault["id"], [node["html"][:120] for node in fault["nodes"][:3]]) for fault in serious] == []
 
 
 def test_a_page_is_dark_where_the_reader_is_without_white_slabs(opened: Open, report: Path) -> None:
@@ -82,10 +82,10 @@ def test_a_page_is_dark_where_the_reader_is_without_white_slabs(opened: Open, re
 
 
 def test_a_page_fits_a_phone_and_is_read_without_its_code(opened: Open, report: Path) -> None:
-    found = opened(report, viewport={"width": 360, "height": 740})
+    view = opened(report, viewport={"width": 360, "height": 740})
     for name in FIGURES:
-        found.figure(name)
-    assert found.page.evaluate("document.documentElement.scrollWidth") <= 360
+        view.figure(name)
+    assert view.page.evaluate("document.documentElement.scrollWidth") <= 360
     page = opened(report, java_script_enabled=False).page
     page.get_by_role("heading", name="Module", exact=True).click()
     assert page.get_by_role("table", name="At the operating points").is_visible()
@@ -134,19 +134,19 @@ def test_no_table_is_cut_and_hidden_columns_are_named(opened: Open, report: Path
 
 
 def test_it_prints_on_a4_with_its_figures(opened: Open, report: Path, tmp_path: Path) -> None:
-    found = opened(report, color_scheme="dark")
-    found.page.wait_for_selector("html[data-ready=all]")
-    assert [found.page.locator(f"#figure-{name}").get_attribute("data-state") for name in FIGURES] == ["drawn"] * 3
-    printed = found.page.pdf(path=tmp_path / "report.pdf", prefer_css_page_size=True, print_background=True)
+    view = opened(report, color_scheme="dark")
+    view.page.wait_for_selector("html[data-ready=all]")
+    assert [view.page.locator(f"#figure-{name}").get_attribute("data-state") for name in FIGURES] == ["drawn"] * 3
+    printed = view.page.pdf(path=tmp_path / "report.pdf", prefer_css_page_size=True, print_background=True)
     boxes = {tuple(map(float, box.split())) for box in re.findall(rb"/MediaBox\s*\[([^\]]+)\]", printed)}
     assert boxes
     for _, _, wide, high in boxes:
         assert (wide, high) == pytest.approx((595.3, 841.9), abs=1.5)  # A4 in points, ISO 216
-    found.page.emulate_media(media="print")
-    assert not found.page.get_by_role("navigation", name="Sections").is_visible()
-    assert found.page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    view.page.emulate_media(media="print")
+    assert not view.page.get_by_role("navigation", name="Sections").is_visible()
+    assert view.page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     cut = "[...document.querySelectorAll('.grid')].filter((one) => one.scrollHeight > one.clientHeight + 1).length"
-    assert found.page.evaluate(cut) == 0
+    assert view.page.evaluate(cut) == 0
 
 
 def test_tables_are_sorted_and_filtered(screen: Opened) -> None:
@@ -184,28 +184,28 @@ def test_the_cursor_of_time_moves_by_keys_and_tells_what_is_then(screen: Opened)
 
 
 def test_a_brush_keeps_the_designs_within(screen: Opened) -> None:
-    found = screen
-    figure = found.figure("front")
+    view = screen
+    figure = view.figure("front")
     axes = figure.locator("[role=img]").nth(1)
     axes.scroll_into_view_if_needed()
     box = axes.bounding_box()
     assert box
     # The first axis stands 60 px from the left, from 76 px below the top down to 24 px above the bottom.
     left, top, high = box["x"] + 60, box["y"] + 76, box["height"] - 100
-    mouse = found.page.mouse
+    mouse = view.page.mouse
     mouse.move(left, top + 0.5 * high)
     mouse.down()
     mouse.move(left, top + 0.2 * high, steps=4)
     mouse.move(left, top - 8, steps=4)
     mouse.up()
-    rows = found.page.get_by_role("table", name="Points of the front").locator("tbody tr:visible")
+    rows = view.page.get_by_role("table", name="Points of the front").locator("tbody tr:visible")
     figure.locator(".told", has_text="of 5 designs are within").wait_for()
     assert rows.count() == 2
     figure.get_by_role("button", name="Keep all").click()
     assert rows.count() == 5
     figure.get_by_text("Ends of the axes, typed").click()
     figure.get_by_role("spinbutton", name="Module mass (g) to").fill("75")
-    found.page.keyboard.press("Tab")
+    view.page.keyboard.press("Tab")
     assert rows.count() == 2
 
 
@@ -217,15 +217,15 @@ def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: 
                 carried={"cad/step/housing.step": data, "cad/print/housing.3mf": b"PK"})  # fmt: skip
     alone = tmp_path / "report.html"
     alone.write_bytes(page_html(page))
-    found = opened(alone)
-    found.page.wait_for_selector("html[data-ready]")  # until then a link leads to the folder beside the page
+    view = opened(alone)
+    view.page.wait_for_selector("html[data-ready]")  # until then a link leads to the folder beside the page
     for ending, held in (("STEP", data), ("3MF", b"PK")):
-        with found.page.expect_download() as saved:
-            found.page.get_by_role("link", name=ending).press("Enter")
+        with view.page.expect_download() as saved:
+            view.page.get_by_role("link", name=ending).press("Enter")
         assert saved.value.suggested_filename == f"housing.{ending.lower()}"
         assert saved.value.path().read_bytes() == held
-    assert found.complaints == []
-    assert found.page.url == alone.as_uri()
+    assert view.complaints == []
+    assert view.page.url == alone.as_uri()
 
 
 def test_the_page_of_a_run_carries_the_files_of_its_parts(report: Path) -> None:
@@ -244,29 +244,29 @@ sweep: {over: {pcl_thickness: [0.6 mm, 1 mm, 2 mm], current: [1 A, 1.2 A]}}
 def test_a_sweep_is_drawn_and_its_cells_are_brushed(opened: Callable[..., Opened], tmp_path: Path) -> None:
     study, out = tmp_path / "study.yaml", tmp_path / "out"
     study.write_text(STUDY)
-    asked = plan(study)
-    table, outputs = CellTable(asked), sum(column.kind == "output" for column in columns(asked))
+    sweep_plan = plan(study)
+    table, outputs = CellTable(sweep_plan), sum(column.kind == "output" for column in columns(sweep_plan))
     for number in range(6):
         ended = ["refused", None, None, "no"] if number == 0 else ["evaluated", number % 2, 0.1, ""]
         values = [None if number == 0 else float("inf") if number == 1 else 10.0 + number] * outputs
-        list(table.seeing([[number + 1, *asked.axis_values(number), *ended, *values]]))
+        list(table.seeing([[number + 1, *sweep_plan.axis_values(number), *ended, *values]]))
     with Command(out) as command:
-        command.finish("swept", {}, {}, page=sweep_page(asked, table, command))
-    found = opened(out / FILE)
-    found.figure("curves")
-    figure = found.figure("brushed")
-    rows = found.page.get_by_role("table", name="Cells", exact=True).locator("tbody tr:visible")
+        command.finish("swept", {}, {}, page=sweep_page(sweep_plan, table, command))
+    view = opened(out / FILE)
+    view.figure("curves")
+    figure = view.figure("brushed")
+    rows = view.page.get_by_role("table", name="Cells", exact=True).locator("tbody tr:visible")
     assert rows.count() == 6  # the one without an answer, too
     figure.get_by_text("Ends of the axes, typed").click()
     figure.get_by_role("spinbutton", name="Module mass (g) to").fill("13")
-    found.page.keyboard.press("Tab")
+    view.page.keyboard.press("Tab")
     figure.locator(".told", has_text="2 of 5 cells are within").wait_for()
     assert rows.locator("th").all_inner_texts() == ["3", "4"]  # not what never happens
     figure.get_by_role("button", name="Keep all").click()
     assert rows.count() == 6
-    marked = found.page.locator("tr[aria-current=true] th")
+    marked = view.page.locator("tr[aria-current=true] th")
     assert marked.count() == 0
     figure.locator("svg path[d^='M1 0A']").last.click(force=True)
     assert marked.all_inner_texts() == ["6"]
-    assert [url for url in found.requests if not url.startswith(("file:", "data:", "blob:"))] == []
-    assert found.complaints == []
+    assert [url for url in view.requests if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert view.complaints == []

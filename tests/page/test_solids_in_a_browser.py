@@ -18,18 +18,18 @@ VIEWER = "document.getElementById('figure-solids').viewer"
 class Solids:
     """The figure with what its parts are like."""
 
-    def __init__(self, found: Opened) -> None:
-        self.found = found
-        self.figure = found.figure("solids")
-        found.page.wait_for_selector("html[data-ready=all]")  # the steps' pictures are taken of it, too
+    def __init__(self, view: Opened) -> None:
+        self.view = view
+        self.figure = view.figure("solids")
+        view.page.wait_for_selector("html[data-ready=all]")  # the steps' pictures are taken of it, too
 
     def part(self, name: str, what: str) -> Any:
-        """An expression of a part."""
-        return self.found.page.evaluate(f"{VIEWER}.parts.get('{name}').{what}")
+        """Return an expression of a part."""
+        return self.view.page.evaluate(f"{VIEWER}.parts.get('{name}').{what}")
 
     def picture(self) -> str:
-        """What the canvas shows now."""
-        return str(self.found.page.evaluate(f"({VIEWER}.stage.drawNow(), {VIEWER}.stage.canvas.toDataURL())"))
+        """Return what the canvas shows now."""
+        return str(self.view.page.evaluate(f"({VIEWER}.stage.drawNow(), {VIEWER}.stage.canvas.toDataURL())"))
 
     def slide(self, name: str, value: float) -> None:
         self.figure.get_by_role("slider", name=name, exact=True).fill(str(value))
@@ -37,13 +37,13 @@ class Solids:
 
 @pytest.fixture
 def solids(screen: Opened) -> Iterator[Solids]:
-    """The assembly; afterwards every control stands where it stood."""
-    found = Solids(screen)
-    yield found
+    """Show the assembly; restore every control afterwards."""
+    shown = Solids(screen)
+    yield shown
     for name, value in (("Apart", 0), ("Rotor", 0), ("Assembly step", 3)):
-        found.slide(name, value)
-    found.figure.get_by_role("combobox", name="View").select_option("top")
-    found.figure.get_by_role("combobox", name="View").select_option("corner")
+        shown.slide(name, value)
+    shown.figure.get_by_role("combobox", name="View").select_option("top")
+    shown.figure.get_by_role("combobox", name="View").select_option("corner")
 
 
 def test_parts_are_hidden_taken_apart_and_turned(solids: Solids) -> None:
@@ -88,39 +88,39 @@ def test_parts_are_cut_picked_and_turned_by_keys(solids: Solids) -> None:
     assert about.get_by_role("heading").inner_text() in {"housing", "rotor", "link"}
     button = solids.figure.get_by_role("button", name="about pcl arc")
     button.focus()
-    solids.found.page.keyboard.press("Enter")
+    solids.view.page.keyboard.press("Enter")
     assert "material of pcl_arc_1" in about.inner_text()
     assert about.get_by_role("link").get_attribute("href") == "cad/step/pcl_arc_1.step"
     before = solids.picture()
     solids.figure.locator("canvas").focus()
-    solids.found.page.keyboard.press("ArrowLeft")
+    solids.view.page.keyboard.press("ArrowLeft")
     assert solids.picture() != before
-    solids.found.page.keyboard.press("ArrowRight")
-    position = solids.found.page.evaluate(f"{VIEWER}.stage.camera.position.toArray()")
+    solids.view.page.keyboard.press("ArrowRight")
+    position = solids.view.page.evaluate(f"{VIEWER}.stage.camera.position.toArray()")
     assert len(position) == 3
 
 
 def test_the_rotor_turns_and_winds_the_spring(solids: Solids) -> None:
     vertex = f"geometry.getAttribute('position').getY({2 * RING})"
-    rest, held = solids.part("spring_right_1", vertex), "geometry.getAttribute('position').getY(0)"
+    resting, held = solids.part("spring_right_1", vertex), "geometry.getAttribute('position').getY(0)"
     tang = solids.part("spring_right_1", held)
     solids.slide("Rotor", 1)
     assert solids.part("rotor", "object.matrix.elements[1]") == pytest.approx(0.0998, abs=1e-4)  # sin(0.1)
     assert solids.part("housing", "object.matrix.elements[1]") == 0.0
-    assert solids.part("spring_right_1", vertex) == pytest.approx(rest + LEG_MOVED, abs=1e-4)
+    assert solids.part("spring_right_1", vertex) == pytest.approx(resting + LEG_MOVED, abs=1e-4)
     assert solids.part("spring_right_1", held) == tang
     solids.slide("Rotor", -0.76)
-    assert solids.part("spring_right_1", vertex) == pytest.approx(rest - 0.76 * LEG_MOVED, abs=1e-4)
+    assert solids.part("spring_right_1", vertex) == pytest.approx(resting - 0.76 * LEG_MOVED, abs=1e-4)
 
 
 def test_the_layer_has_the_colour_of_its_temperature(solids: Solids) -> None:
     solids.figure.get_by_role("checkbox", name="Layer by its temperature").check()
     painted = f"{VIEWER}.parts.get('pcl_arc_1').geometry.getAttribute('color')"
     colours = f"Array.from({painted}.array)"
-    cold = solids.found.page.evaluate(colours)
+    cold = solids.view.page.evaluate(colours)
     assert max(cold[0::3]) < min(cold[2::3])  # blue at the start
-    solids.found.page.evaluate("import('page/time.js').then(({ moveTo }) => moveTo(60))")
-    assert wait_until(lambda: max(solids.found.page.evaluate(colours)[0::3]) > max(cold[0::3]))
+    solids.view.page.evaluate("import('page/time.js').then(({ moveTo }) => moveTo(60))")
+    assert wait_until(lambda: max(solids.view.page.evaluate(colours)[0::3]) > max(cold[0::3]))
 
 
 def test_the_assembly_is_put_together_step_by_step_with_pictures(solids: Solids) -> None:
@@ -128,9 +128,9 @@ def test_the_assembly_is_put_together_step_by_step_with_pictures(solids: Solids)
     assert "Lay the pad and the arc into it." in solids.figure.inner_text()
     assert solids.part("rotor", "object.visible") is False
     assert solids.part("pcl_arc_1", "object.visible") is True
-    pictures = solids.found.page.locator("#steps .steps img")
+    pictures = solids.view.page.locator("#steps .steps img")
     assert pictures.count() == 3
     assert len({pictures.nth(i).get_attribute("src") for i in range(3)}) == 3
-    solids.found.page.get_by_role("heading", name="Assembly steps").click()
-    solids.found.page.get_by_role("button", name="Show in 3-D").last.click()
+    solids.view.page.get_by_role("heading", name="Assembly steps").click()
+    solids.view.page.get_by_role("button", name="Show in 3-D").last.click()
     assert solids.part("rotor", "object.visible") is True

@@ -51,7 +51,7 @@ def test_tiles_are_refused_beside_a_sheet_and_chosen_where_listed() -> None:
 
 
 RECORDS = {name: Catalog().record("peltiers", name) for name in Catalog().names("peltiers")}
-FOILS = [name for name, one in RECORDS.items() if one.value("seebeck") == 0.0 and one.word("heat_source") == "pads"]
+FOILS = [name for name, foil in RECORDS.items() if foil.value("seebeck") == 0.0 and foil.word("heat_source") == "pads"]
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])

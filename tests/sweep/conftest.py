@@ -15,7 +15,7 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def one_process(study_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of the sweep that one worker process made."""
+    """Return the folder of the sweep that one worker process made."""
     out = tmp_path_factory.mktemp("one") / "out"
     swept(study_file, out, workers=1)
     return out

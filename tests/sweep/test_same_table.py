@@ -36,8 +36,8 @@ def test_cells_are_those_of_single_evaluations(one_process: Path) -> None:
     result = alone.evaluate(progress=False)
     for name in ("module_mass", "response_time", "spring_stiffness"):
         assert float(table[2][name]) == pytest.approx(result[name].magnitude, rel=1e-11)
-    kept = result.requirements()["kept"]
-    assert int(table[2]["violated"]) == int((~kept).sum())
+    satisfied = result.requirements()["kept"]
+    assert int(table[2]["violated"]) == int((~satisfied).sum())
 
 
 def test_the_data_base_has_the_table_s_numbers(one_process: Path) -> None:
@@ -49,11 +49,11 @@ def test_the_data_base_has_the_table_s_numbers(one_process: Path) -> None:
         connection.close()
     assert masses == [float(row["module_mass"]) if row["module_mass"] else None for row in rows(one_process)]
     assert (units["pcl_thickness"], units["module_mass"], units["reason"]) == ("mm", "g", "")
-    told = json.loads((one_process / "sweep.json").read_text())
-    assert {column["name"]: column["unit"] for column in told["columns"]} == units
-    assert told["statuses"] == {"evaluated": 3, "refused": 3}
+    report = json.loads((one_process / "sweep.json").read_text())
+    assert {column["name"]: column["unit"] for column in report["columns"]} == units
+    assert report["statuses"] == {"evaluated": 3, "refused": 3}
     least = min(float(row["module_mass"]) for row in rows(one_process) if row["violated"] == "0")
-    assert told["best"]["module_mass"]["value"] == least
+    assert report["best"]["module_mass"]["value"] == least
 
 
 @pytest.mark.gate
@@ -101,13 +101,13 @@ def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file: Path, one_p
     out = tmp_path / "out"
     out.mkdir()
     (out / "shards").symlink_to(one_process / "shards")
-    asked, where = plan(study_file, "sweep.over.pcl_thickness=[0.6 mm, 2 mm]"), Executor(workers=1)
-    done = run_sweep(asked, out, where, lambda _: None)
+    fewer, where = plan(study_file, "sweep.over.pcl_thickness=[0.6 mm, 2 mm]"), Executor(workers=1)
+    done = run_sweep(fewer, out, where, lambda _: None)
     assert (done.reused, done.computed, done.whole) == (4, 0, True)
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (["--shard", "4/3"], "--shard 4/3: expected part/parts, such as 1/3"),
         (["--shard", "1/3", "--overwrite"], "--overwrite and --shard"),
@@ -116,12 +116,12 @@ def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file: Path, one_p
         (["--resume", "--overwrite"], "--overwrite and --resume: choose one"),
     ],
 )
-def test_what_cannot_be_done_is_said_in_a_line(
-    tvimdesign: Command, study_file: Path, tmp_path: Path, words: list[str], said: str
+def test_what_cannot_be_done_is_reported_in_a_line(
+    tvimdesign: Command, study_file: Path, tmp_path: Path, words: list[str], message: str
 ) -> None:
     done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", *words)
     assert done.returncode == 2, done.stderr
-    assert said in done.stderr
+    assert message in done.stderr
     assert "Traceback" not in done.stderr
 
 
@@ -137,13 +137,13 @@ def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(
 ) -> None:
     (tmp_path / "sitecustomize.py").write_text(KILLED_BY_TWO_MILLIMETRES)
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{ROOT}")
-    asked = plan(study_file, "sweep.over.pcl_inner_radius=[20 mm]")
-    cells = [Cell(f"{number:032x}", asked.points.texts(number)) for number in range(3)]
-    spent = Pool(SweptStudy.of(asked), tmp_path, 1).answer(cells, lambda _: None)
-    shards = Shards(tmp_path, asked.columns)
-    found = [kept.answer for kept in shards.cells(cell.key for cell in cells)]
-    assert [one.status for one in found] == ["evaluated", "evaluated", "crashed"]
-    assert found[2].reason.startswith("its process ended with code -9")
+    sweep_plan = plan(study_file, "sweep.over.pcl_inner_radius=[20 mm]")
+    cells = [Cell(f"{number:032x}", sweep_plan.points.texts(number)) for number in range(3)]
+    spent = Pool(SweptStudy.of(sweep_plan), tmp_path, 1).answer(cells, lambda _: None)
+    shards = Shards(tmp_path, sweep_plan.columns)
+    stored_answers = [stored.answer for stored in shards.cells(cell.key for cell in cells)]
+    assert [stored.status for stored in stored_answers] == ["evaluated", "evaluated", "crashed"]
+    assert stored_answers[2].reason.startswith("its process ended with code -9")
     assert (spent.cells, spent.died) == (3, 2)
 
 
@@ -166,9 +166,9 @@ def test_outputs_and_executors_are_read_from_words(study_file: Path) -> None:
     for wrong in ("0/3", "4/3", "a/3", "3", "1/"):
         with pytest.raises(InputError, match="expected part/parts"):
             Executor.of(0, wrong)
-    asked = plan(study_file)
-    assert asked.columns == ("module_mass", "envelope_diameter", "response_time", "spring_stiffness")
-    assert asked.count == 6
+    sweep_plan = plan(study_file)
+    assert sweep_plan.columns == ("module_mass", "envelope_diameter", "response_time", "spring_stiffness")
+    assert sweep_plan.count == 6
 
 
 @pytest.mark.slow
@@ -183,9 +183,9 @@ def test_a_disk_that_fills_once_costs_no_cell(study_file: Path, one_process: Pat
     assert full.returncode == 4, full.stderr
     assert "the cells before are kept: make room, then the same command with --resume goes on" in full.stderr
     assert "Traceback" not in full.stderr
-    kept = len(Shards(out, plan(study_file).columns))
-    assert 0 < kept < 6
-    assert swept(study_file, out, resume=True, workers=1)["reused"] == kept
+    count = len(Shards(out, plan(study_file).columns))
+    assert 0 < count < 6
+    assert swept(study_file, out, resume=True, workers=1)["reused"] == count
     assert tables(out) == tables(one_process)
 
 

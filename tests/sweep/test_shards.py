@@ -41,9 +41,9 @@ def test_what_is_kept_comes_back_to_the_last_digit(tmp_path: Path) -> None:
     written(tmp_path, KEYS[3:])
     shards = Shards(tmp_path, COLUMNS)
     assert len(shards) == 5
-    found = list(shards.cells(iter([KEYS[2], KEYS[3]])))
-    assert [one.answer for one in found] == [answer(2), answer(0)]
-    assert found[0].seconds == 0.25
+    stored = list(shards.cells(iter([KEYS[2], KEYS[3]])))
+    assert [cell.answer for cell in stored] == [answer(2), answer(0)]
+    assert stored[0].seconds == 0.25
     assert len(list((tmp_path / "shards").iterdir())) == 2
 
 
@@ -63,8 +63,8 @@ def test_an_unfinished_line_is_no_cell_and_the_next_shard_is_new(tmp_path: Path)
 def test_a_shard_with_fewer_columns_is_left_alone_and_one_with_more_serves(tmp_path: Path) -> None:
     written(tmp_path, KEYS)
     shards = Shards(tmp_path, ("spring_material", "module_mass"))
-    (found,) = shards.cells(iter(KEYS[1:2]))
-    assert found.answer.values == ("music_wire", 0.1)
+    (stored,) = shards.cells(iter(KEYS[1:2]))
+    assert stored.answer.values == ("music_wire", 0.1)
     assert len(Shards(tmp_path, (*COLUMNS, "peak_power"))) == 0
 
 
@@ -115,19 +115,19 @@ def plan_over(tmp_path: Path, sweep: str, study: str = "mode: shear\n") -> Sweep
 
 
 def test_grids_and_samples_lie_where_they_are_asked_for(tmp_path: Path) -> None:
-    found = plan_over(tmp_path, "{over: {current: [1 A, 2 A], arc_count: {from: 3, to: 5}}}")
-    cells = [found.points.texts(number) for number in range(found.count)]
+    sweep_plan = plan_over(tmp_path, "{over: {current: [1 A, 2 A], arc_count: {from: 3, to: 5}}}")
+    cells = [sweep_plan.points.texts(number) for number in range(sweep_plan.count)]
     assert cells == [(current, count) for current in ("1 A", "2 A") for count in ("3", "4", "5")]
-    found = plan_over(tmp_path, "{over: {current: {from: 0.5 A, to: 8 A, count: 5, spacing: logarithmic}}}")
-    assert [found.axis_values(number)[0] for number in range(5)] == pytest.approx([0.5, 1.0, 2.0, 4.0, 8.0])
+    sweep_plan = plan_over(tmp_path, "{over: {current: {from: 0.5 A, to: 8 A, count: 5, spacing: logarithmic}}}")
+    assert [sweep_plan.axis_values(number)[0] for number in range(5)] == pytest.approx([0.5, 1.0, 2.0, 4.0, 8.0])
     over = "{current: {from: 1 A, to: 2 A}, pcl_thickness: {from: 0.6 mm, to: 2 mm}}"
-    found = plan_over(tmp_path, f"{{method: sobol, count: 5, seed: 9, over: {over}}}")
+    sweep_plan = plan_over(tmp_path, f"{{method: sobol, count: 5, seed: 9, over: {over}}}")
     shares = qmc.Sobol(2, rng=9).random_base2(3)[:5]
     expected = qmc.scale(shares, [1.0, 0.6], [2.0, 2.0])
-    assert np.array([found.axis_values(number) for number in range(5)]) == pytest.approx(expected, rel=1e-9)
+    assert np.array([sweep_plan.axis_values(number) for number in range(5)]) == pytest.approx(expected, rel=1e-9)
     over = "{rate_model: [smi, bending], arc_count: {from: 3, to: 6}}"
-    found = plan_over(tmp_path, f"{{method: latin_hypercube, count: 8, over: {over}}}")
-    words, counts = zip(*(found.points.texts(number) for number in range(8)), strict=True)
+    sweep_plan = plan_over(tmp_path, f"{{method: latin_hypercube, count: 8, over: {over}}}")
+    words, counts = zip(*(sweep_plan.points.texts(number) for number in range(8)), strict=True)
     assert sorted(words) == ["bending"] * 4 + ["smi"] * 4
     assert sorted(counts) == ["3", "3", "4", "4", "5", "5", "6", "6"]
 
@@ -158,15 +158,15 @@ def test_bad_or_too_many_cells_are_refused_with_advice(tmp_path: Path) -> None:
     ],
 )
 def test_every_cell_has_a_key_of_its_own(tmp_path: Path, sweep: str) -> None:
-    found = plan_over(tmp_path, sweep, OPTIMISED)
-    keys = CellKeys(found)
-    assert len({keys.key(found.points.texts(number)) for number in range(found.count)}) == found.count
+    sweep_plan = plan_over(tmp_path, sweep, OPTIMISED)
+    keys = CellKeys(sweep_plan)
+    assert len({keys.key(sweep_plan.points.texts(number)) for number in range(sweep_plan.count)}) == sweep_plan.count
 
 
 def test_a_key_changes_with_study_and_record_not_with_other_cells(tmp_path: Path) -> None:
     def key(sweep: str = "{over: {current: [1 A, 2 A]}}", study: str = "mode: shear\n") -> str:
-        found = plan_over(tmp_path, sweep, study)
-        return CellKeys(found).key(found.points.texts(0))
+        sweep_plan = plan_over(tmp_path, sweep, study)
+        return CellKeys(sweep_plan).key(sweep_plan.points.texts(0))
 
     assert key() == key() == key("{over: {current: [1 A, 3 A, 4 A]}}")
     assert key() == key("{over: {current: {from: 1000 mA, to: 2 A, count: 4}}}")
@@ -195,16 +195,16 @@ def test_a_key_changes_with_what_the_table_reads_of_a_record(tmp_path: Path) -> 
 
 
 def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswer]:
-    asked = plan(path, *settings)
-    found = CellAnswers(SweptStudy.of(asked))
-    return {number: found.answer(Cell("", asked.points.texts(number))) for number in order}
+    sweep_plan = plan(path, *settings)
+    cells = CellAnswers(SweptStudy.of(sweep_plan))
+    return {number: cells.answer(Cell("", sweep_plan.points.texts(number))) for number in order}
 
 
 def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
     over = "sweep.over={pcl_thickness: [0.6 mm, 1 mm], arc_count: [3, 4]}"
     forward, backward = answers(study_file, [0, 1, 2, 3], over), answers(study_file, [3, 0], over)
     assert backward == {number: forward[number] for number in backward}
-    assert len({one.values for one in forward.values()}) == 4
+    assert len({cell.values for cell in forward.values()}) == 4
 
 
 @pytest.mark.gate
@@ -222,8 +222,8 @@ def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
     path = tmp_path / "study.yaml"
     path.write_text(tvim.load(study_path("paper_shear")).text)
     over = "sweep={over: {pcl_thickness: [0.6 mm, 0.9 mm], require.holding_torque: ['>= 12 N.m', '>= 120 N.m']}}"
-    one = "solver.starts=1"
-    forward, backward = answers(path, [0, 1, 2, 3], over, one), answers(path, [2, 0], over, one)
+    single_start = "solver.starts=1"
+    forward, backward = answers(path, [0, 1, 2, 3], over, single_start), answers(path, [2, 0], over, single_start)
     assert backward == {number: forward[number] for number in backward}
     assert [forward[number].warm for number in (0, 2)] == [True, True]
     assert forward[1].status == "infeasible"
@@ -231,11 +231,11 @@ def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
 
 
 def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file: Path) -> None:
-    asked = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
-    cells = [Cell(str(number), asked.points.texts(number)) for number in range(4)]
-    left = CellQueue(cells, SweptStudy.of(asked), workers=2)
+    sweep_plan = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
+    cells = [Cell(str(number), sweep_plan.points.texts(number)) for number in range(4)]
+    left = CellQueue(cells, SweptStudy.of(sweep_plan), workers=2)
     first, other, second = left.next(1), left.next(2), left.next(1)
-    assert [one.texts[1] for one in (*first, *other, *second)] == ["smi", "bending", "smi"]
+    assert [cell.texts[1] for cell in (*first, *other, *second)] == ["smi", "bending", "smi"]
     left.done(1000, 1.0)
     left.put_back([*first, *second])
     assert [len(left.next(1)) for _ in range(3)] == [1, 1, 1]
@@ -252,7 +252,7 @@ def test_own_records_are_found_by_a_worker_that_began_in_another_folder(
     (tmp_path / "records/spring_materials/own.yaml").write_text(f"{own}status: datasheet, source: a sheet}}}}\n")
     (tmp_path / "study.yaml").write_text(study)
     monkeypatch.chdir(tmp_path)
-    asked = plan(Path("study.yaml"))
-    job = SweptStudy.of(asked)
+    sweep_plan = plan(Path("study.yaml"))
+    job = SweptStudy.of(sweep_plan)
     monkeypatch.chdir("/")
-    assert CellAnswers(job).answer(Cell("key", asked.points.texts(0))).status == "evaluated"
+    assert CellAnswers(job).answer(Cell("key", sweep_plan.points.texts(0))).status == "evaluated"
