@@ -34,17 +34,17 @@ class Environment:
         self.folder, self.bin = place / "work", place / "venv" / ("Scripts" if os.name == "nt" else "bin")
         self.folder.mkdir(parents=True)
         subprocess.run([python, "-m", "venv", str(place / "venv")], check=True)
-        asked = str(wheel.resolve()) + ("" if extra in (LIGHT, VALIDATION) else f"[{extra}]")
+        requirement = str(wheel.resolve()) + ("" if extra in (LIGHT, VALIDATION) else f"[{extra}]")
         pip = [str(self.bin / "python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
         held = ["-c", str(constraints.resolve())] if constraints else []
-        subprocess.run([*pip, *held, asked], check=True)
+        subprocess.run([*pip, *held, requirement], check=True)
 
     def run(self, program: str, *words: str, fails: bool = False) -> str:
         """Output of one of its programs, standard error included; an end that is not expected ends all."""
-        kept = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
+        environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
         done = subprocess.run(
             [str(self.bin / program), *words], cwd=self.folder, capture_output=True, text=True, check=False,
-            env={**kept, "COLUMNS": "200"},
+            env={**environment, "COLUMNS": "200"},
         )  # fmt: skip
         if (done.returncode != 0) != fails:
             sys.exit(f"{program} {' '.join(words)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
@@ -68,24 +68,24 @@ class Environment:
 
 
 def light(env: Environment) -> None:
-    """The study of the first command without CAD: it says so in a line, and does the rest."""
+    """Run the first command without CAD: it says so in a line, and does all else."""
     env.tell(env.run("tvimdesign", "new", "--example", STUDY), "written; next")
-    told = env.run("tvimdesign", "run", f"{STUDY}.yaml")
-    env.tell(told, "No parts: cadquery is not installed: pip install 'tvimdesign[cad]'")
+    result = env.run("tvimdesign", "run", f"{STUDY}.yaml")
+    env.tell(result, "No parts: cadquery is not installed: pip install 'tvimdesign[cad]'")
     env.has(f"results/{STUDY}/report.html", f"results/{STUDY}/plots", f"results/{STUDY}/design.json")
     refused = env.run("tvimdesign", "cad", f"results/{STUDY}/design.json", fails=True)
     env.tell(refused, "pip install 'tvimdesign[cad]'")
 
 
 def cad(env: Environment) -> None:
-    """The first command whole, parts included."""
+    """Run the first command whole, parts included."""
     env.run("tvimdesign", "new", "--example", STUDY)
     env.run("tvimdesign", "run", f"{STUDY}.yaml")
     env.has(f"results/{STUDY}/cad/step/housing.step", f"results/{STUDY}/cad/preview.png")
 
 
 def robot(env: Environment) -> None:
-    """The joint for simulators, loaded by MuJoCo."""
+    """Load the joint for simulators in MuJoCo."""
     env.run("tvimdesign", "new", "--example", STUDY)
     env.run("tvimdesign", "run", f"{STUDY}.yaml", "--no-cad", "--no-plots")
     env.run("tvimdesign", "robot", f"results/{STUDY}")
@@ -102,11 +102,11 @@ def fe(env: Environment) -> None:
 
 
 def validation(env: Environment) -> None:
-    """Every case of the validation, as the repository has them, by the wheel's package without an extra."""
+    """Run the validation's cases, as the repository has them, by the wheel's package without an extra."""
     for name in ("validation", "studies", "tests/studies"):
         shutil.copytree(ROOT / name, env.folder / name)
-    told = env.run("python", "validation/run.py", "--docs", "compared", "--known", str(ROOT / "docs/validation.md"))
-    env.tell(told, " inside")
+    result = env.run("python", "validation/run.py", "--docs", "compared", "--known", str(ROOT / "docs/validation.md"))
+    env.tell(result, " inside")
     env.has("compared/validation.md")
 
 
@@ -129,12 +129,12 @@ def main() -> None:
     parser.add_argument("--extras", nargs="+", choices=CHECKS, default=list(CHECKS))
     parser.add_argument("--constraints", type=Path, help="versions to install, as pip's -c takes them")
     parser.add_argument("--python", default=sys.executable, help="interpreter that the environments are made with")
-    asked = parser.parse_args()
-    for extra in asked.extras:
+    options = parser.parse_args()
+    for extra in options.extras:
         place = Path(tempfile.mkdtemp(prefix=f"tvimdesign-{extra}-"))
         began = time.monotonic()
         try:
-            env = Environment(place, asked.wheel, extra, asked.python, asked.constraints)
+            env = Environment(place, options.wheel, extra, options.python, options.constraints)
             installed = time.monotonic() - began
             CHECKS[extra](env)
             used = time.monotonic() - began - installed

@@ -143,12 +143,12 @@ def _sampled(edge: cq.Edge) -> list[tuple[float, ...]]:
 def half_section(placed: Mapping[str, cq.Shape], azimuth: float, size: float) -> dict[str, list[Outline]]:
     """Return outlines of all parts in the half plane at an azimuth [rad], by name: radius right, level up."""
     plane = cq.Face.makePlane(size, 2.0 * size, cq.Vector(0.5 * size, 0.0, 0.0), cq.Vector(0.0, 1.0, 0.0))
-    found: dict[str, list[Outline]] = {}
+    outlines_by_name: dict[str, list[Outline]] = {}
     for name, shape in placed.items():
         box = shape.BoundingBox()
         if box.zmax > -size and (outlines := cut_faces(turned(shape, -azimuth), plane, (0, 2))):
-            found[name] = outlines
-    return found
+            outlines_by_name[name] = outlines
+    return outlines_by_name
 
 
 # --- the drawing -----------------------------------------------------------------------------------------------------
