@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+RUNS := $(VENV)/.runs
 
 .DEFAULT_GOAL := help
 .PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-engine bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine same same-optima validation fit-coverage check-wheel check-cad docs pictures lint format types contracts words prose page-code schema units vendor cad clean
@@ -10,12 +11,19 @@ STAMP := $(VENV)/.installed
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
-$(STAMP): pyproject.toml constraints.txt
+# Modules are compiled when they are first imported: most that are installed never are.
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile -c constraints.txt
+
+$(RUNS): pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
+	$(PIP) -e '.[cad]'
 	@touch $@
 
-study: $(STAMP)  ## run studies/elbow_printed.yaml and say where the results are
+$(STAMP): $(RUNS)
+	$(PIP) -e '.[dev]'
+	@touch $@
+
+study: $(RUNS)  ## run studies/elbow_printed.yaml and say where the results are
 	$(BIN)/tvimdesign run studies/elbow_printed.yaml --overwrite
 
 # Two workers for two processors: a library that starts threads of its own in each would only be in their way.
@@ -36,7 +44,7 @@ test-slow: $(STAMP)  ## the long tests alone
 BENCH := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python
 
 $(VENV)/.bench: $(STAMP)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,bench]'
+	$(PIP) -e '.[dev,bench]'
 	@touch $@
 
 bench: $(VENV)/.bench bench-switch bench-choices bench-sweep bench-front bench-cad  ## everything against what people would use instead, side by side (minutes)

@@ -138,7 +138,9 @@ def stage_tangents(
             to[j] = mass * before[j] + h * by[j] + dh[j] * rate
     solve_many(m.pattern, entries, b)
     for p in range(size):
-        s[m.pattern.order[p]] = b[p]
+        to, by = s[m.pattern.order[p]], b[p]
+        for j in range(lanes):
+            to[j] = by[j]
 
 
 @njit(cache=True, error_model="numpy")

@@ -6,10 +6,13 @@ whatever the function is, and takes about two nanoseconds for an operation.
 """
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+from llvmlite import binding
+from numba import cfunc, njit, types
+from numba.np.numpy_support import carray
 from numpy.typing import NDArray
 
 from tvimdesign.engine.vectors import BLOCK, add_tangents, scale_tangents
@@ -36,6 +39,27 @@ class Code(NamedTuple):
     """Register of its result."""
     groups: NDArray[np.int64]
     """Operation of each group, and where the group starts: a row each; the last row ends the last group."""
+
+
+_OPERANDS = types.CPointer(types.uint32)
+_CODE = (_OPERANDS, _OPERANDS, _OPERANDS, types.CPointer(types.int64), types.intp)
+_REGISTERS = (types.CPointer(types.float64), types.intp)
+ON_VALUES, ON_TANGENTS = types.void(*_CODE, *_REGISTERS), types.void(*_CODE, *_REGISTERS, *_REGISTERS)
+"""Arguments of a program by address: operands, results, groups and their number; registers and their number, tangents
+and the number of directions.
+"""
+_PROGRAMS: dict[str, Any] = {}
+
+
+def by_address(name: str, arguments: Any) -> Callable[[Callable[..., None]], Any]:
+    """Compile a program once; others call it by its address. numba would compile a callee anew into each caller."""
+
+    def compiled(program: Callable[..., None]) -> Any:
+        _PROGRAMS[name] = cfunc(arguments, cache=True, error_model="numpy")(program)
+        binding.add_symbol(name, _PROGRAMS[name].address)
+        return types.ExternalFunction(name, arguments)
+
+    return compiled
 
 
 @njit(cache=True, error_model="numpy")
@@ -162,8 +186,14 @@ def _stepped(op: int, x: float, y: float) -> float:
 @njit(cache=True, error_model="numpy")
 def run(code: Code, w: Array) -> None:
     """Fill the registers of the results from those of the arguments and constants."""
-    first, second, to, groups = code.first, code.second, code.to, code.groups
-    for g in range(groups.shape[0] - 1):
+    first, second, to, groups = code.first.ctypes, code.second.ctypes, code.to.ctypes, code.groups.ctypes
+    _run(first, second, to, groups, code.groups.shape[0] - 1, w.ctypes, w.shape[0])
+
+
+@by_address("tvimdesign_values", ON_VALUES)
+def _run(first: Any, second: Any, to: Any, groups_at: Any, count: int, w: Any, _size: int) -> None:
+    groups = carray(groups_at, (count + 1, 2))
+    for g in range(count):
         op, start, end = groups[g, 0], groups[g, 1], groups[g + 1, 1]
         if op == MUL:
             for k in range(start, end):
@@ -200,8 +230,16 @@ def run(code: Code, w: Array) -> None:
 @njit(cache=True, error_model="numpy")
 def push(code: Code, w: Array, d: Array) -> None:
     """Fill the registers, and their tangents `d` along the directions, in blocks of columns (`tangent_registers`)."""
-    first, second, to, groups, blocks = code.first, code.second, code.to, code.groups, d.shape[1] // BLOCK
-    for g in range(groups.shape[0] - 1):
+    first, second, to, groups = code.first.ctypes, code.second.ctypes, code.to.ctypes, code.groups.ctypes
+    _push(first, second, to, groups, code.groups.shape[0] - 1, w.ctypes, w.shape[0], d.ctypes, d.shape[1])
+
+
+@by_address("tvimdesign_tangents", ON_TANGENTS)
+def _push(
+    first: Any, second: Any, to: Any, groups_at: Any, count: int, w: Any, size: int, tangents: Any, columns: int
+) -> None:
+    groups, d, blocks = carray(groups_at, (count + 1, 2)), carray(tangents, (size, columns)), columns // BLOCK
+    for g in range(count):
         op, start, end = groups[g, 0], groups[g, 1], groups[g + 1, 1]
         for k in range(start, end):
             left, right, at = first[k], second[k], to[k]

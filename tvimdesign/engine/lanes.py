@@ -7,14 +7,17 @@ exact Newton step a stage. The lengths of steps are given, to be scaled for each
 or a constant of the motion; arrays of states are indexed by step, entry and design.
 """
 
+from typing import Any
+
 import numpy as np
 from numba import njit
+from numba.np.numpy_support import carray
 from numpy.typing import NDArray
 
 from tvimdesign.engine import interpreter as known
 from tvimdesign.engine import vectors
 from tvimdesign.engine.integrator import Motion, System
-from tvimdesign.engine.interpreter import Array, Code, slopes_of
+from tvimdesign.engine.interpreter import ON_VALUES, Array, Code, by_address, slopes_of
 from tvimdesign.engine.sparse_lu import Integers, Pattern
 from tvimdesign.engine.tape import Tape
 from tvimdesign.engine.vectors import LANES
@@ -28,10 +31,18 @@ def lanes_of(tape: Tape, more: int = 0) -> Array:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def run(code: Code, w: Array) -> None:  # noqa: PLR0915 - a case for each operation
+def run(code: Code, w: Array) -> None:
     """Fill the registers of the results from those of the arguments and constants."""
-    first, second, to, groups = code.first, code.second, code.to, code.groups
-    for g in range(groups.shape[0] - 1):
+    first, second, to, groups = code.first.ctypes, code.second.ctypes, code.to.ctypes, code.groups.ctypes
+    _run(first, second, to, groups, code.groups.shape[0] - 1, w.ctypes, w.shape[0])
+
+
+@by_address("tvimdesign_lanes", ON_VALUES)
+def _run(  # noqa: PLR0915 - a case for each operation
+    first: Any, second: Any, to: Any, groups_at: Any, count: int, registers: Any, size: int
+) -> None:
+    groups, w = carray(groups_at, (count + 1, 2)), carray(registers, (size, LANES))
+    for g in range(count):
         op, start, end = groups[g, 0], groups[g, 1], groups[g + 1, 1]
         if op == known.MUL:
             for k in range(start, end):

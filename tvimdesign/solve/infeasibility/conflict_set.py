@@ -236,11 +236,11 @@ def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int
         candidates, key=lambda place: (limits[place].origin == "require", least.slacks[place] > FEASIBILITY_TOL)
     ):
         fewer = [other for other in candidates if other != k]
-        without = kept_apart(fewer) if fewer else None
+        without = kept_apart(fewer) if fewer and k in candidates else None
         if unknown > _MOST_UNKNOWN:
             return [int(k) for k in np.flatnonzero(least.slacks > FEASIBILITY_TOL)], least.ends
         if without is not None:
-            candidates, settled = fewer, without
+            candidates, settled = [other for other in fewer if without.pressing[other] > _FAINT], without
     return candidates, settled.ends
 
 
