@@ -81,7 +81,7 @@ def test_cut_outs_and_beads_say_only_what_they_can() -> None:
     assert "thermistor" not in listed(design)
     (item,) = bill(design, _titles(design), {"thermistor_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
     assert item.title.startswith(
-        "Thermistor, bead of 1.8 x 4 mm with insulated wires, for 120 °C; NTC 10 kohm at 25 °C"
+        "Thermistor, bead of at most 1.8 x 4 mm with insulated wires, for 120 °C; NTC 10 kohm at 25 °C"
     )
 
 

@@ -222,10 +222,10 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
     for limit, share in uncertainty["held"].items():
         first = measure_first(limit.partition(" ")[0], uncertainty)
         test = values[first]["source"].partition("test: ")[2] if first else ""
-        rows.append((limit, f"{100.0 * share:.3g} %", first or "no single input", test or "the built part"))
+        rows.append((limit, f"{100.0 * share:.3g} %", first or "no single input", test or "its maker's sheet, or the built part"))
     heads = ("limit", "met in", "measure first", "test")
     note = (
-        "`tvimdesign new built.yaml --from FOLDER` keeps the parts: set what was measured there and run it. "
-        "A new search draws other parts."
+        "`tvimdesign new built.yaml --from FOLDER` keeps all chosen sizes: set what was measured there and "
+        "run it. A measured wall or gap still redraws what follows from it; a new search draws other parts."
     )
     return grid(f"{TO_MEASURE}: limits met in a part of the ranges only", heads, rows, right=(1,), note=note)
