@@ -36,7 +36,7 @@ _BANDS = (1.1, 2.0)
 asked for is not reached when the switch ends."""
 _CAUTIOUS_BAND = 1.3
 _EXAMPLES = {
-    "torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
+    "torque": "8 N.m", "stiffness": "1 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
     "stroke": "6 deg", "stiff_time": "300 s",
 }  # fmt: skip
 STROKE = "0.104 rad"
@@ -124,7 +124,8 @@ class JointTask:
 def _positive(name: str, text: str, unit: str) -> float:
     """Return the SI value of an option. Raises InputError if it is none, or not above zero."""
     if not text:
-        raise InputError(f"{name}: missing; write for instance '{_EXAMPLES[name]}'")
+        usual = "; an eighth of the torque a radian is usual" if name == "stiffness" else ""
+        raise InputError(f"{name}: missing; write for instance '{_EXAMPLES[name]}'{usual}")
     try:
         value = parse_quantity(text, unit)
     except UnitError as error:
