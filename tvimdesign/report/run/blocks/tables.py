@@ -222,7 +222,8 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
     for limit, share in uncertainty["held"].items():
         first = measure_first(limit.partition(" ")[0], uncertainty)
         test = values[first]["source"].partition("test: ")[2] if first else ""
-        rows.append((limit, f"{100.0 * share:.3g} %", first or "no single input", test or "its maker's sheet, or the built part"))
+        test = test or "its maker's sheet, or the built part"
+        rows.append((limit, f"{100.0 * share:.3g} %", first or "no single input", test))
     heads = ("limit", "met in", "measure first", "test")
     note = (
         "`tvimdesign new built.yaml --from FOLDER` keeps all chosen sizes: set what was measured there and "
