@@ -115,8 +115,9 @@ def thermistor_in_words(design: Design) -> str:
     """Return a thermistor for the temperature the heater is rated for: its number, and the bead that is drawn where
     one is."""
     bears, bead, fits = f"for {rating(design)}", _bead(design), _thermistor(design)
-    size = f"bead of at most {bead.in_words()} with" if bead else "with"
-    wanted = f"{size} insulated wires, {bears}"
+    wanted = f"{bears}, with insulated wires"
+    if bead:
+        wanted = f"bead of at most {bead.in_words()} with insulated wires, {bears}"
     which = f": {fits.in_words()}; another one" if fits else ", of a maker whose bead fits: it"
     return f"Thermistor, {wanted}; NTC 10 kohm at 25 °C{which} needs its own table in the controller"
 
