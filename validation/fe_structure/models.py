@@ -53,7 +53,10 @@ class Row(NamedTuple):
         ]
 
 
-BEYOND = {("elbow_printed", "edge_traction"), ("elbow_machined", "edge_traction")}
+BEYOND = {
+    ("elbow_printed", "edge_traction"), ("elbow_machined", "edge_traction"),
+    ("compare_compression", "rotor_vanes_and_plate"),
+}  # fmt: skip
 """Studies and quantities beyond the tenth, each with the figure in README.md."""
 LEFT_OUT = {"ankle", "driven_joint", "fast_switch"}
 """Studies not in the table, with the reason in README.md."""
