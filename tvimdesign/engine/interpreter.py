@@ -52,7 +52,7 @@ _PROGRAMS: dict[str, Any] = {}
 
 
 def by_address(name: str, arguments: Any) -> Callable[[Callable[..., None]], Any]:
-    """Compile a program once; others call it by its address. numba would compile a callee anew into each caller."""
+    """Compile a program once, to be called by its address: numba compiles a callee again into each of its callers."""
 
     def compiled(program: Callable[..., None]) -> Any:
         _PROGRAMS[name] = cfunc(arguments, cache=True, error_model="numpy")(program)
