@@ -93,30 +93,33 @@ def _fact_lines(fact: Fact, width: int) -> list[str]:
 
 
 def requirement_lines(rows: Sequence[Requirement], width: int, most: int) -> list[str]:
-    """Return the requirements, those with the least margin in at most `most` lines with one on the others."""
-    by_margin = sorted(rows, key=lambda row: row.least)
+    """Return the requirements, those most in doubt in at most `most` lines with one on the others."""
+    by_doubt = sorted(rows, key=lambda row: row.doubt)
     for count in range(len(rows), 0, -1):
-        least, others = by_margin[:count], by_margin[count:]
-        lines = _fitting([HEADS, *(row.cells for row in rows if row in least)], width)
+        first, others = by_doubt[:count], by_doubt[count:]
+        lines = _fitting([HEADS, *(row.cells for row in rows if row in first)], width)
         lines += _others(others, "others", width) if others else []
         if len(lines) <= most:
             return lines
-    return _others(by_margin, "requirements", width) if rows else []
+    return _others(by_doubt, "requirements", width) if rows else []
 
 
 def _others(rows: Sequence[Requirement], what: str, width: int) -> list[str]:
-    """Return a line that names what is violated or open of some requirements, else the tightest of them."""
+    """Return a line that names what is violated or open of some requirements, else the most in doubt of them."""
     missed = [row.cells[0] for row in rows if row.stands.startswith(("violated", "open"))]
     if missed:
         return _fact_lines(Fact(f"{len(missed)} of {len(rows)} {what} not met", missed, listing=True), width)
-    title, limit, got, *_ = rows[0].cells
-    met = f"1 {what[:-1]} is met" if len(rows) == 1 else f"{len(rows)} {what} are met, the tightest"
-    return wrapped(f"{met}: {title} {got}, asked {limit}", width, indent="  ")
+    title, limit, got, _, cases, _ = rows[0].cells
+    which = "the tightest" if rows[0].met_in in (None, 1.0) else f"the least sure in {cases}"
+    met = f"1 {what[:-1]} is met" if len(rows) == 1 else f"{len(rows)} {what} are met, {which}"
+    whole = f"{met}: {title} {got}, asked {limit}"
+    return [whole] if len(whole) <= width else wrapped(f"{met}: {title}", width, indent="  ")
 
 
 def _fitting(cells: Sequence[Sequence[str]], width: int) -> list[str]:
     """Return a table that is no wider than the screen: without ranges, or names on their own lines, if need be."""
-    lines = columns(cells, right=(2,))
+    filled = [column for column in zip(*cells, strict=True) if any(column[1:])]
+    lines = columns(list(zip(*filled, strict=True)), right=(2,))
     if max(map(len, lines)) > width:
         lines = columns([(*row[:3], *row[4:]) for row in cells], right=(2,))
     if max(map(len, lines)) <= width:
@@ -139,7 +142,7 @@ def warning_lines(warnings: Sequence[RunWarning], width: int, count: int) -> lis
 def _warning(warning: RunWarning, width: int) -> list[str]:
     """Return what is wrong, and on the same line what cures it if it fits: what is to be copied stays in one piece."""
     indent, cure = " " * 9, warning.cure
-    if not cure.startswith(("write ", "untried: ")):
+    if not cure.startswith(("write ", "may help: ")):
         return wrapped(f"Warning: {'; '.join(filter(None, (warning.text, cure)))}", width, indent=indent)
     lines = wrapped(f"Warning: {warning.text};", width, indent=indent)
     if len(lines[-1]) + len(cure) + 1 <= width:

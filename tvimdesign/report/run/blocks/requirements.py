@@ -13,8 +13,8 @@ from tvimdesign.report.run.blocks.verdict import measure_first
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
-HEADS = ("", "asked", "got", "plausible range", "margin")
-_WIDE = (3, 5)
+HEADS = ("", "asked", "got", "plausible range", "met in", "margin")
+_WIDE = (3, 6)
 """Columns that a narrow screen hides: the range, and the assumed input."""
 
 
@@ -32,6 +32,9 @@ class Requirement:
     tone: Tone
     least: float
     """The least margin over what history leaves open, as a share of the limit's scale."""
+    met_in: float | None = None
+    """Share of the plausible cases that meet the limits; none if it was not computed."""
+
     depends_on: str = ""
     """`pcl_bond_strength 2 MPa (1 to 5)`, the assumed input that matters most; empty if none does."""
 
@@ -42,7 +45,19 @@ class Requirement:
     def cells(self) -> tuple[str, ...]:
         """The row under `HEADS`."""
         title = f"{label(self.name.partition('@')[0])}, {self.state}" if self.state else label(self.name)
-        return title, self.requested, self.got, self.range, self.stands
+        cases = (
+            ""
+            if self.met_in is None
+            else "all cases"
+            if self.met_in == 1.0
+            else f"{int(100.0 * self.met_in)} % of cases"
+        )
+        return title, self.requested, self.got, self.range, cases, self.stands
+
+    @property
+    def doubt(self) -> tuple[float, float, float]:
+        """Order of the rows that a screen shows first: violated, then met in few cases, then with little margin."""
+        return self.least if self.least < -NOTHING else 0.0, 1.0 if self.met_in is None else self.met_in, self.least
 
 
 def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Requirement]:
@@ -62,7 +77,8 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
         row = _requirement(answer, table, name, _limit_text(limits, table.unit(name)), checks)
         spread = range_text(_interval(_limited(checks, name, table), intervals))
         state = _hot_states(answer) if table.output(name).at_end in {check.output for check in checks} else ""
-        rows.append(replace(row, range=spread, depends_on=label(first) if first else "", state=state))
+        depends = label(first) if first else ""
+        rows.append(replace(row, range=spread, met_in=_met_in(checks, uncertainty), depends_on=depends, state=state))
     violated = [check for check in answer.checks if check.origin != "require" and not check.met]
     for check in sorted(violated, key=lambda check: check.worst):
         rows.append(_requirement(answer, table, check.output, check.text.removeprefix(check.output).strip(), [check]))
@@ -91,6 +107,15 @@ def _limit_text(limits: Sequence[Mapping[str, Any]], unit: str) -> str:
     else:
         text = ", ".join(f"{limit['sense']} {in_unit(limit['limit'], unit, 6)}" for limit in limits)
     return f"{text} {pretty(unit)}".rstrip()
+
+
+def _met_in(checks: Sequence[ConstraintCheck], uncertainty: Mapping[str, Any]) -> float | None:
+    """Return the share of cases in which the checks hold, that of the limit met in the fewest."""
+    shares = uncertainty.get("held")
+    if shares is None:
+        return None
+    outputs = {check.output for check in checks}
+    return min((share for limit, share in shares.items() if limit.partition(" ")[0] in outputs), default=1.0)
 
 
 def _limited(checks: Sequence[ConstraintCheck], name: str, table: Table) -> list[str]:

@@ -36,7 +36,7 @@ class RunWarning(NamedTuple):
 
     text: str
     cure: str = ""
-    """A line of the study behind *write* if it was tried, behind *untried:* if it was not, else in words."""
+    """A line of the study behind *write* if it was tried, behind *may help:* if it was not, else in words."""
     level: str = ""
     but: str = ""
     """What the verdict says besides: of a part that is not to be had, or of what a grave warning means."""
@@ -77,7 +77,7 @@ def filled(text: str, places: Mapping[str, str]) -> str:
 
 def _other(kind: str, **places: str) -> RunWarning:
     entry = hints()["others"][kind]
-    text, cure = filled(entry["say"], places).rstrip("."), f"untried: {filled(entry['mend'], places)}"
+    text, cure = filled(entry["say"], places).rstrip("."), f"may help: {filled(entry['mend'], places)}"
     return RunWarning(text, cure, entry.get("level", ""), entry.get("but", ""))
 
 
@@ -103,7 +103,7 @@ def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
     for place, check in enumerate(sorted(answer.warnings, key=lambda check: _LEVELS.index(levels[check.output]))):
         lines = [] if check.output == harmless else lines_of(check.output, answer)
         remedy = remedies.of(check, lines, cheap=place >= SHOWN)
-        how = "write" if remedy.tried else _OTHER_SIZES if remedy.failed else "untried:"
+        how = "write" if remedy.tried else _OTHER_SIZES if remedy.failed else "may help:"
         cure = f"{how} {remedy.line}" if remedy.line else remedy.words
         if answer.solution is None and remedy.line.startswith("require:"):
             cure = f"{_VARY} {remedy.line}"
