@@ -7,7 +7,7 @@ from typing import Any
 
 from playwright.sync_api import Browser, Page
 
-PATIENCE = 120_000
+PATIENCE = 300_000
 """Milliseconds that a page may take on a busy machine."""
 
 

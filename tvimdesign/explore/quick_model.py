@@ -23,7 +23,7 @@ from tvimdesign.study import Study, given
 Array = NDArray[np.float64]
 Curves = dict[str, dict[str, list[float]]]
 
-_STEPS = Steps(of_pace=24, first=1.0 / 32.0, growth=1.2)
+_STEPS = Steps(of_pace=28, first=1.0 / 32.0, growth=1.2)
 """About half of the steps that tolerances take where something freezes: times within 0.2 % still (a test)."""
 _LOOSE, _SAMPLES = 1e-3, 10
 _PHASES: tuple[str, ...] = ("softening", "stiffening")

@@ -92,7 +92,8 @@ def reach_yield(
         gain = -sum(multipliers.get(name, 0.0) * move for name, move in moves.items())
         if not moves or (candidates[-1].reached and gain < _GAIN * abs(run.start.objective)) or _no_better(candidates):
             break
-        before = f"after round {number} of margins" if number else "without margins"
+        at_first = "with the margins so far" if any(margins.values()) else "without margins"
+        before = f"after round {number} of margins" if number else at_first
         optimizer.progress(
             f"adding tolerance margins{which}: yield {drawn.together.share:.1%} {before}, target {share:.0%}"
         )
