@@ -133,7 +133,7 @@ def _plausible(
         moves = {name: part * margin for name, margin in short.items() if margin > 0.0}
         run = tightened(optimizer, robust.run, within, objective, moves) if moves else None
         optimizer.floors = {**robust.margins, **{name: optimizer.margins[name] for name in moves}} if run else {}
-        after = reach_yield(optimizer, run, within, options.share, objective) if run else robust
+        after = reach_yield(optimizer, run, within, options.share, objective, shakes=0) if run else robust
         if run and after.reached:
             robust = after
         else:

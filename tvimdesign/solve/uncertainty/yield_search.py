@@ -59,8 +59,9 @@ class Robust:
 
 
 def reach_yield(
-    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], share: float, objective: Objective | None = None
-) -> Robust:
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], share: float, objective: Objective | None = None,
+    shakes: int = SHAKES,
+) -> Robust:  # fmt: skip
     """Seek the optimum `within` ends again from a converged run, until `share` of the modules is feasible.
 
     Returns the best design that reaches it, else the one that most modules keep; its margins stay with the optimizer.
@@ -97,7 +98,7 @@ def reach_yield(
         optimizer.progress(
             f"adding tolerance margins{which}: yield {drawn.together.share:.1%} {before}, target {share:.0%}"
         )
-        following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves)
+        following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves, shakes)
         if following is run:
             if optimizer.deadline.passed:
                 optimizer.deadline.leave_out(MARGINS)
@@ -116,12 +117,12 @@ def reach_yield(
 
 def _settled(
     optimizer: Optimizer, yields: Yields, run: Run, drawn: Drawn, within: Mapping[str, Ends], aim: float,
-    objective: Objective | None, moves: Mapping[str, float],
+    objective: Objective | None, moves: Mapping[str, float], shakes: int,
 ) -> Run:  # fmt: skip
     """Return the optimum whose margins fit its predicted modules; the run itself if there is none."""
     first = run
     for _ in range(PREDICTIONS):
-        following = tightened(optimizer, run, within, objective, moves, SHAKES if run is first else 0)
+        following = tightened(optimizer, run, within, objective, moves, shakes if run is first else 0)
         if following is None:
             break
         settled, run = same_optimum(run.start, following.start), following
