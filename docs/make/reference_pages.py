@@ -58,7 +58,7 @@ def _index(counts: dict[str, int]) -> str:
     return "\n".join([
         "# Reference: all quantities",
         "",
-        "These pages are made from the table of quantities, of which studies, reports and parts are made too.",
+        "These pages are made from the table of quantities, as studies, reports and parts are.",
         "`tvimdesign rows WORD` lists the same in the terminal.",
         "",
         "- An **input** is a number that a study may set under `module`. A **variable** may also stand under `vary`.",

@@ -57,7 +57,7 @@ class Sweep(Generic[StudyT]):
     """Every cell in its order: of a grid the last axis changes fastest."""
 
     plan: SweepPlan
-    kept: Sequence[StoredCell]
+    stored_cells: Sequence[StoredCell]
     """What each cell came to, in SI."""
     study_of: Callable[[StudyTree], StudyT]
     """Makes the study of a cell."""
@@ -67,7 +67,7 @@ class Sweep(Generic[StudyT]):
     @property
     def warm_solves(self) -> int:
         """Return how many cells were optimised from the study's own optimum alone."""
-        return sum(cell.answer.warm for cell in self.kept)
+        return sum(cell.answer.warm for cell in self.stored_cells)
 
     def table(self, *names: str, verdicts: bool = False) -> pd.DataFrame:
         """Return a row a cell: where it stands, how it ended, and the named outputs; else those the study asks about.
@@ -96,7 +96,7 @@ class Sweep(Generic[StudyT]):
         return frame
 
     def _row(self, number: int, heads: Sequence[str], wanted: Sequence[str], places: Mapping[str, int]) -> Any:
-        answer = self.kept[number].answer
+        answer = self.stored_cells[number].answer
         values = tuple(answer.values[places[name]] for name in wanted)
         values_shown = status_values(
             StoredCell(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted]
@@ -138,10 +138,10 @@ class Sweep(Generic[StudyT]):
         return CellAnswers(SweptStudy.of(self.plan))
 
     def __len__(self) -> int:
-        return len(self.kept)
+        return len(self.stored_cells)
 
     def __getitem__(self, number: int) -> Cell[StudyT]:
-        answer, texts = self.kept[number].answer, self.plan.points.texts(range(len(self))[number])
+        answer, texts = self.stored_cells[number].answer, self.plan.points.texts(range(len(self))[number])
         names = [axis.name for axis in self.plan.axes]
         return Cell(dict(zip(names, texts, strict=True)), answer.status, answer.reason, self, texts)
 

@@ -61,7 +61,7 @@ def _series(label: str, rows: list[dict[str, Value]], x: str, up: str, name: str
     return {
         "label": label, "x": [row[x] for row in there], "y": [row[up or name] for row in there],
         "colour": [row[name] for row in there] if up else [],
-        "kept": [row["violated"] == 0 for row in there],
+        "met": [row["violated"] == 0 for row in there],
     }  # fmt: skip
 
 
@@ -126,7 +126,7 @@ def _panel(panel: dict[str, Any], data: dict[str, Any], there: set[str]) -> dict
         "lines": [
             {
                 "label": series["label"] or panel["label"], "x": series["x"], "y": series["y"], "points": True,
-                "apart": not data["joined"], "hollow": [not satisfied for satisfied in series["kept"]],
+                "apart": not data["joined"], "hollow": [not satisfied for satisfied in series["met"]],
             }
             for series in panel["series"]
             if series["label"] in there

@@ -43,7 +43,7 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
     search = results.get("starts") or {"count": 0, "converged": 0, "optima": []}
     return {
         "design": design.model_dump(mode="json"),
-        "broken": [check["limit"] for check in results.get("checks", ()) if not check["kept"]],
+        "broken": [check["limit"] for check in results.get("checks", ()) if not check["met"]],
         "warnings": [
             {"output": check["output"], "value": check["si"]["value"], "because": check["origin"]}
             for check in results.get("warnings", ())

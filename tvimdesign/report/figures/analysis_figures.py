@@ -129,7 +129,7 @@ def sweep(data: dict[str, Any]) -> Figure:
             figure.legend(
                 *axes.get_legend_handles_labels(), loc="upper right", title=data["legend"], title_fontsize=theme.SMALL
             )
-    if any(not all(series["kept"]) for panel in panels for series in panel["series"]):
+    if any(not all(series["met"]) for panel in panels for series in panel["series"]):
         theme.caption(figure, "Hollow: a limit is violated.")
     return figure
 
@@ -141,7 +141,7 @@ def _lines(axes: Any, panel: dict[str, Any], *, joined: bool) -> None:
             style = {**style, "linestyle": ""}
         axes.plot(series["x"], series["y"], marker="o", markersize=3.5, label=series["label"] or None, **style)
         broken = [
-            (x, y) for x, y, satisfied in zip(series["x"], series["y"], series["kept"], strict=True) if not satisfied
+            (x, y) for x, y, satisfied in zip(series["x"], series["y"], series["met"], strict=True) if not satisfied
         ]
         if broken:
             axes.plot(*zip(*broken, strict=True), linestyle="", marker="o", markersize=3.5, color=theme.BROKEN,
@@ -150,7 +150,7 @@ def _lines(axes: Any, panel: dict[str, Any], *, joined: bool) -> None:
 
 def _cloud(figure: Figure, axes: Any, panel: dict[str, Any], scale: Any) -> None:
     (series,) = panel["series"]
-    points = list(zip(series["x"], series["y"], series["colour"], series["kept"], strict=True))
+    points = list(zip(series["x"], series["y"], series["colour"], series["met"], strict=True))
     if not points:
         return
     satisfied, broken = ([point for point in points if point[3] == which] for which in (True, False))

@@ -85,7 +85,7 @@ class CheckEntry(NumberEntry):
     output: str
     margin: float | None
     margin_unit: str
-    kept: bool
+    met: bool
     origin: str
 
 
@@ -165,7 +165,7 @@ class TightenedEntry(Entry):
 class Yield(Entry):
     """Yield of a design with margins, and of the one without margins, by random modules."""
 
-    asked: float
+    target: float
     modules: int
     shares: dict[str, float]
     together: float

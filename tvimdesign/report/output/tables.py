@@ -237,7 +237,7 @@ def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | 
         **number_entry(check.value, table.unit(check.output), ends),
         "margin": finite(margin),
         "margin_unit": pretty(margin_unit),
-        "kept": check.met,
+        "met": check.met,
         "origin": check.origin,
     }
 
@@ -327,8 +327,7 @@ def control_entry(control: ControlResult) -> ControlEntry:
 def yield_entry(reached: YieldReached, table: Table) -> Yield:
     """Return the account of a yield that was asked for, with units."""
     nominal = {name: number_entry(value, table.unit(name)) for name, value in reached.nominal.items()}
-    entry = asdict(reached) | {"nominal": nominal}
-    return cast("Yield", {"asked": entry.pop("target"), **entry})
+    return cast("Yield", asdict(reached) | {"nominal": nominal})
 
 
 def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> ValueEntry:
