@@ -34,10 +34,10 @@ NAMES = ("hub", "link", "core", "plate", "floor", "rotor_vanes_and_plate", "hous
          "plate_stress", "edge_traction", "seat_traction")  # fmt: skip
 
 
-def modules(study: str) -> Iterator[tuple[Design, ResolvedModule]]:
-    """Return the random designs of a study, with what FE needs, each as a module too."""
+def modules(study: str, seed: int, count: int) -> Iterator[tuple[Design, ResolvedModule]]:
+    """Return random designs of a study, with what FE needs, each as a module too."""
     read = read_study(study_file(study))
-    for design in Draws(read, FRESH_SEED).keeping_rules(FRESH[study], Tally()):
+    for design in Draws(read, seed).keeping_rules(count, Tally()):
         varied = {name: design.values[name] for name in read.vary if name in design.values}
         module = ResolvedModule(read, {**given(read), **varied})
         at_points = module.table.evaluate(module.values, AT_POINTS)
@@ -47,7 +47,7 @@ def modules(study: str) -> Iterator[tuple[Design, ResolvedModule]]:
 
 def rows_of(study: str, work: Path, fe_python: Path) -> Iterator[list[str]]:
     """Solve the random designs of a study; a design without a mesh gives a row without values."""
-    for place, (design, module) in enumerate(modules(study)):
+    for place, (design, module) in enumerate(modules(study, FRESH_SEED, FRESH[study])):
         folder = work / f"{study}_{place}"
         if not (folder / "inputs.json").exists():
             export_parts(design, folder)
@@ -73,7 +73,7 @@ def compared(model: float, fe: float) -> tuple[str, str, str]:
 
 def with_model(study: str, rows: list[list[str]]) -> list[list[str]]:
     """Return rows of a study with today's model beside the same FE."""
-    models = [comparison.model_values(module) for _, module in modules(study)]
+    models = [comparison.model_values(module) for _, module in modules(study, FRESH_SEED, FRESH[study])]
     return [
         [study, place, name, *compared(models[int(place)][name], float(fe))]
         if fe

@@ -1,8 +1,9 @@
 """Torsional stiffness of what carries the layer: shaft with holes, flat rings, feet, and the lever on top.
 
 Sources: [T] Timoshenko and Goodier, Theory of Elasticity, 3rd ed.: torsion of round bars, holes in shear, rings sheared
-in their plane; [B] Timoshenko, Strength of Materials, part I, 3rd ed., ch. 5 (bending and shear of beams). Numbers that
-are calibrated stand for ways of the torque that these leave out; FE of the drawn parts gave them.
+in their plane; [B] Timoshenko, Strength of Materials, part I, 3rd ed., ch. 5 (bending and shear of beams); [RHW]
+Richart, Hall, Woods, Vibrations of Soils and Foundations, ch. 10 (a rocking disc). Numbers that are calibrated stand
+for ways of the torque that these leave out; FE of the drawn parts gave them.
 """
 
 from typing import Any, NamedTuple
@@ -244,19 +245,21 @@ def face_compliance(modulus: Any, thickness: Any, polar: Any) -> Any:
     return thickness / (3.0 * modulus * polar)
 
 
-FLOOR_ROCKING = 0.34
-"""Moment [N*m/rad] that a floor holds the upper end of a foot with, over E r h^2, between E h^3 of a thin plate and
-E r^3 of a half-space; calibrated to validation/fe_structure."""
+FLOOR_BENDS, FLOOR_DENTS = 0.76, 0.89
+"""Moments [N*m/rad] that a floor holds the upper end of a foot with: over E t^3, as a thin one bends, and over E r^3,
+as a thick one gives around the foot; a rigid disc on a half-space is held with 8 G r^3/(3 (1 - nu)), 1.5 [RHW], and a
+foot is bored and stands at the floor's edge. Both calibrated to validation/fe_structure."""
 
 
 def foot_tilt(radius: Any, bore_radius: Any, height: Any, floor: Any) -> Any:
     """Return the rise [1] of a foot's compliance in bending as the floor above lets it turn: 1 built in, 4 free to.
 
-    1 + 3/(1 + c), c = 0.34 r t^2 h/I, a floor of the thickness t of what the foot is made of: a beam built in below,
-    with a spring against turning above [B].
+    1 + 3/(1 + c), h/(c I) = 1/(0.76 t^3) + 1/(0.89 r^3), a floor of the thickness t of what the foot is made of: a beam
+    built in below, with a spring against turning above [B].
     """
     inertia = 0.25 * np.pi * (radius**4 - bore_radius**4)
-    return 1.0 + 3.0 / (1.0 + FLOOR_ROCKING * radius * floor**2 * height / inertia)
+    give = 1.0 / (FLOOR_BENDS * floor**3) + 1.0 / (FLOOR_DENTS * radius**3)
+    return 1.0 + 3.0 / (1.0 + height / (inertia * give))
 
 
 def foot_stiffness(
