@@ -124,7 +124,7 @@ def test_the_core_yields_where_fe_has_its_highest_stress(name: str) -> None:
         assert mises == pytest.approx(max(foot, beside), rel=0.10)
 
 
-@pytest.mark.parametrize("name", beyond(SHEAR, compare_shear="floor 9 % too stiff; its hub within 1 %"))
+@pytest.mark.parametrize("name", beyond(SHEAR, compare_shear="floor 10 % too stiff; its hub within 1 %"))
 def test_plate_floor_and_pads_are_as_stiff_as_in_fe(name: str) -> None:
     fe = SHIPPED[name]["found"]
     plate, floor, pads = quantities(name, "plate_stiffness", "floor_stiffness", "pad_compliance")
@@ -174,7 +174,12 @@ def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -
 
 
 @pytest.mark.parametrize(
-    "name", beyond(BLOCKS, compare_compression="rotor vanes of 8 mm and plate 18 % too soft; its hub within 2 %")
+    "name",
+    beyond(
+        BLOCKS,
+        compare_compression="rotor vanes of 8 mm and plate 18 % too soft; its hub within 2 %",
+        **{"wrist_compression_7_23, drawn": "rotor vanes and plate 30 % too soft under blocks of 15 mm"},
+    ),
 )
 def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     # A vane that leans shears its block, and FE shares that out otherwise; the whole joint is closer (below).
@@ -200,8 +205,8 @@ def of_drawn(name: str) -> dict[str, float]:
 def test_drawn_modules_are_as_stiff_as_in_fe_within_what_is_stated() -> None:
     # As in validation/fe_structure/README.md.
     stated = {
-        "hub": (0.98, 1.03), "core": (0.99, 1.04), "plate": (0.95, 1.01), "floor": (0.92, 1.14),
-        "foot of the core": (0.95, 1.05),
+        "hub": (0.98, 1.03), "core": (0.98, 1.04), "plate": (0.93, 1.01), "floor": (0.92, 1.2),
+        "foot of the core": (0.95, 1.07),
     }  # fmt: skip
     ratios = [of_drawn(name) for name in DRAWN]
     for part, (low, high) in stated.items():
@@ -236,7 +241,7 @@ def test_proportions_that_fe_solved_are_stated() -> None:
     stated = yaml.safe_load((ROOT / "tvimdesign/device/core/impedance/fe_range.yaml").read_text())
     sizes = [case["mm"] for case in SHIPPED.values()]
     sizes += [design.values for study in FRESH for design in fresh_designs(study).values()]
-    assert len(sizes) == 146
+    assert len(sizes) == 186
     for name, (low, high) in stated.items():
         above, below = name.split("/")
         ratios = [each[above] / each[below] for each in sizes if above in each and below in each]

@@ -330,7 +330,7 @@ def footed_floor_stiffness(ring: Any, spot: Any, foot: Any, count: Any, foot_rad
 
     `ring` is the floor's stiffness from the PCL's rim to the feet, `spot` that of the floor around a foot in its plane,
     `foot` that of a foot sideways [N/m]. With `under_ledges_compliance` in series and the `pocketed_thickness` of the
-    first two, FE of 52 floors, 2.5 to 6.5 mm thick: within 8 %.
+    first two, FE of 71 floors, 2.5 to 6.5 mm thick: 69 within a tenth, the others 13 and 19 % too stiff.
     """
     return 1.0 / (1.0 / ring + (1.0 / spot + 1.0 / foot) / (count * foot_radius**2))
 
