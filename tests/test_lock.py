@@ -110,6 +110,16 @@ def test_the_page_s_lock_is_optimal_as_the_page_says() -> None:
         f"{1e3 * values['module_mass']:.0f}", f"{values['holding_torque']:.2f}", f"{values['drag_torque']:.2f}",
     ]  # fmt: skip
     assert list(written.groups()) == shown
+    assert f"lets go after {values['response_time']:.0f} s and holds after {values['return_time']:.0f} s" in page
+
+
+@pytest.mark.slow
+def test_the_page_s_metal_lock_takes_as_long_as_the_page_says() -> None:
+    assert LISTING is not None
+    text = LISTING[1].replace("module:\n", "module:\n  pcl_grade: fields_metal\n").replace("80 degC", "70 degC")
+    values = answer(read_study_text(text)).design.values
+    times = f"takes {values['response_time']:.0f} s and {values['return_time']:.0f} s"
+    assert times in (ROOT / "docs/how-to/lock.md").read_text()
 
 
 @pytest.mark.slow
