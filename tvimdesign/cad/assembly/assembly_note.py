@@ -41,8 +41,10 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     lines += [f"| {_words(item.kind)} | {item.title}{_about(item.mass)} |" for item in extra]
     lines += ["", _cost([*items, *extra])]
     lines += [""] if extra else []
-    lines += [*_making(design, dims, [item.kind for item in items if item.made]), "## Steps", ""]
+    lines += [*_making(design, dims, [item for item in items if item.made]), "## Steps", ""]
     steps = written_steps(design, dims, items)
+    tools = sorted({tool for step in steps for tool in step.tools})
+    lines += [f"Tools: {', '.join(tools)}. Azimuths count from the drawings' x axis, counter-clockwise from above.", ""]
     for number, step in enumerate(steps, start=1):
         if step.opens and not steps[number - 2].opens:
             lines += ["", "## Opening it again", ""]
@@ -76,8 +78,9 @@ def _about(mass: float) -> str:
     return f", about {mass:.2f} g" if mass else ""
 
 
-def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]:
+def _making(design: Design, dims: Dimensions, made: Sequence[Item]) -> list[str]:
     """Return how the made parts are made: the structure by the process, what is of PCL printed or cut either way."""
+    kinds = [item.kind for item in made]
     is_milled = design.choices["making_method"] == "milled"
     milled = [kind for kind in kinds if is_milled and is_of_structure(kind)]
     lines = []
@@ -89,6 +92,8 @@ def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]
     wider = f", with upright holes {dims.hole_compensation:g} mm wider{but}" if dims.hole_compensation else ""
     solid = "Print them solid (infill 100 %): mass, stiffness and strength count the plastic throughout."
     solid += "" if is_milled else _walls(dims)
+    grams = sum(item.mass * item.quantity for item in made if is_of_structure(item.kind))
+    solid += "" if is_milled else f" They take {grams:.0f} g of filament or resin; supports and jigs come on top."
     return [*lines, f"The files in `print/` lie so{wider}. {solid}{_weigh(design, kinds, milled)}", ""]
 
 
@@ -136,6 +141,7 @@ class WrittenStep(NamedTuple):
     """What comes into its place: `part`, a kind or one part of a kind, and the side it comes `from`."""
     needs: str = ""
     """Hands, fixture, tools, access, and what is checked at its end."""
+    tools: Sequence[str] = ()
     opens: bool = False
     """True where it takes the module apart again."""
 
@@ -152,7 +158,8 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     steps = [
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
-            step.get("place", ()), _needs(step["needs"]).format_map(known), step.get("opens", False),
+            step.get("place", ()), _needs(step["needs"]).format_map(known), _tools(step["needs"], known),
+            step.get("opens", False),
         )
         for step in wanted
         if all(known[word] for word in step.get("knows", ()))
@@ -181,6 +188,11 @@ def _needs(needs: Mapping[str, Any]) -> str:
         f"{people} · held by: {needs['fixture']} · tools: {needs['tools']} · access: {needs['access']} · "
         f"checked: {needs['checked']}"
     )
+
+
+def _tools(needs: Mapping[str, Any], known: "Figures") -> list[str]:
+    """Return the tools of a step by name."""
+    return [tool for tool in str(needs["tools"]).format_map(known).split(", ") if tool != "none"]
 
 
 def _is_for(step: Mapping[str, Any], design: Design, dims: Dimensions) -> bool:

@@ -85,10 +85,17 @@ def _fact_lines(fact: Fact, width: int) -> list[str]:
     lines = joined([first, *fact.parts[1:]], width, "  ")
     if len(lines) == 1 or not fact.listing:
         return _as_fit(lines, [fact.note] if fact.note else [], width)
-    for count in range(len(fact.parts) - 1, 0, -1):
-        line = DOT.join([first, *fact.parts[1:count], f"{len(fact.parts) - count} more"])
-        if len(line) <= width:
-            return [line]
+    return _listing(fact.label, fact.parts, width, 1)
+
+
+def _listing(label: str, parts: Sequence[str], width: int, most: int) -> list[str]:
+    """Return as many parts as fit in at most `most` lines, with the number of the others."""
+    first = f"{label}: {parts[0]}"
+    for count in range(len(parts), 0, -1):
+        more = [f"{len(parts) - count} more"] if count < len(parts) else []
+        lines = joined([first, *parts[1:count], *more], width, "  ")
+        if len(lines) <= most:
+            return lines
     return wrapped(first, width, indent="  ")
 
 
@@ -99,21 +106,28 @@ def requirement_lines(rows: Sequence[Requirement], width: int, most: int) -> lis
         first, others = by_doubt[:count], by_doubt[count:]
         lines = _fitting([HEADS, *(row.cells for row in rows if row in first)], width)
         lines += _others(others, "others", width) if others else []
-        if len(lines) <= most:
+        if len(lines) <= most and (count > 1 or not others or by_doubt[0].met_in is None):
             return lines
-    return _others(by_doubt, "requirements", width) if rows else []
+    return _others(by_doubt, "requirements", width, most) if rows else []
 
 
-def _others(rows: Sequence[Requirement], what: str, width: int) -> list[str]:
+def _others(rows: Sequence[Requirement], what: str, width: int, most: int = 1) -> list[str]:
     """Return a line that names what is violated or open of some requirements, else the most in doubt of them."""
     missed = [row.cells[0] for row in rows if row.stands.startswith(("violated", "open"))]
     if missed:
         return _fact_lines(Fact(f"{len(missed)} of {len(rows)} {what} not met", missed, listing=True), width)
-    title, limit, got, _, cases, _ = rows[0].cells
-    which = "the tightest" if rows[0].met_in in (None, 1.0) else f"the least sure in {cases}"
-    met = f"1 {what[:-1]} is met" if len(rows) == 1 else f"{len(rows)} {what} are met, {which}"
-    whole = f"{met}: {title} {got}, asked {limit}"
-    return [whole] if len(whole) <= width else wrapped(f"{met}: {title}", width, indent="  ")
+    met = f"1 {what[:-1]} is met" if len(rows) == 1 else f"{len(rows)} {what} are met"
+    if rows[0].met_in in (None, 1.0):
+        title, limit, got, *_ = rows[0].cells
+        tightest = ", the tightest" if len(rows) > 1 else ""
+        return wrapped(f"{met}{tightest}: {title} {got}, asked {limit}", width, indent="  ")
+    return _listing(f"{met}, and of plausible cases", [_unsure(row) for row in rows], width, most)
+
+
+def _unsure(row: Requirement) -> str:
+    """Return a requirement that is met, with its share of the plausible cases."""
+    share = "all" if row.met_in in (None, 1.0) else f"{int(100.0 * (row.met_in or 0.0))} %"
+    return f"{row.cells[0]} {row.got} ({row.requested}) in {share}"
 
 
 def _fitting(cells: Sequence[Sequence[str]], width: int) -> list[str]:
