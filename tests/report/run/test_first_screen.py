@@ -190,7 +190,7 @@ def test_the_first_line_says_verdict_name_starts_and_seconds() -> None:
                for start in solution.starts)  # fmt: skip
     tried = len(solution.starts)
     agree = f"{same} of {tried} starts agree" if same > 1 else f"found by 1 of {tried} starts"
-    agree = "one start: others may be better" if tried == 1 else agree
+    agree = "one start; more: `solver.starts`" if tried == 1 else agree
     line = first_screen(answered, 140, 12.3)[0]
     assert line == f"Nominal optimum: add margins (yield 0 %) · {answered.result.design.name} (shear) · {agree} · 12 s"
     assert first_screen(case("many alone"), 140)[0].startswith("Do not build it: ")

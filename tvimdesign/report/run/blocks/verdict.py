@@ -241,6 +241,6 @@ def starts_in_words(answer: StudyResult) -> list[str]:
     if not optima:
         return ["no start converged, a later search did"]
     if len(free) == 1:
-        return ["one start: others may be better"]
+        return ["one start; more: `solver.starts`"]
     agree = answer.solution.reached(optima[0])
     return [f"found by 1 of {len(free)} starts" if agree == 1 else f"{agree} of {len(free)} starts agree"]
