@@ -134,9 +134,9 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
     if hidden:
         missed = sum(row.stands.startswith(("violated", "open")) for row in hidden)
         which = r", (the tightest|and of plausible cases)"
-        others = "1 other is met" if len(hidden) == 1 else f"{len(hidden)} others are met"
-        tightest = f"{others}{which}: {re.escape(hidden[0].cells[0])} {re.escape(hidden[0].got)}"
         others = "others" if shown else "requirements"
+        met = "1 other is met" if len(hidden) == 1 else f"{len(hidden)} {others} are met"
+        tightest = f"{met}{which}: {re.escape(hidden[0].cells[0])} {re.escape(hidden[0].got)}"
         expected = f"{missed} of {len(hidden)} {others} not met: {label(hidden[0].name)}" if missed else tightest
         assert re.search(expected, " ".join(text.split()))
 
@@ -230,7 +230,7 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     soft = intervals["softening_time"]
     assert answered.result.design.value("softening_time") == pytest.approx(soft["value"], rel=1e-3)
     assert f"s ({soft['low']:.3g} to {soft['high']:.3g})" in text
-    for output in ("joint_stiffness@cold", "peak_voltage"):
+    for output in ("joint_stiffness_at_link@cold", "peak_voltage"):
         assert f"({ends_text(intervals[output]['low'], intervals[output]['high'])})" in text, output
     stroke = answered.result.design.value("stroke") / 100.0
     for output, unit in (("lost_motion", stroke), ("friction_share", 0.01)):

@@ -157,15 +157,15 @@ _LOSES = {
 
 
 def _impedance(value: _Values) -> list[Fact]:
-    """Return the stiffness frozen, as heating stops, and with its damping there; none if heating never stops."""
+    """Return the link's stiffness frozen, as heating stops, and with its damping; none if heating never stops."""
     if math.isinf(value.values["softened_stiffness"]):
         return []
     unit = value.table.unit("softened_stiffness")
     frozen, soft, damped = (
         f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
-        for name in ("joint_stiffness@cold", "softened_stiffness", "softened_impedance")
+        for name in ("joint_stiffness_at_link@cold", "softened_stiffness", "softened_impedance")
     )
-    return [Fact("Stiffness", [f"frozen {frozen}, soft {soft}, damped {damped} {pretty(unit)}"])]
+    return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}, soft {soft}, damped {damped}"])]
 
 
 def _drag(value: _Values) -> list[Fact]:
