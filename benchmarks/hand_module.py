@@ -27,7 +27,8 @@ BEND, BEND_ACROSS, BEND_IN_PLANE = 2.0, 1.1, (4.0 * 4.0**2 - 4.0 - 1.0) / (4.0 *
 E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
 LOSS = 0.03 + 0.01  # of PETG and of what is clamped
-SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, BORED_PLATE, ROCKING = 0.1, 0.15, 0.38, 0.2, 0.34
+SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, BORED_PLATE = 0.1, 0.15, 0.38, 0.2
+FLOOR_BENDS, FLOOR_DENTS = 0.76, 0.89
 FILLET_SHORTENS, THIN_SHORTENS, FILLET_GIVES, FILLET_BEARS = 0.495, 0.0046, 0.136, 0.023
 CORE_FOOT, BORED_FOOT, NEAR_FOOT, HOLDING_SAFETY = 0.796, 1.41, 0.25, 1.25
 FILLET, LEAST_FILLET, FELT_FILLET, EVENED, SLIP = 1.5e-3, 1e-4, 1.16e-3, 3e-4, 0.2e-3
@@ -252,7 +253,8 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     driven = math.sqrt(ARCS * span / (2.0 * PI))
     hole = 0.5 * MOUNT_HOLE
     section = 0.25 * PI * (BOSS**4 - hole**4)
-    tilt = 1.0 + 3.0 / (1.0 + ROCKING * BOSS * FLOOR**2 * FOOT / section)
+    give = 1.0 / (FLOOR_BENDS * FLOOR**3) + 1.0 / (FLOOR_DENTS * BOSS**3)
+    tilt = 1.0 + 3.0 / (1.0 + FOOT / (section * give))
     sideways = 1.0 / (tilt * FOOT**3 / (12.0 * E_PETG * section) + FOOT / (0.9 * PI * G_PETG * (BOSS**2 - hole**2)))
     # below the arcs: both ledges of the windows, the inner as a hoop, ribs beside the windows
     near, last_ledge = INNER + 0.5 * LEDGE, outer - 0.5 * LEDGE
