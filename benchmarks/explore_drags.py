@@ -212,7 +212,7 @@ async def _leak(hand: Hand, server: Server, walks: dict[str, Iterator[dict[str, 
             await hand.drag(next(walks[way]))
             refused += hand.is_refused
     hand.is_refused = True
-    while hand.is_refused:  # the last is a module, which can be held against another answer
+    while hand.is_refused:  # the last is a module, which compares with another answer
         await hand.drag(last := next(walks["evaluate"]))
     await hand.socket.send_json({**last, "final": True})
     reply = await hand.until(stage="exact", number=hand.number)

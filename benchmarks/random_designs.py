@@ -124,7 +124,7 @@ class Draws:
 
     def _keeping(self, drawn: dict[str, NDArray[np.float64]], tally: Tally) -> NDArray[np.int64]:
         """Which of the draws keep every rule."""
-        with np.errstate(all="ignore"):  # what cannot be drawn has no number, and breaks the rule for that reason
+        with np.errstate(all="ignore"):  # what cannot be drawn has no number, and so violates the rule
             values = self.table.evaluate(self._known | drawn, [row.name for row in self._ruled])
         count = len(next(iter(drawn.values())))
         keeps = np.ones(count, dtype=bool)

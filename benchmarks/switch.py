@@ -140,7 +140,7 @@ def by_scipy(equations: Equations, method: str) -> Callable[[float], Array]:
                 latest[:] = now, equations.gaps(now, state)
             return float(latest[1][which])
 
-        gap.terminal = EVENTS[which] == "far_face_time"  # how scipy is told
+        gap.terminal = EVENTS[which] == "far_face_time"  # how scipy learns it
         return gap
 
     def solve(tolerance: float) -> Array:

@@ -10,10 +10,12 @@ from __future__ import annotations
 
 import argparse
 import ast
+import io
 import json
 import re
 import subprocess
 import sys
+import tokenize
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -43,9 +45,9 @@ class Find(NamedTuple):
     instead: str
 
 
-def in_code(tree: ast.Module) -> Iterator[Find]:
-    """Yield what a module's names, messages and docstrings have."""
-    docstrings = set()
+def in_code(source: str) -> Iterator[Find]:
+    """Yield what a module's names, messages, docstrings and comments have."""
+    tree, docstrings = ast.parse(source), set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | Function):
             first = node.body[0] if node.body else None
@@ -57,6 +59,9 @@ def in_code(tree: ast.Module) -> Iterator[Find]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in docstrings:
             yield from in_text("message", node.value, node.lineno)
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT:
+            yield from in_text("message", token.string.lstrip("# "), token.start[0])
 
 
 def names_of(node: ast.AST) -> Iterator[str]:
@@ -117,7 +122,7 @@ def floors() -> dict[str, dict[Path, list[Find]]]:
     """Return all finds by floor and file."""
     finds: dict[str, dict[Path, list[Find]]] = defaultdict(dict)
     for path in sorted(path for folder in CODE for path in (ROOT / folder).rglob("*.py")):
-        finds[floor_of(path)][path] = list(in_code(ast.parse(path.read_text(encoding="utf-8"))))
+        finds[floor_of(path)][path] = list(in_code(path.read_text(encoding="utf-8")))
     for path in sorted(path for pattern in PLAIN for path in (ROOT / "tvimdesign").rglob(pattern)):
         if "vendor" not in path.parts:
             finds[floor_of(path)][path] = list(in_text("message", path.read_text(encoding="utf-8"), 1))

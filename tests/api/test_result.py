@@ -71,7 +71,7 @@ def test_requirements_and_reasons_are_those_of_the_study(result: tvim.Result[tvi
         shear = table_for("shear")
         for part in shear.output(name).least_of or (name,):
             assert (f"{part}{at}{point}" in limits) == shear.output(part).exists(result.design.choices)
-    # Ten limits: two are on the least of several, which are told one by one, and two on the stiffness, at five angles.
+    # Ten limits: two are on the least of several, listed one by one, and two on the stiffness, at five angles.
     assert (len(rows), table.met.all()) == (27, True)  # so are the places that the core and the pads' seats yield at
     assert result.table().loc["holding_torque", "status"] == "active"
     assert result.feasible

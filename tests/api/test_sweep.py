@@ -30,7 +30,7 @@ def grid() -> tvim.Sweep[tvim.Study]:
 
 @pytest.mark.slow
 def test_cell_at_the_optimum_is_the_optimum(optimised: tvim.Sweep[tvim.Study], result: tvim.Result[tvim.Study]) -> None:
-    assert result["pcl_thickness"].magnitude == pytest.approx(0.6, rel=1e-6)  # the end of its range, where it binds
+    assert result["pcl_thickness"].magnitude == pytest.approx(0.6, rel=1e-6)  # the end of its range, which is active
     # Mass and volume trade along a flat valley there, so what is minimised says whether it is the same optimum.
     reference, weights = result.design.solution["reference"], result.design.study["minimize"]
     first = dict(zip(optimised.plan.columns, optimised.stored_cells[0].answer.values, strict=True))

@@ -147,7 +147,7 @@ def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> 
         set_low_priority(item.pid)
         message, _ = item.communicate("go on\n")
     assert int(message) > psutil.Process().nice()
-    set_low_priority(item.pid)  # it has ended: nobody is to give way
+    set_low_priority(item.pid)  # it has ended: no priority is left to set
 
 
 def test_who_gives_way_a_little_gives_way_further_and_others_do_not() -> None:
@@ -214,7 +214,7 @@ def test_limits_count_work_and_start_again_with_progress(monkeypatch: pytest.Mon
     monkeypatch.setattr(processes.time, "monotonic", lambda: now[0])
     monkeypatch.setattr(processes, "processor_time", lambda _process: 1.0)
     limit = ProcessorLimit(1, idle_limit=1.0)
-    for _ in range(8):  # the computer sleeps for an hour between two checks, each of which counts 0.1 s
+    for _ in range(8):  # the computer sleeps for an hour between two checks; each counts 0.1 s
         now[0] += 3600.0
         limit.check()
     used = [0.0]

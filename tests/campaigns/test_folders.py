@@ -111,7 +111,7 @@ def test_what_is_no_optimum_is_bettered() -> None:
     assert answered.solution is not None
     attack, values = Attack(study), dict(answered.design.values)
     assert attack.improved(values, answered.solution.reference) <= random_studies.BETTER
-    values["wire_diameter"] *= 1.05  # it keeps all limits, and is 1.3 % higher
+    values["wire_diameter"] *= 1.05  # it meets all limits, and is 1.3 % higher
     assert attack.improved(values, answered.solution.reference) > random_studies.BETTER
 
 

@@ -253,7 +253,7 @@ def test_defaults_have_ranges_as_data_and_choices_a_reason() -> None:
 
 
 def test_what_surrounds_a_module_is_not_chosen() -> None:
-    # Air, contacts, friction and a supply are not drawn: their ranges are what a result rests on.
+    # Air, contacts, friction and a supply are not drawn: their ranges are what a result depends on.
     for name in ("ambient_temperature", "surface_emissivity", "adjuster_friction"):
         row = INPUTS[name]
         assert None not in (row.low, row.high), name

@@ -133,7 +133,7 @@ def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
     assert result.design.status == "above_rating"
     assert set(result.design.above_rating) == {*BOTH, PADS}
     assert result.design.accepting == ()
-    assert result.has_design  # it is a design all the same: every limit is kept
+    assert result.has_design  # it is a design all the same: every limit is met
     assert verdict(result, {}, []).text.startswith("Above a rating: ")
     text = above_rating(result, TABLE)
     assert f"structure_temperature_margin >= 0 K, by {-result.design.value(BOTH[0]):.3g} K" in text

@@ -67,7 +67,7 @@ def test_the_limits_hold_all_along_the_simulated_heating(pieces: int) -> None:
     assert np.min(line.currents[ramped]) >= 0.3
     assert np.max(line.currents) <= 3.0
     assert solution.current_profiles["softening"].steepest <= 0.2 * (1.0 + 1e-6)
-    # The limits that are said to hold it do: one is met.
+    # The limits that are reported active are so: one is met.
     assert max(np.max(voltage) / 7.6, np.max(voltage * line.currents) / 15.0) > 0.99
     assert np.max(hot) > 393.15 - 0.3
 

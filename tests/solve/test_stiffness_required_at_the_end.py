@@ -52,7 +52,7 @@ def test_simulation_confirms_the_stiffness_required_at_the_end() -> None:
     check = next(check for check in held.checks if check.output == "softened_stiffness")
     assert held.design.status == "optimal"
     assert check.origin == "require"
-    # The values of a design are simulated; that the limit binds there says that the equations agree with it.
+    # The values of a design are simulated; that the limit is active there says that the equations agree with it.
     assert held.design.values["softened_stiffness"] == pytest.approx(limit, rel=2e-3)
     assert held.design.values["softened_stiffness"] < 0.99 * free
     active = [limit.output for limit in held.solution.held if abs(limit.residual) < 1e-4] if held.solution else []

@@ -56,10 +56,8 @@ def _cannot(path: Path, error: OSError) -> OutputError:
     )
 
 
-UNFINISHED = "unfinished"
-"""Folder, within a results folder, that a run writes into until it is finished."""
-RUN = ".run.json"
-"""File in that folder that names the run and the process that writes."""
+UNFINISHED = "unfinished"  # Folder, within a results folder, that a run writes into until it is finished
+RUN = ".run.json"  # File in that folder that names the run and the process that writes
 
 
 def files_in(folder: Path) -> list[str]:

@@ -78,7 +78,7 @@ def follow_parent(parent: int | None = None) -> None:
     elif parent is None and _ALIVE in os.environ:
         threading.Thread(target=_wait_for_end, args=(int(os.environ[_ALIVE]),), daemon=True).start()
     if expected and hasattr(os, "getppid") and os.getppid() != expected:
-        os._exit(1)  # it ended before this process could ask to be told
+        os._exit(1)  # it ended before this process could watch it
 
 
 _pipe: list[int] = []

@@ -19,10 +19,8 @@ if sys.platform != "win32":
 
 FORMAT = "tvimdesign results 1"
 RUNNING = "running"
-IN_PARTS = "in parts"
-"""Status of a run whose cells are computed by the jobs of an array."""
-_WAIT = 10.0
-"""Seconds for which a job of an array waits for another one that prepares the folder."""
+IN_PARTS = "in parts"  # Status of a run whose cells are computed by the jobs of an array
+_WAIT = 10.0  # Seconds for which a job of an array waits for another one that prepares the folder
 
 
 class Claim:

@@ -100,5 +100,4 @@ class Deadline:
             return None
 
 
-NEVER = Deadline()
-"""The deadline of what has no time limit."""
+NEVER = Deadline()  # The deadline of what has no time limit

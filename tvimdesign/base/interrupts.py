@@ -12,12 +12,10 @@ from types import FrameType
 from typing import Any
 
 _SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
-_TWICE = 1.0
-"""Seconds within which the same signal counts once: `timeout` sends it to the process and to its group."""
+_TWICE = 1.0  # Seconds within which the same signal counts once: `timeout` sends it to the process and to its group
 _received: list[int] = []
 _times: dict[int, float] = {}
-_LATER = 0.02
-"""Seconds after which a signal that came within an import is sent again."""
+_LATER = 0.02  # Seconds after which a signal that came within an import is sent again
 _heeding: list[int] = []
 """For each of the `interrupt_handler` that are entered and not yet left, how many imports were under way then."""
 

@@ -26,19 +26,16 @@ from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import InputError
 
 MANIFEST = "manifest.json"
-_SEAL = "seal"
-"""Key of the digest over everything else in a manifest: one that was edited does not vouch for files."""
+_SEAL = "seal"  # Key of the digest over everything else in a manifest: one that was edited does not vouch for files
 
 
 @dataclass(frozen=True)
 class Manifest:
     """Content of a manifest; empty if there is none."""
 
-    files: Mapping[str, str] = field(default_factory=dict)
-    """Digest of each file."""
+    files: Mapping[str, str] = field(default_factory=dict)  # Digest of each file
     content: Mapping[str, Any] = field(default_factory=dict)
-    digest: str = ""
-    """Digest of the manifest itself."""
+    digest: str = ""  # Digest of the manifest itself
 
 
 def read_manifest(folder: Path) -> Manifest:

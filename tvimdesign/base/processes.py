@@ -73,10 +73,8 @@ def _kill(process: psutil.Process) -> None:
         process.kill()
 
 
-LIMIT = 600.0
-"""Seconds of processor time for one task; each task that uses it takes some seconds."""
-IDLE_LIMIT = 600.0
-"""Seconds without any processor time, by which a deadlocked process is recognised."""
+LIMIT = 600.0  # Seconds of processor time for one task; each task that uses it takes some seconds
+IDLE_LIMIT = 600.0  # Seconds without any processor time, by which a deadlocked process is recognised
 CHECK_EVERY = 1.0  # s
 Result = TypeVar("Result")
 _TRY_AGAIN = (subprocess.TimeoutExpired, queue.Empty)
@@ -207,8 +205,7 @@ class FedProcess:
         self.child.communicate()
 
 
-_GROUPS = os.name == "posix"
-"""Whether processes have groups, and a pipe can be handed on to one."""
+_GROUPS = os.name == "posix"  # Whether processes have groups, and a pipe can be handed on to one
 
 
 class CommandGroup:

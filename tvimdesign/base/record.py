@@ -72,8 +72,7 @@ class Record:
     tables: Mapping[str, RecordTable] = field(default_factory=dict)
     words: Mapping[str, str] = field(default_factory=dict)
     file: str = ""
-    based_on: "Record | None" = None
-    """The record that has what this one leaves out."""
+    based_on: "Record | None" = None  # The record that has what this one leaves out
 
     def value(self, name: str) -> float:
         """Return a value in SI; raises CatalogError where the record lacks it."""

@@ -37,8 +37,7 @@ from tvimdesign.base.manifest import (
     seed,
 )
 
-PROGRESS = "front/progress"
-"""Folder of what a run can go on from where it was killed."""
+PROGRESS = "front/progress"  # Folder of what a run can go on from where it was killed
 _LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh",
               "ezdxf")  # fmt: skip
 

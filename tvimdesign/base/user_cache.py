@@ -50,8 +50,7 @@ def _is_private(folder: Path) -> bool:
     return is_own_folder(folder) and os.access(folder, os.W_OK)
 
 
-ROOT = 0
-"""The user who can write all folders anyway; root's folders are as safe as the program."""
+ROOT = 0  # The user who can write all folders anyway; root's folders are as safe as the program
 _HAS_OWNERS = hasattr(os, "getuid")
 
 
@@ -117,8 +116,7 @@ def _is_private_group(number: int) -> bool:
 
 
 _KIND = "code"
-_MOST = 300
-"""Files that are kept, a study's kernels being some ten; those not used for the longest go first."""
+_MOST = 300  # Files that are kept, a study's kernels being some ten; those not used for the longest go first
 _DIGEST = hashlib.sha256().digest_size
 
 

@@ -13,21 +13,15 @@ class SolidCheck:
     """One comparison of the solids with the design."""
 
     name: str
-    value: float
-    """In `unit`; without one a relative deviation, a ratio or a number of things."""
+    value: float  # In `unit`; without one a relative deviation, a ratio or a number of things
     limit: float
-    ok: bool
-    """Whether the part can be made and used; with a warning it can, at a price that `text` says."""
-    text: str
-    """What was checked, for people."""
+    ok: bool  # Whether the part can be made and used; with a warning it can, at a price that `text` says
+    text: str  # What was checked, for people
     warned: bool = False
-    part: str = ""
-    """The part, or the two parts, it is about."""
-    place: Sequence[float] | None = None
-    """Where the value was found, in the module's coordinates [mm]."""
+    part: str = ""  # The part, or the two parts, it is about
+    place: Sequence[float] | None = None  # Where the value was found, in the module's coordinates [mm]
     unit: str = ""
-    resolution: float = 0.0
-    """How far apart the samples lie that the value was found from, in mm; 0 where it is exact."""
+    resolution: float = 0.0  # How far apart the samples lie that the value was found from, in mm; 0 where it is exact
 
     @property
     def level(self) -> Level:
@@ -48,8 +42,7 @@ class CadReport:
     """The files that were written and the checks that were made."""
 
     folder: Path
-    files: tuple[str, ...]
-    """Relative to the folder."""
+    files: tuple[str, ...]  # Relative to the folder
     checks: tuple[SolidCheck, ...]
     seconds: float
     notes: tuple[str, ...] = field(default=())
@@ -95,8 +88,7 @@ ASSEMBLY_STEP = "assembly.step"
 ASSEMBLY_GLB = "assembly.glb"
 ASSEMBLY_DATA = "assembly.json"
 ASSEMBLY_NOTE = "assembly.md"
-TREATMENT = "treatment"
-"""Word of a material's record, and of the titles: what its specimens had undergone."""
+TREATMENT = "treatment"  # Word of a material's record, and of the titles: what its specimens had undergone
 PRINT_TEMPERATURES = ("nozzle_temperature", "bed_temperature")
 """Values of a material's record, and of the titles, in degC: how it is printed."""
 BILL_OF_MATERIALS = "bom.csv"
@@ -109,19 +101,12 @@ SPRING_SHEET = "springs/spring.pdf"
 SPRING_TABLE = "springs/spring.csv"
 step_picture = "views/step_{:02d}.png".format
 """The picture of a step of the assembly note, in which parts come into their places."""
-step = "step/{}.step".format
-"""The part as it is to be, for machining and for reading into other CAD."""
-print_stl = "print/{}.stl".format
-"""The part lying as it is printed, its holes larger by the process's compensation."""
-print_3mf = "print/{}.3mf".format
-"""The same with unit, name, material and colour."""
+step = "step/{}.step".format  # The part as it is to be, for machining and for reading into other CAD
+print_stl = "print/{}.stl".format  # The part lying as it is printed, its holes larger by the process's compensation
+print_3mf = "print/{}.3mf".format  # The same with unit, name, material and colour
 plate_3mf = "print/plate_{}.3mf".format
 """A bed full of parts as they are printed, counted from 1, with the settings of their process."""
-mesh_stl = "mesh/{}.stl".format
-"""Triangles of a part that is bought, as it is: to look at and to simulate with."""
-drawing_dxf = "drawings/{}.dxf".format
-"""The drawing of a part that is made of the structure's material."""
-cut_dxf = "drawings/{}_cut.dxf".format
-"""The outline of a part that is a plate, for a laser or a water jet."""
-drawing_pdf = "drawings/{}.pdf".format
-"""The same drawing, to print."""
+mesh_stl = "mesh/{}.stl".format  # Triangles of a part that is bought, as it is: to look at and to simulate with
+drawing_dxf = "drawings/{}.dxf".format  # The drawing of a part that is made of the structure's material
+cut_dxf = "drawings/{}_cut.dxf".format  # The outline of a part that is a plate, for a laser or a water jet
+drawing_pdf = "drawings/{}.pdf".format  # The same drawing, to print

@@ -19,12 +19,10 @@ from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError, end_process_tree, last_line, wait_for
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
-LIMIT = 3600.0
-"""Seconds of processor time, of all processes together, without a report of progress."""
+LIMIT = 3600.0  # Seconds of processor time, of all processes together, without a report of progress
 PART_LIMIT = 600.0
 """Seconds of processor time for one part with its files, or one set of checks; the longest takes about two."""
-HALF_MADE = ".parts.{}."
-"""Prefix of the folder in which a process makes parts, where none are kept between runs."""
+HALF_MADE = ".parts.{}."  # Prefix of the folder in which a process makes parts, where none are kept between runs
 JOB = "tvimdesign.cad.jobs.main"
 WAITING = "--wait"
 """First argument of a child that reads from standard input what to make: a line of JSON with design, folder and

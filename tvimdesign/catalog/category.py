@@ -144,16 +144,11 @@ than the densities of a polymer's grades."""
 class InheritedLaw(NamedTuple):
     """A law of one material in the record of another."""
 
-    law: str
-    """What people call it."""
-    owner: Record
-    """The record it comes from."""
-    differs: str
-    """The value by which the owner is another material."""
-    names: tuple[str, ...]
-    """The values and tables; the record needs one of its own."""
-    kind_differs: bool
-    """True if the two freeze or soften in different ways, so that the law means nothing here."""
+    law: str  # What people call it
+    owner: Record  # The record it comes from
+    differs: str  # The value by which the owner is another material
+    names: tuple[str, ...]  # The values and tables; the record needs one of its own
+    kind_differs: bool  # True if the two freeze or soften in different ways, so that the law means nothing here
 
 
 def inherited_laws(record: Record) -> list[InheritedLaw]:

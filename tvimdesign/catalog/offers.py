@@ -10,8 +10,7 @@ from typing import Any, NamedTuple
 from tvimdesign.base.record import Entry, own_data
 from tvimdesign.base.units import parse_quantity
 
-QUOTE = "quote"
-"""Price of what no dated list was read for."""
+QUOTE = "quote"  # Price of what no dated list was read for
 
 
 @dataclass(frozen=True)
@@ -22,8 +21,7 @@ class Offer:
     pack: int
     source: str
     number: str = ""
-    pattern: str = ""
-    """Of the number, where the title has it."""
+    pattern: str = ""  # Of the number, where the title has it
     record: str = ""
     kind: str = ""
     size: str = ""
@@ -32,10 +30,8 @@ class Offer:
     date: str = ""
     price: float | None = None
     high: float | None = None
-    to_order: bool = False
-    """True where nobody has it in stock."""
-    like: str = ""
-    """Number of the neighbour whose price per piece was taken."""
+    to_order: bool = False  # True where nobody has it in stock
+    like: str = ""  # Number of the neighbour whose price per piece was taken
     voltage: float = math.inf
     current: float = math.inf
 

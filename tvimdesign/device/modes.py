@@ -12,8 +12,7 @@ from tvimdesign.device.table.quantity_group import gather, with_parts
 from tvimdesign.device.table.table import Table
 
 LOCK = "lock"
-MODES = ("shear", "compression", LOCK)
-"""The modes a study may name."""
+MODES = ("shear", "compression", LOCK)  # The modes a study may name
 
 
 @cache

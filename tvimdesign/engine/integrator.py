@@ -23,8 +23,7 @@ TABLEAU = np.array([
     [0.5 * (1.0 - GAMMA), GAMMA, 0.0],
     [4.0 * GAMMA - 1.5 * GAMMA**2 - 0.25, 1.5 * GAMMA**2 - 5.0 * GAMMA + 1.25, GAMMA],
 ])  # fmt: skip
-TIMES = TABLEAU.sum(axis=1)
-"""When each stage is, as shares of the step; the last is its end."""
+TIMES = TABLEAU.sum(axis=1)  # When each stage is, as shares of the step; the last is its end
 _FIRST = (0.5 - TIMES[1]) / (TIMES[0] - TIMES[1])
 ERROR = TABLEAU[2] - np.array([_FIRST, 1.0 - _FIRST, 0.0])
 """Weights of the stages in the difference from a solution of second order."""
@@ -38,16 +37,13 @@ class System(NamedTuple):
     """An equation of motion, as the compiled program takes it."""
 
     mass: Array
-    rates: Code
-    """f alone."""
+    rates: Code  # f alone
     rate_places: Integers
-    slopes: Code
-    """f and its Jacobian by y."""
+    slopes: Code  # f and its Jacobian by y
     slope_rates: Integers
     slope_places: Integers
     pattern: Pattern
-    entries: Integers
-    """Entry of the factored matrix of each of the Jacobian's."""
+    entries: Integers  # Entry of the factored matrix of each of the Jacobian's
     diagonal: Integers
 
 

@@ -31,12 +31,9 @@ LOG1P, EXPM1, HYPOT = 93, 94, 95
 class Code(NamedTuple):
     """The operations of a tape, as the compiled program takes them."""
 
-    first: Indices
-    """Register of each operation's first operand."""
-    second: Indices
-    """Register of its second operand; the first again where there is none."""
-    to: Indices
-    """Register of its result."""
+    first: Indices  # Register of each operation's first operand
+    second: Indices  # Register of its second operand; the first again where there is none
+    to: Indices  # Register of its result
     groups: NDArray[np.int64]
     """Operation of each group, and where the group starts: a row each; the last row ends the last group."""
 

@@ -15,12 +15,10 @@ from tvimdesign.engine.lanes import GAMMA, load, newton, put, run, step
 from tvimdesign.engine.sparse_lu import Integers
 from tvimdesign.engine.vectors import LANES
 
-NOWHERE = 1 << 40
-"""Index of a step that has not been found."""
+NOWHERE = 1 << 40  # Index of a step that has not been found
 _TRIALS, _NEAR = 8, 0.02
 """How often a zero is looked for along a cubic, and the share of the step's change that may be left."""
-_LAST_STEPS, _SHORT = 4, 0.02
-"""How many last steps are tried, and the share of a step that may be left to slopes."""
+_LAST_STEPS, _SHORT = 4, 0.02  # How many last steps are tried, and the share of a step that may be left to slopes
 _STANDING = -1e-12
 """Share of the mass in the matrix of a state that stays, so that integrals, which do not, leave it regular."""
 _BALANCE, _AT_REST, _APART = 20, 1e-8, 1e-5

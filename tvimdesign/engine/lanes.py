@@ -197,8 +197,7 @@ def solve(p: Pattern, w: Array, base: int, b: int) -> None:
         vectors.mul(w, b + i, b + i, base + p.diagonal[i])
 
 
-GAMMA = 1.0 - np.sqrt(0.5)
-"""Diagonal of SDIRK2 that makes it L-stable."""
+GAMMA = 1.0 - np.sqrt(0.5)  # Diagonal of SDIRK2 that makes it L-stable
 
 
 class Room:

@@ -19,22 +19,17 @@ Integers = NDArray[np.int64]
 class Pattern(NamedTuple):
     """A square pattern with its fill-in. Rows and columns are in the order of elimination."""
 
-    order: Integers
-    """Row and column of the matrix that is eliminated at each place."""
-    size: int
-    """Count of entries, fill-in included."""
-    diagonal: Integers
-    """Entry of each pivot."""
-    below: Integers
-    """Entries below the pivots, column after column; `below_start` says where each column starts."""
+    order: Integers  # Row and column of the matrix that is eliminated at each place
+    size: int  # Count of entries, fill-in included
+    diagonal: Integers  # Entry of each pivot
+    below: Integers  # Entries below the pivots, column after column; `below_start` says where each column starts
     below_start: Integers
     target: Integers
     """Entries that elimination changes, pivot after pivot: `target -= left * upper`; `update_start` by pivot."""
     left: Integers
     upper: Integers
     update_start: Integers
-    lower_entry: Integers
-    """Entries left of the diagonal, row after row, and their columns; `lower_start` by row."""
+    lower_entry: Integers  # Entries left of the diagonal, row after row, and their columns; `lower_start` by row
     lower_column: Integers
     lower_start: Integers
     upper_entry: Integers

@@ -31,8 +31,7 @@ _COMMUTE = frozenset((interpreter.ADD, interpreter.MUL))
 _wrapped: Any = vars(ca)["_casadi"]
 _operation, _given, _to = (getattr(_wrapped, f"Function_instruction_{part}") for part in ("id", "input", "output"))
 """CasADi's methods without their wrappers, which take half of the time."""
-LONG = 1000
-"""Operations from which on a tape is read from the user's cache in less time than it is recorded."""
+LONG = 1000  # Operations from which on a tape is read from the user's cache in less time than it is recorded
 _MAKER = f"casadi {vars(ca)['__version__']} {hashlib.sha256(Path(__file__).read_bytes()).hexdigest()}"
 """Maker of a stored tape: another version makes its own."""
 
@@ -42,12 +41,9 @@ class Tape:
     """The operations of a function. Registers hold its arguments, one below the other, then constants, then results."""
 
     code: Code
-    registers: Array
-    """Registers with the constants in place; the compiled program works in a copy."""
-    arguments: Integers
-    """Register at which each argument starts, and where the last ends."""
-    results: tuple[Integers, ...]
-    """Register of each nonzero of each result."""
+    registers: Array  # Registers with the constants in place; the compiled program works in a copy
+    arguments: Integers  # Register at which each argument starts, and where the last ends
+    results: tuple[Integers, ...]  # Register of each nonzero of each result
     _rooms: dict[int, Array] = field(default_factory=dict, repr=False)
     """Registers of tangents, by the count of directions."""
 
@@ -150,22 +146,17 @@ def _function(arguments: Sequence[Any], results: Sequence[Any]) -> Any:
     return ca.Function("tape", list(arguments), [ca.SX(result) for result in results], {"live_variables": False})
 
 
-_CONSTANT = 1 << 40
-"""Place of the first constant."""
+_CONSTANT = 1 << 40  # Place of the first constant
 
 
 class _Record(NamedTuple):
     """Operations on places: an entry of an argument (>= 0), the value of an operation (-1 - its number), a constant."""
 
-    starts: Integers
-    """Entry at which each argument starts, and where the last ends."""
+    starts: Integers  # Entry at which each argument starts, and where the last ends
     constants: list[float]
-    operations: list[tuple[int, int, int]]
-    """Operation and operands, in CasADi's order."""
-    written: list[tuple[int, int, int]]
-    """Result, its nonzero, and the place of that."""
-    lengths: list[int]
-    """Count of each result's nonzeros."""
+    operations: list[tuple[int, int, int]]  # Operation and operands, in CasADi's order
+    written: list[tuple[int, int, int]]  # Result, its nonzero, and the place of that
+    lengths: list[int]  # Count of each result's nonzeros
 
 
 def _recorded(function: Any, inverses: bool) -> _Record:

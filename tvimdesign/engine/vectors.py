@@ -17,15 +17,13 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-LANES = 16
-"""Designs side by side: 128 bytes a register."""
+LANES = 16  # Designs side by side: 128 bytes a register
 _NUMBERS = ir.VectorType(ir.DoubleType(), LANES)
 _WHOLE = ir.VectorType(ir.IntType(64), LANES)
 _LN2_HIGH, _LN2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10
 """ln 2 in two parts: the first has so few digits that its multiples are exact (fdlibm, e_exp.c)."""
 _ALIGNED = 64
-BLOCK = 8
-"""Tangents in one instruction."""
+BLOCK = 8  # Tangents in one instruction
 _TANGENTS = ir.VectorType(ir.DoubleType(), BLOCK)
 
 
@@ -203,5 +201,4 @@ def _fma(b: Any, x: Any, y: Any, z: Any) -> Any:
     return b.call(cgutils.get_or_insert_function(b.module, kind, f"llvm.fmuladd.v{BLOCK}f64"), [x, y, z])
 
 
-scale_tangents, add_tangents = _along(1), _along(2)
-"""by_x x, and by_x x + by_y y."""
+scale_tangents, add_tangents = _along(1), _along(2)  # by_x x, and by_x x + by_y y

@@ -18,8 +18,7 @@ from tvimdesign.cad.assembly.draft_module import Draft, DraftMesh, draft_module
 from tvimdesign.cad.geometry.dimensions import dimensions_of
 from tvimdesign.cad.geometry.kinds import KINDS, TURNING, kind_of
 
-_DIGITS = 4
-"""Of millimetres."""
+_DIGITS = 4  # Of millimetres
 
 
 def main() -> None:

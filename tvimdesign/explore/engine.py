@@ -41,10 +41,8 @@ from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Options, Range, Study, given, read_tree
 from tvimdesign.study.tree import StudyTree
 
-_ROUNDING = 1e-6
-"""Margin that is what a solver leaves of zero."""
-Shown = dict[str, Any]
-"""Plain data, as JSON has it."""
+_ROUNDING = 1e-6  # Margin that is what a solver leaves of zero
+Shown = dict[str, Any]  # Plain data, as JSON has it
 
 
 def shown_design(
@@ -128,8 +126,7 @@ def _finite(value: float) -> float | None:
 Stage: TypeAlias = Literal["quick", "exact", "confirmed", "report"]
 """While something is dragged; when it is let go; from every start, as `run` does; what was exact last, once more."""
 Progress: TypeAlias = Callable[[str], None]
-_MODELS = 3
-"""Modules of different records that are kept compiled."""
+_MODELS = 3  # Modules of different records that are kept compiled
 WAITS = "follows when you let go: its current follows a profile"
 
 

@@ -6,8 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from tvimdesign.base.errors import InputError
 
-MOST_BYTES = 100_000
-"""Of one message; the longest that a page sends are some hundred."""
+MOST_BYTES = 100_000  # Of one message; the longest that a page sends are some hundred
 _Name = Annotated[str, Field(min_length=1, max_length=120)]
 _Text = Annotated[str, Field(max_length=500)]
 Way: TypeAlias = Literal["evaluate", "optimize"]

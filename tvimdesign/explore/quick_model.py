@@ -27,8 +27,7 @@ _STEPS = Steps(of_pace=28, first=1.0 / 32.0, growth=1.2)
 """About half of the steps that tolerances take where something freezes: times within 0.2 % still (a test)."""
 _LOOSE, _SAMPLES = 1e-3, 10
 _PHASES: tuple[str, ...] = ("softening", "stiffening")
-_SHOWN = 24
-"""Moments of a phase that are drawn."""
+_SHOWN = 24  # Moments of a phase that are drawn
 _CURVES = ("hot_side", "near_face", "far_face", "joint_impedance", "electrical_power")
 
 
@@ -38,8 +37,7 @@ class Evaluated:
 
     values: dict[str, float]
     curves: Curves
-    words: dict[str, str]
-    """Chosen records and options by name."""
+    words: dict[str, str]  # Chosen records and options by name
 
 
 class QuickModel:
@@ -109,7 +107,7 @@ class QuickModel:
             for drawn in self._maps.values():
                 drawn.record()
         except ValueError:
-            return  # an operation that is not known: the simulator goes on
+            return  # an unknown operation: the simulator goes on
         self._kernel = kernel
 
 

@@ -35,10 +35,8 @@ _TOKEN = re.compile(r"[A-Za-z0-9_-]*")
 _LOCAL = {"127.0.0.1", "localhost", "[::1]"}
 _SLOWEST = 256
 """Messages that may wait for a page that does not read; one that is further behind is let go, and comes again."""
-FAREWELL = 1.0
-"""Seconds that a page has to answer that the server ends."""
-_LONGEST_NAME = 255
-"""Letters of a request's path behind the token, and bytes that a file's name may have."""
+FAREWELL = 1.0  # Seconds that a page has to answer that the server ends
+_LONGEST_NAME = 255  # Letters of a request's path behind the token, and bytes that a file's name may have
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 

@@ -90,8 +90,7 @@ class PartsMaker:
         return in_short(report.checks)
 
 
-QUIET = 0.35
-"""Seconds without a message after which the exact answer is sought."""
+QUIET = 0.35  # Seconds without a message after which the exact answer is sought
 _FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,80}\.yaml")
 Send = Callable[[Reply], None]
 

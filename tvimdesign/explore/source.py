@@ -27,16 +27,11 @@ class Source:
 
     tree: StudyTree
     study: Study
-    chosen: Mapping[str, Any] = field(default_factory=dict)
-    """What a design found for it has, by name."""
-    folder: Path | None = None
-    """Of the result."""
-    front: Mapping[str, Any] | None = None
-    """As in its results.json."""
-    cells: SweptCells | None = None
-    """Of the sweep."""
-    modules: Sequence[Mapping[str, Any]] = ()
-    """Rows of the atlas that have one."""
+    chosen: Mapping[str, Any] = field(default_factory=dict)  # What a design found for it has, by name
+    folder: Path | None = None  # Of the result
+    front: Mapping[str, Any] | None = None  # As in its results.json
+    cells: SweptCells | None = None  # Of the sweep
+    modules: Sequence[Mapping[str, Any]] = ()  # Rows of the atlas that have one
 
     @property
     def text(self) -> bytes:

@@ -31,10 +31,8 @@ from tvimdesign.study.text.values import exactly
 from tvimdesign.study.text.yaml_text import Text
 from tvimdesign.study.tree import StudyTree, node_of, tree_of_text, tree_yaml, with_value
 
-SOURCE = "explore"
-"""What messages call the place a change was made in."""
-DIGITS = 12
-"""Digits of a text to edit, in which an angle in degrees is the same angle again."""
+SOURCE = "explore"  # What messages call the place a change was made in
+DIGITS = 12  # Digits of a text to edit, in which an angle in degrees is the same angle again
 _OF_SEARCHES = ("robust", "profile")
 _OF_FILES = ("tvimdesign", "mode", "catalog")  # left as they are by a sized study
 
@@ -47,10 +45,8 @@ class State(_Part):
     """All that undo goes back over."""
 
     way: Way
-    changes: dict[str, Any] = {}
-    """Values as a study has them, by their path in it."""
-    at: dict[str, str] = {}
-    """The variables of the module under the hand, by name, as text."""
+    changes: dict[str, Any] = {}  # Values as a study has them, by their path in it
+    at: dict[str, str] = {}  # The variables of the module under the hand, by name, as text
 
 
 class Pinned(_Part):
@@ -58,8 +54,7 @@ class Pinned(_Part):
 
     name: str
     state: State
-    values: dict[str, str]
-    """Texts with units, by the quantity's full name."""
+    values: dict[str, str]  # Texts with units, by the quantity's full name
 
 
 def tree_of(base: StudyTree, state: State, way: Way | None = None) -> StudyTree:
@@ -261,8 +256,7 @@ def _means(study: Study, name: str) -> str:
 
 
 FILE = "explore.json"
-PARTS = "parts"
-"""Folder of the designs whose CAD was made, each by its own name."""
+PARTS = "parts"  # Folder of the designs whose CAD was made, each by its own name
 MOST_STEPS = 200
 MOST_PINS = 12
 
@@ -272,14 +266,12 @@ class History(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    study: str
-    """Hash of the study's file."""
+    study: str  # Hash of the study's file
     state: State
     past: list[State] = []
     future: list[State] = []
     pins: list[Pinned] = []
-    saved: dict[str, str] = {}
-    """Digest of each study that was saved from the page, by its file's name."""
+    saved: dict[str, str] = {}  # Digest of each study that was saved from the page, by its file's name
 
     def advance(self, after: State, since: State) -> None:
         """Go on to a state from the one that `since` an undo would bring back."""

@@ -14,8 +14,7 @@ from tvimdesign.base.child_process import start_child
 from tvimdesign.base.processes import set_low_priority
 
 Reply = dict[str, Any]
-_STARTS = 2
-"""Times the worker may end without an answer before its job is given up."""
+_STARTS = 2  # Times the worker may end without an answer before its job is given up
 
 
 @dataclass(frozen=True)
@@ -25,10 +24,8 @@ class Job:
     number: int
     data: Mapping[str, Any]
     """Sent to the worker with the number, as JSON; `stage` says how exactly a state is to be answered."""
-    fallback: Reply
-    """The reply if the worker ends without one."""
-    interruptible: bool = False
-    """True if another job interrupts it."""
+    fallback: Reply  # The reply if the worker ends without one
+    interruptible: bool = False  # True if another job interrupts it
 
     @property
     def stage(self) -> str:

@@ -16,8 +16,7 @@ class Cell:
     sort: float | None = None
     tone: Tone = ""
     code: bool = False
-    links: Sequence[tuple[str, str]] = ()
-    """Texts with addresses relative to the page, which stand instead of the text."""
+    links: Sequence[tuple[str, str]] = ()  # Texts with addresses relative to the page, which stand instead of the text
 
 
 @dataclass(frozen=True)
@@ -26,8 +25,7 @@ class Head:
 
     text: str
     right: bool = False
-    wide: bool = False
-    """True if a narrow screen hides the column until it is asked for."""
+    wide: bool = False  # True if a narrow screen hides the column until it is asked for
 
 
 @dataclass(frozen=True)
@@ -98,8 +96,7 @@ class Picture:
 
     macro: ClassVar[str] = "picture"
     data: bytes
-    says: str
-    """Text for readers who cannot see it."""
+    says: str  # Text for readers who cannot see it
     caption: str = ""
 
     @property
@@ -113,15 +110,11 @@ class Drawn:
     """A figure that the page's own code draws from plain data, such as curves, a front or the module's solids."""
 
     macro: ClassVar[str] = "drawn"
-    name: str
-    """Unique on the page."""
-    by: str
-    """The module of static/ that draws it."""
-    says: str
-    """Its caption, which stands for it where nothing can be drawn."""
+    name: str  # Unique on the page
+    by: str  # The module of static/ that draws it
+    says: str  # Its caption, which stands for it where nothing can be drawn
     data: Mapping[str, Any]
-    binary: bytes = b""
-    """What is too large for JSON: the meshes."""
+    binary: bytes = b""  # What is too large for JSON: the meshes
     libraries: Sequence[str] = ()
 
 
@@ -132,8 +125,7 @@ class Folded:
     macro: ClassVar[str] = "folded"
     title: str
     blocks: "Sequence[Block]"
-    file: str = ""
-    """Where in the folder of results it is: text names that in place of the blocks."""
+    file: str = ""  # Where in the folder of results it is: text names that in place of the blocks
 
 
 Block = Grid | Facts | Words | Points | Steps | Warned | Listing | Picture | Drawn | Folded
@@ -147,8 +139,7 @@ class Section:
     """The end of its address: `report.html#name`."""
     title: str
     blocks: Sequence[Block]
-    folded: bool = False
-    """True if only the heading is shown until it is opened."""
+    folded: bool = False  # True if only the heading is shown until it is opened
 
 
 @dataclass(frozen=True)
@@ -156,17 +147,14 @@ class Page:
     """A whole page."""
 
     title: str
-    kind: str
-    """What was done: `shear module`, `comparison`."""
+    kind: str  # What was done: `shear module`, `comparison`
     status: str
     tone: Tone
-    first: Sequence[Block]
-    """The first screen."""
+    first: Sequence[Block]  # The first screen
     picture: Picture | None
     sections: Sequence[Section]
     made_by: str
-    files: Mapping[str, str] = field(default_factory=dict)
-    """Files of the folder to look at, by what they are."""
+    files: Mapping[str, str] = field(default_factory=dict)  # Files of the folder to look at, by what they are
     carried: Mapping[str, bytes] = field(default_factory=dict)
     """Files that links of the page lead to, by address: a page in a mail has no folder beside it. First come those
     that matter most; those for which the page has no room are left to the folder."""

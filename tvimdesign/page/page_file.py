@@ -14,13 +14,10 @@ from typing import Any
 from tvimdesign.page.blocks import Block, Drawn, Folded, Page
 
 FILE = "report.html"
-MOST = 4_000_000
-"""Bytes that a page may have, so that a mail takes it."""
-_RESERVE = 100_000
-"""Bytes of them that no carried file takes."""
+MOST = 4_000_000  # Bytes that a page may have, so that a mail takes it
+_RESERVE = 100_000  # Bytes of them that no carried file takes
 _STYLES = ("theme.css", "page.css", "figures.css", "print.css")
-_ALWAYS = ("main.js", "tables.js", "data.js", "figures.js", "files.js")
-"""Code of every page; a figure brings its own."""
+_ALWAYS = ("main.js", "tables.js", "data.js", "figures.js", "files.js")  # Code of every page; a figure brings its own
 
 
 def page_html(page: Page) -> bytes:

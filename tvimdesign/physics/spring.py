@@ -259,16 +259,11 @@ class DrawnSpring(NamedTuple):
     """Dimensions of a spring: lengths in m, angles in rad."""
 
     wire_diameter: Any
-    coil_diameter: Any
-    """Mean diameter of the coil."""
-    wound: Any
-    """Angle from one end of the coil to the other."""
-    pitch: Any
-    """Axial pitch of the coils."""
-    arm: Any
-    """Length of the leg from the coil to the pin."""
-    bend_radius: Any
-    """Mean radius of the quarter bend into the tang."""
+    coil_diameter: Any  # Mean diameter of the coil
+    wound: Any  # Angle from one end of the coil to the other
+    pitch: Any  # Axial pitch of the coils
+    arm: Any  # Length of the leg from the coil to the pin
+    bend_radius: Any  # Mean radius of the quarter bend into the tang
 
 
 def leg_rise(spring: DrawnSpring) -> Any:

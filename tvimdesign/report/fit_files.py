@@ -26,8 +26,7 @@ from tvimdesign.simulation.measurement.measure_files import Measured, kind_sheet
 from tvimdesign.simulation.measurement.reading.headings import read_column_map
 from tvimdesign.simulation.measurement.record_file import NoRecordError, write_records
 
-_MOST_TABLES = 3
-"""Tables that the screen shows; `fit.json` has all."""
+_MOST_TABLES = 3  # Tables that the screen shows; `fit.json` has all
 
 
 def fit_files(
@@ -111,8 +110,7 @@ def estimates(measured: Measured, title: str) -> Grid:
 
 
 _MOST_PANELS, _TITLE_LETTERS = 6, 110
-_DECADES = 30.0
-"""Largest over smallest value from which on an axis is logarithmic."""
+_DECADES = 30.0  # Largest over smallest value from which on an axis is logarithmic
 
 
 def fit_data(measured: Measured) -> dict[str, Any]:

@@ -21,8 +21,7 @@ from tvimdesign.report.output.terminal import print_grid, wide_console
 from tvimdesign.study.resolve import words_of
 from tvimdesign.study.text.mistakes import did_you_mean, synonyms
 
-_SHOWN = 8
-"""Names of a group in the list of groups."""
+_SHOWN = 8  # Names of a group in the list of groups
 
 
 def print_rows(mode: str, word: str, as_json: bool) -> None:

@@ -66,10 +66,8 @@ def _series(label: str, rows: list[dict[str, Value]], x: str, up: str, name: str
 
 
 _HOLLOW = "Hollow: a limit is violated."
-_MOST_OUTPUTS = 6
-"""Outputs that are axes of the figure to brush."""
-CELL_WORDS = {"title": "Cells", "one": "cell", "many": "cells"}
-"""Name of the points of a sweep in `front.js`."""
+_MOST_OUTPUTS = 6  # Outputs that are axes of the figure to brush
+CELL_WORDS = {"title": "Cells", "one": "cell", "many": "cells"}  # Name of the points of a sweep in `front.js`
 
 
 def figures(plan: SweepPlan, seen: CellTable, data: dict[str, Any]) -> tuple[Drawn | None, Drawn | None]:

@@ -35,8 +35,7 @@ from tvimdesign.sweep.run_sweep import Executor, SweepDone, run_sweep
 from tvimdesign.sweep.shards import SHARDS, Column, Shards, Value, columns, rows, write_tables
 from tvimdesign.sweep.swept_cells import CellTable
 
-MOST_OUTPUTS = 12
-"""Outputs of the page's table; `cells.csv` has all."""
+MOST_OUTPUTS = 12  # Outputs of the page's table; `cells.csv` has all
 _TONES: dict[str, Tone] = {"infeasible": "bad", "refused": "bad", "crashed": "bad", "above_rating": "warn"}
 
 
@@ -95,8 +94,7 @@ _FILES = {
     "cells.csv": "every cell as CSV", "cells.sqlite": "as SQLite",
     "sweep.json": "columns with units and meanings", "sweep.png": "the figure",
 }  # fmt: skip
-_FEW = 8
-"""Values of an axis that are listed one by one."""
+_FEW = 8  # Values of an axis that are listed one by one
 
 
 def sweep_page(plan: SweepPlan, seen: CellTable, command: Command) -> Page:

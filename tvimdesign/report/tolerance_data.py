@@ -16,8 +16,7 @@ from tvimdesign.study import Study
 from tvimdesign.study.text.values import difference_unit
 
 Row = dict[str, str | float | None]
-_NO_SPREAD = 1e-9
-"""Standard deviation over the value below which an output does not spread."""
+_NO_SPREAD = 1e-9  # Standard deviation over the value below which an output does not spread
 
 
 def spreads(spread: Spread, i: int) -> bool:
@@ -109,12 +108,10 @@ def _preload(preload: Preload) -> dict[str, float]:
     }
 
 
-_PARTS = 6
-"""Contributors with a colour of their own; the rest is one."""
+_PARTS = 6  # Contributors with a colour of their own; the rest is one
 _PANELS = 6
 _BINS = 60
-_REACH = 5.0
-"""Half of a histogram's axis over the span of the middle half of all modules."""
+_REACH = 5.0  # Half of a histogram's axis over the span of the middle half of all modules
 
 
 def figure_data(spread: Spread, table: Table) -> dict[str, Any]:

@@ -109,15 +109,11 @@ def _contributors(data: Mapping[str, Any]) -> Block:
     return grid("Contributors", heads, rows, code=(0, 1))
 
 
-_GOOD = 0.9973
-"""Yield from which a limit is no concern: three standard deviations to either side."""
-_ON_THE_LIMIT = 0.1
-"""C_pk below which no tolerance helps, only another design."""
-_BENT = 0.1
-"""Difference of the two standard deviations from which an output is not linear within the tolerances."""
+_GOOD = 0.9973  # Yield from which a limit is no concern: three standard deviations to either side
+_ON_THE_LIMIT = 0.1  # C_pk below which no tolerance helps, only another design
+_BENT = 0.1  # Difference of the two standard deviations from which an output is not linear within the tolerances
 _NAMED = 3
-_CARRIED = 0.2
-"""Share of a limit's variance from which a contributor counts as carrying it."""
+_CARRIED = 0.2  # Share of a limit's variance from which a contributor counts as carrying it
 
 
 def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str]:
@@ -224,8 +220,7 @@ def _caveats(result: Spread) -> Iterator[str]:
         yield f"Not in this, as they never happen or hang on a current profile: {', '.join(result.left_out)}."
 
 
-FEWEST, MOST = 1 << 8, 1 << 22
-"""Modules that may be drawn."""
+FEWEST, MOST = 1 << 8, 1 << 22  # Modules that may be drawn
 
 
 @dataclass(frozen=True)

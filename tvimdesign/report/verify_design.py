@@ -21,8 +21,7 @@ from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule,
 from tvimdesign.study.design import Design, read_design
 
 DATA = "verify.json"
-FAR = 0.10
-"""Share by which model and FE may differ before the row is marked."""
+FAR = 0.10  # Share by which model and FE may differ before the row is marked
 SOLVED = (
     "Solved with netgen and NGSolve from the exported parts. Stresses and stiffness: quadratic tetrahedra, tied where "
     "parts are bonded; the core's top turns as one, the feet are held. Screws: link and core touch without friction."
@@ -108,8 +107,7 @@ def verify_sections(folder: Path, verification: Mapping[str, Any]) -> list[Secti
     ]
 
 
-_WORK = ".verify-"
-"""What the name of the folder begins with in which the parts stand while they are solved."""
+_WORK = ".verify-"  # What the name of the folder begins with in which the parts stand while they are solved
 TITLES = {
     "joint": "von Mises\nMPa at 1 N m", "spring": "von Mises\nMPa at 1 N m", "link": "von Mises\nMPa at 1 N",
     "screws": "von Mises\nMPa at 1 N",

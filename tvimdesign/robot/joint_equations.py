@@ -24,16 +24,14 @@ from tvimdesign.simulation.working_cycle.curves import MEMORY, PHASE_UNITS, temp
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.simulation.working_cycle.symbols import ca
 
-MOVING = ("ambient_temperature", "frequency@hot")
-"""Inputs of the table that may change in an FMU."""
+MOVING = ("ambient_temperature", "frequency@hot")  # Inputs of the table that may change in an FMU
 INSTANT = {
     "joint_impedance": "impedance_now", "joint_stiffness": "stiffness_now", "joint_damping": "damping_now",
     "electrical_power": "electrical_power", "terminal_power": "terminal_power", "supply_voltage": "supply_voltage",
 }  # fmt: skip
 """Quantities of an instant that are observed, by the name of their variable."""
 FROZEN = "frozen"
-DECADES = 5.0
-"""To either side of the frequency, over which the structure's elements reach."""
+DECADES = 5.0  # To either side of the frequency, over which the structure's elements reach
 GENERATED = ("equations.c", "equations.h")
 
 
@@ -42,17 +40,12 @@ class JointEquations:
     """The equations of one module. All functions take (state, given), given = current, ambient, frequency."""
 
     functions: Sequence[Any]
-    observed: tuple[str, ...]
-    """What the function `observed` gives, in its order."""
+    observed: tuple[str, ...]  # What the function `observed` gives, in its order
     cells: int
-    modes: int
-    """Maxwell elements of a slice of the layer."""
-    sides: int
-    """2 where the PCL only pushes."""
-    elements: tuple[float, ...]
-    """Relaxation times of the structure's Maxwell elements [s]."""
-    start: tuple[float, ...]
-    """Current, ambient temperature, frequency as the design has them."""
+    modes: int  # Maxwell elements of a slice of the layer
+    sides: int  # 2 where the PCL only pushes
+    elements: tuple[float, ...]  # Relaxation times of the structure's Maxwell elements [s]
+    start: tuple[float, ...]  # Current, ambient temperature, frequency as the design has them
 
     def of(self, name: str) -> Any:
         """Return one function by name."""
@@ -160,8 +153,7 @@ def sizes(equations: JointEquations) -> str:
 
 
 _WORK = ("ARGUMENTS", "RESULTS", "INTEGERS", "NUMBERS")
-LASTS = 1e12
-"""Relaxation time [s] of a spring."""
+LASTS = 1e12  # Relaxation time [s] of a spring
 
 
 UNITS = {
@@ -190,8 +182,7 @@ class Variable:
     causality: Causality
     unit: str
     meaning: str
-    start: float | None = None
-    """Of inputs, parameters and constants."""
+    start: float | None = None  # Of inputs, parameters and constants
     constant: bool = False
 
 
@@ -258,8 +249,7 @@ def _constant(name: str, value: float) -> Variable:
     return Variable(name, "local", CONSTANT_UNITS.get(name, "N*m"), meaning, value, constant=True)
 
 
-IDENTIFIER = "joint"
-"""Of the model: the binary's name."""
+IDENTIFIER = "joint"  # Of the model: the binary's name
 CELSIUS = {"name": "degC", "offset": "-273.15"}
 
 

@@ -26,8 +26,7 @@ from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 STEP_SHARE = 0.02
 """The time step times the joint's quickest angular frequency: first-order steps keep a release within 0.6 % then."""
-ONE_SIDED_SHARE = 0.005
-"""Error of blocks that only push, whose frozen releases swing on for long: within 0.5 %."""
+ONE_SIDED_SHARE = 0.005  # Error of blocks that only push, whose frozen releases swing on for long: within 0.5 %
 
 
 @dataclass(frozen=True)
@@ -35,24 +34,15 @@ class JointState:
     """The joint at one operating point; angles in rad, torques in N*m."""
 
     point: str
-    temperature: float
-    """[K]."""
-    frequency: float
-    """At which `stiffness` and `damping` hold [Hz]."""
-    stiffness: float
-    """Of the whole joint at the frequency [N*m/rad]."""
-    damping: float
-    """Of the whole joint at the frequency [N*m*s/rad]."""
-    springs: float
-    """Of the springs alone [N*m/rad]."""
-    friction: float
-    """Torque of the springs' legs on their pins [N*m]."""
-    inertia: float
-    """Of all that moves, the load on the bench counted [kg*m^2]."""
-    one_sided: bool
-    """True if the PCL only pushes: blocks against either sense, with `modes` each."""
-    hold: float
-    """How long the link is held before a release [s]."""
+    temperature: float  # [K]
+    frequency: float  # At which `stiffness` and `damping` hold [Hz]
+    stiffness: float  # Of the whole joint at the frequency [N*m/rad]
+    damping: float  # Of the whole joint at the frequency [N*m*s/rad]
+    springs: float  # Of the springs alone [N*m/rad]
+    friction: float  # Torque of the springs' legs on their pins [N*m]
+    inertia: float  # Of all that moves, the load on the bench counted [kg*m^2]
+    one_sided: bool  # True if the PCL only pushes: blocks against either sense, with `modes` each
+    hold: float  # How long the link is held before a release [s]
     modes: Modes
     """Maxwell elements between link and housing: relaxation time [s], stiffness [N*m/rad]; the slowest first."""
 
@@ -95,14 +85,10 @@ class RigidBody:
     """Rigid body for a simulator, in the module's coordinates: the rotor's axis is z."""
 
     name: str
-    mass: float
-    """[kg]."""
-    centre: tuple[float, float, float]
-    """Centre of mass [m]."""
-    inertia: tuple[tuple[float, float, float], ...]
-    """Tensor about the centre of mass [kg*m^2], three rows."""
-    mesh: str
-    """File in metres, relative to the folder of the model."""
+    mass: float  # [kg]
+    centre: tuple[float, float, float]  # Centre of mass [m]
+    inertia: tuple[tuple[float, float, float], ...]  # Tensor about the centre of mass [kg*m^2], three rows
+    mesh: str  # File in metres, relative to the folder of the model
 
     def about_axis(self) -> float:
         """Return the moment of inertia about the rotor's axis [kg*m^2], by the parallel axes."""
@@ -136,16 +122,11 @@ class JointModel:
     base: RigidBody
     moving: RigidBody
     states: tuple[JointState, ...]
-    stroke: float
-    """To either side [rad]."""
-    stop_angle: float
-    """Angle of the hard stops to either side [rad]."""
-    holding_torque: float
-    """What the frozen joint bears [N*m]."""
-    step: float
-    """Time step [s]."""
-    left_out: tuple[str, ...]
-    """What no file has of the joint, a sentence each."""
+    stroke: float  # To either side [rad]
+    stop_angle: float  # Angle of the hard stops to either side [rad]
+    holding_torque: float  # What the frozen joint bears [N*m]
+    step: float  # Time step [s]
+    left_out: tuple[str, ...]  # What no file has of the joint, a sentence each
 
     @property
     def slug(self) -> str:

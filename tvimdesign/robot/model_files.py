@@ -43,12 +43,10 @@ def document(root: Xml.Element) -> str:
     return '<?xml version="1.0" encoding="utf-8"?>\n' + Xml.tostring(root, encoding="unicode") + "\n"
 
 
-_NEARLY_NOTHING = 1e-14
-"""Inertia of a body that only carries a hinge [kg*m^2], a little above MuJoCo's least."""
+_NEARLY_NOTHING = 1e-14  # Inertia of a body that only carries a hinge [kg*m^2], a little above MuJoCo's least
 _ACROSS = 0.6
 """Inertia of the bench's load across the axis over that about it: nobody gave it, and a body has more than a half."""
-_FAR = 1e3
-"""Angle [rad] that no joint reaches: so far a spring that only pushes is slack."""
+_FAR = 1e3  # Angle [rad] that no joint reaches: so far a spring that only pushes is slack
 _STIFF_FRICTION = "0.9999 0.9999 0.001 0.5 2"
 
 
@@ -229,20 +227,14 @@ def ros2_control(model: JointModel) -> str:
     return document(root)
 
 
-JOINT = "joint"
-"""Name of the joint in every model."""
+JOINT = "joint"  # Name of the joint in every model
 MERGED_STEPS = 2.0
 """Elements that relax within so many steps are plain damping: explicit steps of them would not be stable."""
-LONGEST = 1e6
-"""Relaxation time [s] of what does not relax: eleven days."""
-IDLE_DAMPING = 1e-3
-"""Damping of a hinge that bears nothing [N*m*s/rad]: it must be held by something."""
-ARMATURE_SHARE = 1e-4
-"""Inertia of an element's hinge over that of what moves."""
-CONTACT_RATIO = 4.0
-"""Stiffness of the spring between link and face over that of the block before anything relaxes."""
-SIDES = (("ahead", 1.0), ("behind", -1.0))
-"""The blocks against positive and against negative angles."""
+LONGEST = 1e6  # Relaxation time [s] of what does not relax: eleven days
+IDLE_DAMPING = 1e-3  # Damping of a hinge that bears nothing [N*m*s/rad]: it must be held by something
+ARMATURE_SHARE = 1e-4  # Inertia of an element's hinge over that of what moves
+CONTACT_RATIO = 4.0  # Stiffness of the spring between link and face over that of the block before anything relaxes
+SIDES = (("ahead", 1.0), ("behind", -1.0))  # The blocks against positive and against negative angles
 
 
 @dataclass(frozen=True)
@@ -250,10 +242,8 @@ class Hinge:
     """A hinge about the joint's axis that carries nothing."""
 
     name: str
-    damping: float
-    """[N*m*s/rad]."""
-    armature: float
-    """Its own inertia [kg*m^2]."""
+    damping: float  # [N*m*s/rad]
+    armature: float  # Its own inertia [kg*m^2]
 
 
 @dataclass(frozen=True)
@@ -261,12 +251,9 @@ class Spring:
     """A spring between two angles, or one that acts only where its angle is above zero."""
 
     name: str
-    stiffness: float
-    """[N*m/rad]."""
-    coefficients: Mapping[str, float]
-    """Its angle is the sum of these times the angles of the named hinges."""
-    pushes: bool = False
-    """Whether it acts only where its angle is above zero."""
+    stiffness: float  # [N*m/rad]
+    coefficients: Mapping[str, float]  # Its angle is the sum of these times the angles of the named hinges
+    pushes: bool = False  # Whether it acts only where its angle is above zero
 
 
 @dataclass(frozen=True)
@@ -275,10 +262,8 @@ class MaxwellHinges:
 
     hinges: tuple[Hinge, ...]
     springs: tuple[Spring, ...]
-    damping: float
-    """Of the joint itself, from elements that are merged [N*m*s/rad]."""
-    merged: int
-    """How many of each side's elements those are."""
+    damping: float  # Of the joint itself, from elements that are merged [N*m*s/rad]
+    merged: int  # How many of each side's elements those are
 
 
 def maxwell_hinges(state: JointState, count: int, step: float) -> MaxwellHinges:

@@ -17,10 +17,8 @@ if TYPE_CHECKING:  # the command line lists the tests, and must not load numpy f
 class VirtualTest(NamedTuple):
     """Location of a test, and its description."""
 
-    function: str
-    """`module:function`; the function takes a `ResolvedModule` and returns a `Trial`."""
-    shows: str
-    """In one line."""
+    function: str  # `module:function`; the function takes a `ResolvedModule` and returns a `Trial`
+    shows: str  # In one line
 
 
 TESTS: dict[str, VirtualTest] = {

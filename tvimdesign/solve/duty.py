@@ -29,14 +29,11 @@ from tvimdesign.study import Study
 
 Array = NDArray[np.float64]
 HOUR = 3600.0
-PERIODIC = 1e-4
-"""Change of the scaled temperatures over a cycle, a hundredth of a kelvin, below which it is periodic."""
+PERIODIC = 1e-4  # Change of the scaled temperatures over a cycle, a hundredth of a kelvin, below which it is periodic
 REACHED = 1e-2
 """Distance of the scaled temperatures from the periodic state, one kelvin, from which on it counts as reached."""
-MOST_CYCLES, DEPTH = 200, 4
-"""Cycles at most, and of how many the next start is extrapolated (Anderson)."""
-FINE = 0.01
-"""Share to which the highest duty is found."""
+MOST_CYCLES, DEPTH = 200, 4  # Cycles at most, and of how many the next start is extrapolated (Anderson)
+FINE = 0.01  # Share to which the highest duty is found
 SHOWN = ("response_time", "return_time", "peak_peltier_temperature", "peak_cold_side_temperature",
          "peak_pcl_temperature", "peak_liner_temperature", "peak_rotor_temperature")  # fmt: skip
 """What is reported of the periodic cycle."""
@@ -46,12 +43,9 @@ SHOWN = ("response_time", "return_time", "peak_peltier_temperature", "peak_cold_
 class DutyCycle:
     """One cycle."""
 
-    end: Array
-    """State when the next switch is due."""
-    taken: float
-    """Time of all but the rest [s]."""
-    energy: float
-    """[J]."""
+    end: Array  # State when the next switch is due
+    taken: float  # Time of all but the rest [s]
+    energy: float  # [J]
     values: dict[str, float]
     """What the cycle supplies to the table: highest temperatures, powers, voltages, and the times."""
 
@@ -60,20 +54,13 @@ class DutyCycle:
 class DutyResult:
     """Result of a duty; nothing but its limit if its cycle does not fit between two switches."""
 
-    values: dict[str, float]
-    """Times and highest temperatures of the periodic cycle, by the quantity's name, SI."""
-    exceeded: tuple[str, ...]
-    """Ratings that it exceeds, without those the study accepts."""
-    settling: float
-    """Time from a cold start until the temperatures are within 1 K of the periodic ones [s]."""
-    energy_a_day: float
-    """[J]."""
-    most: float
-    """Most switches an hour that keep every rating and leave time for both ways."""
-    limited_by: str
-    """What more of them would exceed: a rating, or `time`."""
-    quantities: dict[str, float] = field(default_factory=dict)
-    """Every quantity, with what the periodic cycle supplies."""
+    values: dict[str, float]  # Times and highest temperatures of the periodic cycle, by the quantity's name, SI
+    exceeded: tuple[str, ...]  # Ratings that it exceeds, without those the study accepts
+    settling: float  # Time from a cold start until the temperatures are within 1 K of the periodic ones [s]
+    energy_a_day: float  # [J]
+    most: float  # Most switches an hour that keep every rating and leave time for both ways
+    limited_by: str  # What more of them would exceed: a rating, or `time`
+    quantities: dict[str, float] = field(default_factory=dict)  # Every quantity, with what the periodic cycle supplies
 
 
 class Duty:
@@ -239,10 +226,8 @@ that 0.1 to 0.5 mm of adhesive (0.2 W/(m K)) holds over 20 mm^2 has 8 to 40 mW/K
 reading against the joint's own rise."""
 OVERSHOOT, LATE = 3.0, 1.1
 """Limits of a controlled switch: hot face above its highest set-point [K], time to soft over that uncontrolled."""
-SHARE = 0.95
-"""Share of modules that reported values cover."""
-WATCHED = 2.0
-"""How long a module is watched, in times that it takes without controller."""
+SHARE = 0.95  # Share of modules that reported values cover
+WATCHED = 2.0  # How long a module is watched, in times that it takes without controller
 
 
 @dataclass(frozen=True)
@@ -250,18 +235,12 @@ class ControlResult:
     """A controller on drawn modules; `SHARE` of them have at most these values."""
 
     controller: Controller
-    overshoot: float
-    """Of the hot face over its highest set-point [K]; below zero if it stays under it."""
-    hottest_pads: float
-    """Highest temperature of the pads [K]."""
-    settling: float
-    """Time until soft over that of the same module by the switch's current alone [1]."""
-    settling_of_nominal: float
-    """Time until soft over that of the module as drawn [1]."""
-    controlled: spread.Yield
-    """Share within `OVERSHOOT` and `LATE`."""
-    stays_soft: spread.Yield
-    """Share that stays soft once it is, as long as it is watched."""
+    overshoot: float  # Of the hot face over its highest set-point [K]; below zero if it stays under it
+    hottest_pads: float  # Highest temperature of the pads [K]
+    settling: float  # Time until soft over that of the same module by the switch's current alone [1]
+    settling_of_nominal: float  # Time until soft over that of the module as drawn [1]
+    controlled: spread.Yield  # Share within `OVERSHOOT` and `LATE`
+    stays_soft: spread.Yield  # Share that stays soft once it is, as long as it is watched
 
 
 def drawn_modules(resolved: ResolvedModule, count: int) -> list[tuple[Array, Lags]]:

@@ -33,10 +33,8 @@ from tvimdesign.study.design import Design
 from tvimdesign.study.study import CONTROLLED, Requirement
 from tvimdesign.study.written_studies import started_at
 
-ROUNDS = 2
-"""Searches with tighter limits, at most, where a limit on what is simulated of the design is violated."""
-Designed = Callable[[Design, Solution | None], None]
-"""Receiver of a design as soon as it exists."""
+ROUNDS = 2  # Searches with tighter limits, at most, where a limit on what is simulated of the design is violated
+Designed = Callable[[Design, Solution | None], None]  # Receiver of a design as soon as it exists
 
 
 @dataclass(frozen=True)
@@ -46,19 +44,13 @@ class ConstraintCheck:
     text: str
     output: str
     value: float
-    margin: float
-    """What is left, as a share of `scale`; negative where it is broken."""
-    scale: float
-    """The limit's size, SI; or what stands for it where the limit is zero or a temperature."""
-    absolute: bool
-    """Whether the margin is to be read in the row's unit, not as a share."""
+    margin: float  # What is left, as a share of `scale`; negative where it is broken
+    scale: float  # The limit's size, SI; or what stands for it where the limit is zero or a temperature
+    absolute: bool  # Whether the margin is to be read in the row's unit, not as a share
     met: bool
-    worst: float
-    """The least margin over what history leaves open; the margin itself where there is one value."""
-    origin: str
-    """`require`, or the reason the machine has the limit."""
-    part_of: str = ""
-    """The output of the requirement that is put on several at once."""
+    worst: float  # The least margin over what history leaves open; the margin itself where there is one value
+    origin: str  # `require`, or the reason the machine has the limit
+    part_of: str = ""  # The output of the requirement that is put on several at once
 
 
 @dataclass(frozen=True)
@@ -66,25 +58,21 @@ class StudyResult:
     """Result of a study."""
 
     design: Design
-    checks: tuple[ConstraintCheck, ...]
-    """Requirements and rules."""
+    checks: tuple[ConstraintCheck, ...]  # Requirements and rules
     warnings: tuple[ConstraintCheck, ...]
     """Ratings that the design is beyond and the study does not accept, then advice that it does not follow."""
-    accepted: tuple[ConstraintCheck, ...]
-    """Ratings that the design is beyond, as the study accepts."""
+    accepted: tuple[ConstraintCheck, ...]  # Ratings that the design is beyond, as the study accepts
     idealizations: tuple[Idealization, ...]
     """What the study leaves out of the drawn module, and what comes out without that; the first that gave a value
     marks it."""
-    histories: dict[str, Curves]
-    """By phase."""
+    histories: dict[str, Curves]  # By phase
     sweep: Curves
     solution: Solution | None
     intervals: dict[str, tuple[float, float]]
     """Least and largest value (SI) of the outputs for which a point inside the melting range has no one answer."""
     constant_current: dict[str, float]
     """What the same module does where currents that follow a profile stay at their default; empty where none does."""
-    cooling: Cooling
-    """What cooling by current buys on the way back."""
+    cooling: Cooling  # What cooling by current buys on the way back
     duty: DutyResult | None
     control: ControlResult | None
 

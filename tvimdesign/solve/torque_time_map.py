@@ -25,12 +25,9 @@ from tvimdesign.study import Study, given
 TORQUE, CYCLE, MASS, ENERGY, HOT = "holding_torque", "cycle_time", "module_mass", "cycle_energy", "joint_stiffness@hot"
 TRADED = (TORQUE, CYCLE, MASS, ENERGY, HOT)
 EMPTY, UNANSWERED = "empty", "unanswered"
-_SIDE = 1e-3
-"""Weight of what is not asked for: of two designs alike in mass the faster, and the one of less energy."""
-_STEP = 0.03
-"""Least step, a logarithm of torque or time."""
-_NAMED = 3
-"""Limits that are named where a cell is empty."""
+_SIDE = 1e-3  # Weight of what is not asked for: of two designs alike in mass the faster, and the one of less energy
+_STEP = 0.03  # Least step, a logarithm of torque or time
+_NAMED = 3  # Limits that are named where a cell is empty
 _MOST_MISS = 1e3
 """Miss of a search that ends at limits: larger than a design's, less than that of one which does not end."""
 
@@ -41,8 +38,7 @@ class MapCell:
 
     torque: float
     cycle: float
-    status: str
-    """`optimal`, `empty`, or `unanswered`."""
+    status: str  # `optimal`, `empty`, or `unanswered`
     values: dict[str, float] = field(default_factory=dict)
     """Inputs and outputs of the design, SI; of an empty cell those of the design that comes nearest."""
     limits: tuple[str, ...] = ()
@@ -101,13 +97,10 @@ class _Row:
     """Designs of a torque [N*m]: one for each cycle that is reached, the longest first."""
 
     torque: float
-    near: Point
-    """Design that comes nearest to the next cycle."""
+    near: Point  # Design that comes nearest to the next cycle
     designs: list[Point] = field(default_factory=list)
-    status: str = OPTIMAL
-    """Status of the cells without a design, once they are answered."""
-    at_limits: bool = False
-    """Whether a search for the next cycle ended at limits."""
+    status: str = OPTIMAL  # Status of the cells without a design, once they are answered
+    at_limits: bool = False  # Whether a search for the next cycle ended at limits
 
 
 class _Way(NamedTuple):

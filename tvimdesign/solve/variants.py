@@ -25,8 +25,7 @@ class Idealization:
 
     choice: str
     word: str
-    instead: str
-    """The word that leaves nothing out."""
+    instead: str  # The word that leaves nothing out
     leaves_out: str
     as_drawn: dict[str, float]
     """The outputs (SI) that are other values without it; NaN where the module cannot be evaluated so."""
@@ -79,18 +78,15 @@ def _same(name: str, value: float, other: float, resolved: ResolvedModule) -> bo
     return bool(np.isclose(value, other, rtol=within, atol=0.0, equal_nan=True))
 
 
-TIMES = ("stiffening_time", "frozen_time")
-"""The times of the way back that are compared."""
+TIMES = ("stiffening_time", "frozen_time")  # The times of the way back that are compared
 
 
 @dataclass(frozen=True)
 class Cooling:
     """Ability of a module's pads to cool, whether they do, and the time of the way back without cooling [s]."""
 
-    able: bool
-    """Whether the heater has a Seebeck coefficient: a foil heats whichever way its current flows."""
-    used: bool
-    """Whether a current flows through it while the module stiffens."""
+    able: bool  # Whether the heater has a Seebeck coefficient: a foil heats whichever way its current flows
+    used: bool  # Whether a current flows through it while the module stiffens
     unpowered: Mapping[str, float]
     """`TIMES` with the pads unpowered, where they cool and the module gets soft; infinite where it never happens."""
 

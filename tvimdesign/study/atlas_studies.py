@@ -17,8 +17,7 @@ from tvimdesign.study.sizing import JointTask, diameters, study_text
 from tvimdesign.study.study import Study
 from tvimdesign.study.tree import tree_of_values
 
-WIDER = 1.7
-"""Factor on the largest of what scales with a module; its square root divides the least."""
+WIDER = 1.7  # Factor on the largest of what scales with a module; its square root divides the least
 
 
 @dataclass(frozen=True)
@@ -27,8 +26,7 @@ class Atlas:
 
     torques: tuple[float, ...]
     cycles: tuple[float, ...]
-    softness: float
-    """Most hot stiffness [N*m/rad] over the torque held [N*m]."""
+    softness: float  # Most hot stiffness [N*m/rad] over the torque held [N*m]
     kinds: Mapping[str, Any]
     common: Mapping[str, Any]
     hardware: tuple[str, ...]

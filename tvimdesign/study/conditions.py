@@ -128,7 +128,7 @@ def _unequal_conditions(first: Case, other: Case) -> Iterator[Mistake]:
     for name in (name for name in mine if name in differing):
         row = first.study.table.by_name.get(name)
         if isinstance(row, Input) and row.record and row.record[0] in differing:
-            continue  # another record, which is told
+            continue  # another record, which is reported
         message = f"{mine[name].words} here, {theirs[name].words} in {first.places.text(theirs[name].path)}"
         yield _problem(other, mine[name].path, message, "the same in every study that is compared")
     for case, lacking, names in ((first, other, theirs), (other, first, mine)):

@@ -32,8 +32,7 @@ _AGAIN = "write it anew with `tvimdesign run` from its study"
 _NOWHERE = At(0, 0)
 
 
-_NEAR = 0.9
-"""Share of the supply's voltage from which a heater needs no other voltage."""
+_NEAR = 0.9  # Share of the supply's voltage from which a heater needs no other voltage
 
 
 class Design(BaseModel):
@@ -41,25 +40,19 @@ class Design(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="strings")
 
-    tvimdesign: str
-    """Version that wrote it."""
+    tvimdesign: str  # Version that wrote it
     name: str
     mode: str
     status: str
     """`evaluated`, `optimal`, `above_rating` (the optimum, beyond a rating that the study does not accept),
     `below_yield` (a design that fewer modules keep than the study asks, as far as the search came), or why not."""
-    above_rating: tuple[str, ...] = ()
-    """Quantities beyond their rating that the study does not accept."""
-    accepting: tuple[str, ...] = ()
-    """Quantities beyond their rating that the study accepts."""
-    choices: dict[str, str]
-    """Chosen records and options by row name."""
-    values: dict[str, float]
-    """Every input and output by full name (`row` or `row@point`), SI."""
+    above_rating: tuple[str, ...] = ()  # Quantities beyond their rating that the study does not accept
+    accepting: tuple[str, ...] = ()  # Quantities beyond their rating that the study accepts
+    choices: dict[str, str]  # Chosen records and options by row name
+    values: dict[str, float]  # Every input and output by full name (`row` or `row@point`), SI
     intervals: dict[str, tuple[float, float]] = Field(default_factory=dict)
     """Least and largest value of what a point in the melting range leaves open; `values` has it as heated, nominal."""
-    study: dict[str, Any]
-    """The study it answers, resolved."""
+    study: dict[str, Any]  # The study it answers, resolved
     current_profiles: dict[str, Any] = Field(default_factory=dict)
     """Currents that are not constant, by phase: `duration` [s] and `currents` [A] at evenly spaced moments."""
     solution: dict[str, Any] = Field(default_factory=dict)

@@ -21,8 +21,7 @@ from tvimdesign.device.core.heater_form import CUT, contradiction
 from tvimdesign.device.core.task import ARM, Trajectory
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
-_NONE = 1e-12
-"""Length [m] that is rounding."""
+_NONE = 1e-12  # Length [m] that is rounding
 
 
 def given(study: Study) -> dict[str, Any]:

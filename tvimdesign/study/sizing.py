@@ -15,10 +15,8 @@ from tvimdesign.device import Input, table_for
 from tvimdesign.study.written_studies import SCHEMA_FILE
 
 SIZED_MODE = "shear"
-SMALLEST, LARGEST = 0.02, 0.2
-"""Diameters [m] that a study is made for."""
-_BAND = 0.2
-"""Share by which the stiffness may lie to either side of the one that is required."""
+SMALLEST, LARGEST = 0.02, 0.2  # Diameters [m] that a study is made for
+_BAND = 0.2  # Share by which the stiffness may lie to either side of the one that is required
 _SCALED = {
     "coil_diameter": (0.04, 0.09, 0.25), "placement_radius": (0.25, 0.39, 0.48), "core_radius": (0.07, 0.11, 0.2),
     "link_thickness": (0.03, 0.045, 0.09), "pcl_inner_radius": (0.1, 0.16, 0.35),
@@ -39,8 +37,7 @@ _EXAMPLES = {
     "torque": "8 N.m", "stiffness": "1 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
     "stroke": "6 deg", "stiff_time": "300 s",
 }  # fmt: skip
-STROKE = "0.104 rad"
-"""Stroke to either side of rest, unless given."""
+STROKE = "0.104 rad"  # Stroke to either side of rest, unless given
 _PRELOAD = (1.15, 0.216, 0.5)
 """Least preload angle over the stroke; its start and its largest value beyond the stroke [rad]."""
 _RANGE = re.compile(r"(?P<low>\S+)(?: (?P<unit>\S+))? (?:to|-) (?P<high>.+)")
@@ -58,12 +55,9 @@ class JointTask:
     current: float
     stroke: float
     assumes_stroke: bool
-    friction: float = 0.5
-    """Most friction over the springs' torque at full stroke."""
-    stiff_time: float = math.inf
-    """Most time from the end of the heating until it is stiff again."""
-    cautious: bool = False
-    """Whether three of four plausible cases of the assumed values must satisfy each limit."""
+    friction: float = 0.5  # Most friction over the springs' torque at full stroke
+    stiff_time: float = math.inf  # Most time from the end of the heating until it is stiff again
+    cautious: bool = False  # Whether three of four plausible cases of the assumed values must satisfy each limit
 
     @classmethod
     def read(

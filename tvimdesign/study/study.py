@@ -10,11 +10,9 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
 
-FORMAT = 1
-"""The file format this version reads, the study's key `tvimdesign`."""
+FORMAT = 1  # The file format this version reads, the study's key `tvimdesign`
 
-FEWEST_POINTS, MOST_POINTS = 3, 200
-"""Designs on a front that a study may ask for."""
+FEWEST_POINTS, MOST_POINTS = 3, 200  # Designs on a front that a study may ask for
 
 STANDARD_POINTS: dict[str, dict[str, float]] = {
     "cold": {"temperature": 303.15, "frequency": 1.0},
@@ -65,11 +63,9 @@ class Tolerance(_Part):
 
     plus_minus: float | None = None
     share: float | None = None
-    row: str | None = None
-    """The output that gives it, so that it follows the design."""
+    row: str | None = None  # The output that gives it, so that it follows the design
     distribution: Literal["normal", "uniform"] = "normal"
-    sigma: float = 3.0
-    """At how many standard deviations the tolerance lies, where it is normal."""
+    sigma: float = 3.0  # At how many standard deviations the tolerance lies, where it is normal
     adjustable: bool = False
     adjusted_to: float | None = None
     """What is left of it, to either side, where the module can be adjusted; nothing unless stated."""
@@ -195,16 +191,14 @@ class Study(_Part):
     require: tuple[Requirement, ...] = ()
     simulated: tuple[Requirement, ...] = ()
     """Limits on `output@duty` and `output@control`, which are simulated once a design is found."""
-    accept: tuple[str, ...] = ()
-    """Ratings beyond which the design may be, by the quantity's name."""
+    accept: tuple[str, ...] = ()  # Ratings beyond which the design may be, by the quantity's name
     minimize: dict[str, float] = {}
     front: FrontOptions | None = None
     operating_points: dict[str, dict[str, float]]
     profile: ProfileOptions = ProfileOptions()
     currents: dict[str, GivenCurrent] = {}
     """Currents over time by phase, of a study that evaluates its module; constant ones are inputs of it."""
-    trajectory: GivenTrajectory | None = None
-    """Motion of the housing in the task."""
+    trajectory: GivenTrajectory | None = None  # Motion of the housing in the task
     duty: DutyOptions = DutyOptions()
     control: ControlOptions = ControlOptions()
     tolerances: dict[str, Tolerance] = {}
@@ -271,9 +265,7 @@ class Study(_Part):
         return "optimize" if self.vary else "evaluate"
 
 
-CONTROLLED = ("response_time", "peak_peltier_temperature")
-"""Outputs that are simulated under the controller."""
-_SAME_TEMPERATURE = 1e-6
-"""Kelvin by which two temperatures may differ by rounding."""
+CONTROLLED = ("response_time", "peak_peltier_temperature")  # Outputs that are simulated under the controller
+_SAME_TEMPERATURE = 1e-6  # Kelvin by which two temperatures may differ by rounding
 _CACHED = {"catalog": "catalog_folder", "table": "mode"}
 """What a study keeps once it is asked for, by the field it follows from."""

@@ -27,8 +27,7 @@ from tvimdesign.study.text.mistakes import (
 from tvimdesign.study.text.values import misfit
 from tvimdesign.study.text.yaml_text import DEEPEST, Broken, Mapping, Node, Sequence, Text, compose, yaml_of
 
-_OF_A_SEARCH = ("vary", "minimize", "front")
-"""The sections that go with the last variable."""
+_OF_A_SEARCH = ("vary", "minimize", "front")  # The sections that go with the last variable
 _LONGEST_SETTING = 100
 
 
@@ -37,18 +36,12 @@ class StudyTree:
     """A study as it is written, before it is read."""
 
     root: Mapping
-    file: str
-    """What messages call it."""
-    name: str
-    """The study's name, unless it says one."""
-    folder: Path
-    """Where its folder of records is looked for."""
-    changes: tuple[str, ...] = ()
-    """The calls and options that changed it."""
-    problems: tuple[Mistake, ...] = ()
-    """What is wrong with its form already; the reader adds the rest."""
-    path: Path | None = None
-    """Its file, where it has one."""
+    file: str  # What messages call it
+    name: str  # The study's name, unless it says one
+    folder: Path  # Where its folder of records is looked for
+    changes: tuple[str, ...] = ()  # The calls and options that changed it
+    problems: tuple[Mistake, ...] = ()  # What is wrong with its form already; the reader adds the rest
+    path: Path | None = None  # Its file, where it has one
 
     def section(self, name: str) -> Node | None:
         """Return the node under one of the study's keys."""

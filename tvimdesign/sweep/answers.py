@@ -15,10 +15,8 @@ from tvimdesign.solve.optimizer.verify_optimum import exceeded, is_met, sorted_b
 from tvimdesign.study import Study, drawn, given, read_tree
 from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy, Texts, set_in
 
-MOST_KEPT = 8
-"""Problems that stay: cells of one kind mostly follow one another."""
-_LONGEST_REASON = 300
-"""Letters of a reason at most."""
+MOST_KEPT = 8  # Problems that stay: cells of one kind mostly follow one another
+_LONGEST_REASON = 300  # Letters of a reason at most
 
 
 class CellAnswers:

@@ -34,11 +34,9 @@ from tvimdesign.study.study import Requirement
 from tvimdesign.study.written_studies import started_at
 from tvimdesign.sweep.run_sweep import key_of, records_hash
 
-FAMILIES = "families"
-"""Folder of the families in the folder of an atlas."""
+FAMILIES = "families"  # Folder of the families in the folder of an atlas
 OUTPUTS = (MASS, TORQUE, HOT, CYCLE, "cycle_energy", "envelope_diameter")
-_DRAWS = 256
-"""Cases of the assumed values from which an interval is drawn."""
+_DRAWS = 256  # Cases of the assumed values from which an interval is drawn
 Say = Callable[[str], None]
 
 
@@ -50,8 +48,7 @@ class AtlasCell:
     torque: float
     cycle: float
     status: str
-    hardware: str
-    """Set of hardware of the lightest design; of an empty cell that of the design that comes nearest."""
+    hardware: str  # Set of hardware of the lightest design; of an empty cell that of the design that comes nearest
     values: Mapping[str, float]
     limits: tuple[str, ...]
     intervals: Mapping[str, tuple[float, float]]

@@ -20,8 +20,7 @@ from tvimdesign.study.text.yaml_text import Node, Text
 from tvimdesign.study.tree import StudyTree, with_value, without_section
 
 Texts = tuple[str, ...]
-_DIGITS = 12
-"""Of a number between two ends: as many as parse to the same value to 1e-12, and a table still shows."""
+_DIGITS = 12  # Of a number between two ends: as many as parse to the same value to 1e-12, and a table still shows
 
 
 def written(axis: SweptAxis, value: float) -> str:
@@ -134,12 +133,10 @@ ALWAYS = ("module_mass", "envelope_diameter", "response_time")
 class SweepPlan:
     """Plan of a sweep, cell by cell."""
 
-    tree: StudyTree
-    """The study without `sweep` and `front`."""
+    tree: StudyTree  # The study without `sweep` and `front`
     study: Study
     block: SweepBlock
-    written: StudyTree
-    """As it was written, its sweep included."""
+    written: StudyTree  # As it was written, its sweep included
 
     @cached_property
     def points(self) -> CellPoints:
@@ -276,18 +273,13 @@ class Cell(NamedTuple):
 class CellAnswer(NamedTuple):
     """The answer of a cell."""
 
-    status: str
-    """`evaluated`, `optimal`, `above_rating`, ... or `infeasible`, `refused`, `crashed`."""
-    reason: str
-    """Why there is no design, or what it violates; empty where there is nothing to say."""
-    violated: int | None
-    """Count of limits that are violated; None where there is no design."""
-    margin: float | None
-    """The least margin over all limits, as a share."""
+    status: str  # `evaluated`, `optimal`, `above_rating`, ... or `infeasible`, `refused`, `crashed`.
+    reason: str  # Why there is no design, or what it violates; empty where there is nothing to say
+    violated: int | None  # Count of limits that are violated; None where there is no design
+    margin: float | None  # The least margin over all limits, as a share
     values: tuple[float | str | None, ...]
     """SI, in the order of the columns; words of what is chosen; None where there is none."""
-    warm: bool = False
-    """Whether the search began at another cell's optimum and found this one's."""
+    warm: bool = False  # Whether the search began at another cell's optimum and found this one's
 
 
 @dataclass(frozen=True)
@@ -295,10 +287,8 @@ class SweptStudy:
     """A study, and what is set in each of its cells; it can be pickled."""
 
     tree: StudyTree
-    names: tuple[str, ...]
-    """What is set in each cell, as `--set` takes it."""
-    numbers: tuple[bool, ...]
-    """Which of them a search can follow from another cell's optimum."""
+    names: tuple[str, ...]  # What is set in each cell, as `--set` takes it
+    numbers: tuple[bool, ...]  # Which of them a search can follow from another cell's optimum
     columns: tuple[str, ...]
     evaluate: bool
 

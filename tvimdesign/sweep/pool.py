@@ -30,10 +30,8 @@ from tvimdesign.base.processes import last_line
 from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy
 from tvimdesign.sweep.shards import Shards, ShardWriter
 
-CHUNK = 0.5
-"""Seconds that a chunk is to take."""
-MOST = 1000
-"""Cells in one."""
+CHUNK = 0.5  # Seconds that a chunk is to take
+MOST = 1000  # Cells in one
 
 
 class ChunkAnswers:
@@ -112,8 +110,7 @@ class CellQueue:
 
 
 Heard = Callable[["Usage"], None]
-MOST_DEATHS = 2
-"""Workers that a cell may take along before it is left as crashed."""
+MOST_DEATHS = 2  # Workers that a cell may take along before it is left as crashed
 
 
 @dataclass
@@ -122,14 +119,10 @@ class Usage:
 
     cells: int = 0
     warm: int = 0
-    cells_s: float = 0.0
-    """Seconds of the processor in the cells themselves."""
-    cpu_s: float = 0.0
-    """Seconds of the processor in chunks: reading them and keeping what they came to included."""
-    chunk_s: float = 0.0
-    """Seconds of chunks by the clock, of all workers."""
-    died: int = 0
-    """Workers that ended before their time."""
+    cells_s: float = 0.0  # Seconds of the processor in the cells themselves
+    cpu_s: float = 0.0  # Seconds of the processor in chunks: reading them and keeping what they came to included
+    chunk_s: float = 0.0  # Seconds of chunks by the clock, of all workers
+    died: int = 0  # Workers that ended before their time
 
     def add(self, reply: dict[str, Any]) -> None:
         """Count a chunk."""

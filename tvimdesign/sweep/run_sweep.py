@@ -26,10 +26,8 @@ Say = Callable[[str], None]
 class Executor:
     """Place of computing the cells: processes here, or this job of a batch system's array."""
 
-    workers: int = 0
-    """Processes; as many as there are processors where it is 0."""
-    part: tuple[int, int] = (1, 1)
-    """Which part of how many this is, both from 1."""
+    workers: int = 0  # Processes; as many as there are processors where it is 0
+    part: tuple[int, int] = (1, 1)  # Which part of how many this is, both from 1
 
     @property
     def alone(self) -> bool:
@@ -51,16 +49,12 @@ class Executor:
 class SweepDone:
     """Finished part of a sweep, or of other work."""
 
-    cells: int
-    """Of the whole."""
-    reused: int
-    """Of this part: cells that were there."""
+    cells: int  # Of the whole
+    reused: int  # Of this part: cells that were there
     computed: int
-    missing: int
-    """Cells that other parts still have to compute."""
+    missing: int  # Cells that other parts still have to compute
     spent: Usage = field(default_factory=Usage)
-    keys: tuple[str, ...] = ()
-    """Every cell's key, in their order; empty where cells are missing."""
+    keys: tuple[str, ...] = ()  # Every cell's key, in their order; empty where cells are missing
 
     @property
     def whole(self) -> bool:
@@ -94,8 +88,7 @@ def _answered(work: SweptStudy, cells: list[Cell], folder: Path, executor: Execu
 
 
 _NOT_OF_THE_DESIGN = {"name", "description", "front", "write", "catalog_folder"}
-_LENGTH = 32
-"""Letters of a key: 128 bits."""
+_LENGTH = 32  # Letters of a key: 128 bits
 
 
 class CellKeys:

@@ -23,11 +23,9 @@ from tvimdesign.base.units import from_si
 from tvimdesign.study.sections.sweeps import SweptAxis
 from tvimdesign.sweep.plan import CellAnswer, SweepPlan, is_words, rounded, senses
 
-SHARDS = "shards"
-"""Folder of the shards in the folder of a sweep."""
+SHARDS = "shards"  # Folder of the shards in the folder of a sweep
 _GOES_ON = "the cells before are kept: make room, then the same command with --resume goes on"
-_KEY = slice(2, 34)
-"""Where the key stands in a line: `["0123...", ...`."""
+_KEY = slice(2, 34)  # Where the key stands in a line: `["0123...", ...`
 
 
 class ShardWriter:
@@ -165,10 +163,8 @@ class Column(NamedTuple):
     """One column of the table."""
 
     name: str
-    unit: str
-    """`1` of a number without unit, empty for words."""
-    kind: str
-    """`cell`, `axis`, `told` or `output`."""
+    unit: str  # `1` of a number without unit, empty for words
+    kind: str  # `cell`, `axis`, `told` or `output`
     meaning: str
 
 

@@ -16,12 +16,9 @@ from tvimdesign.study.tree import StudyTree, tree_of_file
 from tvimdesign.sweep.plan import ALWAYS, SweepPlan, plan_of, set_in
 from tvimdesign.sweep.shards import SHARDS, Value, columns
 
-MOST_DRAWN = 20_000
-"""Cells of a figure; of more, every second, third, ... is drawn."""
-MOST_LISTED = 2_000
-"""Cells of a page, which a browser draws and sorts; of more, every second, third, ... is there."""
-MOST_FAILED = 500
-"""Cells without an answer that a page lists; of more, the first."""
+MOST_DRAWN = 20_000  # Cells of a figure; of more, every second, third, ... is drawn.
+MOST_LISTED = 2_000  # Cells of a page, which a browser draws and sorts; of more, every second, third, ... is there.
+MOST_FAILED = 500  # Cells without an answer that a page lists; of more, the first
 PANELS = 3
 
 
@@ -90,8 +87,7 @@ class CellTable:
             self.best[name] = {"cell": row["cell"], "value": value, "unit": self._units[name]}
 
 
-_DIGITS = 12
-"""Of a number in a sweep's table."""
+_DIGITS = 12  # Of a number in a sweep's table
 _SUMMARY, _TABLE = "sweep.json", "cells.sqlite"
 
 
@@ -106,12 +102,10 @@ class CellFound:
 
     number: int
     changes: dict[str, str]
-    tree: StudyTree
-    """With the changes; what varies is free."""
+    tree: StudyTree  # With the changes; what varies is free
     study: Study
     answered: bool
-    at: dict[str, str]
-    """Empty where there is no answer."""
+    at: dict[str, str]  # Empty where there is no answer
 
 
 @dataclass(frozen=True)
@@ -120,8 +114,7 @@ class SweptCells:
 
     folder: Path
     plan: SweepPlan
-    best: tuple[int, ...]
-    """The feasible cells with the least of each minimised output; else the first with an answer."""
+    best: tuple[int, ...]  # The feasible cells with the least of each minimised output; else the first with an answer
 
     def listed(self) -> list[dict[str, Any]]:
         """Return rows of the cells for a page, thinned for a browser."""

@@ -120,7 +120,7 @@ def test_a_liner_in_metal_gives_by_film_and_cold_wall() -> None:
         k * values["pcl_area"] * way for way in (values["liner_sheet"].resistance, values["liner_sheet"].bond)
     )
     whole = values["pcl_thickness"] + liner + film
-    # A wall from the liner's lower face on takes 2/pi ln cot(pi f/4) of an even fall, of which the liner has the end.
+    # A wall from the liner's lower face on takes 2/pi ln cot(pi f/4) of an even fall; the liner has its end.
     wall = -2.0 / pi * log(tan(0.25 * pi * values["pcl_thickness"] / whole))
     excess = (0.5 * liner + film) / whole
     assert 1.0 < values["liner_to_wall"] * excess / (k * wall) < 1.25

@@ -223,7 +223,7 @@ def test_response_times_come_near_an_independent_calculation(
     module: peltier.PeltierModule, side_capacity: float, changes: dict[str, Any], near: float, far: float
 ) -> None:
     # Another model of these stacks, cold side in free air (15 W/m^2 K), PETG behind the layer. It is met where the PETG
-    # stores no heat and takes 3 W/m^2 K, and a side of the pads holds 2.9 J/K, of which that model said nothing. The
+    # stores no heat and takes 3 W/m^2 K, and a side of the pads holds 2.9 J/K, which that model left out. The
     # 3.9 and 8.6 J/K are 930 and 820 J/kg K in half of the rigid modules' 8.4 and 21 g, near alumina's 880.
     times = face_times(stack_of(module, side_capacity, **changes))
     assert times == pytest.approx((near, far), rel=0.02)
@@ -251,7 +251,7 @@ def power_for_70_seconds(thickness: float, behind: str) -> float:
 def test_power_for_70_seconds_is_about_that_of_an_independent_calculation(
     thickness: float, behind: str, watts: float
 ) -> None:
-    # The properties of that calculation are within the published ranges but not known: its heat is 5 % less than that
+    # The properties of that calculation are within the published ranges but assumed: its heat is 5 % less than that
     # of the middle of the ranges. Its aluminium is 2 mm thick.
     assert power_for_70_seconds(thickness, behind) == pytest.approx(watts, rel=0.07)
 

@@ -82,7 +82,7 @@ def test_torque_over_angle_is_in_newton_metres_and_angle_over_time_no_blob(
         for line in axes.lines:
             y = np.asarray(line.get_ydata(), dtype=float)
             there_and_back = np.sum(np.abs(np.diff(y))) / np.ptp(y)
-            assert there_and_back <= 30.0  # a dozen swings can be told apart on an axis, hundreds are a blob
+            assert there_and_back <= 30.0  # a dozen swings are distinct on an axis, hundreds are a blob
 
 
 LABELS = ["Response time (s)", "Module mass (g)", "Envelope volume (cm³)"]

@@ -201,7 +201,7 @@ def test_what_freezes_turned_stays_turned(fmus: Mapping[str, Path]) -> None:
         joint.heat(heating, values["response_time"])
         let_go = joint.get("torque")[0]
     assert held == pytest.approx(-0.1 * springs, rel=0.02)  # of a melt that is held still the springs are left
-    assert (held - more) / 1e-3 == pytest.approx(stiff, rel=0.1)  # quicker than the 1 Hz at which that is told
+    assert (held - more) / 1e-3 == pytest.approx(stiff, rel=0.1)  # quicker than the 1 Hz at which that is stated
     assert abs(let_go) < 1e-3 * springs
 
 
@@ -232,7 +232,7 @@ def test_a_link_let_go_moves_as_in_the_virtual_test(mode: str, fmus: Mapping[str
         joint.set(angle=angle)
         joint.step(1e-6)  # turned at once, then held
         joint.step(1.0)
-        speed = -0.5 * step * joint.get("torque")[0] / inertia  # the speed is told half a step before the angle
+        speed = -0.5 * step * joint.get("torque")[0] / inertia  # the speed is given half a step before the angle
         for _ in range(int(seconds / step)):
             torque, friction = joint.get("torque", "pin_friction_torque")
             speed += step * (torque - friction * np.sign(speed)) / inertia

@@ -84,7 +84,7 @@ def test_an_input_is_named_with_the_outputs_it_moves(answered: AnsweredStudy) ->
     shares = {"a": {"core_radius": 0.3, "wire_diameter": 0.01}, "b": {"core_radius": 0.6}}
     intervals = {name: {**interval, "shares": share} for name, share in shares.items()}
     assert moves("core_radius", intervals) == [("b", 0.6), ("a", 0.3)]
-    assert moves("wire_diameter", intervals) == []  # a hundredth is nothing to be told of
+    assert moves("wire_diameter", intervals) == []  # a hundredth is nothing to report
     unmeasured = [{"name": name, "value": 9.0, "low": 8.0, "high": 10.0, "unit": "mm", "status": "assumed"}
                   for name in ("wire_diameter", "core_radius")]  # fmt: skip
     uncertainty = {"intervals": intervals, "unmeasured": unmeasured, "held": {"x >=": 0.5}}

@@ -68,7 +68,7 @@ def test_a_current_with_corners_gives_the_values_of_cvodes(build: Callable[..., 
 
 
 def test_a_phase_that_never_ends_has_maxima_and_nothing_else(build: Callable[..., DeviceFunctions]) -> None:
-    # At 0.4 A the pads cannot hold 100 degC against the losses.
+    # At 0.4 A the pads cannot stay at 100 degC despite the losses.
     model = build()
     inputs = model.start.copy()
     inputs[model.index["current"]] = 0.4

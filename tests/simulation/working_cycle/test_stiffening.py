@@ -137,7 +137,7 @@ def test_stiffening_converges_with_the_square_of_the_cell(
 def test_a_joint_that_is_half_as_stiff_is_as_sure(build: Callable[..., DeviceFunctions]) -> None:
     # With a sink the last slices pass the end of the melting range just then on the melting curve (64.8 and 65.8 degC
     # of 65), where their modulus rises by decades within a kelvin: the time falls as unevenly as they pass there, so
-    # that its order cannot be told.
+    # that its order is open.
     changes, last = changes_by_cells(build, "sink", coarsest=24, cooling_current=0.8)
     assert np.all(changes[-1] < 2e-4 * last)
 

@@ -162,7 +162,7 @@ def test_every_point_of_a_front_has_the_optimum_s_margin_on_times() -> None:
     optimizer, target = built[0][0], NormalDist().cdf(1.5)
     shares = [drawn.shares for drawn in map(yields_of(optimizer).at, _inputs(optimizer, front))]
     assert min(min(share.values()) for share in shares) >= target - 0.015
-    # The least power takes the longest: it rests on the limit on the time, away from it by what that spreads there.
+    # The least power takes the longest: it depends on the limit on the time, away from it by what that spreads there.
     assert shares[0]["response_time <="] == pytest.approx(target, abs=0.015)
     assert shares[-1]["response_time <="] == 1.0
     assert kept_at(optimizer, front)[-1] == pytest.approx(target, abs=0.02)

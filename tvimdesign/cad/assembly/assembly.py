@@ -168,14 +168,11 @@ _ORDER = (
     "mount_screw", "cover", "cover_screw", "link", "link_screw", "link_dowel",
 )  # fmt: skip
 """Along the axis from below; kinds that are not named come last."""
-_LIDS = ("cover",)
-"""Closed plates, which are lifted until all of what lies below them is seen."""
+_LIDS = ("cover",)  # Closed plates, which are lifted until all of what lies below them is seen
 _TOGETHER = ({"spring_right", "spring_left"},)
-VIEWED_FROM = (1.0, -1.35, 0.75)
-"""Direction of the camera that looks down on the parts."""
+VIEWED_FROM = (1.0, -1.35, 0.75)  # Direction of the camera that looks down on the parts
 _DOWN = VIEWED_FROM[2] / float(np.hypot(VIEWED_FROM[0], VIEWED_FROM[1]))
-_APART = 0.12
-"""Gap between kinds over the module's width."""
+_APART = 0.12  # Gap between kinds over the module's width
 
 
 def lifts(placed: Mapping[str, Instance]) -> dict[str, float]:

@@ -139,11 +139,9 @@ class WrittenStep(NamedTuple):
     text: str
     place: Sequence[Mapping[str, str]] = ()
     """What comes into its place: `part`, a kind or one part of a kind, and the side it comes `from`."""
-    needs: str = ""
-    """Hands, fixture, tools, access, and what is checked at its end."""
+    needs: str = ""  # Hands, fixture, tools, access, and what is checked at its end
     tools: Sequence[str] = ()
-    opens: bool = False
-    """True where it takes the module apart again."""
+    opens: bool = False  # True where it takes the module apart again
 
 
 def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[WrittenStep]:
@@ -219,8 +217,7 @@ def _words(kind: str) -> str:
 
 ANGLES = ("rad", "deg")
 TORQUE = "N*m"
-_GRAMS = 1e3 / 9.80665
-"""Reading of a balance in grams for one newton, by standard gravity (ISO 80000-3)."""
+_GRAMS = 1e3 / 9.80665  # Reading of a balance in grams for one newton, by standard gravity (ISO 80000-3)
 _HEATED = ("current", "response_time", "hold_current")
 
 

@@ -30,8 +30,7 @@ from tvimdesign.study.design import Design
 
 _DRY, _DRY_METAL = 0.2, 0.6
 """Friction of plastic, and of milled pins, below which they are greased: sources of `bore_friction`, `pin_friction`."""
-_EFFICIENCY = 0.9
-"""Power out of a step-down driver over power into it, assumed."""
+_EFFICIENCY = 0.9  # Power out of a step-down driver over power into it, assumed
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
 """Rows of the switch that a supply is bought by: volts, amperes."""
 _WIRED = {
@@ -45,14 +44,12 @@ MADE_TO_ORDER = "made to order"
 _RINGS = ("bearing_inner", "bearing_outer")
 _SEALED = (*_RINGS, "motor_bearing")
 """Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
-_SHEETS = ("spreader", "liner")
-"""Kinds cut from a sheet."""
+_SHEETS = ("spreader", "liner")  # Kinds cut from a sheet
 DIVIDER = "10 kohm, 1 %"
 """Resistor between 3.3 V and a thermistor: that of the NTC at 25 °C. A smaller one would warm a hot bead."""
 _BY_RATING = ("supply", "driver", "controller", "controller_supply", "divider_resistor")
 """Kinds whose type the builder chooses where no offer is known."""
-_BY_MASS = {"pcl_arc": "pcl", "pcl_block": "pcl", "liner": "liner"}
-"""Material that a kind is paid by, by its mass."""
+_BY_MASS = {"pcl_arc": "pcl", "pcl_block": "pcl", "liner": "liner"}  # Material that a kind is paid by, by its mass
 _PRICED_AS = {"spring_right": "spring", "spring_left": "spring", "bearing_inner": "bearing"}
 """Name that a kind has in the name of its price; of a bearing's two rings one stands for both."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
@@ -65,26 +62,17 @@ class Item:
     kind: str
     quantity: int
     made: bool
-    material: str
-    """Record of the catalogue."""
-    title: str
-    """What the catalogue calls it, with the maker's number where there is one."""
-    mass: float
-    """Of one [g]."""
-    papers: tuple[str, ...]
-    """Files it is made or bought from."""
+    material: str  # Record of the catalogue
+    title: str  # What the catalogue calls it, with the maker's number where there is one
+    mass: float  # Of one [g]
+    papers: tuple[str, ...]  # Files it is made or bought from
     solids: tuple[str, ...] = ()
     """Kinds of solid of the assembly that each of them is; none for what is drawn in no file."""
-    fit: str = ""
-    """Tolerance classes of what it sits in and on."""
-    fixture: bool = False
-    """Whether it is made to make the module, and no part of it."""
-    asks: tuple[float, float] = (0.0, 0.0)
-    """Volts and amperes that a supply or a driver must bear."""
-    treatment: str = ""
-    """Treatment of the specimens that gave its material's strength."""
-    cost: float = 0.0
-    """Of one [USD], as the quantity `cost` counts it; zero for what that leaves out."""
+    fit: str = ""  # Tolerance classes of what it sits in and on
+    fixture: bool = False  # Whether it is made to make the module, and no part of it
+    asks: tuple[float, float] = (0.0, 0.0)  # Volts and amperes that a supply or a driver must bear
+    treatment: str = ""  # Treatment of the specimens that gave its material's strength
+    cost: float = 0.0  # Of one [USD], as the quantity `cost` counts it; zero for what that leaves out
 
     @property
     def is_ordered(self) -> bool:

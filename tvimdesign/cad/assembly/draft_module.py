@@ -25,14 +25,10 @@ from tvimdesign.cad.geometry.exact_kernel import Arc, Outline, Point, Segment, p
 from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.geometry.solids import drawn_by
 
-CHORD = 0.2
-"""Largest distance of a polygon from its circle [mm]."""
-_FEWEST, _MOST = 16, 120
-"""Corners of a circle."""
-_LINE = 2
-"""Points of a segment that is a line."""
-_FLAT = 1e-9
-"""Doubled area [mm2] below which three points are on a line."""
+CHORD = 0.2  # Largest distance of a polygon from its circle [mm]
+_FEWEST, _MOST = 16, 120  # Corners of a circle
+_LINE = 2  # Points of a segment that is a line
+_FLAT = 1e-9  # Doubled area [mm2] below which three points are on a line
 Array = NDArray[np.float64]
 
 
@@ -194,10 +190,8 @@ def _turn(first: complex, second: complex) -> float:
     return atan2(across, first.real * second.real + first.imag * second.imag)
 
 
-SHARP = 30.0
-"""Angle between two triangles [degrees] from which their common edge is drawn."""
-AROUND = 8
-"""Points around a spring's wire."""
+SHARP = 30.0  # Angle between two triangles [degrees] from which their common edge is drawn
+AROUND = 8  # Points around a spring's wire
 
 
 @dataclass(frozen=True)
@@ -207,20 +201,16 @@ class DraftMesh:
     points: Array
     normals: Array
     triangles: NDArray[np.int64]
-    edges: Array
-    """Both ends of each sharp edge: x, y, z, x, y, z."""
+    edges: Array  # Both ends of each sharp edge: x, y, z, x, y, z
 
 
 @dataclass(frozen=True)
 class Draft:
     """All parts of a module."""
 
-    meshes: Mapping[str, DraftMesh]
-    """By kind."""
-    places: Mapping[str, Array]
-    """4 x 4 matrix of each part, by name."""
-    lifts: Mapping[str, float]
-    """How far each part is lifted so that the module is seen apart [mm], by name."""
+    meshes: Mapping[str, DraftMesh]  # By kind
+    places: Mapping[str, Array]  # 4 x 4 matrix of each part, by name
+    lifts: Mapping[str, float]  # How far each part is lifted so that the module is seen apart [mm], by name
 
 
 def draft_module(dims: Dimensions) -> Draft:

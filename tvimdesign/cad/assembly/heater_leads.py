@@ -24,18 +24,12 @@ _BEARS = {
 """What stands beside the heater, and the quantity that says what it bears."""
 _ROOM = ("cutout_ground_gap", "cutout_retainer_gap")
 """Quantities that say whether a cut-out has room; negative where it has none."""
-NOT_TO_BE_ORDERED = "Not to be ordered"
-"""In the title of a part if no listed type fits; its place is kept."""
-HOLDING = "for a week at its rated current"
-"""Meaning of a holding temperature, by IEC 60691."""
-_SMALL_FOIL = 2e-4
-"""Area [m^2] below which the note asks whether a foil has room for its leads, assumed."""
-NOMINAL = 10e3
-"""Resistance [ohm] of a thermistor at 25 degC, and of the resistor it divides a voltage with."""
-_DIVIDED = 3.3
-"""Voltage [V] over both."""
-_ACCURACY = 1.0
-"""Error [K] of a thermistor read by its B value, assumed."""
+NOT_TO_BE_ORDERED = "Not to be ordered"  # In the title of a part if no listed type fits; its place is kept
+HOLDING = "for a week at its rated current"  # Meaning of a holding temperature, by IEC 60691
+_SMALL_FOIL = 2e-4  # Area [m^2] below which the note asks whether a foil has room for its leads, assumed
+NOMINAL = 10e3  # Resistance [ohm] of a thermistor at 25 degC, and of the resistor it divides a voltage with
+_DIVIDED = 3.3  # Voltage [V] over both
+_ACCURACY = 1.0  # Error [K] of a thermistor read by its B value, assumed
 _ROUNDING = 1e-6
 
 
@@ -191,15 +185,11 @@ class Thermistor(NamedTuple):
 
     number: str
     maker: str
-    curve: str
-    """Temperatures [degC] between which its material has the constant `beta`, in words."""
-    beta: float
-    """Constant of its material [K]."""
+    curve: str  # Temperatures [degC] between which its material has the constant `beta`, in words
+    beta: float  # Constant of its material [K]
     wires: str
-    temperature: float
-    """The highest that it measures [K]."""
-    bead: Bead | None
-    """The most that its bead measures; None where that is not known."""
+    temperature: float  # The highest that it measures [K]
+    bead: Bead | None  # The most that its bead measures; None where that is not known
 
     def resistance(self, kelvin: float) -> float:
         """Return resistance [ohm] by the law R = R25 exp(B (1/T - 1/T25))."""
@@ -305,10 +295,8 @@ class Wire(NamedTuple):
     """A size of stranded copper wire."""
 
     gauge: str
-    section: float
-    """Of its copper [m2]."""
-    current: float
-    """What it bears in a bundle [A]."""
+    section: float  # Of its copper [m2]
+    current: float  # What it bears in a bundle [A]
 
 
 @cache

@@ -25,8 +25,7 @@ from tvimdesign.study.design import Design
 _WIDTH = 116
 _LONG = 80
 _OPERATORS = {"__add__": "+", "__sub__": "-", "__mul__": "*", "__truediv__": "/", "__pow__": "**"}
-_TRIVIAL = 1e-12
-"""Size that is zero but for rounding."""
+_TRIVIAL = 1e-12  # Size that is zero but for rounding
 
 
 class Named(float):

@@ -21,8 +21,7 @@ from tvimdesign.cad.geometry.features import Cylinder
 _DATA = "iso_286.yaml"
 standard_data = partial(own_data, __file__, _DATA)
 _MICRON = 1e-3
-_HAIR = 1e-5
-"""Length [mm] by which a size may be off the end of a range for rounding."""
+_HAIR = 1e-5  # Length [mm] by which a size may be off the end of a range for rounding
 
 
 class Limits(NamedTuple):
@@ -71,16 +70,11 @@ def _at(row: Sequence[int], size: float) -> int:
 
 requirements_data = partial(own_data, __file__, "drawing_requirements.yaml")
 TAPPED = "tapped"
-_EASED = 3.2
-"""Roughness Ra [µm] of a printed seat that is reamed, or rubbed down with fine paper."""
-_ZONE = 0.05
-"""Step [mm] of zones of position."""
-_SAME = 1e-5
-"""Lengths [mm] that differ by less are one."""
-DATUM = "B"
-"""Letter of the datum; A is the section's."""
-GROUND = "C"
-"""Letter of the lowest face."""
+_EASED = 3.2  # Roughness Ra [µm] of a printed seat that is reamed, or rubbed down with fine paper
+_ZONE = 0.05  # Step [mm] of zones of position
+_SAME = 1e-5  # Lengths [mm] that differ by less are one
+DATUM = "B"  # Letter of the datum; A is the section's
+GROUND = "C"  # Letter of the lowest face
 _POINTS = "Depths of blind holes are without the drill's point, {angle:.0f}°."
 _FEET = "Fillets at the feet of core and pins R{radius}."
 _BEARINGS = "At bearings: run-out of the shoulder; its fillet R 0.1 at most."
@@ -92,27 +86,17 @@ class Seat:
     """A cylinder with a fit; lengths in mm."""
 
     about: str
-    size: float
-    """Diameter that the class is of."""
-    drawn: float
-    """Diameter in the files."""
-    fit: str
-    """Tolerance class; nothing where what is drawn lies outside it."""
+    size: float  # Diameter that the class is of
+    drawn: float  # Diameter in the files
+    fit: str  # Tolerance class; nothing where what is drawn lies outside it
     limits: Limits
-    roughness: float
-    """Ra [µm]."""
-    form: str
-    """What else is asked, in words."""
-    frames: tuple[Frame, ...] = ()
-    """What is asked of its form, its place and of the shoulder beside it."""
-    letter: str = ""
-    """Of the datum its axis is."""
-    mates: str = ""
-    """Kind of the bought part that sits there, if any."""
-    from_axis: float = 0.0
-    """Distance of its own axis from the part's."""
-    concave: bool = True
-    """Whether material is outside, as around a bore."""
+    roughness: float  # Ra [µm]
+    form: str  # What else is asked, in words
+    frames: tuple[Frame, ...] = ()  # What is asked of its form, its place and of the shoulder beside it
+    letter: str = ""  # Of the datum its axis is
+    mates: str = ""  # Kind of the bought part that sits there, if any
+    from_axis: float = 0.0  # Distance of its own axis from the part's
+    concave: bool = True  # Whether material is outside, as around a bore
 
 
 @dataclass(frozen=True)
@@ -120,14 +104,11 @@ class ThreadCallout:
     """Holes for screws; lengths in mm."""
 
     about: str
-    screw: str
-    """Its size, such as M3."""
-    made: str
-    """How it is come by."""
+    screw: str  # Its size, such as M3
+    made: str  # How it is come by
     hole: float
     depth: float
-    length: float
-    """Of the thread, or of the insert."""
+    length: float  # Of the thread, or of the insert
     frames: tuple[Frame, ...] = ()
 
     @property
@@ -145,8 +126,7 @@ class ClearanceHole:
 
     about: str
     diameter: float
-    depth: float
-    """Of the hole; 0 where any hole of its diameter is meant."""
+    depth: float  # Of the hole; 0 where any hole of its diameter is meant
     frames: tuple[Frame, ...] = ()
 
 
@@ -161,8 +141,7 @@ class DrawingRequirements:
     seats: Sequence[Seat] = ()
     threads: Sequence[ThreadCallout] = ()
     clearance_holes: Sequence[ClearanceHole] = ()
-    general: tuple[Frame, ...] = ()
-    """What holds for every face without a tolerance of its own: ISO 22081."""
+    general: tuple[Frame, ...] = ()  # What holds for every face without a tolerance of its own: ISO 22081
     placed: bool = True
     """Whether places from the joint's axis are given: not of what is bought, and put where the assembly's note says."""
 

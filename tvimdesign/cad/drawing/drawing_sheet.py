@@ -31,10 +31,8 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 
 _HUNDREDTH = Decimal("0.01")
-_POINTS = 72.0 / 25.4
-"""In a millimetre."""
-_LISTED = 4
-"""Azimuths that are listed; of more that are evenly apart the ends are listed."""
+_POINTS = 72.0 / 25.4  # In a millimetre
+_LISTED = 4  # Azimuths that are listed; of more that are evenly apart the ends are listed
 
 
 def figure(value: float) -> str:
@@ -75,8 +73,7 @@ def _even(steps: Sequence[float]) -> bool:
 REVISION = "A"
 """Of every sheet: what is drawn again in another shape has another number, and no later revision of this one."""
 _DIGITS = 8
-_RELEASED = "of approval"
-"""A sheet has no date of its own: the same design gives the same bytes on any day."""
+_RELEASED = "of approval"  # A sheet has no date of its own: the same design gives the same bytes on any day
 
 
 def sheet_number(kind: str, contents: Iterable[str]) -> str:
@@ -97,22 +94,17 @@ def issue_fields(signed: str, number: str) -> "list[Field]":
 
 
 Point = tuple[float, float]
-SIZE = (420.0, 297.0)
-"""A3, landscape [mm]."""
-SIZES = {"A3": SIZE, "A2": (594.0, 420.0)}
-"""Sheets by ISO 216, landscape [mm]."""
-_FONT = "DejaVuSans.ttf"
-"""Comes with matplotlib, so that a drawing looks the same on every machine."""
+SIZE = (420.0, 297.0)  # A3, landscape [mm]
+SIZES = {"A3": SIZE, "A2": (594.0, 420.0)}  # Sheets by ISO 216, landscape [mm]
+_FONT = "DejaVuSans.ttf"  # Comes with matplotlib, so that a drawing looks the same on every machine
 _LAYERS = {"OUTLINE": 50, "FINE": 25, "HATCH": 18, "CENTRE": 18, "HIDDEN": 18, "DIMENSION": 25, "TEXT": 25, "FRAME": 50}
 """Line widths by layer, 1/100 mm."""
 _DASHES = {"CENTRE": [6.5, 5.0, -0.6, 0.3, -0.6], "HIDDEN": [2.7, 2.1, -0.6]}
 """Line types by layer, in mm on paper: their whole length, then lines (above zero) and gaps (below). ISO 128-2 has gaps
 of three widths of the line; lines are shortened to what a small part has room for."""
-TITLE_WIDTH, MARGIN = 180.0, 10.0
-"""Of the title block, and around the frame [mm]."""
+TITLE_WIDTH, MARGIN = 180.0, 10.0  # Of the title block, and around the frame [mm]
 TITLE_ROW = 8.0
-_TEXT = 2.5
-"""Height of letters and figures on paper [mm]."""
+_TEXT = 2.5  # Height of letters and figures on paper [mm]
 
 
 @dataclass(frozen=True)
@@ -121,8 +113,7 @@ class Field:
 
     label: str
     text: str
-    share: float = 0.5
-    """Of the block's width."""
+    share: float = 0.5  # Of the block's width
 
 
 class DrawingSheet:

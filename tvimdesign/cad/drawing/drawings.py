@@ -40,8 +40,7 @@ from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.kinds import PRODUCTION
 from tvimdesign.cad.parts import jigs
 
-_PLATE = 1e-6
-"""Largest deviation of a plate's volume from area times thickness, relative."""
+_PLATE = 1e-6  # Largest deviation of a plate's volume from area times thickness, relative
 _BESIDE = ("pocket", "vane", "thread", "hole", "slot")
 """Features that are looked for beside the section's plane, the first before the others.
 

@@ -17,10 +17,8 @@ from tvimdesign.cad.geometry.upright_walls import CORNER, Pair, Sector, Wall, pa
 
 Point = tuple[float, float]
 T = TypeVar("T")
-_BODY = ("flats", "sector")
-"""What a part is as a whole, whose place is that of the part."""
-_SAME = 1e-3
-"""Distance [mm] below which two places are one."""
+_BODY = ("flats", "sector")  # What a part is as a whole, whose place is that of the part
+_SAME = 1e-3  # Distance [mm] below which two places are one
 
 
 @dataclass(frozen=True)
@@ -31,19 +29,14 @@ class FeatureRow:
     size: str
     place: str
     bottom: float
-    top: float
-    """Heights between which it is, over the lowest face [mm]."""
-    asks: str = ""
-    """Fit, thread or who needs it."""
+    top: float  # Heights between which it is, over the lowest face [mm]
+    asks: str = ""  # Fit, thread or who needs it
     frames: tuple[Frame, ...] = ()
-    points: tuple[Point, ...] = ()
-    """Where each can be pointed at in the plan."""
+    points: tuple[Point, ...] = ()  # Where each can be pointed at in the plan
     count: int = 1
-    azimuths: tuple[float, ...] = ()
-    """Where each is cut through its middle by a plane that holds the axis [deg]."""
+    azimuths: tuple[float, ...] = ()  # Where each is cut through its middle by a plane that holds the axis [deg]
     through: bool = False
-    of: tuple[Cylinder | Wall, ...] = ()
-    """The faces that it describes."""
+    of: tuple[Cylinder | Wall, ...] = ()  # The faces that it describes
 
     @property
     def text(self) -> str:

@@ -6,22 +6,17 @@ from dataclasses import dataclass
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 
 Point = tuple[float, float]
-_HIGH = 4.0
-"""Height of a frame [mm]."""
-_LETTER = 1.75
-"""Width that a letter of 2.2 mm takes [mm]."""
+_HIGH = 4.0  # Height of a frame [mm]
+_LETTER = 1.75  # Width that a letter of 2.2 mm takes [mm]
 
 
 @dataclass(frozen=True)
 class Frame:
     """One tolerance: what is asked, within what, against which datums."""
 
-    asks: str
-    """A word of `SYMBOLS`."""
-    within: str
-    """The zone [mm], with its diameter sign or `CZ`."""
-    datums: str = ""
-    """Letters, the first datum first."""
+    asks: str  # A word of `SYMBOLS`
+    within: str  # The zone [mm], with its diameter sign or `CZ`
+    datums: str = ""  # Letters, the first datum first
 
     @property
     def cells(self) -> tuple[str, ...]:

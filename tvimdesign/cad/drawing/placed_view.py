@@ -9,20 +9,17 @@ from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.drawing.projection import Arc, Chain, View
 from tvimdesign.cad.geometry.features import Cylinder
 
-_CLEAR = 4.5
-"""Least distance of the letters and strokes of two sections [mm]: letters are 3.5 high."""
+_CLEAR = 4.5  # Least distance of the letters and strokes of two sections [mm]: letters are 3.5 high
 
 
 @dataclass(frozen=True)
 class CuttingMark:
     """Marks on paper of where a section is taken [mm]."""
 
-    letter: tuple[float, float]
-    """Middle of its letter."""
+    letter: tuple[float, float]  # Middle of its letter
     corners: tuple[tuple[float, float], ...]
     """From the inner end of the thick stroke over the corner to the arrow's tip."""
-    barbs: tuple[tuple[float, float], ...]
-    """Both ends of the arrow's back."""
+    barbs: tuple[tuple[float, float], ...]  # Both ends of the arrow's back
 
     def lies_on(self, other: "CuttingMark") -> bool:
         """Return whether it is so near to another that letters or strokes touch."""

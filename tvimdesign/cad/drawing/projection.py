@@ -19,8 +19,7 @@ from tvimdesign.cad.geometry.features import tight_box
 
 Array = NDArray[np.float64]
 Point = tuple[float, float]
-_CHORD = 0.01
-"""Largest distance [mm] of a chain of lines from the curve it stands for."""
+_CHORD = 0.01  # Largest distance [mm] of a chain of lines from the curve it stands for
 _DIGITS = 5
 _UPRIGHT = 1.0 - 1e-6
 """Least share of a plane's normal along y for a face that may lie in the section; a box of it tells."""
@@ -53,8 +52,7 @@ class View:
     chains: tuple[Chain, ...]
     hidden: tuple[Arc | Chain, ...] = ()
     """What lies behind: arcs as arcs, so that their dashes do not begin anew at every point of a chain."""
-    cut: tuple[tuple[Chain, ...], ...] = ()
-    """Faces in the plane of a section, each its outline and then its holes."""
+    cut: tuple[tuple[Chain, ...], ...] = ()  # Faces in the plane of a section, each its outline and then its holes
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:

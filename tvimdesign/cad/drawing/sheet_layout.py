@@ -18,19 +18,14 @@ from tvimdesign.cad.drawing.iso_1101 import draw_frames
 from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView
 from tvimdesign.cad.drawing.projection import Chain, View
 
-_OVER_TITLE = 65.0
-"""Height on the sheet above which there is room over the title block [mm]."""
-_LINE, _FRAME = 4.6, 5.2
-"""Height of its lines, and of those with tolerance frames [mm]."""
-_OVER = 0.8
-"""What is left free over and below a feature with a second line [mm]."""
+_OVER_TITLE = 65.0  # Height on the sheet above which there is room over the title block [mm]
+_LINE, _FRAME = 4.6, 5.2  # Height of its lines, and of those with tolerance frames [mm]
+_OVER = 0.8  # What is left free over and below a feature with a second line [mm]
 _SMALL, _TEXT = 1.8, 2.3
 _INDENT = 9.0
-_COLUMNS = (0.0, 5.0, 40.0, 59.0, 73.0, 102.0, 112.0)
-"""Where the columns of the seats begin [mm]."""
+_COLUMNS = (0.0, 5.0, 40.0, 59.0, 73.0, 102.0, 112.0)  # Where the columns of the seats begin [mm]
 _SEATS = ("", "Seat", "fit", "limits µm", "limits of size", "Ra µm", "form and place")
-_ABOUT = 42.0
-"""Where the frames of a feature begin, behind what it is for [mm]."""
+_ABOUT = 42.0  # Where the frames of a feature begin, behind what it is for [mm]
 
 
 def table_height(rows: Sequence[FeatureRow], requirements: DrawingRequirements) -> float:
@@ -94,16 +89,12 @@ def with_datum(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
     return marked
 
 
-_SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)
-"""Of ISO 5455."""
-_LARGE = 2.0
-"""Scale from which the smaller sheet will do."""
-FIRST, NEXT = 8.0, 6.5
-"""Height of the first dimension over a section, and of each further one over that [mm]."""
+_SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)  # Of ISO 5455
+_LARGE = 2.0  # Scale from which the smaller sheet will do
+FIRST, NEXT = 8.0, 6.5  # Height of the first dimension over a section, and of each further one over that [mm]
 _LEFT, _LEVELS, _BETWEEN, _BELOW = 24.0, 36.0, 24.0, 18.0
 """Room left of the views, right of a section for its heights, between section and plan, and below the plan [mm]."""
-_NOTES = 44.0
-"""Height that notes take over the tables [mm]."""
+_NOTES = 44.0  # Height that notes take over the tables [mm]
 
 
 @dataclass(frozen=True)
@@ -114,10 +105,8 @@ class Layout:
     scale: float
     plan: tuple[float, float]
     front: tuple[float, float]
-    half: tuple[float, float]
-    """Of the half section beside the front view."""
-    room: tuple[float, float, float, float]
-    """Where numbers may stand around the plan: least and largest x, then y."""
+    half: tuple[float, float]  # Of the half section beside the front view
+    room: tuple[float, float, float, float]  # Where numbers may stand around the plan: least and largest x, then y
 
 
 def layout(plan: View, front: View, half: View | None, diameters: int, table: float) -> Layout:
@@ -163,33 +152,25 @@ def _scale_on(
 
 Point = tuple[float, float]
 Line = tuple[Point, Point]
-_RADIUS = 2.7
-"""Of the circle around a number [mm]."""
+_RADIUS = 2.7  # Of the circle around a number [mm]
 _REACHES = (7.0, 9.0, 12.0, 15.0, 19.0, 24.0, 30.0, 38.0, 48.0, 60.0, 75.0, 95.0)
 """Lengths of leaders that are tried [mm]."""
 _WAYS = 48
-_COVERED = 10.0
-"""Length of a leader [mm] that a number is moved for each point of an outline that it would cover."""
-_STEP = 1.0
-"""Distance of the points of outlines that are looked at [mm]."""
-_FREE = 1.6
-"""Least distance of a number and a leader from what others point at [mm]."""
-_ARROW = 1.4
-"""Least distance of a number's circle from a section's mark [mm], whose arrow is 0.8 wide to either side."""
+_COVERED = 10.0  # Length of a leader [mm] that a number is moved for each point of an outline that it would cover
+_STEP = 1.0  # Distance of the points of outlines that are looked at [mm]
+_FREE = 1.6  # Least distance of a number and a leader from what others point at [mm]
+_ARROW = 1.4  # Least distance of a number's circle from a section's mark [mm], whose arrow is 0.8 wide to either side
 
 
 @dataclass
 class _Placed:
     """Lines and numbers that are on paper already."""
 
-    feet: dict[int, list[Point]]
-    """Where each row can be pointed at."""
-    outlines: cKDTree
-    """Points of the plan's lines."""
+    feet: dict[int, list[Point]]  # Where each row can be pointed at
+    outlines: cKDTree  # Points of the plan's lines
     circles: list[Point] = field(default_factory=list)
     leaders: list[Line] = field(default_factory=list)
-    strokes: list[Line] = field(default_factory=list)
-    """Of the marks where sections are taken."""
+    strokes: list[Line] = field(default_factory=list)  # Of the marks where sections are taken
 
 
 def draw_balloons(

@@ -20,8 +20,7 @@ from tvimdesign.study.design import Design, catalog_of
 _N_MM = 1e3
 _BEND = "coils to tang; under 1.5 d it may crack (Newcomb)"
 _DIN = "DIN 2194 grade 2"
-_REFERENCE = "reference"
-"""Tolerance of what follows from the others, and is not inspected: in brackets on the sheet."""
+_REFERENCE = "reference"  # Tolerance of what follows from the others, and is not inspected: in brackets on the sheet
 _SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2)
 
 

@@ -16,14 +16,11 @@ from OCP.TopLoc import TopLoc_Location
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.spring_solids import Coil
 
-CHORD = 0.05
-"""Largest distance of a mesh from its part [mm]."""
-TURN = 0.15
-"""Largest angle between neighbouring triangles of a curved face [rad]."""
+CHORD = 0.05  # Largest distance of a mesh from its part [mm]
+TURN = 0.15  # Largest angle between neighbouring triangles of a curved face [rad]
 _FINER = (1.0, 2.0, 4.0)
 """Divisors of the chord: the kernel leaves a face out at one chord, seldom, and takes it at a finer one."""
-RING = 24
-"""Points around the wire, as far out as gives their polygon the area of the wire's section."""
+RING = 24  # Points around the wire, as far out as gives their polygon the area of the wire's section
 Array = NDArray[np.float64]
 
 
@@ -34,10 +31,8 @@ class Mesh:
     One is the same as itself alone, so that what was made of it can be found again.
     """
 
-    vertices: Array
-    """Points [mm], one a row."""
-    faces: NDArray[np.int64]
-    """Three vertices a triangle, counter-clockwise seen from outside."""
+    vertices: Array  # Points [mm], one a row
+    faces: NDArray[np.int64]  # Three vertices a triangle, counter-clockwise seen from outside
 
     def mirrored(self) -> "Mesh":
         """Return the mirror image in the plane y = 0."""
@@ -49,8 +44,7 @@ class Instance:
     """One placed part: its mesh and where it stands."""
 
     mesh: Mesh
-    matrix: Array
-    """4 x 4, from the part's coordinates to the module's."""
+    matrix: Array  # 4 x 4, from the part's coordinates to the module's
 
     def points(self) -> Array:
         """Return its vertices where they stand in the module [mm], one a row."""

@@ -30,14 +30,10 @@ from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import holes, tight_box
 from tvimdesign.cad.geometry.kinds import Production
 
-LINE = 0.4
-"""Width of a printed line [mm] of the commonest nozzle, which is as wide."""
-LAYER = 0.2
-"""Height of a layer [mm]; assumed, 0.1 to 0.3: half of a line."""
-GAP = 5.0
-"""Between parts on the bed [mm]; assumed, 3 to 10: supports stand in it."""
-CELL = 2.0
-"""Side of the squares in which a bed is filled [mm]."""
+LINE = 0.4  # Width of a printed line [mm] of the commonest nozzle, which is as wide
+LAYER = 0.2  # Height of a layer [mm]; assumed, 0.1 to 0.3: half of a line
+GAP = 5.0  # Between parts on the bed [mm]; assumed, 3 to 10: supports stand in it
+CELL = 2.0  # Side of the squares in which a bed is filled [mm]
 _MARGIN = 0.5 * GAP + CELL / sqrt(2.0)
 """How far from a part the middle of a square may lie that has something of half of the gap around it [mm]."""
 SLICER_CONFIG = "Metadata/Slic3r_PE.config"
@@ -152,13 +148,11 @@ def slicer_config(dims: Dimensions, density: float, temperatures: Mapping[str, s
 _DIGITS = (6, 5, 7)
 """Decimals of a millimetre to which a mesh's vertices are merged. A coordinate can lie where one rounding splits it
 from its neighbour of the next face; not where three do."""
-_SAME = 1e-4
-"""Axes [mm] that are nearer than that are one."""
+_SAME = 1e-4  # Axes [mm] that are nearer than that are one
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 _RELATIONS = "http://schemas.openxmlformats.org/package/2006/relationships"
 _TYPES = "http://schemas.openxmlformats.org/package/2006/content-types"
-_EPOCH = (1980, 1, 1, 0, 0, 0)
-"""The time of every entry of a 3MF archive, so that the same part gives the same file."""
+_EPOCH = (1980, 1, 1, 0, 0, 0)  # The time of every entry of a 3MF archive, so that the same part gives the same file
 
 
 def with_wider_holes(solid: cq.Solid, compensation: float, reamed: Sequence[tuple[float, float]] = ()) -> cq.Solid:

@@ -91,8 +91,7 @@ def _context(block: str) -> int:
     return int(match[1]) if match else 0
 
 
-_TIME = "2000-01-01T00:00:00"
-"""The time in the header, so that the same design gives the same file."""
+_TIME = "2000-01-01T00:00:00"  # The time in the header, so that the same design gives the same file
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,8 +101,7 @@ class Product:
     name: str
     colour: Rgb
     material: str
-    density: float
-    """kg/m^3."""
+    density: float  # kg/m^3
 
 
 def product(design: Design, kind: str) -> Product:

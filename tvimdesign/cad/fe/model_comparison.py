@@ -20,8 +20,7 @@ from tvimdesign.physics.motions.contacts import tightened_force
 from tvimdesign.physics.solids import fasteners, plates, structure, wedge
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
-DRAWN = {"leg_model": "bending", "transmission": "geometry"}
-"""Idealizations that the drawn parts do not have."""
+DRAWN = {"leg_model": "bending", "transmission": "geometry"}  # Idealizations that the drawn parts do not have
 SOLVERS = ("joint", "spring", "screws", "link")
 
 
@@ -34,8 +33,7 @@ class Compared:
     meaning: str
     model: float
     fe: float
-    coarse: float
-    """By FE on the coarser mesh."""
+    coarse: float  # By FE on the coarser mesh
 
     @property
     def ratio(self) -> float:
@@ -221,12 +219,9 @@ _MPA = 1e-6
 class Carried(NamedTuple):
     """Loads that screws and pins carry."""
 
-    across: float
-    """Force across the screw of the foot that takes most [N]."""
-    along: float
-    """Force along it [N]."""
-    slip: float
-    """Torque that friction under the link screws holds [N*m]."""
+    across: float  # Force across the screw of the foot that takes most [N]
+    along: float  # Force along it [N]
+    slip: float  # Torque that friction under the link screws holds [N*m]
 
 
 class _Tightened(NamedTuple):

@@ -13,10 +13,8 @@ from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
 from tvimdesign.study.design import Design
 
 SOLVERS = Path(__file__).with_name("solvers")
-COARSER = 1.6
-"""How much larger the elements of the second mesh are, by which the first is judged."""
-PROCESSOR_LIMIT = 1800.0
-"""Processor time [s] after which a solver is stopped: ten times that of the slowest."""
+COARSER = 1.6  # How much larger the elements of the second mesh are, by which the first is judged
+PROCESSOR_LIMIT = 1800.0  # Processor time [s] after which a solver is stopped: ten times that of the slowest
 _TO_IMPORT = 120.0  # s of processor time
 AT_ONCE = 2
 
@@ -25,12 +23,9 @@ AT_ONCE = 2
 class Solved:
     """Results of a solver for some parts."""
 
-    fine: dict[str, float]
-    """By the names in its file; stiffness in N*m/rad, stress in MPa at one newton metre."""
-    coarse: dict[str, float]
-    """The same on the coarser mesh."""
-    field: Path
-    """Surface and its stress: `points`, `triangles`, `values`, `ways`."""
+    fine: dict[str, float]  # By the names in its file; stiffness in N*m/rad, stress in MPa at one newton metre
+    coarse: dict[str, float]  # The same on the coarser mesh
+    field: Path  # Surface and its stress: `points`, `triangles`, `values`, `ways`
 
 
 def require_fe(python: str) -> None:

@@ -12,13 +12,11 @@ _SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
 """From SI to what CAD uses, by the unit a row is written in; rows in other units are no dimensions."""
 
 
-HOLES = "_hole_circles"
-"""End of the name of a row that lists all round holes of a part, to be drawn as they are."""
+HOLES = "_hole_circles"  # End of the name of a row that lists all round holes of a part, to be drawn as they are
 _OF_A_CIRCLE = {"count": 1.0, "radius": 1e3, "circle_radius": 1e3, "azimuth": 1.0}
 """What such a row says of each circle of holes (a `HoleCircle`), and its scale from SI."""
 
-_MOST = 64
-"""Parts of one kind beyond which a design is a mistake."""
+_MOST = 64  # Parts of one kind beyond which a design is a mistake
 
 
 class Dimensions:

@@ -12,12 +12,10 @@ from OCP.StdFail import StdFail_NotDone
 from tvimdesign.base.errors import GeometryError
 
 Point = tuple[float, float]
-Segment = tuple[Point, Point] | tuple[Point, Point, Point]
-"""A line from point to point, or an arc through three."""
+Segment = tuple[Point, Point] | tuple[Point, Point, Point]  # A line from point to point, or an arc through three
 Arc = tuple[Sequence[float], Sequence[float], Sequence[float], float]
 """An arc in space: its start, a point on the axis that it turns about, that axis, and the angle [rad]."""
-Outline = float | Sequence[Segment]
-"""A circle about the axis by its radius, or segments that close."""
+Outline = float | Sequence[Segment]  # A circle about the axis by its radius, or segments that close
 
 
 class Kernel(Protocol):
@@ -53,10 +51,8 @@ def placement(location: cq.Location) -> NDArray[np.float64]:
 
 
 _UP = cq.Vector(0, 0, 1)
-_UPRIGHT = 0.999
-"""Least upward part of the direction of an edge that counts as upright."""
-_LINE = 2
-"""Points of a segment that is a line."""
+_UPRIGHT = 0.999  # Least upward part of the direction of an edge that counts as upright
+_LINE = 2  # Points of a segment that is a line
 
 
 class ExactKernel:

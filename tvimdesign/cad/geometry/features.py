@@ -57,8 +57,7 @@ def _is_saddle(face: cq.Face) -> bool:
     return bool(ring and 0.5 * pi <= surface.FirstVParameter() <= surface.LastVParameter() <= 1.5 * pi)
 
 
-_DIGITS = 6
-"""Decimals of a millimetre to which two faces are of one cylinder."""
+_DIGITS = 6  # Decimals of a millimetre to which two faces are of one cylinder
 _SHRUNK = 0.999
 _ROUND = 2.0 * pi - 1e-6
 _UPRIGHT = 1e-9
@@ -75,12 +74,9 @@ class Cylinder:
     y: float
     bottom: float
     top: float
-    concave: bool
-    """Whether material is outside: a hole or a bore, not a pin."""
-    span: float
-    """How much of the circle there is [rad]."""
-    middle: float
-    """Azimuth of the middle of what there is, seen from its own axis [rad]."""
+    concave: bool  # Whether material is outside: a hole or a bore, not a pin
+    span: float  # How much of the circle there is [rad]
+    middle: float  # Azimuth of the middle of what there is, seen from its own axis [rad]
 
     @property
     def is_round(self) -> bool:
@@ -150,10 +146,8 @@ class _Face:
 
     shape: TopoDS_Shape
     low: tuple[float, float, float]
-    high: tuple[float, float, float]
-    """Corners of a box around it."""
-    upright: tuple[float, float, float] | None
-    """Of an upright cylinder: its axis and radius."""
+    high: tuple[float, float, float]  # Corners of a box around it
+    upright: tuple[float, float, float] | None  # Of an upright cylinder: its axis and radius
     plane: tuple[float, float, float] | None
     """Of an upright plane: its normal, and how far it is from the origin along that."""
 

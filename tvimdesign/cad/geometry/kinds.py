@@ -12,18 +12,13 @@ Rgb = tuple[float, float, float]
 class Kind:
     """A kind of part."""
 
-    colour: Rgb
-    """sRGB, 0 to 1."""
-    material: str
-    """The row of its material."""
-    density: str
-    """The row of its density."""
-    volume: str
-    """The row of the volume of all of its kind, or of one spring."""
+    colour: Rgb  # sRGB, 0 to 1
+    material: str  # The row of its material
+    density: str  # The row of its density
+    volume: str  # The row of the volume of all of its kind, or of one spring
 
 
-STRUCTURE = "structure_material"
-"""The row of the material that the module's process makes parts of."""
+STRUCTURE = "structure_material"  # The row of the material that the module's process makes parts of
 _STRUCTURE = (STRUCTURE, "structure_density")
 
 
@@ -75,8 +70,7 @@ TURNING = (
     "link_dowel", "liner",
 )  # fmt: skip
 """The kinds that turn together."""
-MADE_TURNING = TURNING[:3]
-"""Those that a module has one of, drawn where it stands."""
+MADE_TURNING = TURNING[:3]  # Those that a module has one of, drawn where it stands
 SPRINGS = ("spring_right", "spring_left")
 CHANGING = (*SPRINGS, "pcl_block")
 """The kinds that change their shape as the rotor turns: each is compared with all that stands and turns."""
@@ -98,10 +92,8 @@ class Production:
 
     down: Literal["bottom", "top", "bought"]
     """The side that lies on the print bed, as the part stands in the module; `bought` is not printed at all."""
-    why: str
-    """Why that side, or where it is bought."""
-    drawn: bool = False
-    """True if a workshop, or whoever cuts bought stock, gets a drawing of it."""
+    why: str  # Why that side, or where it is bought
+    drawn: bool = False  # True if a workshop, or whoever cuts bought stock, gets a drawing of it
 
 
 PRODUCTION = {

@@ -21,17 +21,13 @@ class Coil:
     """A right-hand torsion spring: straight leg, coils, quarter bend, straight tang. Lengths in mm."""
 
     wire_diameter: float
-    diameter: float
-    """Mean coil diameter."""
+    diameter: float  # Mean coil diameter
     turns: float
     pitch: float
-    leg_length: float
-    """In plan view; the leg keeps rising as the coils do."""
+    leg_length: float  # In plan view; the leg keeps rising as the coils do
     tang_length: float
-    bend_radius: float
-    """Of the wire's centre, between coils and tang."""
-    leg_azimuth: float
-    """Direction of the leg in plan view [rad]."""
+    bend_radius: float  # Of the wire's centre, between coils and tang
+    leg_azimuth: float  # Direction of the leg in plan view [rad]
 
     @property
     def rise(self) -> float:

@@ -11,10 +11,8 @@ import cadquery as cq
 
 from tvimdesign.cad.geometry.features import Cylinder
 
-_DIGITS = 7
-"""Decimals of a millimetre and of a radian to which two walls are alike."""
-_SAME = 1e-3
-"""Distance [mm] below which two places are one."""
+_DIGITS = 7  # Decimals of a millimetre and of a radian to which two walls are alike
+_SAME = 1e-3  # Distance [mm] below which two places are one
 
 
 @dataclass(frozen=True, order=True)
@@ -23,13 +21,10 @@ class Wall:
 
     bottom: float
     top: float
-    outwards: float
-    """Azimuth of its normal, out of the material."""
-    offset: float
-    """Distance of its plane from the axis, along the normal."""
+    outwards: float  # Azimuth of its normal, out of the material
+    offset: float  # Distance of its plane from the axis, along the normal
     start: float
-    end: float
-    """Where it begins and ends along the horizontal line in its plane, the normal turned by +90 degrees."""
+    end: float  # Where it begins and ends along the horizontal line in its plane, the normal turned by +90 degrees
 
     @property
     def middle(self) -> tuple[float, float]:
@@ -82,8 +77,7 @@ class Pair:
     """Two parallel walls with nothing between them, or with nothing but material."""
 
     walls: tuple[Wall, Wall]
-    is_slot: bool
-    """Whether the walls face each other; else they are the sides of a rib, a key or a flat."""
+    is_slot: bool  # Whether the walls face each other; else they are the sides of a rib, a key or a flat
 
     @property
     def width(self) -> float:
@@ -140,8 +134,7 @@ def _pair(wall: Wall, other: Wall) -> Pair | None:
     return Pair((wall, other), is_slot=away < 0.0)
 
 
-CORNER = 2.0
-"""Radius [mm] up to which an arc is the corner of a pocket, whose place its walls say."""
+CORNER = 2.0  # Radius [mm] up to which an arc is the corner of a pocket, whose place its walls say
 
 
 @dataclass(frozen=True)
@@ -151,10 +144,8 @@ class Sector:
     ends: tuple[Wall, Wall]
     arcs: tuple[Cylinder, ...]
     is_pocket: bool
-    first: float
-    """Azimuth of the end wall at which it begins."""
-    span: float
-    """Between its end walls."""
+    first: float  # Azimuth of the end wall at which it begins
+    span: float  # Between its end walls
 
     @property
     def middle(self) -> float:

@@ -30,8 +30,7 @@ from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
 
 _JIG = "casting_jig"
-_NEEDLE = 0.05
-"""Radius of the upright needle by which the gap between mould and lid is measured [mm]."""
+_NEEDLE = 0.05  # Radius of the upright needle by which the gap between mould and lid is measured [mm]
 _EXACT = 1e-6
 
 
@@ -122,8 +121,7 @@ def spring_reach(coil: Coil) -> float:
 
 _IN = {"heater": "housing", "spreader": "housing", "liner": "rotor"}
 """Parts that lie in a pocket, and the part that has it."""
-_ROUNDING = 1e-3
-"""By which a measured gap may be short [mm]: a twentieth of the least clearance of any process."""
+_ROUNDING = 1e-3  # By which a measured gap may be short [mm]: a twentieth of the least clearance of any process
 
 
 def fit_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
@@ -145,8 +143,7 @@ _WIRES = {
     "thermistor": ("heater", "spreader", "pcl_arc", "pcl_block"),
 }
 """Bought parts with wires, drawn with these, and what they touch on purpose."""
-_INSULATED = 0.1
-"""Least gap between a wire and what it must not touch [mm]: a film of insulation."""
+_INSULATED = 0.1  # Least gap between a wire and what it must not touch [mm]: a film of insulation
 
 
 def bought_checks(placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:

@@ -16,19 +16,15 @@ from tvimdesign.cad.export.mesh import CHORD, Array
 from tvimdesign.cad.geometry.features import Cylinder, upright_cylinders
 from tvimdesign.cad.inspection.rays import Samples, Triangles, across, samples
 
-_BESIDE = 0.01
-"""How far beside an edge it is looked whether there is material [mm]."""
-_SMOOTH = 0.02
-"""Sine of the angle between two faces up to which they pass into one another."""
-_WIDEST = 12.0
-"""A concave face of a larger radius [mm] is a wall, not the round corner of a pocket."""
+_BESIDE = 0.01  # How far beside an edge it is looked whether there is material [mm]
+_SMOOTH = 0.02  # Sine of the angle between two faces up to which they pass into one another
+_WIDEST = 12.0  # A concave face of a larger radius [mm] is a wall, not the round corner of a pocket
 
 
 class Corner(NamedTuple):
     """An upright corner a tool has to reach into."""
 
-    radius: float
-    """Zero where it is sharp [mm]."""
+    radius: float  # Zero where it is sharp [mm]
     depth: float
     place: Array
 
@@ -110,20 +106,15 @@ def _edges_with_faces(solid: cq.Solid) -> Iterator[tuple[cq.Edge, list[cq.Face]]
     yield from faces.items()
 
 
-SPACING = 2.5
-"""Between samples of the surface [mm]."""
-_OFF = 2.0 * CHORD
-"""How far from the surface a ray towards the tool starts [mm]."""
+SPACING = 2.5  # Between samples of the surface [mm]
+_OFF = 2.0 * CHORD  # How far from the surface a ray towards the tool starts [mm]
 _STEEPEST = -0.3
 """A face may look away from the tool by this sine: triangles of a low curved face do. What is truly under cut hides
 from the ray."""
 _FLAT = 0.99
-_NOTHING = 1.0
-"""Hidden area [mm^2] that is no more than what the mesh leaves open at edges."""
-_ABOVE = 2.0 * CHORD
-"""How far above a floor its walls are looked for [mm]."""
-_FLOORS = 800
-"""Samples of floors, from above and from below, at which the way across is measured."""
+_NOTHING = 1.0  # Hidden area [mm^2] that is no more than what the mesh leaves open at edges
+_ABOVE = 2.0 * CHORD  # How far above a floor its walls are looked for [mm]
+_FLOORS = 800  # Samples of floors, from above and from below, at which the way across is measured
 SIDES = {
     "+z": np.array([0.0, 0.0, 1.0]), "-z": np.array([0.0, 0.0, -1.0]), "+x": np.array([1.0, 0.0, 0.0]),
     "-x": np.array([-1.0, 0.0, 0.0]), "+y": np.array([0.0, 1.0, 0.0]), "-y": np.array([0.0, -1.0, 0.0]),
@@ -135,8 +126,7 @@ _FREE = 2
 class Narrow(NamedTuple):
     """The worst of the ways down to a floor."""
 
-    ratio: float
-    """Depth over width."""
+    ratio: float  # Depth over width
     width: float
     depth: float
     place: Array

@@ -13,18 +13,14 @@ from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.inspection.rays import Triangles, samples
 from tvimdesign.cad.parts.common_parts import mounts
 
-SPACING = 2.0
-"""Between samples of a part that is put in its place [mm]."""
+SPACING = 2.0  # Between samples of a part that is put in its place [mm]
 _SKIN = 0.12
 """How far under a part's surface a sample lies [mm]: more than the meshes of two parts that touch are off together."""
-_STEEPEST = -0.1
-"""A face whose normal has at least this much of the way in is one the part goes in with."""
+_STEEPEST = -0.1  # A face whose normal has at least this much of the way in is one the part goes in with
 _WAY = {"above": np.array([0.0, 0.0, 1.0]), "below": np.array([0.0, 0.0, -1.0])}
 """Back out, by the side a part comes from."""
-_FLEXIBLE = ("heater_lead",)
-"""Wires, which are bent on their way in."""
-TOOL_LENGTH = 60.0
-"""Free length of a hexagon key's long leg [mm]; assumed: 50 to 100 mm."""
+_FLEXIBLE = ("heater_lead",)  # Wires, which are bent on their way in
+TOOL_LENGTH = 60.0  # Free length of a hexagon key's long leg [mm]; assumed: 50 to 100 mm
 _TOOL_RAYS = 24
 
 

@@ -12,31 +12,24 @@ from tvimdesign.cad.cad_report import SolidCheck, at_least, finding
 from tvimdesign.cad.export.mesh import Array, Mesh
 from tvimdesign.cad.inspection.rays import Index, Triangles, across, samples
 
-SPACING = 2.0
-"""Between samples of a face that overhangs [mm]; of a large one, further, so that there are about `_MANY`."""
+SPACING = 2.0  # Between samples of a face that overhangs [mm]; of a large one, further, so that there are about `_MANY`
 _MANY = 100
-_ON_BED = 0.05
-"""How far above the bed a face still lies on it [mm]."""
-_BELOW = 0.1
-"""How far below a ceiling its walls are looked for [mm]."""
+_ON_BED = 0.05  # How far above the bed a face still lies on it [mm]
+_BELOW = 0.1  # How far below a ceiling its walls are looked for [mm]
 _LEVEL = 0.999
-_EDGES = 8
-"""Ways are looked for along so many of a ceiling's edges, the longest."""
-_NOTHING = 1.0
-"""Overhanging area [mm^2] that needs no word."""
+_EDGES = 8  # Ways are looked for along so many of a ceiling's edges, the longest
+_NOTHING = 1.0  # Overhanging area [mm^2] that needs no word
 _TURNED_OVER = np.array([1.0, -1.0, -1.0])
 
 
 class Overhang(NamedTuple):
     """One connected face, or several, that lean further than the process lets them."""
 
-    area: float
-    """[mm^2]."""
+    area: float  # [mm^2]
     span: float
     """Longest of the shortest ways between walls across it [mm]; infinite where it ends in the air, or leans."""
     middle: Array
-    levels: tuple[float, float]
-    """Between which it lies [mm]."""
+    levels: tuple[float, float]  # Between which it lies [mm]
 
 
 def lying(mesh: Mesh, down: str) -> Mesh:

@@ -16,26 +16,19 @@ from tvimdesign.cad.cad_report import Level, SolidCheck, at_least, finding
 from tvimdesign.cad.export.mesh import CHORD, Array, Mesh
 
 Index = NDArray[np.int64]
-LEAF = 4
-"""Triangles in a box that is not divided further."""
-ROOM = 1e-7
-"""What boxes and triangles are larger than they are [mm], so that no ray slips through between two."""
-_BEHIND = 1e-3
-"""How far behind the nearest triangle so far a box must begin to be left out [mm]."""
-_DEEPEST = 64
-"""Boxes that wait at once, at most: one for each level of the tree, and one."""
-_FLAT = 1e-12
-"""A ray and a triangle whose determinant is not above this are parallel."""
+LEAF = 4  # Triangles in a box that is not divided further
+ROOM = 1e-7  # What boxes and triangles are larger than they are [mm], so that no ray slips through between two
+_BEHIND = 1e-3  # How far behind the nearest triangle so far a box must begin to be left out [mm]
+_DEEPEST = 64  # Boxes that wait at once, at most: one for each level of the tree, and one
+_FLAT = 1e-12  # A ray and a triangle whose determinant is not above this are parallel
 
 
 @dataclass(frozen=True)
 class Hits:
     """The first triangle each ray meets."""
 
-    distance: Array
-    """From where the ray starts [mm]; infinite where it meets nothing."""
-    triangle: Index
-    """-1 where it meets nothing."""
+    distance: Array  # From where the ray starts [mm]; infinite where it meets nothing
+    triangle: Index  # -1 where it meets nothing
 
     @property
     def missed(self) -> NDArray[np.bool_]:
@@ -169,8 +162,7 @@ def _tree(corners: Array) -> tuple[Index, Array]:
     return placed, np.ascontiguousarray(np.concatenate(boxes[: depth + 1]))
 
 
-_DIRECTIONS = 8
-"""In half a turn; a straight gap is measured at most 2 % too wide."""
+_DIRECTIONS = 8  # In half a turn; a straight gap is measured at most 2 % too wide
 _OPPOSED = -0.1
 """Two walls are on both sides where they look at each other, however askew; those of a square corner do not."""
 
@@ -199,11 +191,9 @@ class Samples:
     """Points on a part's surface."""
 
     point: Array
-    normal: Array
-    """Out of the part."""
+    normal: Array  # Out of the part
     triangle: Index
-    area: Array
-    """Area of the surface that each stands for [mm^2]."""
+    area: Array  # Area of the surface that each stands for [mm^2]
 
     def of(self, wanted: NDArray[np.bool_] | Index) -> "Samples":
         """Return some of them."""
@@ -253,14 +243,10 @@ def _weights(rows: int, columns: int) -> tuple[Array, Array]:
     return np.concatenate(weights), np.concatenate(shares)
 
 
-SPACING = 2.0
-"""Between samples of the whole surface [mm]."""
-_CLOSER = 4
-"""How much closer the samples lie around thin walls."""
-_NEIGHBOURS = 1.5
-"""Samples no further apart than so many of their spacings are neighbours."""
-_AROUND = 40
-"""Samples with the thinnest walls whose triangles are sampled closer in any case."""
+SPACING = 2.0  # Between samples of the whole surface [mm]
+_CLOSER = 4  # How much closer the samples lie around thin walls
+_NEIGHBOURS = 1.5  # Samples no further apart than so many of their spacings are neighbours
+_AROUND = 40  # Samples with the thinnest walls whose triangles are sampled closer in any case
 _FACING = -sqrt(0.5)
 """A ray that comes out at an edge has measured no wall: both faces must look away from each other, within 45 deg.
 

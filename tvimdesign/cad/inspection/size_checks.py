@@ -28,8 +28,7 @@ from tvimdesign.device.components.hard_stops import STOPS
 from tvimdesign.device.core.spring_as_drawn import pin_distance
 from tvimdesign.study.design import Design
 
-ROOM = 3.0 * CHORD
-"""Between the meshes of parts that are apart [mm]; each mesh is within CHORD of its part."""
+ROOM = 3.0 * CHORD  # Between the meshes of parts that are apart [mm]; each mesh is within CHORD of its part
 
 
 class PlacedBodies:
@@ -81,14 +80,12 @@ ROUGHER = {"spring_right_volume": 1e-4, "spring_left_volume": 1e-4, "motor_hub_i
 is wound to four times that. The inertias of a motor's hub and of the housing that it turns have the rounded corners,
 the housing also its holes, at one radius in the model: up to 6e-5 and 2e-3 over random designs."""
 ENVELOPE_TOLERANCE = 1e-6
-TOUCHING = 0.01
-"""Common volume [mm^3] up to which two parts touch rather than cut each other."""
+TOUCHING = 0.01  # Common volume [mm^3] up to which two parts touch rather than cut each other
 _MM3, _MM5 = 1e-9, 1e-15
 Place = tuple[float, float, float]
 
 
-POSITIONS = (0.0, -1.0, -0.5, 0.5, 1.0)
-"""Of the rotor at which parts are compared, as shares of its way to a stop."""
+POSITIONS = (0.0, -1.0, -0.5, 0.5, 1.0)  # Of the rotor at which parts are compared, as shares of its way to a stop
 
 
 def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> list[SolidCheck]:
@@ -161,10 +158,8 @@ def bearing_checks(dims: Dimensions) -> Iterator[SolidCheck]:
         yield SolidCheck(f"leg beyond pin at {angle:+.4f} rad", beyond, 0.0, beyond > 0.0, text)
 
 
-BEYOND = 1e-3
-"""Angle [rad] beyond a stop at which the drawn rotor is compared with it."""
-STOP_TOLERANCE = 1e-3
-"""How far the volume that rotor and posts share there may be from that of flat faces, relative."""
+BEYOND = 1e-3  # Angle [rad] beyond a stop at which the drawn rotor is compared with it
+STOP_TOLERANCE = 1e-3  # How far the volume that rotor and posts share there may be from that of flat faces, relative
 
 
 def stop_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:

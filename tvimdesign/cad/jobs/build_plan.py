@@ -52,11 +52,9 @@ from tvimdesign.cad.parts import jigs
 from tvimdesign.cad.parts.common_parts import link_dowels
 from tvimdesign.study.design import Design
 
-PICTURES = "pictures"
-"""The work without which a module can still be made: a machine may not be able to render."""
+PICTURES = "pictures"  # The work without which a module can still be made: a machine may not be able to render
 _SOLID, _MESH, _PRINTED = "solid.bin", "mesh.npz", "printed.npz"
-_READ_BACK = 1e-6
-"""How far a part may be from what its STEP file says, relative; centroids in mm."""
+_READ_BACK = 1e-6  # How far a part may be from what its STEP file says, relative; centroids in mm
 
 
 def build_plan(dims: Dimensions) -> list[Work]:

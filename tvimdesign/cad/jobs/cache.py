@@ -91,10 +91,8 @@ class TrackedDesign:
         )
 
 
-_MOST = 16
-"""Results of one piece of work that are kept; the one not used for the longest goes first."""
-_HALF_MADE = 3600.0
-"""Seconds after which a result that is not finished never will be."""
+_MOST = 16  # Results of one piece of work that are kept; the one not used for the longest goes first
+_HALF_MADE = 3600.0  # Seconds after which a result that is not finished never will be
 _TRACE = "trace.json"
 _LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "manifold3d", "matplotlib", "numba", "numpy", "trimesh", "vtk")
 
@@ -104,8 +102,7 @@ class Result:
     """Result of a piece of work."""
 
     folder: Path
-    files: Mapping[str, str]
-    """Hash of each file under `folder`."""
+    files: Mapping[str, str]  # Hash of each file under `folder`
     checks: tuple[SolidCheck, ...]
 
     @property

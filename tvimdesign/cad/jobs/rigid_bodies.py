@@ -26,11 +26,9 @@ if TYPE_CHECKING:
     from tvimdesign.cad.export.mesh import Mesh
     from tvimdesign.cad.geometry.dimensions import Dimensions
 
-BODIES = "bodies.json"
-"""Mass properties of both bodies, in SI."""
+BODIES = "bodies.json"  # Mass properties of both bodies, in SI
 MESHES = "meshes"
-BASE, MOVING = "base", "moving"
-"""What stands with the housing, and what turns with the rotor."""
+BASE, MOVING = "base", "moving"  # What stands with the housing, and what turns with the rotor
 
 
 def run(design_path: Path, out: Path, _part_limit: float, send: Callable[..., None]) -> None:
@@ -82,10 +80,8 @@ _MM, _MM3, _MM5 = 1e-3, 1e-9, 1e-15
 class MassProperties:
     """Mass properties of a rigid body in the module's coordinates."""
 
-    mass: float
-    """[kg]."""
-    centre: Array
-    """Centre of mass [m]."""
+    mass: float  # [kg]
+    centre: Array  # Centre of mass [m]
     inertia: Array
     """Tensor of inertia about the centre of mass [kg*m^2], 3 x 3; off the diagonal it is -integral of x y dm."""
 
@@ -122,12 +118,9 @@ def together(bodies: Iterable[MassProperties]) -> MassProperties:
     return MassProperties(mass, centre, inertia)
 
 
-CHORD = 0.2
-"""Largest distance of a mesh from its part [mm]."""
-TURN = 0.5
-"""Largest angle between neighbouring triangles of a curved face [rad]."""
-AROUND = 6
-"""Points around a spring's wire."""
+CHORD = 0.2  # Largest distance of a mesh from its part [mm]
+TURN = 0.5  # Largest angle between neighbouring triangles of a curved face [rad]
+AROUND = 6  # Points around a spring's wire
 
 
 def coarse_meshes(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> dict[str, Mesh]:

@@ -36,12 +36,9 @@ class Job:
 
     design: Design
     dims: Dimensions
-    titles: Mapping[str, str]
-    """What the catalogue calls the chosen records, by row."""
-    needs: Mapping[str, Path]
-    """Folder `kept/` of each piece of work that this one needs."""
-    folder: Path
-    """Where to write: files for the user under `out/`, what other pieces of work need under `kept/`."""
+    titles: Mapping[str, str]  # What the catalogue calls the chosen records, by row
+    needs: Mapping[str, Path]  # Folder `kept/` of each piece of work that this one needs
+    folder: Path  # Where to write: files for the user under `out/`, what other pieces of work need under `kept/`
     progress: Progress
 
 
@@ -51,8 +48,7 @@ class Turn(IntEnum):
     FIRST = 0
     SECOND = 1
     USUAL = 2
-    LATE = 3
-    """No other work waits for it, but print beds."""
+    LATE = 3  # No other work waits for it, but print beds
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,14 +56,11 @@ class Work:
     """One piece of work: a part with its files, the assembly, a set of checks, the pictures."""
 
     name: str
-    do: Callable[[Job], list[SolidCheck]]
-    """Writes its files; returns the checks it made. Raises GeometryError."""
+    do: Callable[[Job], list[SolidCheck]]  # Writes its files; returns the checks it made. Raises GeometryError.
     needs: tuple[str, ...] = ()
-    named: bool = False
-    """Whether the design's name is written into its files."""
+    named: bool = False  # Whether the design's name is written into its files
     turn: Turn = Turn.USUAL
-    words: str = ""
-    """Short description for people; without one the name."""
+    words: str = ""  # Short description for people; without one the name
 
 
 @dataclass
@@ -77,8 +70,7 @@ class Done:
     results: dict[str, Result] = field(default_factory=dict)
     failed: dict[str, str] = field(default_factory=dict)
     """Why, for each piece of work that came to nothing; it names the work."""
-    lost: list[str] = field(default_factory=list)
-    """Work that was not started because what it needs failed."""
+    lost: list[str] = field(default_factory=list)  # Work that was not started because what it needs failed
     reused: list[str] = field(default_factory=list)
 
 
@@ -99,8 +91,7 @@ class _Task:
     folder: Path
     watch: ProcessorLimit
     step: str
-    stopped: str = ""
-    """Which limit it exceeded."""
+    stopped: str = ""  # Which limit it exceeded
     reported: dict[str, Any] | None = None
 
 

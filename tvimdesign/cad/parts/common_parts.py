@@ -94,8 +94,7 @@ def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
     return [], [*pockets, *screws, *marks]
 
 
-_MARK = pi / 3.0
-"""Azimuth about an adjuster's axis [rad], from outwards, at which the floor has the mark of its scale."""
+_MARK = pi / 3.0  # Azimuth about an adjuster's axis [rad], from outwards, at which the floor has the mark of its scale
 
 
 def scale_dot(dims: Dimensions, at: tuple[float, float]) -> list[cq.Shape]:

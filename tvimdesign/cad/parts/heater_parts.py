@@ -11,8 +11,7 @@ import cadquery as cq
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import block, cylinder, join, polar, rounded, sector, tube, turned, wedge
 
-_SIDES = (1.0, -1.0)
-"""Of a vane's faces."""
+_SIDES = (1.0, -1.0)  # Of a vane's faces
 
 
 def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:

@@ -18,14 +18,11 @@ from tvimdesign.device.components.hard_stops import STOPS
 
 LAND = 2.0
 """Width of the dam around the part [mm]; assumed, 1 to 4: the lid lies on it, and what runs over it breaks off."""
-PLATE = 3.0
-"""Thickness of mould and lid [mm]; assumed, 2 to 10: they are pressed flat between two boards."""
+PLATE = 3.0  # Thickness of mould and lid [mm]; assumed, 2 to 10: they are pressed flat between two boards
 PINS = (1.5, 2.5)
 """Radii of the two guide pins [mm], before and behind the part; assumed, 1 to 4: unlike, so the lid lies one way."""
-WALL = 2.0
-"""Least way from dam to pin, and from pin to edge [mm]; assumed, 1 to 4."""
-CAST_AT = 80.0
-"""Temperature of mould and lid while the PCL is cast [degC]; it melts at about 60."""
+WALL = 2.0  # Least way from dam to pin, and from pin to edge [mm]; assumed, 1 to 4
+CAST_AT = 80.0  # Temperature of mould and lid while the PCL is cast [degC]; it melts at about 60
 COLOUR = (0.55, 0.62, 0.50)
 FORK = "setting_fork"
 FORK_COUNT = STOPS
@@ -93,8 +90,7 @@ def _plate(dims: Dimensions, part: cq.Solid, bottom: float, top: float) -> cq.So
     return cq.Solid.makeBox(high - low, 2.0 * half, top - bottom, cq.Vector(low, -half, bottom))
 
 
-BRIDGE = 3.0
-"""Thickness of the bridge [mm], by which fingers lift it; assumed, 2 to 6."""
+BRIDGE = 3.0  # Thickness of the bridge [mm], by which fingers lift it; assumed, 2 to 6
 
 
 def fork(dims: Dimensions) -> cq.Shape:

@@ -111,8 +111,7 @@ def write_exploded(path: Path, placed: Mapping[str, Instance]) -> None:
 
 
 _STEP_SIZE = (900, 600)
-_STEP_APART = 0.2
-"""Way from one kind of part to the next above its place, over the module's width."""
+_STEP_APART = 0.2  # Way from one kind of part to the next above its place, over the module's width
 _PALE = (0.86, 0.87, 0.88)
 _FROM_BELOW = (VIEWED_FROM[0], VIEWED_FROM[1], -VIEWED_FROM[2])
 
@@ -147,8 +146,7 @@ def _going_with(name: str) -> str:
 
 
 _SECTION_SIZE = (1500, 750)
-_RISE = 0.3
-"""How far the camera looks down, as a slope."""
+_RISE = 0.3  # How far the camera looks down, as a slope
 _BEST_WEDGE = 0.75 * pi
 """Both faces of a wedge that wide are seen nearly square on, and the parts between them are open to the camera."""
 SPRINGS = ("spring_right", "spring_left")

@@ -38,10 +38,8 @@ for _back_end in ("vtkRenderingOpenGL2", "vtkRenderingFreeType"):
 vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no display is no news: nothing is shown on one
 
 _EDGE_ANGLE = 30.0
-_COMPRESSION = 1
-"""Of zlib, least: lines and plain faces come out no larger than with more."""
-_COLUMN, _LINE = 250, 45
-"""Least width and height of a name in the legend [pixels]."""
+_COMPRESSION = 1  # Of zlib, least: lines and plain faces come out no larger than with more
+_COLUMN, _LINE = 250, 45  # Least width and height of a name in the legend [pixels]
 
 
 def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer]) -> None:
@@ -201,8 +199,7 @@ def legend(kinds: Sequence[str], size: tuple[int, int]) -> vtkRenderer:
 
 
 Triple = tuple[float, float, float]
-_MARGIN = 1.06
-"""Picture over what is on it."""
+_MARGIN = 1.06  # Picture over what is on it
 
 
 def renderer_on_white() -> vtkRenderer:
@@ -249,12 +246,9 @@ def look(renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Tripl
 
 _SIZE = (1400, 1000)
 _FROM = (1.0, -1.35, 0.9)
-_TOP_QUANTILE = 0.999
-"""Share of the corners within the scale: at a sharp one the stress has no largest value."""
-_BODY = 0.82
-"""Share of the picture's width that the body has; the rest is the scale's."""
-_LARGEST_WAY = 0.06
-"""How far the farthest corner is drawn to move, in sizes of the body."""
+_TOP_QUANTILE = 0.999  # Share of the corners within the scale: at a sharp one the stress has no largest value
+_BODY = 0.82  # Share of the picture's width that the body has; the rest is the scale's
+_LARGEST_WAY = 0.06  # How far the farthest corner is drawn to move, in sizes of the body
 
 
 def write_field_picture(path: Path, points: Array, triangles: Any, values: Array, ways: Array, title: str) -> None:

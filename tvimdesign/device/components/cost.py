@@ -23,8 +23,7 @@ from tvimdesign.device.table.quantity import Feature, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
 GROUP = "Cost"
-COSTS = ("cost", "material_cost")
-"""Outputs that prices go into."""
+COSTS = ("cost", "material_cost")  # Outputs that prices go into
 costs = QuantityGroup(GROUP)
 JOINTS: dict[str, tuple[Feature, ...]] = {"link": (), "retainer": (), "adjuster": WITH_ADJUSTERS, "cover": WITH_COVER}
 _FITTINGS = (
@@ -103,5 +102,4 @@ def unpriced_count(m: Module) -> Scalar:
     return by_mass + sum(count * (1.0 - np.sign(price)) for count, price in m.pieces_bought)
 
 
-_MADE = 4.0
-"""Housing, rotor, link and retainer."""
+_MADE = 4.0  # Housing, rotor, link and retainer

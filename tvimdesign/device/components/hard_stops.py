@@ -20,10 +20,8 @@ weights = QuantityGroup("Size and weight")
 strengths = QuantityGroup("Impedance")
 rules = QuantityGroup("Gaps")
 
-STOPS = 2
-"""Teeth of the rotor, each between two posts."""
-SLIVER = 1e-4
-"""Size [m] that posts have where there is no room for them, so that the search may pass there."""
+STOPS = 2  # Teeth of the rotor, each between two posts
+SLIVER = 1e-4  # Size [m] that posts have where there is no room for them, so that the search may pass there
 
 
 @places.output("rad")

@@ -28,10 +28,8 @@ from tvimdesign.physics.layers import block
 
 quantities = QuantityGroup("Switch")
 
-FLOOR = (0, 1, 2)
-"""Places of the floor's bodies below the blocks, from its upper face on."""
-WALLS = (3, 4, 5)
-"""The housing's vanes, from the pads on."""
+FLOOR = (0, 1, 2)  # Places of the floor's bodies below the blocks, from its upper face on
+WALLS = (3, 4, 5)  # The housing's vanes, from the pads on
 RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS = 6, 7, 8, (9, 10, 11), (12, 13, 14)
 """The last two below and above the housing's vanes, from the pads on."""
 BELOW_PADS, ABOVE_PADS, HOUSING = (15, 16, 17), (18, 19, 20), 21

@@ -19,8 +19,7 @@ _KINDS = {
     GLASS: ("wlf_c1", "wlf_c2", "glass_activation_energy"),
 }  # fmt: skip
 """The values of a record that only a material of some kind has."""
-_NO_LIMIT = 1e3
-"""Strain of a liquid that nothing limits [1]."""
+_NO_LIMIT = 1e3  # Strain of a liquid that nothing limits [1]
 
 quantities = QuantityGroup("Materials")
 

@@ -11,8 +11,7 @@ WITHOUT = "none"
 WITH_MOTOR = (Feature("motor", WITHOUT),)
 WITH_ENCODER = (*WITH_MOTOR, Feature("encoder", WITHOUT))
 
-quantities = QuantityGroup("Layout", WITH_MOTOR)
-"""`layout.py` asks for the motor, so its name is not taken from there."""
+quantities = QuantityGroup("Layout", WITH_MOTOR)  # `layout.py` asks for the motor, so its name is not taken from there
 
 quantities.record(
     "motor", "motors", WITHOUT, "Frameless motor that turns the module's housing, or none", others=(WITHOUT,)
@@ -50,10 +49,8 @@ class Motor(NamedTuple):
     stator_mass: float
     rotor_mass: float
     rotor_inertia: float
-    torque_constant: float
-    """For an rms current [N*m/A]."""
-    winding_resistance: float
-    """Between two terminals [ohm]."""
+    torque_constant: float  # For an rms current [N*m/A]
+    winding_resistance: float  # Between two terminals [ohm]
     continuous_torque: float
     peak_torque: float
     rated_speed: float
@@ -62,8 +59,7 @@ class Motor(NamedTuple):
     bearing_width: float
     inner_shoulder: float
     outer_shoulder: float
-    bearing_rating: float
-    """Static rating of one bearing [N]."""
+    bearing_rating: float  # Static rating of one bearing [N]
 
 
 class Encoder(NamedTuple):
@@ -76,8 +72,7 @@ class Encoder(NamedTuple):
     board_radius: float
     board_height: float
     board_mass: float
-    resolution: float
-    """Steps a turn."""
+    resolution: float  # Steps a turn
 
 
 @quantities.helper(default=None)

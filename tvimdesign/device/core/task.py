@@ -22,18 +22,13 @@ GROUP = "Task"
 WITHOUT = "none"
 ARM = "arm"
 WITH_ARM = (Feature("task", WITHOUT),)
-SAMPLES = 120
-"""Equal steps in which a trajectory is followed."""
-CONTACT_STEPS = 16
-"""Steps up to the largest force of a body on an arm that does not give."""
-CONTACTS = 8
-"""So many times as long contacts are followed: a frozen joint has then stopped a body heavier than its arm."""
-SWING_STEPS = 36
-"""Steps of a link that swings with what has struck it."""
+SAMPLES = 120  # Equal steps in which a trajectory is followed
+CONTACT_STEPS = 16  # Steps up to the largest force of a body on an arm that does not give
+CONTACTS = 8  # So many times as long contacts are followed: a frozen joint has then stopped a body heavier than its arm
+SWING_STEPS = 36  # Steps of a link that swings with what has struck it
 SWING = 0.6
 """Share of the swing's period that is followed; the first peak is at a quarter, later only where nothing rings."""
-SPECTRUM = 5
-"""Frequencies of the band at which a sine is looked at, besides the resonance."""
+SPECTRUM = 5  # Frequencies of the band at which a sine is looked at, besides the resonance
 
 quantities = QuantityGroup(GROUP, WITH_ARM)
 quantities.option("task", (WITHOUT, ARM), "Arm that the joint moves; the section `task` of a study sets it")
@@ -44,10 +39,8 @@ quantities.inputs()
 class Trajectory(NamedTuple):
     """Angles of the housing over time; `at_rest` if it starts and ends so, else at constant speed."""
 
-    moments: tuple[float, ...]
-    """[s], rising."""
-    angles: tuple[float, ...]
-    """[rad]."""
+    moments: tuple[float, ...]  # [s], rising
+    angles: tuple[float, ...]  # [rad]
     at_rest: bool = True
     name: str = "given"
 

@@ -78,8 +78,7 @@ def spring_stiffness(m: Module) -> Scalar:
     )
 
 
-Wound = tuple[Scalar, Scalar]
-"""Torque and tangent stiffness of one spring of either hand, over the rate: [rad] and [1]."""
+Wound = tuple[Scalar, Scalar]  # Torque and tangent stiffness of one spring of either hand, over the rate: [rad] and [1]
 
 
 @quantities.helper()

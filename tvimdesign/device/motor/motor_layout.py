@@ -26,8 +26,7 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
-BASE_SCREWS = 4
-"""Screws that fix the motor's housing from below."""
+BASE_SCREWS = 4  # Screws that fix the motor's housing from below
 
 quantities = QuantityGroup("Layout", WITH_MOTOR)
 

@@ -29,11 +29,9 @@ from tvimdesign.physics.heat_flow.shape_factors import ACROSS
 
 quantities = QuantityGroup("Switch")
 
-UPPER, LOWER = (0, 1, 2), (3, 4, 5)
-"""Places of the strips' bodies, from the pockets' walls on."""
+UPPER, LOWER = (0, 1, 2), (3, 4, 5)  # Places of the strips' bodies, from the pockets' walls on
 LEDGES, CORNER, HOUSING = 6, 7, 8
-BELOW = (CORNER, *UPPER[1:])
-"""Body of the floor below each body of the plate's strip."""
+BELOW = (CORNER, *UPPER[1:])  # Body of the floor below each body of the plate's strip
 SPREADER = ("spreader", 0)
 SIDE = 2.0 * SIDE_SHARE
 """Share of half of a pad's height that is its side, of one temperature; the rest is half of the legs."""
@@ -197,8 +195,7 @@ def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
     )
 
 
-INCOMPRESSIBLE = 3.0
-"""Young's modulus of a pad over its shear modulus: pellets in a soft sheet, or ceramic taken alike."""
+INCOMPRESSIBLE = 3.0  # Young's modulus of a pad over its shear modulus: pellets in a soft sheet, or ceramic taken alike
 
 
 @quantities.output("1")
@@ -273,12 +270,9 @@ def tile_links(m: Module) -> tuple[Link, ...]:
 class ColdSide(NamedTuple):
     """Legs and cold side of the pads as a slab with a sheet on its face."""
 
-    conductance: Scalar
-    """Mean conductivity of the legs times the length of the pads' edges [W/K]."""
-    sheet: Scalar
-    """Of the side, over that conductivity and half of a pad's width [1]."""
-    depth: Scalar
-    """Of the legs, over half of a pad's width [1]."""
+    conductance: Scalar  # Mean conductivity of the legs times the length of the pads' edges [W/K]
+    sheet: Scalar  # Of the side, over that conductivity and half of a pad's width [1]
+    depth: Scalar  # Of the legs, over half of a pad's width [1]
 
 
 @quantities.helper()

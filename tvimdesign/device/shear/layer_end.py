@@ -35,37 +35,26 @@ plane whose one face begins at c from the corner it is as if they began at c/2 (
 class ColdEnd(NamedTuple):
     """A lip at the layer's end, and what the layer gives to it [W/m K]."""
 
-    of_layer: Scalar
-    """From the layer's slices, by their mean excess over the lip."""
+    of_layer: Scalar  # From the layer's slices, by their mean excess over the lip
     of_pads: Scalar
     """From the pads' hot side, by its excess; what crowds into the lip's tip beyond what the slices give."""
-    near: Scalar
-    """Part of that which the pads give in the end, over their hot side's excess."""
-    contact: Scalar
-    """Thickness of layer that conducts as a contact does, over that from pads to plate [1]."""
-    free: Scalar
-    """Height below the lip over the same [1]."""
-    layer: Scalar
-    """The layer's thickness over the same [1]."""
+    near: Scalar  # Part of that which the pads give in the end, over their hot side's excess
+    contact: Scalar  # Thickness of layer that conducts as a contact does, over that from pads to plate [1]
+    free: Scalar  # Height below the lip over the same [1]
+    layer: Scalar  # The layer's thickness over the same [1]
 
 
 class EndWall(NamedTuple):
     """Plate and lip as one wall at the end of layer and liner."""
 
-    conductivity: Scalar
-    """Of the layer, the mean of both phases [W/m K]."""
+    conductivity: Scalar  # Of the layer, the mean of both phases [W/m K]
     height: Scalar
     """From pads to plate: the layer and, as much more layer as conducts alike, contacts, liner and film [m]."""
-    layer: Scalar
-    """Share of the layer with its contacts in that [1]."""
-    sheet: Scalar
-    """Share of the liner in it [1]."""
-    contacts: Scalar
-    """Share of both contacts of the layer in it [1]."""
-    free: Scalar
-    """Share of it that is free below the wall [1]."""
-    width: Scalar
-    """Of the layer, over that height without the contacts [1]."""
+    layer: Scalar  # Share of the layer with its contacts in that [1]
+    sheet: Scalar  # Share of the liner in it [1]
+    contacts: Scalar  # Share of both contacts of the layer in it [1]
+    free: Scalar  # Share of it that is free below the wall [1]
+    width: Scalar  # Of the layer, over that height without the contacts [1]
     end: WalledEnd
 
 

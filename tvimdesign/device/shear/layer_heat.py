@@ -178,18 +178,12 @@ def edge_drops(m: Module) -> tuple[Scalar, Scalar]:
 class LayerSurroundings(NamedTuple):
     """All that the temperatures of the layer's slices follow from, beside what its end does to them."""
 
-    cells: Scalar
-    """Mean temperature of each slice over the width [K], an array."""
-    through: Scalar
-    """Heat from the layer's end into the air beside or below it, over the layer's conductivity [K]."""
-    drops: tuple[Scalar, Scalar]
-    """Temperatures of the pads' edges and the plate's below their means [K] (`edge_drops`)."""
-    in_plate: Scalar
-    """Drop of the plate below its mean in each column, over that of its edge [1], an array."""
-    share: Scalar
-    """Share of the way from pads to plate that lies before each slice [1], an array."""
-    lip: Scalar | None
-    """Temperature of the lip at the layer's end [K]."""
+    cells: Scalar  # Mean temperature of each slice over the width [K], an array
+    through: Scalar  # Heat from the layer's end into the air beside or below it, over the layer's conductivity [K]
+    drops: tuple[Scalar, Scalar]  # Temperatures of the pads' edges and the plate's below their means [K] (`edge_drops`)
+    in_plate: Scalar  # Drop of the plate below its mean in each column, over that of its edge [1], an array
+    share: Scalar  # Share of the way from pads to plate that lies before each slice [1], an array
+    lip: Scalar | None  # Temperature of the lip at the layer's end [K]
 
 
 @quantities.helper(instant=True)

@@ -13,12 +13,9 @@ from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at
 
-LEADS = 2.0
-"""Of a module."""
-_CUTTER = 2.2
-"""Least width of a slot over the radius of its corners."""
-_LEAST = 0.05
-"""Share of a size below which roots are not taken: their slopes have no bound at zero."""
+LEADS = 2.0  # Of a module
+_CUTTER = 2.2  # Least width of a slot over the radius of its corners
+_LEAST = 0.05  # Share of a size below which roots are not taken: their slopes have no bound at zero
 
 places = QuantityGroup("Layout", WITH_TILES)
 weights = QuantityGroup("Size and weight", WITH_TILES)

@@ -34,8 +34,7 @@ from tvimdesign.physics.solids.shapes import Section, ring
 
 NO_LIP = "none"
 WITH_LIP = (Feature("melt_lip", NO_LIP),)
-LEAST_LIP = 0.1 * MM
-"""Least height of a lip; assumed, 0.1 to 0.2 mm: a layer of a print."""
+LEAST_LIP = 0.1 * MM  # Least height of a lip; assumed, 0.1 to 0.2 mm: a layer of a print
 places = QuantityGroup("Layout")
 weights = QuantityGroup("Size and weight")
 rules = QuantityGroup("Gaps", WITH_LIP)
@@ -90,8 +89,7 @@ def melt_lip_hub_gap(m: Module) -> Scalar:
 
 
 retention = QuantityGroup("Axial play")
-DRAWN = 1.1
-"""Thickness over that at the start up to which the time is given."""
+DRAWN = 1.1  # Thickness over that at the start up to which the time is given
 
 
 @retention.output("Pa")

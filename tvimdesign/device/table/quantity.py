@@ -23,8 +23,7 @@ from typing import Any, Literal, TypeAlias
 
 from tvimdesign.device.table.module import Module, names_read
 
-Scalar: TypeAlias = Any
-"""A float, a numpy array or a CasADi expression."""
+Scalar: TypeAlias = Any  # A float, a numpy array or a CasADi expression
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,10 +51,8 @@ def at_most(value: float, reason: str) -> Rule:
 class Feature:
     """Something a module has only where a study asks for it."""
 
-    choice: str
-    """The quantity it is chosen by."""
-    without: str
-    """The word of that choice for a module that lacks it."""
+    choice: str  # The quantity it is chosen by
+    without: str  # The word of that choice for a module that lacks it
 
 
 def have_features(features: Sequence[Feature], chosen: Mapping[str, Any]) -> bool:
@@ -82,11 +79,9 @@ class Input:
     part: str = ""
     """The part that this number and others shape alone: the search takes them together from one optimum to another."""
     per_point: bool = False
-    source: str = ""
-    """Where the default comes from: `status: source`."""
+    source: str = ""  # Where the default comes from: `status: source`
     low: float | None = None
-    high: float | None = None
-    """The range within which the default is known, if it is unmeasured."""
+    high: float | None = None  # The range within which the default is known, if it is unmeasured
     range_of: tuple[str, str] | None = None
     """(choice, field) of the chosen record's value that the quantity is a factor of: its range is the factor's."""
     record: tuple[str, str] | None = None
@@ -95,12 +90,9 @@ class Input:
     """(choice, field): where the value comes from, and from nowhere else, in a study that chooses such a record."""
     stock: tuple[str, str, str] | None = None
     """(category, table, column) of the records that list the sizes one can buy; the sizes of wires where not told."""
-    mode: str | None = None
-    """The one mode that has it, where not all have."""
-    requires: tuple[Feature, ...] = ()
-    """Features that a module needs for it to have an effect."""
-    read_by: str = ""
-    """The floor that reads it; may be empty if a quantity does."""
+    mode: str | None = None  # The one mode that has it, where not all have
+    requires: tuple[Feature, ...] = ()  # Features that a module needs for it to have an effect
+    read_by: str = ""  # The floor that reads it; may be empty if a quantity does
 
     @property
     def falls_back(self) -> bool:
@@ -126,14 +118,12 @@ class Choice:
     group: str
     default: str = ""
     category: str | None = None
-    options: tuple[str, ...] = ()
-    """The words there are; of a category, those beside its records."""
+    options: tuple[str, ...] = ()  # The words there are; of a category, those beside its records
     record: tuple[str, str] | None = None
     """(choice, word): where the default comes from, of a choice that stands before this one."""
     stock_record: tuple[str, str] | None = None
     """(choice, word): where it comes from, and from nowhere else, in a study that chooses such a record before."""
-    requires: tuple[Feature, ...] = ()
-    """Features that a module needs for it to have an effect."""
+    requires: tuple[Feature, ...] = ()  # Features that a module needs for it to have an effect
     idealized: Mapping[str, str] = field(default_factory=dict)
     """The words that leave out something of the drawn part, and what they leave out. The default is none of them."""
 
@@ -154,20 +144,16 @@ class Output:
     function: Callable[[Module], Scalar]
     per_point: bool = False
     instant: bool = False
-    hidden: bool = False
-    """An intermediate result, of any type, that other quantities use and nobody asks for."""
-    headline: bool = False
-    """True for a quantity that the summary shows."""
+    hidden: bool = False  # An intermediate result, of any type, that other quantities use and nobody asks for
+    headline: bool = False  # True for a quantity that the summary shows
     least_of: tuple[str, ...] = ()
     """The quantities this one is the least of; a lower limit on it is put on each of them, which have no kinks."""
     rises_with: str = ""
     """The quantity it rises with, where that is the least of others: it is the least of what it would be with each."""
-    instead: str = ""
-    """The one of those that it has in place of that."""
+    instead: str = ""  # The one of those that it has in place of that
     also_limited: tuple[str, ...] = ()
     """The quantities on which each limit on this one is put as well, from whichever side."""
-    at_end: str = ""
-    """The quantity that this one, at the hot point if it has points, is when heating ends."""
+    at_end: str = ""  # The quantity that this one, at the hot point if it has points, is when heating ends
     parts_differ_with: Feature | None = None
     """Feature without which those, or the quantities it is the least of, are equal."""
     rules: tuple[Rule, ...] = ()
@@ -246,8 +232,7 @@ class Steady(Output):
 class Simulated(Output):
     """Output that is simulated once a design is found; it cannot be minimised."""
 
-    state: str = ""
-    """State that is simulated: a study may require `name@state`. Empty if it cannot be required."""
+    state: str = ""  # State that is simulated: a study may require `name@state`. Empty if it cannot be required.
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -256,15 +241,12 @@ class FirstOscillation(Simulated):
 
 
 Quantity: TypeAlias = Input | Choice | Output
-Supplied = (Event, Path, Steady)
-"""The kinds of output that a simulation or the optimiser supplies."""
+Supplied = (Event, Path, Steady)  # The kinds of output that a simulation or the optimiser supplies
 
 STATE = "state"
 """The thermal state of the stack at an instant, one array. This and the next two are names that are no quantities."""
-DRIVE = "drive_current"
-"""The current [A] at an instant, positive where it heats."""
-PHASE = "phase"
-"""The `Phase` an instant belongs to."""
+DRIVE = "drive_current"  # The current [A] at an instant, positive where it heats
+PHASE = "phase"  # The `Phase` an instant belongs to
 TOUCHING = "touching"
 """Sides of the PCL that are in contact at an instant of a first oscillation (`one_sided.Touching`). No quantity either.
 """
@@ -277,18 +259,12 @@ class Phase:
 
     name: str
     description: str
-    after: str | None
-    """The phase whose end it starts from; None starts with everything at ambient temperature."""
-    ends: str
-    """The event that ends it."""
-    current_input: str
-    """The input that is its current where that is constant."""
-    sign: float
-    """1 where the current heats the layer, -1 where it cools."""
-    like: str | None = None
-    """The phase whose current it has, where it is that phase under another assumption."""
-    history: bool
-    """True if the polymer's solid fraction has a history of its own, by the kinetics of freezing."""
+    after: str | None  # The phase whose end it starts from; None starts with everything at ambient temperature
+    ends: str  # The event that ends it
+    current_input: str  # The input that is its current where that is constant
+    sign: float  # 1 where the current heats the layer, -1 where it cools
+    like: str | None = None  # The phase whose current it has, where it is that phase under another assumption
+    history: bool  # True if the polymer's solid fraction has a history of its own, by the kinetics of freezing
 
 
 SOFTENING = Phase(

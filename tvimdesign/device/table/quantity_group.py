@@ -332,5 +332,4 @@ def directions() -> dict[str, Literal["less", "more"]]:
     return {name: way for way, names in listed.items() for name in names}
 
 
-_all_inputs = partial(own_data, __file__, "inputs.yaml")
-"""The inputs by group and name."""
+_all_inputs = partial(own_data, __file__, "inputs.yaml")  # The inputs by group and name

@@ -23,8 +23,7 @@ SINES = 3
 class Columns(NamedTuple):
     """Columns of a strip: where they stand, and what of its width each stands for."""
 
-    places: tuple[float, ...]
-    """From the middle (0) to the edge (1)."""
+    places: tuple[float, ...]  # From the middle (0) to the edge (1)
     shares: tuple[float, ...]
 
 
@@ -89,12 +88,9 @@ def at_end(place: Any, heights: Any, width: Any, slot: Any) -> Any:
 class EndPlaces(NamedTuple):
     """Positions of a layer's slices, seen from its end, and the kind of that end."""
 
-    of_all: tuple[Any, ...]
-    """Numbers of the end."""
-    of_columns: list[Any]
-    """A number of each column."""
-    of_slices: Any
-    """An array, a number of each slice of a column."""
+    of_all: tuple[Any, ...]  # Numbers of the end
+    of_columns: list[Any]  # A number of each column
+    of_slices: Any  # An array, a number of each slice of a column
 
 
 def gap_places(heights: Any, width: Any, slot: Any) -> EndPlaces:

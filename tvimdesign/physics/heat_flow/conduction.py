@@ -14,10 +14,8 @@ import numpy as np
 
 from tvimdesign.physics.polymers.polymer import Melting, ramp
 
-_WINDOW_SHARE = 0.1
-"""Width of the rounded corners of k(T), as a share of the melting window."""
-_SAME = 0.5
-"""Difference of temperature [K] below which two places are taken to conduct alike."""
+_WINDOW_SHARE = 0.1  # Width of the rounded corners of k(T), as a share of the melting window
+_SAME = 0.5  # Difference of temperature [K] below which two places are taken to conduct alike
 
 
 class Conductivities(NamedTuple):

@@ -14,36 +14,29 @@ from tvimdesign.physics.heat_flow.stack import Liner
 
 SLICES = (0.125, 0.375, 0.625, 0.875)
 """Where the plate's temperatures are taken, as shares of its depth: the middles of four slices."""
-PASSES = 3
-"""Passes in which radiation is taken again at the temperatures of the last one."""
+PASSES = 3  # Passes in which radiation is taken again at the temperatures of the last one
 
 
 class BehindPolymer(NamedTuple):
     """Bodies that the polymer heats, as in `heat.Stack`."""
 
-    area: Any
-    """[m^2]"""
+    area: Any  # [m^2]
     plate_thickness: Any
     plate_conductivity: Any
-    plate_surface: Surface
-    """The plate's outer face; its area is that of the polymer."""
-    ambient: Any
-    """[K]"""
+    plate_surface: Surface  # The plate's outer face; its area is that of the polymer
+    ambient: Any  # [K]
     beside: tuple[Lump, ...]
     """Bodies that the plate belongs to: the first takes heat from all of its depth, each next from the one before."""
     uneven_conductance: Any = None
     """Conductance [W/K] sideways for what the plate differs from its mean; as for the mean where not given."""
-    liner: Liner | None = None
-    """A sheet between polymer and plate."""
+    liner: Liner | None = None  # A sheet between polymer and plate
 
 
 class HeldPlate(NamedTuple):
     """Temperatures [K] of a plate behind a polymer that is kept warm."""
 
-    plate: tuple[Any, ...]
-    """In the middle of slices of equal depth, from the polymer on."""
-    beside: tuple[Any, ...]
-    """Of the lumps beside the plate, in their order."""
+    plate: tuple[Any, ...]  # In the middle of slices of equal depth, from the polymer on
+    beside: tuple[Any, ...]  # Of the lumps beside the plate, in their order
 
 
 def held_plate(behind: BehindPolymer, temperature: Any) -> HeldPlate:

@@ -43,21 +43,16 @@ face, where the heat falls to nothing."""
 class WalledEnd(NamedTuple):
     """Heat that a wall at the end of a layer takes."""
 
-    near: Any
-    """Heat that the near face gives for it [1]."""
-    wall: Any
-    """Heat that comes into the wall beside the layer [1]; beyond `near` it is what the far face does not get."""
+    near: Any  # Heat that the near face gives for it [1]
+    wall: Any  # Heat that comes into the wall beside the layer [1]; beyond `near` it is what the far face does not get
     deep: Any
     """Depth in the layer that the heat comes from: the integral of q y (t - y)/(2 t^2) dy [1].
 
     The layer is colder in the mean by that over its width, whatever its profile, as in `gap_end_depth`. Below a
     sheet this is what a layer without one would have that gives as much for each height and kelvin."""
-    colder: Any
-    """Drop of the layer's mean below an even fall, times its width, over twice the mean of that [1]."""
-    rim: Any = 0.0
-    """Heat that comes into the wall beside a sheet on the layer [1]."""
-    sheet_colder: Any = 0.0
-    """Drop of that sheet's mean below an even fall, times its width [1]."""
+    colder: Any  # Drop of the layer's mean below an even fall, times its width, over twice the mean of that [1]
+    rim: Any = 0.0  # Heat that comes into the wall beside a sheet on the layer [1]
+    sheet_colder: Any = 0.0  # Drop of that sheet's mean below an even fall, times its width [1]
 
 
 def walled_end(free: Any) -> WalledEnd:
@@ -157,12 +152,9 @@ less for the floor than if it were as warm as the pads all over, the integral of
 class Room(NamedTuple):
     """Heat that a room beside tiles passes beyond an even fall from its warm ceiling to its floor."""
 
-    ceiling: Any
-    """Heat of the ceiling to the cold wall, beyond the even fall."""
-    floor: Any
-    """Heat that the wall gets in place of the floor."""
-    tile: Any
-    """Heat of the tile's side to the cold wall."""
+    ceiling: Any  # Heat of the ceiling to the cold wall, beyond the even fall
+    floor: Any  # Heat that the wall gets in place of the floor
+    tile: Any  # Heat of the tile's side to the cold wall
 
 
 def room(width: Any, slot: Any) -> Room:
@@ -204,25 +196,18 @@ SPREADER, LAYER = ("spreader", 0), ("layer", 0)
 class Lip(NamedTuple):
     """Connections of a lip; the polymer's conductances [W/K] are of the mean conductivity of both phases."""
 
-    slices: Any
-    """From the layer's slices, by their mean excess over the lip."""
-    pads: Any
-    """From the pads' hot side through the layer, by its excess."""
-    arms: "tuple[Arm, ...]"
-    """Other bodies that heat and cool it."""
+    slices: Any  # From the layer's slices, by their mean excess over the lip
+    pads: Any  # From the pads' hot side through the layer, by its excess
+    arms: "tuple[Arm, ...]"  # Other bodies that heat and cool it
 
 
 class WarmLip(NamedTuple):
     """A lip at one instant."""
 
-    temperature: Any
-    """[K]"""
-    from_layer: Any
-    """Heat [W] that each polymer cell gives it."""
-    from_places: dict[Place, Any]
-    """Heat [W] that other places give it."""
-    residuals: tuple[Any, Any] = (0.0, 0.0)
-    """Differences [K] of the temperatures given from those that follow."""
+    temperature: Any  # [K]
+    from_layer: Any  # Heat [W] that each polymer cell gives it
+    from_places: dict[Place, Any]  # Heat [W] that other places give it
+    residuals: tuple[Any, Any] = (0.0, 0.0)  # Differences [K] of the temperatures given from those that follow
 
 
 def warm_lip(
@@ -263,12 +248,9 @@ def _temperature(lip: Lip, cells: Any, at: Callable[[Place], Any], of_cells: Any
 class Arm(NamedTuple):
     """Conductor between the body and a mean of places."""
 
-    conductance: Any
-    """[W/K]"""
-    ends: tuple[tuple[Place, Any], ...]
-    """Places and their weights, which sum to the `share`."""
-    share: Any = 1.0
-    """Of the body's temperature that the mean is compared with."""
+    conductance: Any  # [W/K]
+    ends: tuple[tuple[Place, Any], ...]  # Places and their weights, which sum to the `share`
+    share: Any = 1.0  # Of the body's temperature that the mean is compared with
 
 
 def arm_mean(arm: Arm, at: Callable[[Place], Any]) -> Any:

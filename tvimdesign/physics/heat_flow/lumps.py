@@ -18,10 +18,8 @@ STEFAN_BOLTZMANN = 5.670374419e-8  # W/(m^2 K^4), CODATA
 class Surface(NamedTuple):
     """A surface that loses heat to ambient."""
 
-    area: Any
-    """[m^2]"""
-    coefficient: Any
-    """Convection [W/m^2 K]."""
+    area: Any  # [m^2]
+    coefficient: Any  # Convection [W/m^2 K]
     emissivity: Any = 0.0
     behind: Any = None
     """Resistance from where the body has its mean temperature to this face [m^2 K/W]; none where not given."""
@@ -33,8 +31,7 @@ NOWHERE = Surface(0.0, 0.0)
 class Body(NamedTuple):
     """A body at one temperature."""
 
-    capacity: Any
-    """[J/K]"""
+    capacity: Any  # [J/K]
     surface: Surface
 
 
@@ -48,10 +45,8 @@ def less(whole: Body, parts: Sequence[Body], more_surface: Any) -> Body:
 class Lump(NamedTuple):
     """A body at one temperature in a chain."""
 
-    conductance: Any
-    """To what comes before it: the plate, the lump before it, a sink's cold side [W/K]."""
-    capacity: Any
-    """[J/K]"""
+    conductance: Any  # To what comes before it: the plate, the lump before it, a sink's cold side [W/K]
+    capacity: Any  # [J/K]
     surface: Surface
 
 
@@ -64,11 +59,9 @@ which."""
 class Slope(NamedTuple):
     """Rise of the temperature that the layer faces, from its far end to its near one, even between them."""
 
-    warm: tuple[tuple[Place, Any], ...]
-    """Places and the share of each in a mean [1]."""
+    warm: tuple[tuple[Place, Any], ...]  # Places and the share of each in a mean [1]
     cool: Place
-    share: Any
-    """Of what the mean of `warm` is warmer than `cool` [1]."""
+    share: Any  # Of what the mean of `warm` is warmer than `cool` [1]
 
 
 class Link(NamedTuple):
@@ -76,14 +69,10 @@ class Link(NamedTuple):
 
     first: Place
     second: Place
-    conductance: Any
-    """[W/K]"""
-    radiating_area: Any = 0.0
-    """Area times exchange factor 1/(1/e + 1/e - 1) [m^2]."""
-    of_layer: Any = None
-    """Share of its heat [1] that the layer gives in place of `first`; none where not given."""
-    slope: Slope | None = None
-    """Of the second end along the layer, which is the first; even where not given."""
+    conductance: Any  # [W/K]
+    radiating_area: Any = 0.0  # Area times exchange factor 1/(1/e + 1/e - 1) [m^2]
+    of_layer: Any = None  # Share of its heat [1] that the layer gives in place of `first`; none where not given
+    slope: Slope | None = None  # Of the second end along the layer, which is the first; even where not given
 
 
 def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
@@ -182,10 +171,8 @@ def _falling(count: int) -> Any:
 class Loss(NamedTuple):
     """A link by which what is beside the plate loses heat in the end."""
 
-    link: Link
-    """From a body beside the plate."""
-    onward: Any
-    """From the link's other end to the air [W/K]."""
+    link: Link  # From a body beside the plate
+    onward: Any  # From the link's other end to the air [W/K]
 
 
 def behind(link: Link, conductance: Any, ambient: Any) -> Link:

@@ -61,8 +61,7 @@ def legs_temperature(hot: Any, middle: Any, cold: Any) -> Any:
     return (hot + 4.0 * middle + cold) / 6.0
 
 
-OF_HALF = 0.25
-"""Rise of a half of the legs over their mean, over the rise of the side next to it over the other."""
+OF_HALF = 0.25  # Rise of a half of the legs over their mean, over the rise of the side next to it over the other
 
 
 def legs_temperatures(hot: Any, middle: Any, cold: Any) -> tuple[Any, Any, Any]:

@@ -26,15 +26,11 @@ class Depths(NamedTuple):
 class Along(NamedTuple):
     """Conductances [W/K] along the ring in floor or rotor plate, of rows of bodies at blocks and pads."""
 
-    to_vanes: Any
-    """From the blocks to the rotor's vanes."""
+    to_vanes: Any  # From the blocks to the rotor's vanes
     to_pads: Any
-    across: Any
-    """From the pads to the rotor's vanes."""
-    to_walls: Any
-    """From the pads to the housing's vanes."""
-    uneven: tuple[Any, Any]
-    """More than those to either vanes, for what bodies differ from the mean of their row."""
+    across: Any  # From the pads to the rotor's vanes
+    to_walls: Any  # From the pads to the housing's vanes
+    uneven: tuple[Any, Any]  # More than those to either vanes, for what bodies differ from the mean of their row
 
 
 def along_ring(conductivity: Any, thickness: Any, depths: Depths) -> Along:

@@ -27,8 +27,7 @@ INTO_SLOT = 0.2619
 BEFORE_SLOT = 0.27993
 """Loss of `gap_end_depth` by a narrow slot, per its width over the gap's: 2/pi^2 times the integral of p coth p up to
 1.19968, where p = coth p."""
-FALLING = 12.0
-"""Heat of a layer in all over its `gap_end_depth`, where it gives 2 (1 - y/t) of that at each height y/t."""
+FALLING = 12.0  # Heat of a layer in all over its `gap_end_depth`, where it gives 2 (1 - y/t) of that at each height y/t
 
 
 def gap_end(slot: Any) -> tuple[Any, Any]:
@@ -59,8 +58,7 @@ def gap_end_depth(slot: Any) -> Any:
     return whole / (1.0 + BEFORE_SLOT * slot / whole)
 
 
-AT_WALL = 1.2
-"""Drop of a profile at the end where a wall takes its heat, below its mean: as `sink_of_slices` says."""
+AT_WALL = 1.2  # Drop of a profile at the end where a wall takes its heat, below its mean: as `sink_of_slices` says
 
 
 def sink_of_slices(deep: Any, colder: Any) -> Any:

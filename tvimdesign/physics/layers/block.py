@@ -116,8 +116,7 @@ def soft_share(storage: Any, loss: Any) -> Any:
     return np.mean(np.sqrt(square)) ** 2 / np.mean(square)
 
 
-HELD_BEYOND_SLOT = 0.51
-"""Distance beyond a slot's edge to which a pad is held, over its thickness; FE of single pads."""
+HELD_BEYOND_SLOT = 0.51  # Distance beyond a slot's edge to which a pad is held, over its thickness; FE of single pads
 
 
 def pad_stiffness(moduli: tuple[Any, Any], sides: tuple[Any, Any], thickness: Any, slot: tuple[Any, Any]) -> Any:

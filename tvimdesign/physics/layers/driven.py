@@ -16,14 +16,10 @@ from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions.motion import Joint, Modes
 from tvimdesign.physics.polymers import polymer
 
-Stiffness = Callable[[Any], tuple[Any, Any]]
-"""Real and imaginary stiffness [N*m/rad] at an angular frequency [rad/s]."""
-GRAVITY = 9.80665
-"""Standard gravity [m/s^2]."""
-INJURY_WINDOW = 0.015
-"""Longest time [s] over which a head's acceleration counts."""
-ITERATIONS = 10
-"""Of a frequency that the stiffness depends on: each halves the error in its logarithm at least."""
+Stiffness = Callable[[Any], tuple[Any, Any]]  # Real and imaginary stiffness [N*m/rad] at an angular frequency [rad/s]
+GRAVITY = 9.80665  # Standard gravity [m/s^2]
+INJURY_WINDOW = 0.015  # Longest time [s] over which a head's acceleration counts
+ITERATIONS = 10  # Of a frequency that the stiffness depends on: each halves the error in its logarithm at least
 
 
 def stiffening(support: tuple[Any, Any], angular_ratio: Any) -> Any:
@@ -89,25 +85,18 @@ def deflection(amplitude: Any, angular_frequency: Any, stiffness: tuple[Any, Any
 class Striker(NamedTuple):
     """Body that moves at a speed onto the link's end."""
 
-    mass: Any
-    """[kg]."""
-    speed: Any
-    """[m/s]."""
-    lever: Any
-    """Of the end it strikes [m]."""
-    stiffness: Any
-    """Of the contact, which pushes and never pulls [N/m]."""
+    mass: Any  # [kg]
+    speed: Any  # [m/s]
+    lever: Any  # Of the end it strikes [m]
+    stiffness: Any  # Of the contact, which pushes and never pulls [N/m]
 
 
 class Followed(NamedTuple):
     """A link at each step of time; all but the start."""
 
-    angles: list[Any]
-    """Of the joint [rad]."""
-    torques: list[Any]
-    """Of the joint against its angle [N*m]."""
-    forces: list[Any]
-    """Of the contact [N]."""
+    angles: list[Any]  # Of the joint [rad]
+    torques: list[Any]  # Of the joint against its angle [N*m]
+    forces: list[Any]  # Of the contact [N]
 
 
 def followed(

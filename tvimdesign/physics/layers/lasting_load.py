@@ -19,10 +19,8 @@ from tvimdesign.physics.solids.structure import series
 class Held(NamedTuple):
     """Angles after a load has been held for a time [rad]."""
 
-    angle: Any
-    """Angle of the link."""
-    set_angle: Any
-    """Angle at which the polymer is free of stress, sum k q/sum k: what its dashpots have moved."""
+    angle: Any  # Angle of the link
+    set_angle: Any  # Angle at which the polymer is free of stress, sum k q/sum k: what its dashpots have moved
 
 
 def held(torque: Any, time: Any, springs: Any, structure: Any, modes: Modes) -> Held:

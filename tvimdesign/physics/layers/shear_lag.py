@@ -49,8 +49,7 @@ def edge_rise(layer: Any, first: Any, second: Any, width: Any) -> Any:
     return reach * ((1.0 - share) / np.tanh(reach) + share / np.sinh(reach))
 
 
-WINDOWED = 3.09
-"""Rise of a floor's compliance as a sheet as windows cut it; calibrated to validation/fe_structure."""
+WINDOWED = 3.09  # Rise of a floor's compliance as a sheet as windows cut it; calibrated to validation/fe_structure
 
 
 def arc_edge_rise(layer: Any, plate: Any, floor: Any, radii: tuple[Any, Any], held: Any) -> Any:
@@ -107,8 +106,7 @@ def held_over_window(thickness: Any, half_width: Any, fringe: Any = FRINGE) -> A
 
 TERMS = 12
 """Of the sum; what they leave out of a mean over a tenth of a thickness from the wall on is a five-hundredth of h."""
-_PASSES = 4
-"""Of the roots' iteration."""
+_PASSES = 4  # Of the roots' iteration
 
 
 def _terms(held: Any) -> list[tuple[Any, Any]]:
@@ -145,25 +143,18 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 class Mode(NamedTuple):
     """A part of the torque that comes over from the upper sheet, besides what has far from the edges."""
 
-    lag: Any
-    """Rate at which it comes over [1/m], l."""
-    at_inner: Any
-    """Its share of the torque [1] at the inner edge."""
-    at_outer: Any
-    """Its share at the outer edge."""
+    lag: Any  # Rate at which it comes over [1/m], l
+    at_inner: Any  # Its share of the torque [1] at the inner edge
+    at_outer: Any  # Its share at the outer edge
 
 
 class AnnularLap(NamedTuple):
     """A ring over which a sheet hands a torque on."""
 
-    modes: tuple[Mode, ...]
-    """Load that comes over: one mode for each layer between sheets."""
-    upper_torque: Any
-    """Share n of the torque [1] that would stay in the upper sheet of a long lap."""
-    inner: Any
-    """Inner radius [m]."""
-    outer: Any
-    """Outer radius [m]."""
+    modes: tuple[Mode, ...]  # Load that comes over: one mode for each layer between sheets
+    upper_torque: Any  # Share n of the torque [1] that would stay in the upper sheet of a long lap
+    inner: Any  # Inner radius [m]
+    outer: Any  # Outer radius [m]
 
 
 def annular_lap(layer: Any, upper: Any, lower: Any, radii: tuple[Any, Any], inward: Any = 0.0) -> AnnularLap:

@@ -19,8 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-Modes = Sequence[tuple[Any, Any]]
-"""(relaxation time [s], stiffness [N*m/rad]) of each Maxwell element of the layer."""
+Modes = Sequence[tuple[Any, Any]]  # (relaxation time [s], stiffness [N*m/rad]) of each Maxwell element of the layer
 
 
 class Joint(NamedTuple):

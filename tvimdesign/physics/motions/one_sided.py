@@ -20,10 +20,8 @@ from tvimdesign.physics.motions.motion import Joint, Modes
 class Blocks(NamedTuple):
     """Modes of the blocks on either side (time [s], stiffness [N*m/rad]); a `Joint`'s structure is that of one side."""
 
-    first: Modes
-    """Pushes back against positive angles."""
-    second: Modes
-    """Pushes back against negative angles."""
+    first: Modes  # Pushes back against positive angles
+    second: Modes  # Pushes back against negative angles
 
 
 class Touching(NamedTuple):

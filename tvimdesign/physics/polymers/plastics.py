@@ -20,25 +20,18 @@ import numpy as np
 
 from tvimdesign.physics.polymers.polymer import GAS_CONSTANT
 
-REFERENCE = 296.15
-"""Temperature at which data sheets state moduli [K], 23 degC (ISO 291)."""
+REFERENCE = 296.15  # Temperature at which data sheets state moduli [K], 23 degC (ISO 291)
 
 
 class Softening(NamedTuple):
     """Change of a material's modulus and loss with temperature."""
 
-    slope: Any
-    """Fall of ln E below the step [1/K]."""
-    temperature: Any
-    """Where the step in ln E is half done [K]."""
-    width: Any
-    """[K]: from an eighth of the step to seven eighths is about four of it."""
-    share: Any
-    """Modulus beyond the step over that before it [1]."""
-    loss_factor: Any
-    """Below the step [1]."""
-    peak_loss_factor: Any
-    """In the middle of the step [1]."""
+    slope: Any  # Fall of ln E below the step [1/K]
+    temperature: Any  # Where the step in ln E is half done [K]
+    width: Any  # [K]: from an eighth of the step to seven eighths is about four of it
+    share: Any  # Modulus beyond the step over that before it [1]
+    loss_factor: Any  # Below the step [1]
+    peak_loss_factor: Any  # In the middle of the step [1]
 
 
 def step(temperature: Any, law: Softening) -> Any:
@@ -87,12 +80,9 @@ HOUR = 3600.0  # s
 class Creep(NamedTuple):
     """Parameters of a material's creep."""
 
-    share: Any
-    """Creep strain after an hour at 23 degC, of the elastic one [1]."""
-    exponent: Any
-    """Power of time [1]."""
-    activation_energy: Any
-    """By which temperature shifts time [J/mol]."""
+    share: Any  # Creep strain after an hour at 23 degC, of the elastic one [1]
+    exponent: Any  # Power of time [1]
+    activation_energy: Any  # By which temperature shifts time [J/mol]
 
 
 def aged(time: Any, temperature: Any, law: Creep) -> Any:

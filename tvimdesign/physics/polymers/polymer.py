@@ -34,8 +34,7 @@ loss modulus 4 % less to 1 % more.
 LINEAR_DROP = 0.05
 """Share by which the storage modulus has fallen at the limit of the linear range: what rheometers' software takes."""
 
-Modes = Sequence[tuple[Any, Any]]
-"""A relaxation spectrum: (relaxation time [s], modulus [Pa]) of each Maxwell element."""
+Modes = Sequence[tuple[Any, Any]]  # A relaxation spectrum: (relaxation time [s], modulus [Pa]) of each Maxwell element
 
 
 class Melting(NamedTuple):
@@ -116,11 +115,9 @@ def fraction_at(temperature_kelvin: Any, melting: Melting) -> Any:
 class SolidModulus(NamedTuple):
     """The frozen polymer's stiffness: E at a reference, and a slope that sets in with temperature."""
 
-    reference_modulus: Any
-    """Young's modulus at the reference temperature [Pa]."""
+    reference_modulus: Any  # Young's modulus at the reference temperature [Pa]
     reference_temperature: Any
-    slope: Any
-    """d ln E/dT far above the onset [1/K]."""
+    slope: Any  # d ln E/dT far above the onset [1/K]
     onset: Any
     width: Any
     poissons_ratio: Any
@@ -181,14 +178,10 @@ MEMORY_HOLD = 300.0
 class MeltMemory(NamedTuple):
     """Memory of its crystals in a melt that was heated from the solid: it relaxes more slowly [M]."""
 
-    ratio: Any
-    """Viscosity of a melt that remembers all over that of the equilibrated melt [1]."""
-    temperature: Any
-    """Temperature at which half of the ratio's logarithm is left after `MEMORY_HOLD` [K]."""
-    width: Any
-    """Rise of temperature that makes the memory fade e times as fast [K]."""
-    time: Any
-    """Time in the melt [s]."""
+    ratio: Any  # Viscosity of a melt that remembers all over that of the equilibrated melt [1]
+    temperature: Any  # Temperature at which half of the ratio's logarithm is left after `MEMORY_HOLD` [K]
+    width: Any  # Rise of temperature that makes the memory fade e times as fast [K]
+    time: Any  # Time in the melt [s]
 
 
 def memory_shift(temperature_kelvin: Any, memory: MeltMemory) -> Any:
@@ -204,10 +197,8 @@ class Rheology(NamedTuple):
     """Parameters of the spectrum of a polymer, frozen and molten; the two tables pair row by row."""
 
     solid: SolidModulus
-    solid_modes: Modes
-    """Relaxation spectrum of the solid: (time [s], modulus relative to the others [1])."""
-    melt_modes: Modes
-    """Relaxation spectrum of the melt at its reference temperature: (time [s], modulus [Pa])."""
+    solid_modes: Modes  # Relaxation spectrum of the solid: (time [s], modulus relative to the others [1])
+    melt_modes: Modes  # Relaxation spectrum of the melt at its reference temperature: (time [s], modulus [Pa])
     activation_energy: Any
     melt_reference: Any
     memory: MeltMemory | None = None

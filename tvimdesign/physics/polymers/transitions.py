@@ -51,19 +51,13 @@ _SLOWEST = (
 class Kinetics(NamedTuple):
     """Parameters of the freezing of one material."""
 
-    avrami_exponent: Any
-    """n [1]."""
-    reference_half_time: Any
-    """Time in which half of it freezes at the reference temperature [s]."""
-    reference: Any
-    """[K]"""
-    nucleation_constant: Any
-    """K_g [K^2]."""
-    equilibrium_melting: Any
-    """T_m0, at which crystals of infinite thickness melt [K]: no freezing above it."""
+    avrami_exponent: Any  # n [1]
+    reference_half_time: Any  # Time in which half of it freezes at the reference temperature [s]
+    reference: Any  # [K]
+    nucleation_constant: Any  # K_g [K^2]
+    equilibrium_melting: Any  # T_m0, at which crystals of infinite thickness melt [K]: no freezing above it
     glass_transition: Any
-    transport_energy: Any
-    """U [J/mol]."""
+    transport_energy: Any  # U [J/mol]
     melting_time: Any
     """Time constant with which solid above the equilibrium fraction melts [s]; the lag of melting behind heating."""
 
@@ -152,14 +146,10 @@ _CORNER = 1.0  # K; over this the shift's kink at the glass transition is rounde
 class GlassTransition(NamedTuple):
     """Parameters of the shift across a glass transition."""
 
-    temperature: Any
-    """T_g [K]."""
-    wlf_c1: Any
-    """[1]"""
-    wlf_c2: Any
-    """[K]"""
-    activation_energy: Any
-    """Of the relaxation below the transition [J/mol]."""
+    temperature: Any  # T_g [K]
+    wlf_c1: Any  # [1]
+    wlf_c2: Any  # [K]
+    activation_energy: Any  # Of the relaxation below the transition [J/mol]
 
 
 def shift(temperature_kelvin: Any, transition: GlassTransition) -> Any:
@@ -176,8 +166,7 @@ def shift(temperature_kelvin: Any, transition: GlassTransition) -> Any:
 class Glass(NamedTuple):
     """Parameters of the spectrum of a glassy polymer."""
 
-    shear_modulus: Any
-    """Storage modulus at the reference temperature and 1 Hz [Pa]."""
+    shear_modulus: Any  # Storage modulus at the reference temperature and 1 Hz [Pa]
     reference_temperature: Any
     transition: GlassTransition
     modes: Modes

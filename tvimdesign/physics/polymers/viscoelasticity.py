@@ -58,12 +58,9 @@ def loss_factor(angular_frequency: Any, modes: Modes) -> Any:
 class Retardation(NamedTuple):
     """Response of a body to constant stress: strain at once, strain that comes later, and flow."""
 
-    instant_compliance: float
-    """Compliance at once [1/Pa]."""
-    modes: tuple[tuple[float, float], ...]
-    """(retardation time [s], compliance [1/Pa]) of each Kelvin-Voigt element."""
-    viscosity: float
-    """Viscosity of the flow [Pa s]."""
+    instant_compliance: float  # Compliance at once [1/Pa]
+    modes: tuple[tuple[float, float], ...]  # (retardation time [s], compliance [1/Pa]) of each Kelvin-Voigt element
+    viscosity: float  # Viscosity of the flow [Pa s]
 
 
 def retardation(modes: Modes) -> Retardation:
@@ -152,10 +149,8 @@ class Body(Protocol):
 class KelvinVoigt:
     """A spring and a dashpot side by side: it never flows, and cannot be strained at once."""
 
-    stiffness: float
-    """[Pa]"""
-    viscosity: float
-    """[Pa s]"""
+    stiffness: float  # [Pa]
+    viscosity: float  # [Pa s]
 
     def modulus(self, angular_frequency: Any) -> Any:
         """Return G + i w eta."""
@@ -174,10 +169,8 @@ class KelvinVoigt:
 class Maxwell:
     """A spring and a dashpot one after the other: under load it flows without end."""
 
-    stiffness: float
-    """[Pa]"""
-    viscosity: float
-    """[Pa s]"""
+    stiffness: float  # [Pa]
+    viscosity: float  # [Pa s]
 
     def modulus(self, angular_frequency: Any) -> Any:
         """Return 1/(1/G + 1/(i w eta))."""
@@ -196,12 +189,9 @@ class Maxwell:
 class StandardLinearSolid:
     """A spring beside a Maxwell body (Zener's): stiff at once, softer later, and it never flows."""
 
-    equilibrium: float
-    """Modulus that is left [Pa]."""
-    stiffness: float
-    """Modulus that relaxes [Pa]."""
-    viscosity: float
-    """[Pa s]"""
+    equilibrium: float  # Modulus that is left [Pa]
+    stiffness: float  # Modulus that relaxes [Pa]
+    viscosity: float  # [Pa s]
 
     def modulus(self, angular_frequency: Any) -> Any:
         """Return the modulus of the spring and of the Maxwell body together."""
@@ -222,10 +212,8 @@ Array = NDArray[np.float64]
 
 SHEET_RATE = 0.01
 """Shear rate [1/s] of the test that a yield strength comes from, in order of magnitude: a tensile bar in minutes."""
-_LARGEST = 300.0
-"""Largest stress over tau_0 that is looked at; sinh stays finite."""
-_ERROR = 1e-7
-"""Relative error of the integration."""
+_LARGEST = 300.0  # Largest stress over tau_0 that is looked at; sinh stays finite
+_ERROR = 1e-7  # Relative error of the integration
 
 
 def yield_stress(rate: float, activation_stress: float, modes: Modes) -> float:

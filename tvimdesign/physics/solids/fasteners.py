@@ -9,8 +9,7 @@ import numpy as np
 
 PITCH_DIAMETER, STRESS_DIAMETER = 0.6495, 0.9382
 """By how many pitches pitch and stress diameter are below the nominal one (ISO 724; ISO 898-1)."""
-LEFT_TWIST = 0.5
-"""Share of the tightening's twist that counts in service, k_tau (VDI 2230-1:2015, section 5.5.2)."""
+LEFT_TWIST = 0.5  # Share of the tightening's twist that counts in service, k_tau (VDI 2230-1:2015, section 5.5.2)
 
 
 def stress_diameter(diameter: Any, pitch: Any) -> Any:

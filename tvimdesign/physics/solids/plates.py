@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-POINTS = (np.arange(64) + 0.5) / 64
-"""Of the length outwards, evenly."""
+POINTS = (np.arange(64) + 0.5) / 64  # Of the length outwards, evenly
 ENTERS, GOES_AROUND = 1.03, 0.75
 """Rise of a plate's highest stress beside a core as the torque enters it from its face, and with the share of the polar
 moment that holes cost at the core's foot (`structure.felt_at_foot`); FE of 21 plates within 6 %."""
@@ -57,31 +56,21 @@ def highest_around(felt: Any) -> Any:
 class Seat(NamedTuple):
     """Adhesive along the rims of a plate, and the floor that it is bonded to."""
 
-    gap: Any
-    """Width of the adhesive [m]."""
-    depth: Any
-    """Height of the adhesive, that of the plate's rim [m]."""
-    spread: Any
-    """Slip of the floor beside a rim times its shear modulus, over the force on a length of it [1]."""
-    adhesive: Any
-    """Shear modulus of the adhesive [Pa]."""
-    floor: Any
-    """Shear modulus of the floor [Pa]."""
+    gap: Any  # Width of the adhesive [m]
+    depth: Any  # Height of the adhesive, that of the plate's rim [m]
+    spread: Any  # Slip of the floor beside a rim times its shear modulus, over the force on a length of it [1]
+    adhesive: Any  # Shear modulus of the adhesive [Pa]
+    floor: Any  # Shear modulus of the floor [Pa]
 
 
 class Path(NamedTuple):
     """Two ways out of the plates side by side, and what they do under one newton metre of all plates together."""
 
-    inward: Any
-    """Share of the torque that leaves through the inner rims [1]."""
-    adhesive: Any
-    """Compliance of the adhesive [rad/(N*m)]."""
-    floor: Any
-    """Compliance of the floor beside the rims, and between them [rad/(N*m)]."""
-    inner_traction: Any
-    """Shear of the adhesive along the inner rims [Pa/(N*m)]."""
-    outer_traction: Any
-    """Shear of the adhesive along the outer rims [Pa/(N*m)]."""
+    inward: Any  # Share of the torque that leaves through the inner rims [1]
+    adhesive: Any  # Compliance of the adhesive [rad/(N*m)]
+    floor: Any  # Compliance of the floor beside the rims, and between them [rad/(N*m)]
+    inner_traction: Any  # Shear of the adhesive along the inner rims [Pa/(N*m)]
+    outer_traction: Any  # Shear of the adhesive along the outer rims [Pa/(N*m)]
 
 
 def slips(seat: Seat) -> tuple[Any, Any]:

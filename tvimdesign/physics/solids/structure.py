@@ -56,8 +56,7 @@ def stub_stress(force: Any, lever: Any, width: Any, depth: Any) -> Any:
 
 SHAFT_ENTRY = 0.10
 """Length over radius by which the way into the plate lengthens a core; calibrated to validation/fe_structure."""
-BORE_ENTRY = 0.15
-"""Length over radius by which holes that go on into the plate weaken that way; calibrated likewise."""
+BORE_ENTRY = 0.15  # Length over radius by which holes that go on into the plate weaken that way; calibrated likewise
 FILLET_SHORTENS, THIN_SHORTENS = 0.495, 0.0046
 """Of a fillet's radius q at the core's foot: how much shorter the core is by it, 0.495 + 0.0046 (r/h)^2 on a plate of
 the thickness h. Torsion of a round bar on a plate by numbers (validation/fe_structure/fillets.csv), radii of 6 to 12 mm
@@ -71,12 +70,9 @@ which a fillet takes over the more, the higher it is against the plate."""
 class Bores(NamedTuple):
     """Holes along a shaft from its end."""
 
-    weakening: Any
-    """Share [1] of its polar moment that they cost, as of `hole_weakening`."""
-    depth: Any
-    """Depth [m]."""
-    circle_radius: Any
-    """Radius of the circle they stand on [m]."""
+    weakening: Any  # Share [1] of its polar moment that they cost, as of `hole_weakening`
+    depth: Any  # Depth [m]
+    circle_radius: Any  # Radius of the circle they stand on [m]
 
 
 def shorter_by_fillet(radius: Any, plate: Any, fillet: Any) -> Any:
@@ -112,8 +108,7 @@ is near: 0.775 by numbers [T], times 1.03 as it is not the same all around; that
 SHARP_FOOT, THIN_PLATE = 0.26, 0.137
 """Powers of the radius over a millimetre, and over the plate's thickness, with which it grows: torsion of a stepped
 round bar by numbers [T], radii of 5.7 to 16 mm, 1.7 to 4 times the plate's thickness, within 1.3 %."""
-BORED_FOOT = 1.41
-"""Rise by the share of the polar moment that holes through the foot cost; calibrated to FE."""
+BORED_FOOT = 1.41  # Rise by the share of the polar moment that holes through the foot cost; calibrated to FE
 NEAR_FOOT = 0.25
 """Way above the foot, over the core's radius, within which the end of a hole is felt there; calibrated likewise."""
 AMONG_VANES = 1.045
@@ -338,8 +333,7 @@ def footed_floor_stiffness(ring: Any, spot: Any, foot: Any, count: Any, foot_rad
 LEVER_ROOT, LEVER_DEPTH = 0.55, 0.91
 """Shares of the clamped radius that a lever does not bend over, and of its thickness that it bends over besides, as it
 is held on one face; calibrated to validation/fe_link."""
-LEVER_LOCAL = -1.1
-"""Give of clamp and hole times E t; calibrated likewise."""
+LEVER_LOCAL = -1.1  # Give of clamp and hole times E t; calibrated likewise
 
 
 def lever_stiffness(

@@ -14,22 +14,15 @@ SHEAR_COEFFICIENT = 5.0 / 6.0  # rectangular section [T]
 class Footing(NamedTuple):
     """Support of a vane, and its difference from a rigid root; calibrated to validation/fe_structure."""
 
-    thickness: Any
-    """Thickness of the plate or floor [m]."""
-    strip: Any
-    """Length of plate or floor from the vane's face to halfway to the next vane [m]."""
-    spread: float
-    """The vane's own compliance over that of an evenly pressed cantilever, with nothing bonded to it."""
-    give: float
-    """Sideways compliance of the root, times E w and over the vane's thickness by the plate's."""
-    bend: float
-    """Turn of the root as both strips bend, over half of what strips as wide as vane and rim would."""
-    rim: Any = 0.0
-    """Reach of plate or floor beyond the vane's outer end, and bends with its strips [m]."""
+    thickness: Any  # Thickness of the plate or floor [m]
+    strip: Any  # Length of plate or floor from the vane's face to halfway to the next vane [m]
+    spread: float  # The vane's own compliance over that of an evenly pressed cantilever, with nothing bonded to it
+    give: float  # Sideways compliance of the root, times E w and over the vane's thickness by the plate's
+    bend: float  # Turn of the root as both strips bend, over half of what strips as wide as vane and rim would
+    rim: Any = 0.0  # Reach of plate or floor beyond the vane's outer end, and bends with its strips [m]
 
 
-ROTOR_SPREAD = 0.787
-"""`Footing.spread` of the rotor's vanes, across their faces and along them."""
+ROTOR_SPREAD = 0.787  # `Footing.spread` of the rotor's vanes, across their faces and along them
 
 
 def on_plate(thickness: Any, strip: Any, rim: Any) -> Footing:
@@ -58,14 +51,10 @@ more at one end than at the other, over a row of free bars, whose sides are not;
 class BlockBetween(NamedTuple):
     """A block between the vanes of rotor and housing, and the pad that it presses on."""
 
-    moduli: tuple[Any, Any]
-    """Shear moduli of block and pad [Pa]."""
-    depths: tuple[Any, Any, Any]
-    """Depth of block, pad, and of a spreader between them [m]."""
-    face: tuple[Any, Any]
-    """Width and height [m]."""
-    free: Any
-    """Distance of its start from the vanes' roots [m]."""
+    moduli: tuple[Any, Any]  # Shear moduli of block and pad [Pa]
+    depths: tuple[Any, Any, Any]  # Depth of block, pad, and of a spreader between them [m]
+    face: tuple[Any, Any]  # Width and height [m]
+    free: Any  # Distance of its start from the vanes' roots [m]
 
     @property
     def arm(self) -> Any:
@@ -96,12 +85,9 @@ class BlockBetween(NamedTuple):
 class Vane(NamedTuple):
     """Compliance of one vane at the middle of its block [m/N]."""
 
-    leaning: Any
-    """As it leans: it bends, and its root turns."""
-    aside: Any
-    """As its root is pushed aside."""
-    thickness: Any
-    """Thickness [m]."""
+    leaning: Any  # As it leans: it bends, and its root turns
+    aside: Any  # As its root is pushed aside
+    thickness: Any  # Thickness [m]
 
 
 def stiffness(youngs_modulus: Any, shear_modulus: Any, width: Any, thickness: Any, height: Any, free: Any = 0.0) -> Any:

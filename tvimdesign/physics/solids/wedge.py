@@ -18,23 +18,17 @@ from tvimdesign.physics.solids import vane
 class PlateAround(NamedTuple):
     """The rotor's plate, from the core out to the middle of its vanes."""
 
-    thickness: Any
-    """[m]."""
-    core_radius: Any
-    """[m]."""
-    radius: Any
-    """Of the vanes' middle [m]."""
-    count: Any
-    """Number of vanes that hang from it."""
+    thickness: Any  # [m]
+    core_radius: Any  # [m]
+    radius: Any  # Of the vanes' middle [m]
+    count: Any  # Number of vanes that hang from it
 
 
 class Sideways(NamedTuple):
     """Compliance of a vane, with its plate, to loads that do not press on its face."""
 
-    along: Any
-    """To a force along its width [m/N]."""
-    twisted: Any
-    """To a moment about its height [rad/(N*m)]."""
+    along: Any  # To a force along its width [m/N]
+    twisted: Any  # To a moment about its height [rad/(N*m)]
 
 
 def torsion_constant(width: Any, thickness: Any) -> Any:

@@ -18,8 +18,7 @@ from tvimdesign.sweep.atlas import OUTPUTS, AtlasCell
 
 STUDIES = "studies"
 _UNITS = dict(zip(OUTPUTS, ("g", "N*m", "N*m/rad", "s", "J", "mm"), strict=True))
-_ALIKE = 0.01
-"""Share of a cycle by which a design of the front must be faster than a denser one."""
+_ALIKE = 0.01  # Share of a cycle by which a design of the front must be faster than a denser one
 _BRUSHED = (CYCLE, MASS, TORQUE, "cycle_energy", "envelope_diameter")
 
 

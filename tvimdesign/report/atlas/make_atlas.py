@@ -16,8 +16,7 @@ from tvimdesign.study.atlas_studies import Atlas
 from tvimdesign.study.written_studies import study_text
 from tvimdesign.sweep.atlas import FAMILIES, cells_of, compute, study_of
 
-SUMMARY = "atlas.json"
-"""File of every row, with counts."""
+SUMMARY = "atlas.json"  # File of every row, with counts
 
 
 def make_atlas(

@@ -167,8 +167,7 @@ def _no_design(failures: Sequence[TvimError]) -> TvimError:
     return InfeasibleError("\n".join(map(str, failures)) + "\nThe results of the other studies are written.")
 
 
-AT_ONCE = 2
-"""Children at a time: each has one thread, and the machines this is for have two cores or more."""
+AT_ONCE = 2  # Children at a time: each has one thread, and the machines this is for have two cores or more
 HALF_DONE = ".studies."
 """Folder beside the results in which children answer: a pattern. One is left where a comparison was killed."""
 _CRASHED = TvimError.exit_code + 2

@@ -28,8 +28,7 @@ class Row:
     headline: bool
     better: Literal["less", "more"] | None
     values: dict[str, float]
-    ends: dict[str, tuple[float, float]]
-    """Least and largest value where history leaves it open."""
+    ends: dict[str, tuple[float, float]]  # Least and largest value where history leaves it open
 
     @property
     def first(self) -> str:
@@ -121,8 +120,7 @@ def compare_csv(rows: Mapping[str, Sequence[Row]]) -> str:
     return csv_text(lines, [*heads, "meaning"])
 
 
-_TIMES_FROM = 1.5
-"""Ratio from which on people say `times` and not `%`."""
+_TIMES_FROM = 1.5  # Ratio from which on people say `times` and not `%`
 _WORDS = {
     "s": ("faster", "slower"), "g": ("lighter", "heavier"), "mm": ("smaller", "larger"), "cm³": ("smaller", "larger"),
     "J": ("thriftier", "thirstier"), "W": ("thriftier", "thirstier"),

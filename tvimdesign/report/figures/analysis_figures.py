@@ -104,8 +104,7 @@ def _fit_panel(above: Any, below: Any, panel: dict[str, Any], longest: int) -> N
     above.legend(loc="best", fontsize=6)
 
 
-_EACH = 2.0
-"""Inches of a panel."""
+_EACH = 2.0  # Inches of a panel
 
 
 def sweep(data: dict[str, Any]) -> Figure:

@@ -121,8 +121,7 @@ _WIDE, _HIGH = 8.27, 11.69  # inches: A4
 _LEFT, _BOTTOM = 0.7, 0.6
 _ACROSS = _WIDE - 2.0 * _LEFT
 _LINE, _SMALL, _SIZE = 0.165, 7.5, 8.5  # inches of a line; points
-_LETTERS = 100
-"""Letters of a line of text across the page."""
+_LETTERS = 100  # Letters of a line of text across the page
 _LABEL = 1.3  # inches that the labels of facts take
 _TONES = {"good": "#1b6b3a", "warn": "#8a5300", "bad": "#a8201a", "": "black"}
 _MOST_ROWS = 22
@@ -224,8 +223,7 @@ _PHASES = (
     ("stiffening", "cooling: freezes supercooled"),
     ("equilibrium_stiffening", "cooling, as the melting curve would claim"),
 )
-_SUMS = ("electrical_energy",)
-"""Columns that begin at zero in every phase, and add up over the cycle."""
+_SUMS = ("electrical_energy",)  # Columns that begin at zero in every phase, and add up over the cycle
 _TIME_LEFT, _TIME_WIDE = 0.62, 3.4  # inches: where panels over time begin, and how wide they are beside others
 
 

@@ -21,16 +21,14 @@ SMALL = 6.5  # points
 NAME_STRIP = 0.22  # inches at the top of every figure, where the study's name stands
 
 COLOURS = ("#0072B2", "#E69F00", "#009E73", "#56B4E9", "#000000", "#CC79A7")
-BROKEN = "#D55E00"
-"""The colour of a limit that does not hold; no series has it."""
+BROKEN = "#D55E00"  # The colour of a limit that does not hold; no series has it
 FAINT = "#BBBBBB"
 LINE_STYLES: tuple[Any, ...] = ("-", (0, (4, 1.5)), "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))
 ASIDE: tuple[Any, ...] = ((0, (1, 1)), (0, (2, 1)), (0, (3, 1, 1, 1)), (0, (1, 2)))
 """Line styles of simpler models that stand beside the full one; no series has them."""
 MARKERS = "osD^vP"
 HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx", "----", "++++")
-SEQUENCE = "cividis"
-"""Colour map whose grey rises steadily, for what has an order."""
+SEQUENCE = "cividis"  # Colour map whose grey rises steadily, for what has an order
 BAND: dict[str, Any] = {"alpha": 0.15, "color": COLOURS[1], "linewidth": 0.0}
 LIMIT: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (1, 2))}
 
@@ -69,8 +67,7 @@ def style_of(number: int) -> dict[str, Any]:
     return {"color": COLOURS[number % len(COLOURS)], "linestyle": LINE_STYLES[number % len(LINE_STYLES)]}
 
 
-TICKS = 6
-"""Steps of an axis at most: every tick, with its line and label, takes a millisecond to draw."""
+TICKS = 6  # Steps of an axis at most: every tick, with its line and label, takes a millisecond to draw
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
@@ -124,10 +121,8 @@ def row_texts(axes: Any, left: Sequence[str], right: Sequence[str]) -> None:
 
 mpl.rcParams.update(SETTINGS)
 _LONGEST_NAME = 110  # letters of a study's name on one line
-_NO_DATE = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}
-"""The same bytes from the same data."""
-_COMPRESSION = 1
-"""Of zlib, least: a third less time than its usual 6, and no more bytes."""
+_NO_DATE = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}  # The same bytes from the same data
+_COMPRESSION = 1  # Of zlib, least: a third less time than its usual 6, and no more bytes
 _NOT_NEEDED = ("GDEF", "GPOS", "GSUB", "kern", "MATH", "post")
 """Tables of a font for who sets text with it, and what its letters are called: OpenType 1.9, chapters 5 and 6."""
 

@@ -11,10 +11,8 @@ from numpy.typing import NDArray
 from tvimdesign.report.figures import theme
 
 Array = NDArray[np.float64]
-SWINGS_DRAWN = 6
-"""Swings drawn one by one; on a logarithmic axis later ones stand closer than a line is wide."""
-_ROUNDING = 2e-3
-"""Share of a curve's range by which it must turn back for a swing."""
+SWINGS_DRAWN = 6  # Swings drawn one by one; on a logarithmic axis later ones stand closer than a line is wide
+_ROUNDING = 2e-3  # Share of a curve's range by which it must turn back for a swing
 
 
 class Drawn(NamedTuple):
@@ -61,8 +59,7 @@ _DECADES_SHOWN = 1e10
 """Largest over smallest value of a logarithmic axis: what is smaller is nothing, and would press all else flat."""
 _LEFT, _GAP, _HIGH, _ABOVE, _BELOW = 0.6, 0.62, 1.6, 0.3, 0.42  # inches
 _KEY = 0.15  # inches: a line of the legend
-_LETTERS = 95
-"""Letters of a legend's line, over its columns."""
+_LETTERS = 95  # Letters of a legend's line, over its columns
 _MANY = "band: swings too close to be drawn one by one"
 
 

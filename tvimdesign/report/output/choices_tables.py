@@ -9,10 +9,8 @@ from tvimdesign.report.output.results_format import ChoosingEntry, Listed
 from tvimdesign.solve.nlp.solution import Choosing, Standard
 from tvimdesign.solve.result import StudyResult
 
-_NEAR = 1e-4
-"""Share within which a number in between is the listed size."""
-_BETTER = 1e-5
-"""Share by which a design must be better to count as better."""
+_NEAR = 1e-4  # Share within which a number in between is the listed size
+_BETTER = 1e-5  # Share by which a design must be better to count as better
 
 
 def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | float] | None = None) -> str:

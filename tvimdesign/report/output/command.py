@@ -18,8 +18,7 @@ from tvimdesign.report.output.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.terminal import Progress, print_section, progress_output, wide_console
 from tvimdesign.study import Study
 
-PARTLY_DONE = "partly done"
-"""Status in a manifest."""
+PARTLY_DONE = "partly done"  # Status in a manifest
 _AGAIN = "repeat the command with --overwrite"
 
 

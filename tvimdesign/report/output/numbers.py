@@ -22,8 +22,7 @@ _CAPITALS = {"pcl": "PCL", "peltier": "heater", "peltiers": "heaters"}
 _NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^[a-z]+(?= [<>]=)")
 
 
-_labels = partial(own_data, __file__, "labels.yaml")
-"""Labels of quantities whose names do not read as words."""
+_labels = partial(own_data, __file__, "labels.yaml")  # Labels of quantities whose names do not read as words
 
 
 def name_in_words(name: str) -> str:

@@ -10,8 +10,7 @@ from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Listing, Page, Secti
 from tvimdesign.page.page_file import FILE, page_html
 from tvimdesign.report.output.numbers import number
 
-NEVER = 1e300
-"""Number that `never` is sorted by."""
+NEVER = 1e300  # Number that `never` is sorted by
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
 _TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
     ("bad", re.compile(r"\bviolated\b|\bfailure\b|\bworse\b")),

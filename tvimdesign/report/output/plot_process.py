@@ -21,8 +21,7 @@ from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.processes import FedProcess, Niceness, ProcessorTimeError, communicate
 
-PROCESSOR_LIMIT = 600.0
-"""Seconds of processor time for all plots of a command; they take about five."""
+PROCESSOR_LIMIT = 600.0  # Seconds of processor time for all plots of a command; they take about five
 
 
 class Drawing(NamedTuple):

@@ -16,12 +16,10 @@ Shares = dict[str, float | None]
 class IntervalEntry(NumberEntry):
     """The range of an output over unmeasured inputs: between `low` and `high` with 95 %, all moved together."""
 
-    one_at_a_time: NumberEntry
-    """Least and largest with one input at an end of its range."""
+    one_at_a_time: NumberEntry  # Least and largest with one input at an end of its range
     shares: dict[str, float]
     """Share of the variance that knowing one input would take away; the first is what to measure first."""
-    to_halve: list[str]
-    """The fewest inputs to measure for half the width; none where no few do it."""
+    to_halve: list[str]  # The fewest inputs to measure for half the width; none where no few do it
     before: NumberEntry | None
     """The same by the ranges that inputs had before a user's records measured them; none where none did."""
 
@@ -53,14 +51,12 @@ class UncertaintyEntry(Entry):
     ranges_hold: ShareEntry | None
     """Share of the ranges of unmeasured inputs in which every limit is satisfied, parts as drawn."""
     draws: int
-    held: dict[str, float]
-    """That share for each limit that is not always kept, the least first."""
+    held: dict[str, float]  # That share for each limit that is not always kept, the least first
     intervals: dict[str, IntervalEntry]
     unmeasured: list[UnmeasuredEntry]
 
 
-Stands = Literal["active", "touches", "slack"]
-"""How a limit stands at the optimum."""
+Stands = Literal["active", "touches", "slack"]  # How a limit stands at the optimum
 
 
 class ValueEntry(NumberEntry):

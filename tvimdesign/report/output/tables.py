@@ -115,8 +115,7 @@ def _of_record(
 
 _MULTIPLES = {2.0: "twice", 3.0: "three times"}
 _PARTS = {2.0: "half of", 3.0: "a third of"}
-Value = Callable[[str], float]
-"""A number (SI) by its full name."""
+Value = Callable[[str], float]  # A number (SI) by its full name
 
 
 def soft_in_words(design: Design, table: Table) -> str:
@@ -164,8 +163,7 @@ def _at(sense: str, which: str, point: str, value: Value, table: Table) -> str:
     return f"|Z| {sense} {threshold} at {format_quantity(value(f'frequency@{point}'), 'Hz')}"
 
 
-NOTHING = 5e-4
-"""Margin, as a share, below which a limit is active."""
+NOTHING = 5e-4  # Margin, as a share, below which a limit is active
 _ROUND = 1e-5
 
 

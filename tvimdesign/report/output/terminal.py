@@ -24,8 +24,7 @@ from rich.text import Text
 from tvimdesign.base.interrupts import interrupt_handler, raise_pending
 from tvimdesign.page.blocks import Block, Facts, Folded, Grid, Points, Section, Warned, Words
 
-LABEL = 20
-"""Columns that a label takes."""
+LABEL = 20  # Columns that a label takes
 DOT = " · "
 _STYLES = {"bad": "red", "warn": "yellow", "good": "green", "": ""}
 
@@ -235,8 +234,7 @@ class _Shown:
         self._printed = now
 
 
-_CELLS = 20
-"""Cells of a bar."""
+_CELLS = 20  # Cells of a bar
 
 
 def share_done(text: str) -> str:

@@ -146,8 +146,7 @@ def _torque_sensor() -> str:
     )
 
 
-_SMALL = 0.045
-"""Width [m] of a small joint."""
+_SMALL = 0.045  # Width [m] of a small joint
 
 
 def _small_joint() -> str:

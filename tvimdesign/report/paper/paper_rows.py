@@ -26,8 +26,7 @@ from tvimdesign.report.paper.paper_case import (
 )
 from tvimdesign.simulation.working_cycle.curves import fractions_at
 
-OTHER_PIN = 38e-3
-"""A pin elsewhere than the ratio of one asks [m]."""
+OTHER_PIN = 38e-3  # A pin elsewhere than the ratio of one asks [m]
 
 
 def _torsion_rate() -> str:
@@ -177,12 +176,9 @@ def _motion() -> str:
     )
 
 
-_EACH_DECADE = 5
-"""Frequencies of a usual sweep in a decade."""
-_POISSON = 0.3, 0.5
-"""Poisson's ratio of a stiff plastic and of a melt."""
-_SURE = 0.1
-"""Share by which an uncorrected modulus may be low before it is called wrong."""
+_EACH_DECADE = 5  # Frequencies of a usual sweep in a decade
+_POISSON = 0.3, 0.5  # Poisson's ratio of a stiff plastic and of a melt
+_SURE = 0.1  # Share by which an uncorrected modulus may be low before it is called wrong
 
 
 def _modes(temperature: float, fraction: float) -> list[tuple[float, float]]:

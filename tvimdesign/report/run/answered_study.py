@@ -31,15 +31,12 @@ class AnsweredStudy:
     study: Study
     result: StudyResult
     front: FrontOfRun
-    reported: RunResults
-    """Everything a script wants to know: the content of results.json."""
+    reported: RunResults  # Everything a script wants to know: the content of results.json
     failures: list[TvimError] = field(default_factory=list)
     uncertainty: Mapping[str, Any] = field(default_factory=dict)
     """What `Uncertainty.data` returns; empty if it was not computed."""
-    no_uncertainty: str = ""
-    """Why it could not be computed."""
-    deadline: Deadline = field(default_factory=Deadline)
-    """Until when it is answered, with what is left out for it."""
+    no_uncertainty: str = ""  # Why it could not be computed
+    deadline: Deadline = field(default_factory=Deadline)  # Until when it is answered, with what is left out for it
 
     @property
     def warnings(self) -> list[RunWarning]:

@@ -25,11 +25,9 @@ from tvimdesign.report.run.blocks.verdict import Verdict, starts_in_words, verdi
 from tvimdesign.report.run.blocks.warnings import SHOWN, RunWarning
 
 FILE = "summary.txt"
-LINES, NARROW_LINES = 16, 24
-"""Lines of the screen from 100 columns on, and below."""
+LINES, NARROW_LINES = 16, 24  # Lines of the screen from 100 columns on, and below
 _WIDE = 100
-_LEAST = 4
-"""Lines of the requirements, with their heads and the others, for which the last facts make room."""
+_LEAST = 4  # Lines of the requirements, with their heads and the others, for which the last facts make room
 _FILE_WIDTH = 120
 _COLOURS = {"red": r"\bviolated by\b.*", "yellow": r"at the limit|^Warning:", "bold": r"^[A-Z][a-z ]+:"}
 _OF_TONE = {"good": "bold green", "warn": "bold yellow", "bad": "bold red", "": "bold"}

@@ -126,8 +126,7 @@ def worst_first(checks: Sequence[SolidCheck]) -> list[SolidCheck]:
     return sorted(reported, key=lambda check: (rank[check.level], -missed[check.name], check.name))
 
 
-FOLDER, CYCLE = "cad", "cycle"
-"""Folder of the parts, and name of the figure of the cycle beside them."""
+FOLDER, CYCLE = "cad", "cycle"  # Folder of the parts, and name of the figure of the cycle beside them
 _CARRIED = (".step", ".3mf", ".pdf")
 """Files of parts that the page carries, by their ending; in this order, as there may not be room for all."""
 _LEVELS = ("failure", "warning", "pass")

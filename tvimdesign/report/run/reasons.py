@@ -15,11 +15,9 @@ from tvimdesign.solve.nlp.solution import ActiveConstraint, ConflictSet, Side, S
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, FLAT_GOAL, meaning
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
-PRICE_SHOWN = 1e-3
-"""Percent of the objective below which a step of a limit is not worth a line."""
+PRICE_SHOWN = 1e-3  # Percent of the objective below which a step of a limit is not worth a line
 _SAVING_SHOWN = 5e-3
-NO_ROOM = 100.0
-"""Percent of the objective above which the slope at the optimum says nothing of a whole step."""
+NO_ROOM = 100.0  # Percent of the objective above which the slope at the optimum says nothing of a whole step
 
 
 def active(answer: StudyResult) -> list[ActiveConstraint]:

@@ -162,10 +162,8 @@ _FILES = {
     "design.json": "the design as data",
 }  # fmt: skip
 _PHASES = ("softening", "stiffening")
-WARNINGS = 3
-"""Warnings that are shown; others are behind a line."""
-LISTED = 3
-"""Parts of a listing that are shown of many."""
+WARNINGS = 3  # Warnings that are shown; others are behind a line
+LISTED = 3  # Parts of a listing that are shown of many
 _COLUMNS = ("current", "electrical_power", "joint_impedance", "joint_stiffness", "joint_damping")
 
 

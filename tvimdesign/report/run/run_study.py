@@ -69,7 +69,7 @@ def run_study(
     without = how_to_install("cad") if cad else ""
     with Command(out, overwrite=overwrite, resume=resume, as_json=as_json) as command, ExitStack() as stack:
         folder, progress = command.folder, command.progress
-        # Begun before what solves and reports is loaded here: both take their time to load as much.
+        # Started before what solves and reports is loaded here: both take their time to load as much.
         making = stack.enter_context(BackgroundPartsJob(study.mode)) if cad and not without else None
         if plots and study.write.plots:
             command.start_plotter(gives_way=True)
@@ -243,8 +243,7 @@ _TITLE = "The run was interrupted: this study begins at the best design so far, 
 class Best:
     """The answer of a run, once there is one."""
 
-    study: Study | None = None
-    """The study started at it."""
+    study: Study | None = None  # The study started at it
 
     def note(self, result: StudyResult) -> None:
         """Note an answer where it is a design that was searched."""

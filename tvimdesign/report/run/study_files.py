@@ -56,20 +56,16 @@ def print_schema() -> None:
     print(written_studies.schema_text(), end="")
 
 
-_CANDIDATES = 3
-"""Sets of hardware that are tried, the best fit first."""
-_BESIDE = 2
-"""Sets of hardware that are tried with other numbers."""
+_CANDIDATES = 3  # Sets of hardware that are tried, the best fit first
+_BESIDE = 2  # Sets of hardware that are tried with other numbers
 _WIDER, _ROOM = (1.1, 1.25), 1.03
 """Factors on a diameter that are tried, and room over the least: ranges follow the diameter, and must allow it."""
 _STIFFER = (2.0, 4.0, 8.0, 16.0)
 """Stiffnesses that are tried, over the one asked for, if no other diameter alone is enough."""
 _MORE_FRICTION = 1.0
 """Friction over the springs' torque at full stroke where less is not to be had: they still bring the joint back."""
-_WEAKER = (0.95, 0.9, 0.8, 0.65, 0.5)
-"""Torques that are tried, over the one asked for, if the largest is not found."""
-_SHORTER = (0.85, 0.7, 0.5, 0.3)
-"""Strokes that are tried, over the one asked for."""
+_WEAKER = (0.95, 0.9, 0.8, 0.65, 0.5)  # Torques that are tried, over the one asked for, if the largest is not found
+_SHORTER = (0.85, 0.7, 0.5, 0.3)  # Strokes that are tried, over the one asked for
 
 
 def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: bool, **run: Any) -> None:

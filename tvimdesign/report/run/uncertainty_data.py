@@ -32,12 +32,9 @@ from tvimdesign.study.text.values import difference_unit
 
 _SPREAD = "TVIMDESIGN_SPREAD"
 """Variable of the environment: `off` leaves yield and ranges out, where many runs share few processors."""
-MODULES = 1 << 12
-"""Modules drawn for the yield."""
-_NAMED = 3
-"""Unmeasured inputs that are named for each output."""
-_LEAST = 5e-3
-"""Change of an output, as a share of it, below which it does not depend on an unmeasured input."""
+MODULES = 1 << 12  # Modules drawn for the yield
+_NAMED = 3  # Unmeasured inputs that are named for each output
+_LEAST = 5e-3  # Change of an output, as a share of it, below which it does not depend on an unmeasured input
 FIRST_SCREEN = (
     "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
     "softened_stiffness", "softened_damping", "softened_impedance", "softened_temperature",
@@ -197,8 +194,7 @@ def _rows(output: str, swings: Sequence[Swing], nominal: float, table: Table) ->
 
 
 _DIGITS = 3
-_CARRIED = 0.05
-"""Share of a limit's variance from which a tolerance is named."""
+_CARRIED = 0.05  # Share of a limit's variance from which a tolerance is named
 
 
 def yield_of(answer: StudyResult) -> YieldReached | None:

@@ -33,36 +33,26 @@ class Controller:
 
     period: float
     sensor_lag: float
-    heating: float
-    """Rise of the hot face by current, of the reaction curve's tangent [K/(A s)]."""
-    balance: float
-    """Current at which the hot face stands still where the switch ends [A]."""
-    gain: float
-    """[A/K]"""
+    heating: float  # Rise of the hot face by current, of the reaction curve's tangent [K/(A s)]
+    balance: float  # Current at which the hot face stands still where the switch ends [A]
+    gain: float  # [A/K]
     integral_time: float
     observer_sensed: float
     observer_near: float
     observer_drift: float
     hottest: float
     """Highest set-point of the hot face: where the switch ends, and higher as far as ratings leave room [K]."""
-    soft: float
-    """Impedance of the soft joint [N*m/rad]."""
+    soft: float  # Impedance of the soft joint [N*m/rad]
     stiff: float
-    band: float
-    """Factor of an impedance within which it counts as reached."""
+    band: float  # Factor of an impedance within which it counts as reached
     springs: float
-    cooling: float
-    """Current of the way back [A]."""
-    cooled: float
-    """Temperature of the hot face down to which that current cools [K]."""
-    layer_conductance: float
-    """Between cells of the layer [W/K]."""
+    cooling: float  # Current of the way back [A]
+    cooled: float  # Temperature of the hot face down to which that current cools [K]
+    layer_conductance: float  # Between cells of the layer [W/K]
     cell_mass: float
-    behind_resistance: float
-    """Between the layer's last cell and what is behind it [K/W]."""
+    behind_resistance: float  # Between the layer's last cell and what is behind it [K/W]
     behind_capacity: float
-    behind_loss: float
-    """To the air [W/K]."""
+    behind_loss: float  # To the air [W/K]
     layer_cells: int
     profile_time: tuple[float, ...]
     profile_current: tuple[float, ...]
@@ -72,10 +62,8 @@ class Controller:
     layer_loss: tuple[float, ...]
     """Real and, below zero, imaginary compliance of a layer at one temperature [rad/(N*m)]."""
     layer_structure: tuple[float, ...]
-    layer_structure_loss: tuple[float, ...]
-    """The same of the structure, by the temperature of the hot face."""
-    layer_softness: tuple[float, ...]
-    """One over the joint's impedance with such a layer [rad/(N*m)]."""
+    layer_structure_loss: tuple[float, ...]  # The same of the structure, by the temperature of the hot face
+    layer_softness: tuple[float, ...]  # One over the joint's impedance with such a layer [rad/(N*m)]
 
 
 class RunningController:
@@ -177,10 +165,8 @@ def reaction_curve(a: Array, b: Array, c: Array, lags: tuple[float, ...], period
     return ReactionCurve(float(slopes[steepest]), dead + 0.5 * period)
 
 
-TOLERANCE = 1e-3
-"""Largest error of a step in the scaled state: a tenth of a kelvin."""
-SOFT = "softening_time"
-"""Event from which on the joint is soft, whatever ends a switch."""
+TOLERANCE = 1e-3  # Largest error of a step in the scaled state: a tenth of a kelvin
+SOFT = "softening_time"  # Event from which on the joint is soft, whatever ends a switch
 _NONE = np.zeros(0)
 
 
@@ -196,16 +182,11 @@ class Controlled:
     """A switch to soft under a controller; a row a period."""
 
     times: Array
-    currents: Array
-    """Asked of the driver [A]."""
-    near: Array
-    """Hot face of the layer [K]."""
-    hot: Array
-    """Hot side of the pads [K]."""
-    impedances: Array
-    """As the controller estimates them [N*m/rad]."""
-    due: Array
-    """Logarithm of the soft threshold over the joint's impedance: soft from zero on."""
+    currents: Array  # Asked of the driver [A]
+    near: Array  # Hot face of the layer [K]
+    hot: Array  # Hot side of the pads [K]
+    impedances: Array  # As the controller estimates them [N*m/rad]
+    due: Array  # Logarithm of the soft threshold over the joint's impedance: soft from zero on
 
     @property
     def soft_after(self) -> float:

@@ -33,8 +33,7 @@ HISTORY = (
 _ROUNDING = 1.0 + 1e-9
 MELTING_POINT = {"temperature": 333.15, "frequency": 1.0}
 """The paper's third temperature, 60 degC, which joins cold and hot where a study names no points of its own."""
-BETWEEN = 3
-"""Solid fractions between the least and the most that are tried for a finding's interval, and not shown."""
+BETWEEN = 3  # Solid fractions between the least and the most that are tried for a finding's interval, and not shown
 
 
 @dataclass(frozen=True)
@@ -55,11 +54,9 @@ class Case:
     temperature: float
     history: History
     joint: motion.Joint
-    one_sided: bool
-    """Whether the polymer only pushes: blocks against either sense, of `modes` each."""
+    one_sided: bool  # Whether the polymer only pushes: blocks against either sense, of `modes` each
     modes: motion.Modes
-    friction: float = 0.0
-    """Torque by which the legs' friction on their pins resists the link [N*m]."""
+    friction: float = 0.0  # Torque by which the legs' friction on their pins resists the link [N*m]
 
     @property
     def plant(self) -> Plant:

@@ -26,8 +26,7 @@ from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, Plot
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 ANGLE = 0.1  # rad, the paper's perturbation
-ANGLE_PANEL = "Released"
-"""How the titles of the panels begin that show the angle over time."""
+ANGLE_PANEL = "Released"  # How the titles of the panels begin that show the angle over time
 SETTLED = 0.05  # share of the angle within which the link counts as back
 
 
@@ -48,10 +47,8 @@ class Released:
 
     case: Case
     response: OneSided
-    slip: float
-    """Angle by which the layer slipped, or yielded, while the link was held [rad]."""
-    backlash: float
-    """Angle over which nothing touches right after the hold [rad]."""
+    slip: float  # Angle by which the layer slipped, or yielded, while the link was held [rad]
+    backlash: float  # Angle over which nothing touches right after the hold [rad]
     frequency: float
     damping_ratio: float
     settling: float

@@ -37,10 +37,8 @@ class Swung:
     stiffness: float
     damping: float
     dissipated: float
-    apart: float
-    """Distance of the complex stiffness from the frequency domain's, over its magnitude."""
-    contact_lost: float
-    """Share of the last period in which nothing touches."""
+    apart: float  # Distance of the complex stiffness from the frequency domain's, over its magnitude
+    contact_lost: float  # Share of the last period in which nothing touches
 
     @property
     def motion(self) -> Motion:

@@ -31,10 +31,8 @@ from tvimdesign.simulation.link_motion.sampled_motion import (
     turns_of,
 )
 
-SEARCHED = 1e-13
-"""Share of a step to which an event is located."""
-NUDGE = 2.0**-10
-"""Share of a step taken where a block is grazed, before it is asked again whether it touches."""
+SEARCHED = 1e-13  # Share of a step to which an event is located
+NUDGE = 2.0**-10  # Share of a step taken where a block is grazed, before it is asked again whether it touches
 NEGLECTED = 1e-5
 """Share of the first angle by which a link that has come loose may swing about where the polymer drives it, and is
 then followed without its inertia."""

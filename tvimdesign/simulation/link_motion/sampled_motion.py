@@ -23,15 +23,13 @@ from tvimdesign.physics.motions.motion import Joint, Modes
 from tvimdesign.physics.motions.one_sided import Touching
 
 Array = NDArray[np.float64]
-Stretch = tuple[float, int]
-"""(step [s], count of steps)."""
+Stretch = tuple[float, int]  # (step [s], count of steps)
 PER_STRETCH = 24  # samples of one doubling of time
 SAMPLES_A_PERIOD = 24
 DEAD = 1e-3  # share of its start at which a swing is no longer worth its samples, and the whole motion is over
 LONGEST = 3600.0  # s, after which a release is given up
 MOST_SAMPLES = 6_000  # what a joint that hardly damps is shown for
-RESTING = 1e-12
-"""Share of the largest speed up to which a link rests."""
+RESTING = 1e-12  # Share of the largest speed up to which a link rests
 TURNS_OF_A_SWING = 2
 
 
@@ -42,34 +40,27 @@ class Motion:
     times: Array
     angle: Array
     speed: Array
-    internal: Array
-    """Internal angle of each mode [rad], one row a mode."""
+    internal: Array  # Internal angle of each mode [rad], one row a mode
     torque: Array
     energy: Array
-    stretches: tuple[Stretch, ...]
-    """The steps in which it was sampled."""
+    stretches: tuple[Stretch, ...]  # The steps in which it was sampled
 
 
 @dataclass(frozen=True)
 class ContactEvent:
     """A block left or met."""
 
-    time: float
-    """[s]"""
-    side: int
-    """0: the first block, 1: the second."""
-    touching: bool
-    """True if it touches from here on."""
+    time: float  # [s]
+    side: int  # 0: the first block, 1: the second
+    touching: bool  # True if it touches from here on
 
 
 @dataclass(frozen=True)
 class OneSided:
     """A motion between blocks; every event is one of its samples."""
 
-    motion: Motion
-    """`internal` has the rows of the first block, then those of the second."""
-    touching: NDArray[np.bool_]
-    """True where a block touches from a sample to the next; one row a block."""
+    motion: Motion  # `internal` has the rows of the first block, then those of the second
+    touching: NDArray[np.bool_]  # True where a block touches from a sample to the next; one row a block
     events: tuple[ContactEvent, ...]
     rest_angle: float | None = None
     """Angle at which friction holds the link for good [rad]; None where it is free, or still moves."""
@@ -152,23 +143,15 @@ def stretches_of(durations: Iterable[float]) -> tuple[Stretch, ...]:
     return tuple(stretches)
 
 
-BAND = (0.1, 100.0)
-"""Frequencies [Hz] between which elements follow the law, and wider where a point lies out."""
-BEYOND = 10.0
-"""Factor by which the elements reach beyond that band."""
-PER_DECADE = 1.5
-"""With these the stiffness is within 0.5 % of the law in the band, and its loss factor within 1 %."""
-FITTED = 40
-"""Frequencies in the band at which the elements are fitted."""
-EXACT = 1e3
-"""Weight of the point's own frequency, to be met exactly, over that of the others."""
-RIGID = 1e12
-"""Stiffness of a structure whose give is in the modes [N*m/rad]."""
+BAND = (0.1, 100.0)  # Frequencies [Hz] between which elements follow the law, and wider where a point lies out
+BEYOND = 10.0  # Factor by which the elements reach beyond that band
+PER_DECADE = 1.5  # With these the stiffness is within 0.5 % of the law in the band, and its loss factor within 1 %
+FITTED = 40  # Frequencies in the band at which the elements are fitted
+EXACT = 1e3  # Weight of the point's own frequency, to be met exactly, over that of the others
+RIGID = 1e12  # Stiffness of a structure whose give is in the modes [N*m/rad]
 HALVINGS = 80
-REACH = 40.0
-"""Logit of the share of an interval within which a rate is sought: to 1e-17 of its ends."""
-APART = 1e-7
-"""Share by which a rate of the structure is moved where the PCL has the same."""
+REACH = 40.0  # Logit of the share of an interval within which a rate is sought: to 1e-17 of its ends
+APART = 1e-7  # Share by which a rate of the structure is moved where the PCL has the same
 
 
 def with_loss(joint: Joint, modes: Modes, loss: float, frequency: float) -> tuple[Joint, Modes]:

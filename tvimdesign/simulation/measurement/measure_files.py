@@ -27,28 +27,18 @@ class KindSheet:
     """A kind of measurement."""
 
     name: str
-    function: str
-    """That fits its tables: folder, file and name in `kinds/`."""
+    function: str  # That fits its tables: folder, file and name in `kinds/`
     about: str
-    needs: tuple[tuple[str, ...], ...]
-    """Columns; of each tuple one."""
-    takes: tuple[str, ...]
-    """Columns that are used where they are there."""
-    category: str
-    """Of the catalogue's record that follows; empty where none does."""
+    needs: tuple[tuple[str, ...], ...]  # Columns; of each tuple one
+    takes: tuple[str, ...]  # Columns that are used where they are there
+    category: str  # Of the catalogue's record that follows; empty where none does
     settings: Mapping[str, Mapping[str, Any]]
-    varies: tuple[str, ...] = ()
-    """Columns; one of them must change, where it is there."""
-    constant: tuple[str, ...] = ()
-    """Columns that must not change, where they are there."""
-    only_asked: bool = False
-    """Whether it is fitted only where it is asked for."""
-    decided_by: tuple[str, ...] = ()
-    """Columns; any of them decides for this kind."""
-    rather_than: str = ""
-    """Kind that is not taken where a table may be of both."""
-    excluded_by: tuple[str, ...] = ()
-    """Columns; any of them rules it out, unless it is asked for."""
+    varies: tuple[str, ...] = ()  # Columns; one of them must change, where it is there
+    constant: tuple[str, ...] = ()  # Columns that must not change, where they are there
+    only_asked: bool = False  # Whether it is fitted only where it is asked for
+    decided_by: tuple[str, ...] = ()  # Columns; any of them decides for this kind
+    rather_than: str = ""  # Kind that is not taken where a table may be of both
+    excluded_by: tuple[str, ...] = ()  # Columns; any of them rules it out, unless it is asked for
 
     def column(self, block: Block, need: tuple[str, ...]) -> str | None:
         """Return the first of the columns that will do and that a block has."""
@@ -167,8 +157,7 @@ def kind_sheet(name: str) -> KindSheet:
 
 
 _FLOW = "flow_curve"
-_NEAREST = 3
-"""Kinds that a refusal names with their needs."""
+_NEAREST = 3  # Kinds that a refusal names with their needs
 
 
 @dataclass(frozen=True)
@@ -177,8 +166,7 @@ class Measured:
 
     kind: KindSheet
     files: tuple[DataFile, ...]
-    blocks: tuple[Block, ...]
-    """The tables that were fitted."""
+    blocks: tuple[Block, ...]  # The tables that were fitted
     measurement: Measurement
 
     def read(self) -> list[str]:

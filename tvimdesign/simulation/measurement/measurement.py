@@ -16,8 +16,7 @@ from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 if TYPE_CHECKING:
     from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
-Settings = Mapping[str, Any]
-"""By name: numbers in SI, texts as they are."""
+Settings = Mapping[str, Any]  # By name: numbers in SI, texts as they are
 LEAST_ROWS = 3
 
 
@@ -35,8 +34,7 @@ class OtherRecord:
 
     category: str
     based_on: str
-    choice: str
-    """What a study names it by."""
+    choice: str  # What a study names it by
     values: Mapping[str, Estimate]
 
 
@@ -45,10 +43,8 @@ class Measurement:
     """The result of fitting a kind of measurement."""
 
     fit: Fit
-    notes: tuple[str, ...] = ()
-    """What a reader has to know: what was taken for what, what was left out."""
-    record_values: Mapping[str, Estimate] = field(default_factory=dict)
-    """Values of a record, by their names there."""
+    notes: tuple[str, ...] = ()  # What a reader has to know: what was taken for what, what was left out
+    record_values: Mapping[str, Estimate] = field(default_factory=dict)  # Values of a record, by their names there
     record_tables: Mapping[str, RecordTable] = field(default_factory=dict)
     record_conditions: Mapping[str, tuple[float, str]] = field(default_factory=dict)
     """Values of a record that were chosen, not measured, and go with the others: in SI, with the unit to write."""

@@ -23,8 +23,7 @@ from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Pane
 from tvimdesign.simulation.working_cycle.curves import frozen_on_cooling
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
-SMALL_STRAIN = 1e-4
-"""Strain of the frequency and temperature sweeps: the paper's 0.01 %."""
+SMALL_STRAIN = 1e-4  # Strain of the frequency and temperature sweeps: the paper's 0.01 %
 FREQUENCIES = np.geomspace(0.1, 628.0, 77)  # rad/s, the paper's
 STRAINS = np.geomspace(1e-4, 10.0, 101)
 AMPLITUDE_FREQUENCY = 10.0  # rad/s; the paper gives none: assumed, a usual choice
@@ -32,8 +31,7 @@ TEMPERATURES = np.arange(-5.0, 200.5, 1.0) + ZERO_CELSIUS  # K, the paper's
 COOLING_RATE = 5.0 / 60.0  # K/s; the paper gives none: assumed, a usual choice
 ONE_HERTZ = 2.0 * np.pi  # rad/s
 
-Cooling = Callable[[float], float]
-"""Solid fraction [1] at a temperature [K] while the polymer is cooled from the melt."""
+Cooling = Callable[[float], float]  # Solid fraction [1] at a temperature [K] while the polymer is cooled from the melt
 
 
 def _star(state: State, angular_frequency: float | Array, strain: float | Array) -> tuple[Array, Array]:

@@ -24,11 +24,9 @@ from tvimdesign.simulation.working_cycle.curves import HISTORIES, fractions_at, 
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
 
-ROOM = 23.0 + ZERO_CELSIUS
-"""Temperature of a yield strength [K]."""
+ROOM = 23.0 + ZERO_CELSIUS  # Temperature of a yield strength [K]
 _NO_STRESS = 1e-30
-PAPER = (303.15, 333.15, 373.15)
-"""The temperatures of the paper's rheometer tests [K]."""
+PAPER = (303.15, 333.15, 373.15)  # The temperatures of the paper's rheometer tests [K]
 
 
 @dataclass(frozen=True)
@@ -36,13 +34,10 @@ class State:
     """The polymer at one temperature and one solid fraction."""
 
     fraction: float
-    modes: tuple[tuple[float, float], ...]
-    """Relaxation spectrum: (time [s], modulus [Pa])."""
-    linear_strain: float
-    """Strain at which the storage modulus has fallen 5 % [1]."""
+    modes: tuple[tuple[float, float], ...]  # Relaxation spectrum: (time [s], modulus [Pa])
+    linear_strain: float  # Strain at which the storage modulus has fallen 5 % [1]
 
-    activation_stress: float
-    """Stress that sets the yield of the frozen polymer [Pa]; see `yielding`."""
+    activation_stress: float  # Stress that sets the yield of the frozen polymer [Pa]; see `yielding`
 
     def step_stress(self, time: Array, strain: float, rise: float) -> Array:
         """Return the stress [Pa] while and after a strain is reached at a constant rate within `rise` seconds.
@@ -196,10 +191,8 @@ BODIES: dict[str, type[Any]] = {
     "standard_linear_solid": StandardLinearSolid,
 }
 TITLES = {"kelvin_voigt": "Kelvin-Voigt", "maxwell": "Maxwell", "standard_linear_solid": "standard linear solid"}
-_FLOOR = 1e-6
-"""Share of the largest value below which two curves count as the same: both are nothing that is measured."""
-_REACH = 60.0
-"""How far parameters may go from the first guess, in units of their logarithm."""
+_FLOOR = 1e-6  # Share of the largest value below which two curves count as the same: both are nothing that is measured
+_REACH = 60.0  # How far parameters may go from the first guess, in units of their logarithm
 _STARTS = (-4.0, 0.0, 4.0)
 
 StudyResult = Callable[[Body], Array]
@@ -246,8 +239,7 @@ class Comparison:
     """Every body fitted to every state of a specimen."""
 
     specimen: Specimen
-    fits: dict[str, tuple[ModelFit, ...]]
-    """By kind; the nominal state's first."""
+    fits: dict[str, tuple[ModelFit, ...]]  # By kind; the nominal state's first
 
     def curves(self, name: str, unit: str, answer: StudyResult) -> tuple[Column, ...]:
         """Return the response of the nominal state's bodies, a column each."""

@@ -14,8 +14,7 @@ Array = NDArray[np.float64]
 class CurrentProfile:
     """Current [A] at some moments [s] from the phase's start, straight between them; the last one lasts."""
 
-    moments: tuple[float, ...]
-    """Rising from zero."""
+    moments: tuple[float, ...]  # Rising from zero
     currents: tuple[float, ...]
 
     @classmethod

@@ -22,19 +22,15 @@ from tvimdesign.simulation.working_cycle.phase_functions import SHOWN, PhaseFunc
 
 Array = NDArray[np.float64]
 MEMORY = "melt_memory"
-HISTORIES = 5
-"""Solid fractions, equally spaced from the least to the largest, whose extremes are taken."""
+HISTORIES = 5  # Solid fractions, equally spaced from the least to the largest, whose extremes are taken
 
 
 class Fractions(NamedTuple):
     """Solid fractions [1] at one temperature."""
 
-    low: float
-    """Cooled from the melt, still liquid; of what freezes as it melts, melting as early as the record allows."""
-    nominal: float
-    """Heated, on the equilibrium curve."""
-    high: float
-    """Heated, melting as late as the record allows."""
+    low: float  # Cooled from the melt, still liquid; of what freezes as it melts, melting as early as the record allows
+    nominal: float  # Heated, on the equilibrium curve
+    high: float  # Heated, melting as late as the record allows
 
 
 def melting_range(resolved: ResolvedModule) -> tuple[float, float]:

@@ -49,10 +49,8 @@ class Cycle:
         return next(iter(self.trajectories.values()))
 
 
-TOLERANCE = 1e-4
-"""Largest error of a step in the scaled state: values are within 2e-4 of what they converge to (test)."""
-SAMPLES = 200
-"""Samples of a phase at least."""
+TOLERANCE = 1e-4  # Largest error of a step in the scaled state: values are within 2e-4 of what they converge to (test)
+SAMPLES = 200  # Samples of a phase at least
 
 
 class Simulator:
@@ -144,8 +142,7 @@ class Supplied(NamedTuple):
 
     values: Array
     slopes: Array
-    driven: dict[str, PhaseOutputs]
-    """All of each driven phase."""
+    driven: dict[str, PhaseOutputs]  # All of each driven phase
 
 
 class CycleEngine:

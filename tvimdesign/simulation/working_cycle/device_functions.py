@@ -26,8 +26,7 @@ from tvimdesign.simulation.working_cycle.symbols import ca, lean_function, symbo
 from tvimdesign.study import Study, brought_along, given
 from tvimdesign.study.design import Design
 
-MOST_STRUCTURES = 8
-"""Structures whose functions a thread keeps."""
+MOST_STRUCTURES = 8  # Structures whose functions a thread keeps
 
 
 class _Structures(threading.local):

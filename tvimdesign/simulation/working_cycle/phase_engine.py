@@ -24,17 +24,14 @@ from tvimdesign.simulation.working_cycle.phase_run import PhaseRun
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 
 _NONE = np.zeros(0)
-MANY = 5000
-"""Nodes of an expression from which on it is recorded apart from what has fewer."""
+MANY = 5000  # Nodes of an expression from which on it is recorded apart from what has fewer
 
 
 class Watch(NamedTuple):
     """Quantities at an instant, recorded."""
 
-    given: Tape
-    """What they take from the inputs alone: constants of a run."""
-    at: Tape
-    """The quantities, one below the other, of state, current and these constants."""
+    given: Tape  # What they take from the inputs alone: constants of a run
+    at: Tape  # The quantities, one below the other, of state, current and these constants
 
 
 class PhaseEngine:

@@ -14,8 +14,7 @@ class Grid:
     """The steps of a phase, by what its first run needed: each in times that the pads would need to heat the layer."""
 
     shares: list[float] = field(default_factory=list)
-    events: dict[str, int] = field(default_factory=dict)
-    """Step in which each event was due; -1 at the start."""
+    events: dict[str, int] = field(default_factory=dict)  # Step in which each event was due; -1 at the start
 
 
 @dataclass(frozen=True)
@@ -28,8 +27,7 @@ class Instant:
     of_state: Array
     current: float
     of_current: Array
-    step: int = -1
-    """The step that ends there; -1 at the start."""
+    step: int = -1  # The step that ends there; -1 at the start
 
     def without_length(self) -> Instant:
         """Leave out the last direction."""
@@ -45,8 +43,7 @@ class Drive:
     of_moments: Array
     currents: Array
     of_currents: Array
-    steps: int
-    """Of each piece."""
+    steps: int  # Of each piece
 
     def with_length(self) -> Drive:
         """Add the direction of a last step's length, along which nothing moves."""
@@ -63,8 +60,7 @@ class PhaseOutputs:
     values: dict[str, float] = field(default_factory=dict)
     slopes: dict[str, Array] = field(default_factory=dict)
     end: Instant | None = None
-    short: float = 0.0
-    """What the event that ends a driven phase still waits for at its end, and its derivatives."""
+    short: float = 0.0  # What the event that ends a driven phase still waits for at its end, and its derivatives
     of_short: Array = field(default_factory=lambda: np.zeros(1))
     samples: dict[str, tuple[Array, Array]] = field(default_factory=dict)
     """What the highest value of a driven phase is asked of, at the end of every step, with derivatives."""

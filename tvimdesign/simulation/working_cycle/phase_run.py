@@ -26,12 +26,10 @@ if TYPE_CHECKING:
 TOLERANCE = 2e-3
 """Largest error of a step of second order in the scaled state, a fifth of a kelvin; steps are of third order. Event
 times are within 2e-3 of CVODES's at 1e-9 (tests)."""
-FIRST = 0.02
-"""The first step, in times that the pads would need to heat the layer."""
+FIRST = 0.02  # The first step, in times that the pads would need to heat the layer
 MOST_STEPS, EXTRA, GROWTH = 5000, 40, 1.3
 """Steps of a phase at most; beyond those of the first run, and by how much each of these grows."""
-STALLED = 1e-7
-"""Change of the scaled state over the rest of the horizon below which nothing will happen any more."""
+STALLED = 1e-7  # Change of the scaled state over the rest of the horizon below which nothing will happen any more
 NEAR, MOST_TRIALS, ROUGH = 1e-5, 12, 1e-3
 """Part of a step by which the last one may miss an event: what is left, its square, is made up by slopes. Part of the
 step's change to which an event is looked for between its ends."""

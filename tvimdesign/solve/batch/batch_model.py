@@ -25,10 +25,8 @@ from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 
 Array = NDArray[np.float64]
 
-_LOOSE = 2e-3
-"""Tolerance of a simulation that a pace is taken from."""
-_SLOW = 0.1
-"""Share of the horizon that a phase is paced by which never ends as drawn."""
+_LOOSE = 2e-3  # Tolerance of a simulation that a pace is taken from
+_SLOW = 0.1  # Share of the horizon that a phase is paced by which never ends as drawn
 
 
 def pace_of(simulator: Simulator, inputs: Array, phases: Collection[str] | None = None) -> Pace:
@@ -93,8 +91,7 @@ class BatchModel:
         return self._arithmetic(np.concatenate([columns, self.cycle(columns, pace, workers, only, deadline)]), workers)
 
 
-_BLOCK = 4096
-"""Designs a thread takes at a time: some milliseconds of work."""
+_BLOCK = 4096  # Designs a thread takes at a time: some milliseconds of work
 
 
 class Kernel:

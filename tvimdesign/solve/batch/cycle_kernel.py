@@ -19,8 +19,7 @@ from tvimdesign.solve.batch.phase_kernel import Course, Fit, Passage, PhaseKerne
 
 Array = NDArray[np.float64]
 
-BLOCK = 512
-"""Designs that go through the cycle together."""
+BLOCK = 512  # Designs that go through the cycle together
 STEPS = Steps(40, 1.0 / 32.0, 1.15)
 COARSE = (
     Steps(8, 0.25, 2.0), Steps(10, 0.125, 2.0), Steps(12, 0.125, 2.0), Steps(16, 0.0625, 1.5), Steps(20, 0.03125, 1.5),
@@ -31,8 +30,7 @@ FINE = Steps(96, 1.0 / 64.0, 1.1)
 CLOSE, MOST = 8e-4, 0.9
 """Largest difference from fine steps in the values of so many designs. Where an event is only just reached, no step is
 fine enough."""
-LATE = 3.0
-"""Times of the study's own design up to which others are followed there."""
+LATE = 3.0  # Times of the study's own design up to which others are followed there
 MORE, WIDTH = 8, 0.05
 """Designs that steps are tried on, beside one for each moving input, and how far from the one they are about."""
 
@@ -41,10 +39,8 @@ MORE, WIDTH = 8, 0.05
 class Pace:
     """The study's own design on its way through the cycle; it scales the steps of all other designs."""
 
-    times: Mapping[str, float]
-    """About how long each phase takes [s], by name."""
-    balances: Mapping[str, Array]
-    """State and current that stay where a phase ended, by phase."""
+    times: Mapping[str, float]  # About how long each phase takes [s], by name
+    balances: Mapping[str, Array]  # State and current that stay where a phase ended, by phase
     fits: Mapping[str, Fit] = field(default_factory=dict)
     """How finely each phase is stepped, where that is known (`CycleKernel.fitted`)."""
 

@@ -20,20 +20,16 @@ from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 
 Array = NDArray[np.float64]
 
-Course: TypeAlias = list[tuple[float, Array]]
-"""Moments [s] with the states at each, a column a design."""
-_WINDOW = 2
-"""Steps after which events are looked for, once the study's own design would have ended."""
+Course: TypeAlias = list[tuple[float, Array]]  # Moments [s] with the states at each, a column a design
+_WINDOW = 2  # Steps after which events are looked for, once the study's own design would have ended
 
 
 @dataclass
 class Passage:
     """A block of designs at the end of a phase."""
 
-    values: dict[str, Array]
-    """Events, paths and steady rows by name."""
-    end: Array
-    """State at the event that ends the phase, a column each; NaN where that never happens."""
+    values: dict[str, Array]  # Events, paths and steady rows by name
+    end: Array  # State at the event that ends the phase, a column each; NaN where that never happens
 
 
 class PhaseKernel:
@@ -271,20 +267,16 @@ def _peak(times: Array, values: Array) -> Array:
 
 _LATE, _GROWTH = 2.0, 1.07
 """Times the pace after which steps grow, for the designs that have not ended, and by how much each."""
-LONGEST = 2.0
-"""How much longer or shorter than another a design is taken to be at most."""
+LONGEST = 2.0  # How much longer or shorter than another a design is taken to be at most
 
 
 @dataclass(frozen=True)
 class Steps:
     """Division of time into steps."""
 
-    of_pace: int
-    """Steps in the time the study's own design takes."""
-    first: float
-    """Length of the first step over the others'."""
-    growth: float
-    """What each of the first steps is longer by, until they are as long as the others."""
+    of_pace: int  # Steps in the time the study's own design takes
+    first: float  # Length of the first step over the others'
+    growth: float  # What each of the first steps is longer by, until they are as long as the others
 
     def lengths(self, pace: float, horizon: float) -> Array:
         """Return the lengths of all steps up to the horizon."""
@@ -302,12 +294,9 @@ class Fit:
     """Course of designs near a given one through a phase."""
 
     steps: Steps
-    about: Array
-    """Moving inputs of that one."""
-    slopes: Array
-    """By how much the time of a phase changes with each, both as shares."""
-    shares: Mapping[str, float]
-    """When each event happens, as a share of that time."""
+    about: Array  # Moving inputs of that one
+    slopes: Array  # By how much the time of a phase changes with each, both as shares
+    shares: Mapping[str, float]  # When each event happens, as a share of that time
 
     def scales(self, columns: Array) -> Array:
         """About how long designs take, as a share of the time of that one."""

@@ -24,10 +24,8 @@ from tvimdesign.solve.discrete.discrete_choices import SAME_SIZE, Box, is_one
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.nlp.solver_run import Run
 
-Side = int
-"""0 is the half with the smaller sizes, 1 the one with the larger."""
-_LEAST = 1e-6
-"""Least that a half is taken to raise the bound by, in shares of it, so that the other half counts."""
+Side = int  # 0 is the half with the smaller sizes, 1 the one with the larger
+_LEAST = 1e-6  # Least that a half is taken to raise the bound by, in shares of it, so that the other half counts
 _WITHOUT_DESIGN = 0.1
 """What a half without a design counts for, in shares of the bound: it is left as one beyond every bound is."""
 
@@ -63,12 +61,9 @@ class PseudoCosts:
         return sum(self._risen.values()) / every if every else 1.0
 
 
-GAP = 1e-6
-"""Share by which a box must promise better than what is known to be looked into."""
-_NEXT_RECORDS = 3
-"""Records of each mixture, by cost, that are tried beside a tree's first combination."""
-_DATA = 20
-"""Boxes between two words of progress."""
+GAP = 1e-6  # Share by which a box must promise better than what is known to be looked into
+_NEXT_RECORDS = 3  # Records of each mixture, by cost, that are tried beside a tree's first combination
+_DATA = 20  # Boxes between two words of progress
 
 
 class Answer(NamedTuple):
@@ -82,8 +77,7 @@ class Answer(NamedTuple):
 class Task:
     """One box of one tree: searched from a run `near` it, for one combination `exactly`, or `thoroughly` afresh."""
 
-    place: int
-    """Of the tree."""
+    place: int  # Of the tree
     box: Box
     near: Run | None
     way: Literal["within", "exactly", "thoroughly"]
@@ -115,8 +109,7 @@ class Division:
 
     axis: int
     after: int
-    moves: tuple[float, float]
-    """How far the number lies from the nearest size of each half, in shares of it."""
+    moves: tuple[float, float]  # How far the number lies from the nearest size of each half, in shares of it
 
     def halves(self, box: Box) -> tuple[Box, Box]:
         """Return the half with the smaller sizes and the half with the larger ones."""
@@ -125,8 +118,7 @@ class Division:
         return (*before, (first, self.after), *behind), (*before, (self.after + 1, last), *behind)
 
 
-_AFRESH = 2
-"""Combinations, the best first, that are solved again from all else there is."""
+_AFRESH = 2  # Combinations, the best first, that are solved again from all else there is
 
 
 @dataclass
@@ -134,11 +126,9 @@ class BranchAndBound:
     """One search over the trees of all records; `runs` are the runs of single combinations, by tree and box."""
 
     trees: Sequence[Relaxation]
-    keep: int
-    """Number of best combinations that the search must prove: bounds are compared with the last of them."""
+    keep: int  # Number of best combinations that the search must prove: bounds are compared with the last of them
     runs: dict[tuple[int, Box], Run] = field(default_factory=dict)
-    inside: float = 0.0
-    """Largest share by which a design within a box was better than the box's bound."""
+    inside: float = 0.0  # Largest share by which a design within a box was better than the box's bound
     unknown: set[tuple[int, Box]] = field(default_factory=set)
     """Combinations without a design so far, though it is not certain that they have none."""
     _open: list[Node] = field(default_factory=list)
@@ -148,8 +138,7 @@ class BranchAndBound:
     _starts_tried: set[tuple[int, Box, bytes]] = field(default_factory=set)
     """Combinations with the unknowns that each was solved from."""
     _bounded: list[NDArray[np.bool_]] = field(default_factory=list)
-    _pseudo_costs: dict[int, PseudoCosts] = field(default_factory=dict)
-    """By tree."""
+    _pseudo_costs: dict[int, PseudoCosts] = field(default_factory=dict)  # By tree
 
     def run(self) -> None:
         """Search until no box promises better."""

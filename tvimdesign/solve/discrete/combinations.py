@@ -36,10 +36,8 @@ from tvimdesign.study import Study
 class ExactCombinations:
     """The problems of single combinations of records, each built once when first asked for."""
 
-    build: Callable[[Mapping[str, str]], Optimizer]
-    """The problem with some records chosen."""
-    sizes: Sizes
-    """The listed numbers."""
+    build: Callable[[Mapping[str, str]], Optimizer]  # The problem with some records chosen
+    sizes: Sizes  # The listed numbers
     _built: dict[tuple[str, ...], Relaxation] = field(init=False, default_factory=dict)
 
     def of(self, mixed: Relaxation, box: Box) -> Relaxation:
@@ -118,17 +116,14 @@ def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
     return Trace(unknowns, run.multipliers[rows], run.bound_multipliers[common])
 
 
-BLOCK = 16
-"""Combinations of a block: tenths of a second where arithmetic rules them out, up to a minute where not."""
+BLOCK = 16  # Combinations of a block: tenths of a second where arithmetic rules them out, up to a minute where not
 
 
 class Block(NamedTuple):
     """Some combinations of a tree, each a neighbour of the one before."""
 
-    place: int
-    """Of the tree."""
-    first: int
-    """Combination, from 0."""
+    place: int  # Of the tree
+    first: int  # Combination, from 0
 
 
 class SolvedBlock(NamedTuple):
@@ -189,10 +184,8 @@ def enumerated_here(begin: Begin) -> Iterator[tuple[Block, SolvedBlock]]:
 
 
 MAX_COMBINATIONS = 1_000_000
-MAX_FAMILIES = 60
-"""Families of records: each is searched on its own, from every start."""
-MAX_MIXED = 100
-"""Records that are mixed in one problem: each is one of its free numbers."""
+MAX_FAMILIES = 60  # Families of records: each is searched on its own, from every start
+MAX_MIXED = 100  # Records that are mixed in one problem: each is one of its free numbers
 
 
 @dataclass

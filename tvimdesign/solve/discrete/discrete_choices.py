@@ -12,15 +12,13 @@ from tvimdesign.study import Options, Study
 Box = tuple[tuple[int, int], ...]
 """First and last place among the sizes of each listed number and the records of each mixture, in their order."""
 
-SAME_SIZE = 1e-6
-"""Share of a size within which a number has it."""
+SAME_SIZE = 1e-6  # Share of a size within which a number has it
 _ONE_RECORD = 1e-4
 """Share of other records up to which a design is that of one: IPOPT leaves as much of what it does not want."""
 _RECORDS_LAST = 0.1
 """Distance [shares of a size] at which half of another record lies, twice: records that are as good as one another stay
 mixed while sizes are divided, for their boxes would all be divided alike."""
-_BESIDE = 0.45
-"""A mixed design is nearer to the record it has most of than to the next."""
+_BESIDE = 0.45  # A mixed design is nearer to the record it has most of than to the next
 
 
 @dataclass(frozen=True)

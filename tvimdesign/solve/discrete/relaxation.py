@@ -30,16 +30,14 @@ _CLOSE = 0.02
 asked whether the limits can be met there at all."""
 
 
-_SAME_RECORDS = 0.5
-"""Change of a record's share from which on multipliers of a run nearby say nothing any more."""
+_SAME_RECORDS = 0.5  # Change of a record's share from which on multipliers of a run nearby say nothing any more
 
 
 @dataclass(eq=False)
 class Relaxation:
     """The problem of one choice of records, its free optima, and the work that was done on it."""
 
-    place: int
-    """Among the trees of a search."""
+    place: int  # Among the trees of a search
     optimizer: Optimizer
     records: dict[str, str]
     sizes: Sizes
@@ -51,8 +49,7 @@ class Relaxation:
     """The best run so far that converged with every size from its list."""
     ends: list[Run] = field(init=False, default_factory=list)
     """Where the starts came to instead, if none of them came to an optimum."""
-    _runs: dict[tuple[Any, ...], Run] = field(init=False, default_factory=dict)
-    """Runs by ends and beginning."""
+    _runs: dict[tuple[Any, ...], Run] = field(init=False, default_factory=dict)  # Runs by ends and beginning
 
     def __post_init__(self) -> None:
         self.constant_current_optimum = ConstantCurrentOptimum(self.optimizer)

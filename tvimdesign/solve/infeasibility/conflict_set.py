@@ -30,24 +30,18 @@ from tvimdesign.solve.nlp.solution import ConflictSet, Side
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, Array, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
-TRACE = 1e-4
-"""Weight of the study's own objective beside the slacks."""
-FEASIBILITY_TOL = 1e-5
-"""Slack, as a share of a limit's scale, below which it counts as none."""
-_ROOM = 1e-2
-"""What slacks begin with beyond what the first point needs."""
+TRACE = 1e-4  # Weight of the study's own objective beside the slacks
+FEASIBILITY_TOL = 1e-5  # Slack, as a share of a limit's scale, below which it counts as none
+_ROOM = 1e-2  # What slacks begin with beyond what the first point needs
 
 
 @dataclass(frozen=True)
 class ElasticSolution:
     """Result of one run of the elastic problem."""
 
-    run: Run
-    """Without multipliers: those of the elastic problem say nothing of the study's objective."""
-    slacks: Array
-    """How far each limit was broken, in its scale; limits that did not count have none."""
-    pressing: Array
-    """Multiplier of each limit: its weight where it gives, above 0 where it is part of the conflict."""
+    run: Run  # Without multipliers: those of the elastic problem say nothing of the study's objective
+    slacks: Array  # How far each limit was broken, in its scale; limits that did not count have none
+    pressing: Array  # Multiplier of each limit: its weight where it gives, above 0 where it is part of the conflict
     ends: Array
     """Multipliers of the ranges of the free numbers: above 0 at an upper end that is in the way, below at a lower."""
 

@@ -31,8 +31,7 @@ from tvimdesign.study import ProfileOptions, Study, brought_along_by, given
 
 _TRIED = 3
 """Records of a choice with which a design is sought: those that violate all limits least at the nearest design."""
-_PROMISING = 0.7
-"""Share of the way that conflicting limits must move which a record has to go at the nearest design."""
+_PROMISING = 0.7  # Share of the way that conflicting limits must move which a record has to go at the nearest design
 
 
 def curing_records(optimizer: Optimizer, nearest: Run, conflict_set: ConflictSet) -> dict[str, str]:
@@ -170,8 +169,7 @@ def _given(study: Study, table: Table, name: str) -> float:
 
 
 _STARTS = 5
-_MOST_RECORDS = 20
-"""Combinations of records beyond which the search itself shall tell."""
+_MOST_RECORDS = 20  # Combinations of records beyond which the search itself shall tell
 
 
 def refuse_infeasible(study: Study, deadline: Deadline | None = None) -> None:

@@ -28,10 +28,8 @@ from tvimdesign.solve.nlp.solver_run import Array, Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
-_ROOM = 1e-2
-"""What slacks begin with beyond what the first point needs."""
-NOWHERE = 1e3
-"""What a point counts as breaking a limit by at which there is no module."""
+_ROOM = 1e-2  # What slacks begin with beyond what the first point needs
+NOWHERE = 1e3  # What a point counts as breaking a limit by at which there is no module
 
 
 class FeasibilityScreen:
@@ -128,13 +126,10 @@ class FeasibilityScreen:
         return float(left) if solver.stats()["success"] else np.nan
 
 
-_DRAWN, _DESIGNS = 12, 3
-"""Designs whose working cycle is simulated, and those of them that break their limits least."""
+_DRAWN, _DESIGNS = 12, 3  # Designs whose working cycle is simulated, and those of them that break their limits least
 _GENERATIONS = 150
-_EACH = 8
-"""Designs of a generation for each free number."""
-_POINTS = 2048
-"""Points that are drawn where a whole evolution would take too long."""
+_EACH = 8  # Designs of a generation for each free number
+_POINTS = 2048  # Points that are drawn where a whole evolution would take too long
 
 
 def designs_all_over(optimizer: Optimizer, mixed: Callable[[Array], Array] = lambda inputs: inputs) -> list[Array]:

@@ -25,14 +25,10 @@ class Constraint:
     output: str
     sense: Literal["<=", ">="]
     limit: float
-    scale: float
-    """What a residual of one means: the limit itself, or a hundred steps where it has no size."""
-    origin: str
-    """`require` for the study's own, otherwise the reason the machine has it."""
-    step: str = "1 %"
-    """What a hundredth of the scale is, in words."""
-    absolute: bool = False
-    """True if the limit has no size of its own, so that distances from it are in its unit."""
+    scale: float  # What a residual of one means: the limit itself, or a hundred steps where it has no size
+    origin: str  # `require` for the study's own, otherwise the reason the machine has it
+    step: str = "1 %"  # What a hundredth of the scale is, in words
+    absolute: bool = False  # True if the limit has no size of its own, so that distances from it are in its unit
     part_of: str = ""
     """The output a requirement names that is put on several at once, which move together: `spring_stiffness`, which is
     limited over the stroke, or `holding_torque`, the least of several."""
@@ -271,12 +267,9 @@ def _reported(table: Table, rules: Callable[[Output], tuple[Rule, ...]]) -> list
 
 
 _INPUTS_NAMED = 6
-_CLASHING = 8
-"""Inputs that are named where a module is no geometry."""
-_FACTORS = (0.9, 1.1, 0.75, 1.35, 0.5, 2.0, 0.3, 3.0)
-"""Factors on an input that are tried as a cure."""
-_SMALL = 0.05
-"""Share of its largest value that those factors apply to where an input is zero."""
+_CLASHING = 8  # Inputs that are named where a module is no geometry
+_FACTORS = (0.9, 1.1, 0.75, 1.35, 0.5, 2.0, 0.3, 3.0)  # Factors on an input that are tried as a cure
+_SMALL = 0.05  # Share of its largest value that those factors apply to where an input is zero
 _STEPS = {"mm": 0.1, "K": 1.0, "degC": 1.0, "s": 1.0}
 """What people relax a limit by that has no size of its own, in its unit; a hundredth of the unit elsewhere."""
 

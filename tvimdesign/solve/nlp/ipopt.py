@@ -30,7 +30,7 @@ _USUAL = {
     "acceptable_iter": 2,
     "watchdog_shortened_iter_trigger": 0,
     "mu_init": 1e-3,
-    # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.
+    # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is restored inside.
     "honor_original_bounds": "yes",
 }
 _WARM = {
@@ -62,8 +62,7 @@ Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
 multipliers hold; at an optimum, with them; at the optimum
 itself, which is sought more exactly."""
 _SETTINGS: dict[Beginning, dict[str, Any]] = {"cold": _ANYWHERE, "feasible": _FEASIBLE, "warm": _WARM, "sharp": _WARM}
-_SHARP = 1e-11
-"""Tolerance that separates a limit which hardly presses from one which does not."""
+_SHARP = 1e-11  # Tolerance that separates a limit which hardly presses from one which does not
 _MOST_ITERATIONS = {"cold": 120, "near": 60, "warm": 25, "sharp": 60}
 """A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back. A near one
 takes 13 to 45, measured on six studies, or seldom comes to anything new."""
@@ -73,8 +72,7 @@ _MOST_POINTS = {"cold": 700, "warm": 75, "near": 95}
 """A start that leads somewhere evaluates up to 635 points cold, 71 warm and 89 near, measured on three studies and a
 family of the atlas; any other searches along steps in vain."""
 
-TIME_OVER = "Maximum_WallTime_Exceeded"
-"""Status of a run that a deadline ended, whatever its clock."""
+TIME_OVER = "Maximum_WallTime_Exceeded"  # Status of a run that a deadline ended, whatever its clock
 _ITERATIONS_OVER = "Maximum_Iterations_Exceeded"
 
 

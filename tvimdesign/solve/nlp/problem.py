@@ -38,8 +38,7 @@ LATEST = 0.98
 REMEMBERED = 3
 """Points that are remembered, of the cycle and of its model: where a step begins and ends, and with steps placed anew.
 """
-UNIT = 1.0
-"""Unit of the time that a profile takes [s]; its unknown is the logarithm."""
+UNIT = 1.0  # Unit of the time that a profile takes [s]; its unknown is the logarithm
 
 
 class Problem:

@@ -49,8 +49,7 @@ class FreeCurrent:
     pieces: int
     lower: float
     upper: float
-    slew: float
-    """How fast it may change [A/s]."""
+    slew: float  # How fast it may change [A/s]
 
     @property
     def nodes(self) -> int:
@@ -75,10 +74,8 @@ class Parameters:
     """The numbers of one run that are no unknowns."""
 
     inputs: Array
-    weights: Array
-    """Of what is minimised."""
-    factors: Array
-    """Of each bound (a row) on each traded output (a column)."""
+    weights: Array  # Of what is minimised
+    factors: Array  # Of each bound (a row) on each traded output (a column)
 
 
 class Point(NamedTuple):
@@ -88,13 +85,10 @@ class Point(NamedTuple):
     gradient: Array
     rows: Array
     jacobian: Array
-    values: dict[str, float]
-    """The wanted outputs."""
+    values: dict[str, float]  # The wanted outputs
     gradients: dict[str, Array]
-    times: dict[str, float]
-    """Time [s] of each event the problem needs."""
-    cycle: Array
-    """What the cycle supplies, in the order of the model's `switch_names`, and its slopes."""
+    times: dict[str, float]  # Time [s] of each event the problem needs
+    cycle: Array  # What the cycle supplies, in the order of the model's `switch_names`, and its slopes
     of_cycle: Array
 
 
@@ -114,10 +108,8 @@ class Bound:
 class Objective:
     """Weights and bounds of one run; both are numbers the solver is given, nothing is built for them."""
 
-    weights: Mapping[str, float]
-    """Weight of each minimised output over its reference."""
-    bounds: Sequence[Bound] = field(default_factory=tuple)
-    """No more of them than the problem has traded outputs."""
+    weights: Mapping[str, float]  # Weight of each minimised output over its reference
+    bounds: Sequence[Bound] = field(default_factory=tuple)  # No more of them than the problem has traded outputs
 
     def factors(self, objectives: Sequence[str]) -> Array:
         """Factors of every bound (a row) on every traded output (a column); rows that bound nothing are zero."""
@@ -138,10 +130,8 @@ class CycleModel:
 
     at: Array
     values: Array
-    slopes: Array
-    """Of the logarithms, where `positive`."""
-    curvatures: Array
-    """One matrix for each value."""
+    slopes: Array  # Of the logarithms, where `positive`
+    curvatures: Array  # One matrix for each value
     positive: NDArray[np.bool_]
 
     @classmethod

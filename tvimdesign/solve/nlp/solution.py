@@ -11,8 +11,7 @@ from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Cycle
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
-SAME_OPTIMUM = 1e-4
-"""Two solutions are the same optimum if their objectives differ by no more than this share."""
+SAME_OPTIMUM = 1e-4  # Two solutions are the same optimum if their objectives differ by no more than this share
 
 
 @dataclass(frozen=True)
@@ -27,16 +26,12 @@ class Start:
     seconds: float
     begin: dict[str, float]
     end: dict[str, float]
-    choices: dict[str, str | float] = field(default_factory=dict)
-    """The listed records and sizes this run was held to."""
-    relaxed: bool = False
-    """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
-    second_try: bool = False
-    """True if it converged only from a feasible design, which was sought first."""
+    choices: dict[str, str | float] = field(default_factory=dict)  # The listed records and sizes this run was held to
+    relaxed: bool = False  # Whether listed sizes were free to lie between one another: where to begin, not an answer
+    second_try: bool = False  # True if it converged only from a feasible design, which was sought first
     by_neighbor: bool = False
     """Whether it ended a period of a number, such as a turn of the coils, beside where the solver came to first."""
-    crossed: bool = False
-    """Whether it began with a part, such as the springs, of one optimum in another one."""
+    crossed: bool = False  # Whether it began with a part, such as the springs, of one optimum in another one
 
 
 def same_optimum(start: Start, other: Start) -> bool:
@@ -56,10 +51,8 @@ class ActiveConstraint:
     output: str
     text: str
     residual: float
-    scale: float
-    """SI."""
-    absolute: bool
-    """Whether the room is to be read in the row's unit, not as a share."""
+    scale: float  # SI
+    absolute: bool  # Whether the room is to be read in the row's unit, not as a share
     shadow_price: float
     step: str
     origin: str
@@ -77,11 +70,9 @@ class SolverEffort:
 
     warm: int = 0
     warm_iterations: int = 0
-    cold: int = 0
-    """From a simulated point, where a warm run came to nothing."""
+    cold: int = 0  # From a simulated point, where a warm run came to nothing
     cold_iterations: int = 0
-    screened: int = 0
-    """Boxes of sizes in which the limits that depend on no switch cannot be kept."""
+    screened: int = 0  # Boxes of sizes in which the limits that depend on no switch cannot be kept
 
     @classmethod
     def total(cls, build_plan: "Iterable[SolverEffort]") -> Self:
@@ -111,30 +102,21 @@ class Choosing:
     """The account of a search over listed choices."""
 
     combinations: int
-    solved: int
-    """Combinations whose design was found."""
-    pruned: int
-    """Combinations that no bound leaves room for."""
-    without_design: int
-    """Combinations for which every search came to nothing."""
-    not_searched: int = field(default=0, kw_only=True)
-    """Combinations, or records, that are left as the time was over."""
-    best: tuple[Standard, ...]
-    """The best combinations, the first of them the answer."""
+    solved: int  # Combinations whose design was found
+    pruned: int  # Combinations that no bound leaves room for
+    without_design: int  # Combinations for which every search came to nothing
+    not_searched: int = field(default=0, kw_only=True)  # Combinations, or records, that are left as the time was over
+    best: tuple[Standard, ...]  # The best combinations, the first of them the answer
     between: Standard | None
     """The best design with every listed number free between its smallest and its largest size, with the best records
     where these are listed; None where none is."""
     bound: float | None = field(default=None, kw_only=True)
     """Objective of the best mixture of records with sizes in between, below which no combination comes as far as the
     starts go; None where no records are mixed."""
-    proven: bool
-    """Whether every combination was solved, and not only those that branch and bound leaves."""
-    improved: float
-    """Share by which that found better than branch and bound did; zero where they agree."""
-    work: SolverEffort
-    """Of branch and bound."""
-    proof: SolverEffort
-    """Of the enumeration."""
+    proven: bool  # Whether every combination was solved, and not only those that branch and bound leaves
+    improved: float  # Share by which that found better than branch and bound did; zero where they agree
+    work: SolverEffort  # Of branch and bound
+    proof: SolverEffort  # Of the enumeration
     inside: float
     """Largest share by which a design within a box was better than the bound of the box: zero if bounds were bounds."""
 
@@ -145,25 +127,20 @@ class Side:
 
     text: str
     origin: str
-    by: float
-    """How far the design that breaks least breaks it, as a share of its scale."""
+    by: float  # How far the design that breaks least breaks it, as a share of its scale
     move_to: float | None = None
     """Where it would have to stand (SI) for all others to hold; None where no place of it alone was found."""
     move_words: str = ""
-    beside: tuple[str, ...] = ()
-    """The other limits that cannot hold either, however far this one moves."""
+    beside: tuple[str, ...] = ()  # The other limits that cannot hold either, however far this one moves
 
 
 @dataclass(frozen=True)
 class ConflictSet:
     """Facts known of a study that has no design."""
 
-    broken: tuple[Side, ...]
-    """What the design that breaks least breaks."""
-    sides: tuple[Side, ...]
-    """Limits that cannot hold together, while without any one of them the others can."""
-    ends: tuple[str, ...]
-    """Ends of ranges that keep them from it."""
+    broken: tuple[Side, ...]  # What the design that breaks least breaks
+    sides: tuple[Side, ...]  # Limits that cannot hold together, while without any one of them the others can
+    ends: tuple[str, ...]  # Ends of ranges that keep them from it
 
 
 @dataclass(frozen=True)
@@ -171,8 +148,7 @@ class Constant:
     """The best design with constant currents, where the study lets them follow a profile."""
 
     objective: float
-    values: dict[str, float]
-    """Inputs and outputs in SI by full name."""
+    values: dict[str, float]  # Inputs and outputs in SI by full name
 
 
 @dataclass(frozen=True)
@@ -180,10 +156,8 @@ class LostTo:
     """A limit that too many modules break, and what spreads it."""
 
     text: str
-    share: float
-    """Share of the modules that keep it."""
-    carriers: dict[str, float]
-    """Inputs by their share of the variance behind it, the largest first."""
+    share: float  # Share of the modules that keep it
+    carriers: dict[str, float]  # Inputs by their share of the variance behind it, the largest first
 
 
 @dataclass(frozen=True)
@@ -191,12 +165,9 @@ class TightenedTolerance:
     """The tolerance that needs least tightening for a requested yield, to first order at the same sizes."""
 
     name: str
-    plus_minus: float
-    """As the study has it [SI]."""
-    to: float
-    """What it must be [SI]; zero if no tolerance alone is enough."""
-    share: float
-    """Yield with it."""
+    plus_minus: float  # As the study has it [SI]
+    to: float  # What it must be [SI]; zero if no tolerance alone is enough
+    share: float  # Yield with it
 
 
 @dataclass(frozen=True)
@@ -204,20 +175,13 @@ class YieldReached:
     """Yield of random modules of a design, against the requested yield, and its cost."""
 
     target: float
-    modules: int
-    """Drawn apart from those the design was found by."""
-    shares: dict[str, float]
-    """Share of them that satisfies each limit, by its name."""
-    together: float
-    """Share of them that keeps all."""
-    lost_to: tuple[LostTo, ...]
-    """The limits that most modules break, the worst first."""
-    nominal_together: float
-    """Share of modules that keeps all at the optimum without margins."""
-    nominal: dict[str, float]
-    """Headline values and minimised outputs (SI) of the optimum without margins."""
-    tightened: TightenedTolerance | None = None
-    """What would reach it; None where it is reached."""
+    modules: int  # Drawn apart from those the design was found by
+    shares: dict[str, float]  # Share of them that satisfies each limit, by its name
+    together: float  # Share of them that keeps all
+    lost_to: tuple[LostTo, ...]  # The limits that most modules break, the worst first
+    nominal_together: float  # Share of modules that keeps all at the optimum without margins
+    nominal: dict[str, float]  # Headline values and minimised outputs (SI) of the optimum without margins
+    tightened: TightenedTolerance | None = None  # What would reach it; None where it is reached
 
     @property
     def reached(self) -> bool:
@@ -233,8 +197,7 @@ class Solution:
     feasible: bool
     model: DeviceFunctions
     inputs: NDArray[np.float64]
-    current_profiles: dict[str, CurrentProfile]
-    """The currents that were free, by phase."""
+    current_profiles: dict[str, CurrentProfile]  # The currents that were free, by phase
     cycle: Cycle
     values: dict[str, float]
     objective: float
@@ -244,16 +207,12 @@ class Solution:
     """Value of each minimised output at the study's start; the objective is the weighted sum of the ratios to it."""
     seconds: dict[str, float]
     constant: Constant | None = None
-    choosing: Choosing | None = None
-    """How the listed choices were searched; None where none is listed."""
-    passed_over: dict[str, int] = field(default_factory=dict)
-    """Points drawn at which no search began, by the reason."""
-    yield_reached: YieldReached | None = None
-    """What of a yield that was asked for is reached; None where none is."""
+    choosing: Choosing | None = None  # How the listed choices were searched; None where none is listed
+    passed_over: dict[str, int] = field(default_factory=dict)  # Points drawn at which no search began, by the reason
+    yield_reached: YieldReached | None = None  # What of a yield that was asked for is reached; None where none is
     out_of_time: float | None = None
     """The time limit [s] that ended the search before its end; None where it came to that."""
-    left_out: tuple[str, ...] = ()
-    """List the steps after the search that the time limit left out."""
+    left_out: tuple[str, ...] = ()  # List the steps after the search that the time limit left out
     conflict_set: ConflictSet | None = None
     """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 

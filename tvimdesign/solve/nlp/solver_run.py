@@ -16,8 +16,7 @@ from tvimdesign.solve.nlp.solution import Start
 
 Array = NDArray[np.float64]
 Progress = Callable[[str], None]
-Ends = tuple[float, float]
-"""Least and largest value of a number, SI; twice the same fixes it."""
+Ends = tuple[float, float]  # Least and largest value of a number, SI; twice the same fixes it
 
 
 class Trace(NamedTuple):
@@ -34,19 +33,14 @@ class Run:
 
     start: Start
     inputs: Array
-    current_profiles: dict[str, CurrentProfile]
-    """The free currents by phase."""
-    ends: dict[str, float]
-    """Time [s] each phase takes that the problem has."""
+    current_profiles: dict[str, CurrentProfile]  # The free currents by phase
+    ends: dict[str, float]  # Time [s] each phase takes that the problem has
     unknowns: Array
     multipliers: Array
     bound_multipliers: Array
-    times: Mapping[str, float] = field(default_factory=dict)
-    """Time [s] of each event the problem needs."""
-    within: Mapping[str, Ends] = field(default_factory=dict)
-    """Ends of their own that some numbers were kept within."""
-    grids: dict[str, Grid] = field(default_factory=dict)
-    """The steps of each phase at which it was run."""
+    times: Mapping[str, float] = field(default_factory=dict)  # Time [s] of each event the problem needs
+    within: Mapping[str, Ends] = field(default_factory=dict)  # Ends of their own that some numbers were kept within
+    grids: dict[str, Grid] = field(default_factory=dict)  # The steps of each phase at which it was run
 
     @property
     def trace(self) -> Trace:
@@ -59,38 +53,30 @@ class Derivatives:
     """The problem where a run ended: its constraints' values, and exact first and second derivatives."""
 
     rows: Array
-    jacobian: Array
-    """Of the constraints by the unknowns."""
-    hessian: Array
-    """Of the Lagrangian."""
-    values: dict[str, float]
-    """The minimised outputs."""
-    gradients: dict[str, Array]
-    """Of the minimised outputs by the unknowns."""
+    jacobian: Array  # Of the constraints by the unknowns
+    hessian: Array  # Of the Lagrangian
+    values: dict[str, float]  # The minimised outputs
+    gradients: dict[str, Array]  # Of the minimised outputs by the unknowns
 
 
 OPTIMAL = "optimal"
 """Status of a design that a search found: converged, every limit kept by a check outside the solver, and within what
 its materials and bought parts are rated for, or beyond that as the study accepts."""
-ABOVE_RATING = "above_rating"
-"""Status of such a design beyond a rating that the study does not accept."""
+ABOVE_RATING = "above_rating"  # Status of such a design beyond a rating that the study does not accept
 BELOW_YIELD = "below_yield"
 """Status of a design within its limits that fewer modules keep than the study asks, as far as the search came."""
 ALTERNATIVES = "the alternatives to the best combination"
 BETWEEN = "the best design between the listed sizes"
-MARGINS = "the margins against spread"
-"""Steps, as they are named where the time limit left them out."""
+MARGINS = "the margins against spread"  # Steps, as they are named where the time limit left them out
 NO_COMBINATION = "infeasible: nothing that is listed goes together"
 """Status where lists are searched and no combination of what they hold has a design."""
 SIMULATED_MISSED = "infeasible: a limit on what is simulated of the design is violated"
 """Status of a search whose design violates a limit on a duty or on the controller, tightened as often as is tried."""
 FLAT_GOAL = "no optimum: nothing under `vary` moves the goal"
 """Status of a search whose objective has no derivative at any start: all designs within the limits are as good."""
-NO_DESIGN = "Infeasible_Problem_Detected"
-"""IPOPT's word for a point from which no step brings the limits nearer."""
+NO_DESIGN = "Infeasible_Problem_Detected"  # IPOPT's word for a point from which no step brings the limits nearer
 
-FEASIBLE = "Feasible_Point_Found"
-"""Status of a run with a feasible design but no optimum."""
+FEASIBLE = "Feasible_Point_Found"  # Status of a run with a feasible design but no optimum
 NO_MODULE = "Invalid_Number_Detected"
 """IPOPT's word for a point at which there is no module: an output is no number there."""
 

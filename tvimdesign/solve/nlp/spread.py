@@ -27,18 +27,12 @@ from tvimdesign.study import Tolerance
 Array = NDArray[np.float64]
 Columns = Callable[[Array], Array]
 
-CHUNK = 1 << 16
-"""Modules drawn at a time."""
-MOST_CORNERS = 16
-"""Contributors up to which every corner of the worst case is looked at: 65 536."""
-_CONFIDENCE = 1.959964
-"""Standard deviations of the interval in which a yield lies with 95 %."""
-_EDGE = 1e-15
-"""How near to 0 and 1 a share is drawn: a normal part eight standard deviations off."""
-_ALIKE = 0.01
-"""Difference, as a share of the worst case's span, below which two corners are the same."""
-RARE = 0.00135
-"""Share of a normal distribution beyond three standard deviations on one side."""
+CHUNK = 1 << 16  # Modules drawn at a time
+MOST_CORNERS = 16  # Contributors up to which every corner of the worst case is looked at: 65 536
+_CONFIDENCE = 1.959964  # Standard deviations of the interval in which a yield lies with 95 %
+_EDGE = 1e-15  # How near to 0 and 1 a share is drawn: a normal part eight standard deviations off
+_ALIKE = 0.01  # Difference, as a share of the worst case's span, below which two corners are the same
+RARE = 0.00135  # Share of a normal distribution beyond three standard deviations on one side
 
 
 def deviation_of(plus_minus: Any, distribution: str, sigma: float) -> Any:
@@ -56,8 +50,7 @@ class Contributor:
     distribution: Literal["normal", "uniform"] = "normal"
     sigma: float = 3.0
     lower: float = -math.inf
-    upper: float = math.inf
-    """Limits within which there is such an input at all; draws beyond are put on them."""
+    upper: float = math.inf  # Limits within which there is such an input at all; draws beyond are put on them
 
     @property
     def deviation(self) -> float:
@@ -88,25 +81,20 @@ class WorstCase:
 
     low: Array
     high: Array
-    by_sign: Array
-    """Of each output, whether the corners that its derivatives point to are the worst of all corners."""
-    corners: int
-    """How many corners were looked at."""
+    by_sign: Array  # Of each output, whether the corners that its derivatives point to are the worst of all corners
+    corners: int  # How many corners were looked at
 
 
 @dataclass(frozen=True)
 class MonteCarlo:
     """Outputs of many modules."""
 
-    values: Array
-    """One row an output, one column a module."""
+    values: Array  # One row an output, one column a module
     mean: Array
     deviation: Array
     low: Array
-    high: Array
-    """Values that 0.135 % of the modules lie below, and above."""
-    never: Array
-    """Share of the modules in which it never happens; they are left out of mean and deviation."""
+    high: Array  # Values that 0.135 % of the modules lie below, and above
+    never: Array  # Share of the modules in which it never happens; they are left out of mean and deviation
 
 
 @dataclass(frozen=True)
@@ -245,8 +233,7 @@ def capability(mean: float, deviation: float, limit: float, sense: str) -> float
     return room / (3.0 * deviation) if deviation > 0.0 else math.copysign(math.inf, room)
 
 
-_NOTHING = 1e-12
-"""Share of its size that is added to a deviation inside the root, which has no slope at zero."""
+_NOTHING = 1e-12  # Share of its size that is added to a deviation inside the root, which has no slope at zero
 
 
 def moments(

@@ -26,10 +26,8 @@ FIRST_RADIUS, MOST_RADIUS, LEAST_RADIUS = 0.4, 2.0, 1e-5
 POOR, GOOD, EXACT = 0.1, 0.02, 1e-3
 """Error of a modelled limit, as a share of it, from which a step is taken back, and below which the
 region grows; error up to which a model shows how a solver fares on the cycle."""
-NOISE = 1e-6
-"""Change of the objective that says nothing."""
-MOST_CYCLES = 20
-"""A run that takes more cycles is left to IPOPT on the cycle itself."""
+NOISE = 1e-6  # Change of the objective that says nothing
+MOST_CYCLES = 20  # A run that takes more cycles is left to IPOPT on the cycle itself
 FEASIBLE, STATIONARY, STILL = 1e-7, 1e-6, 1e-7
 """Largest breach of a limit and slope of the Lagrangian at an optimum; step that leaves a point where it is."""
 

@@ -30,14 +30,12 @@ from tvimdesign.study import ProfileOptions, Range, Study, given
 
 SETTLED = 1e-4
 """Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
-MOST_GRIDS = 4
-"""Times the steps are placed anew for one run."""
+MOST_GRIDS = 4  # Times the steps are placed anew for one run
 _BESIDE, _TRIALS = (0.1, 0.3, 1.0), 10
 """How far beside a module whose switch never ends others are tried, as a share of the ranges, and how many each."""
 _WORTH = 10.0
 """Worth of the whole of a step of the margins, in what is minimised over its reference; no design is dearer."""
-_APART = 1e-4
-"""Step of an unknown in the differences that second derivatives come from."""
+_APART = 1e-4  # Step of an unknown in the differences that second derivatives come from
 
 
 class Optimizer:
@@ -400,7 +398,7 @@ class Optimizer:
         for i in np.flatnonzero(lower < upper).tolist():
             hessian[i] = (gradient(i, _APART) - gradient(i, -_APART)) / (2.0 * _APART)
         rows = here.rows.copy()
-        # A limit that is to be kept by a margin is held where that is used up.
+        # A limit that is to be met with a margin is active where that is used up.
         rows[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
         names = self.study.minimize
         values, gradients = {name: here.values[name] for name in names}, {name: here.gradients[name] for name in names}

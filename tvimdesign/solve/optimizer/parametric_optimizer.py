@@ -16,10 +16,8 @@ from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Range, Study, given
 
-AT_END = 1e-4
-"""Share of the range, or of a limit's scale, within which a number counts as at its end."""
-_PRESSES = 1e-6
-"""Multiplier over the objective above which a limit costs something."""
+AT_END = 1e-4  # Share of the range, or of a limit's scale, within which a number counts as at its end
+_PRESSES = 1e-6  # Multiplier over the objective above which a limit costs something
 
 
 @dataclass(frozen=True)
@@ -29,8 +27,7 @@ class Moved:
     run: Run
     active: tuple[str, ...]
     """Limits that press, by name (`holding_torque >=`), each with the requirement it is part of, if it is of one."""
-    ends: dict[str, str]
-    """Variables that press against an end of their range: `lower` or `upper`."""
+    ends: dict[str, str]  # Variables that press against an end of their range: `lower` or `upper`
 
     @property
     def converged(self) -> bool:

@@ -53,8 +53,7 @@ class ConstantCurrentOptimum:
         return Constant(self.best.start.objective, {**inputs, **values})
 
 
-_AT_IT = 1e-6
-"""Share of that time within which an event comes as late as it may."""
+_AT_IT = 1e-6  # Share of that time within which an event comes as late as it may
 
 
 def ending_in_time(study: Study, optimizer: Optimizer, run: Run) -> Study | None:
@@ -70,10 +69,8 @@ def ending_in_time(study: Study, optimizer: Optimizer, run: Run) -> Study | None
     return study.model_copy(update={"require": (*others, *limits)})
 
 
-_NEAR = 1e-3
-"""Room [of an unknown] beyond which a number is not taken to be at its end, however it presses."""
-_WORSE = 1e-6
-"""Share by which the objective may rise, as rounding does: else the run is left as it was."""
+_NEAR = 1e-3  # Room [of an unknown] beyond which a number is not taken to be at its end, however it presses
+_WORSE = 1e-6  # Share by which the objective may rise, as rounding does: else the run is left as it was
 
 
 def put_at_bounds(optimizer: Optimizer, run: Run) -> Run:
@@ -113,13 +110,10 @@ def _pressed(optimizer: Optimizer, run: Run) -> dict[str, Ends]:
 SHAKES, SHAKE = 3, 0.1
 """Searches beside the best optimum, and how far off they begin, as a share of each range. One study became 0.6 % better
 by one."""
-_MOST_CROSSED = 3
-"""Optima whose parts are put together with the best one's."""
-_SMALLEST_STEP = 0.5
-"""Share of a period that must be left up to an end of the range for the end to be tried."""
+_MOST_CROSSED = 3  # Optima whose parts are put together with the best one's
+_SMALLEST_STEP = 0.5  # Share of a period that must be left up to an end of the range for the end to be tried
 
-_LEAST_RAMP = 0.5
-"""Share of its second node below which the first of a current is on its way there."""
+_LEAST_RAMP = 0.5  # Share of its second node below which the first of a current is on its way there
 
 
 class NeighboringOptima:

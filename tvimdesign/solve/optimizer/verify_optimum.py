@@ -35,15 +35,12 @@ from tvimdesign.study import Range, Study
 Place: TypeAlias = tuple[Literal["row", "upper", "lower"], int]
 """Thing that moves: a row of the problem's constraints, or an end of the range of one of its unknowns."""
 
-_FAINT = 1e-6
-"""Multiplier below which a limit presses on nothing, however near it is."""
+_FAINT = 1e-6  # Multiplier below which a limit presses on nothing, however near it is
 _CLEAR = 100.0
 """Times the one of multiplier and room must be the other for a limit to count as active, or as slack: their product
 is the barrier where IPOPT ended."""
-_DEPENDENT = 1e-10
-"""Singular value, as a share of the greatest, below which rows depend on each other."""
-_UNDETERMINED = 1e-6
-"""Share of an output's gradient that may be left over where the optimum determines the output."""
+_DEPENDENT = 1e-10  # Singular value, as a share of the greatest, below which rows depend on each other
+_UNDETERMINED = 1e-6  # Share of an output's gradient that may be left over where the optimum determines the output
 
 
 class Response:
@@ -174,8 +171,7 @@ CYCLE_TOLERANCE = 2e-3
 
 
 _SLEW_STEP = 1e-4
-SAME_CURRENT = 1e-4
-"""Share of the range within which a current counts as at its end."""
+SAME_CURRENT = 1e-4  # Share of the range within which a current counts as at its end
 
 
 def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:

@@ -37,12 +37,10 @@ class Front:
 
     outputs: tuple[str, ...]
     points: tuple[Point, ...]
-    dominated: int = 0
-    """Count of points that were found and are no better in anything than another one."""
+    dominated: int = 0  # Count of points that were found and are no better in anything than another one
     failures: tuple[Failure, ...] = ()
     notes: tuple[str, ...] = ()
-    sought: int = 0
-    """Count of designs that were sought, ends included."""
+    sought: int = 0  # Count of designs that were sought, ends included
 
     @property
     def shares(self) -> Array:

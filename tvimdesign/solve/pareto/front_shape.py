@@ -21,14 +21,10 @@ from tvimdesign.solve.nlp.problem_parts import Bound
 Array = NDArray[np.float64]
 Values = Mapping[str, float]
 
-FLAT = 0.03
-"""Greatest distance from the chord, or the plane of the ends, of a front that has no knee."""
-SPAN = 0.03
-"""Share of an output's least by which it must differ over a front for there to be a trade to speak of."""
-_THIN = 0.1
-"""Width over length of the hull of the ends below which a front is a curve."""
-_STEPS = 24
-"""Steps along the edge of a triangle in which places between ends are looked for."""
+FLAT = 0.03  # Greatest distance from the chord, or the plane of the ends, of a front that has no knee
+SPAN = 0.03  # Share of an output's least by which it must differ over a front for there to be a trade to speak of
+_THIN = 0.1  # Width over length of the hull of the ends below which a front is a curve
+_STEPS = 24  # Steps along the edge of a triangle in which places between ends are looked for
 
 
 @dataclass(frozen=True)
@@ -176,11 +172,9 @@ def _turn(a: Array, b: Array, c: Array) -> float:
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
-ALIKE = 2e-3
-"""Share within which two fronts count as one: the tolerance of the simulation their points come from."""
+ALIKE = 2e-3  # Share within which two fronts count as one: the tolerance of the simulation their points come from
 
-Curve = Sequence[tuple[float, float]]
-"""(limit, what is reached under it) of a front's points, by rising limit."""
+Curve = Sequence[tuple[float, float]]  # (limit, what is reached under it) of a front's points, by rising limit
 
 
 @dataclass(frozen=True)
@@ -188,16 +182,11 @@ class Lead:
     """A range of limits, and who does best in it."""
 
     lower: float
-    upper: float
-    """Infinite for the last one: a front stays where it ends, as a limit that is not active costs nothing."""
-    best: str | None
-    """None where the best two are alike."""
-    alone: bool
-    """Whether no other one has a design there."""
-    least: float
-    """Least ratio of the next best to the best over the range; 1 where it is alone."""
-    most: float
-    """Largest such ratio."""
+    upper: float  # Infinite for the last one: a front stays where it ends, as a limit that is not active costs nothing
+    best: str | None  # None where the best two are alike
+    alone: bool  # Whether no other one has a design there
+    least: float  # Least ratio of the next best to the best over the range; 1 where it is alone
+    most: float  # Largest such ratio
 
 
 def leads(curves: Mapping[str, Curve]) -> list[Lead]:

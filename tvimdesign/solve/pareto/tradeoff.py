@@ -20,8 +20,7 @@ from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import Options, Study
 
 OUT_OF_TIME = "the time limit of the search was over: raise `solver.time_limit`"
-ONE_POINT = 2e-3
-"""Share by which two designs must differ to be two: the simulation's tolerance."""
+ONE_POINT = 2e-3  # Share by which two designs must differ to be two: the simulation's tolerance
 MOST_BEGINS = 3
 """Count of the study's optima, the best ones, from which an end is sought: warm, as a cold start may leave them for
 a worse one."""
@@ -32,8 +31,7 @@ Array = NDArray[np.float64]
 class Point:
     """One design of a front."""
 
-    where: str
-    """Which point it is, in words."""
+    where: str  # Which point it is, in words
     values: dict[str, float]
     """Every input and, of the outputs, those that its objective and limits hang on, in SI by full name; once it is
     completed, every output."""
@@ -42,10 +40,8 @@ class Point:
     """What the solver left behind, for a neighbour to begin from."""
     objective: Objective | None = field(default=None, repr=False, compare=False)
     """What it is the best for; None for the study's own optimum."""
-    cost: float = math.inf
-    """What the solver made of that objective."""
-    root: int = 0
-    """The end it descends from, neighbour by neighbour."""
+    cost: float = math.inf  # What the solver made of that objective
+    root: int = 0  # The end it descends from, neighbour by neighbour
 
 
 @dataclass(frozen=True)
@@ -54,8 +50,7 @@ class Failure:
 
     where: str
     reason: str
-    infeasible: bool = False
-    """Whether the search ended at limits that cannot all be met nearby."""
+    infeasible: bool = False  # Whether the search ended at limits that cannot all be met nearby
 
 
 class Memory(Protocol):

@@ -31,10 +31,8 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import (
 Array = NDArray[np.float64]
 Rows = Callable[..., Array]
 
-DRAWS = 1 << 9
-"""Modules drawn from the ranges of unmeasured inputs."""
-DOUBTFUL = 0.75
-"""Share of these modules that satisfy a limit below which it is in doubt."""
+DRAWS = 1 << 9  # Modules drawn from the ranges of unmeasured inputs
+DOUBTFUL = 0.75  # Share of these modules that satisfy a limit below which it is in doubt
 
 
 @dataclass(frozen=True)
@@ -44,10 +42,8 @@ class DesignUncertainty:
     together: spread.Yield | None
     """Yield of modules with parts within their tolerances and all else as assumed; None if no limit depends
     on what spreads."""
-    limits: int
-    """Number of limits that the yield covers."""
-    left_out: tuple[str, ...]
-    """Limits on outputs that never happen, or depend on a current that follows a profile."""
+    limits: int  # Number of limits that the yield covers
+    left_out: tuple[str, ...]  # Limits on outputs that never happen, or depend on a current that follows a profile
     intervals: dict[str, Interval]
     """Of each asked output, and of the limits in doubt, the worst at least: its range, parts as drawn and unmeasured
     inputs anywhere in their ranges."""
@@ -55,8 +51,7 @@ class DesignUncertainty:
     """Share of those ranges in which every limit is met, parts as drawn; None where no limit depends on them."""
     held: dict[str, float] = field(default_factory=dict)
     """That share for each limit that is not kept all over the ranges, the least first."""
-    unmeasured: tuple[UnmeasuredInput, ...] = ()
-    """The inputs that were moved."""
+    unmeasured: tuple[UnmeasuredInput, ...] = ()  # The inputs that were moved
     before: dict[str, tuple[float, float]] = field(default_factory=dict)
     """By asked output: between what it would lie had nothing been measured that a user's records have; empty where
     they have nothing."""

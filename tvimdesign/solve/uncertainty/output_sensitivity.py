@@ -31,8 +31,7 @@ class OutputSensitivities:
     values: Array
     at: Array
     derivatives: Array
-    left_out: tuple[str, ...]
-    """Outputs that never happen in this design, or hang on a current that follows a profile."""
+    left_out: tuple[str, ...]  # Outputs that never happen in this design, or hang on a current that follows a profile
 
 
 def output_sensitivities(

@@ -25,14 +25,11 @@ from tvimdesign.study import ProfileOptions, Study
 from tvimdesign.study.study import Robust as RobustOptions
 
 ROUNDS, _PLAUSIBLE_ROUNDS = 6, 4
-_SETTLED = 1e-3
-"""Change of a margin, as a share of its limit's scale, below which it is settled."""
+_SETTLED = 1e-3  # Change of a margin, as a share of its limit's scale, below which it is settled
 _STARTS, SIGMA = 3, 2.5
 """Of a search for a least value, and the standard deviations that a dozen active limits need for a yield of 95 %."""
-MOST_TRIED = 3
-"""Designs that are tried, the best first."""
-_GAIN = 1e-4
-"""Share of the objective by which another design must be better to be drawn."""
+MOST_TRIED = 3  # Designs that are tried, the best first
+_GAIN = 1e-4  # Share of the objective by which another design must be better to be drawn
 
 Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
 """A design that is not robust: its problem, its run, and the sizes it is kept at."""

@@ -17,8 +17,7 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import FREE_ANGLE, contributo
 Array = NDArray[np.float64]
 Progress = Callable[[str], None]
 
-SOBOL_SAMPLES = 1 << 10
-"""Points of the Sobol indices; each costs as many modules as there are contributors, and two."""
+SOBOL_SAMPLES = 1 << 10  # Points of the Sobol indices; each costs as many modules as there are contributors, and two
 
 
 @dataclass(frozen=True)
@@ -27,8 +26,7 @@ class LimitYield:
 
     limit: Constraint
     share: spread.Yield
-    capability: float
-    """C_pk of this side."""
+    capability: float  # C_pk of this side
 
 
 @dataclass(frozen=True)
@@ -37,23 +35,17 @@ class Spread:
 
     contributors: tuple[spread.Contributor, ...]
     outputs: tuple[str, ...]
-    requested: tuple[str, ...]
-    """Those the study minimises or requires, or that a summary shows."""
+    requested: tuple[str, ...]  # Those the study minimises or requires, or that a summary shows
     nominal: Array
-    derivatives: Array
-    """Exact, SI over SI."""
-    deviation: Array
-    """By root-sum-square."""
-    shares: Array
-    """Of each contributor in that variance."""
+    derivatives: Array  # Exact, SI over SI
+    deviation: Array  # By root-sum-square
+    shares: Array  # Of each contributor in that variance
     worst: spread.WorstCase
     drawn: spread.MonteCarlo
-    first: Array
-    """First-order Sobol indices."""
+    first: Array  # First-order Sobol indices
     total: Array
     limit_yields: tuple[LimitYield, ...]
-    together: spread.Yield
-    """Yield of all limits together."""
+    together: spread.Yield  # Yield of all limits together
     left_out: tuple[str, ...]
     """Outputs nothing can be said about: they never happen as drawn, or hang on a current that follows a profile."""
 
@@ -62,16 +54,12 @@ class Spread:
 class Preload:
     """Effect of the free angle's tolerance on the joint, with and without adjusting the preload."""
 
-    as_bought: float
-    """Tolerance to either side [rad]."""
-    adjusted: float
-    """What is left where it can be adjusted [rad]."""
+    as_bought: float  # Tolerance to either side [rad]
+    adjusted: float  # What is left where it can be adjusted [rad]
     over_stroke: float
-    yield_as_bought: spread.Yield
-    """Yield of the limits that change with the free angle."""
+    yield_as_bought: spread.Yield  # Yield of the limits that change with the free angle
     yield_adjusted: spread.Yield
-    by_row: str
-    """The output that gives the tolerance; empty where the study states it."""
+    by_row: str  # The output that gives the tolerance; empty where the study states it
 
 
 @dataclass(frozen=True)
@@ -82,8 +70,7 @@ class Draw:
     outputs: tuple[str, ...]
 
 
-Drawn = Callable[[Draw], Array]
-"""Outputs of drawn modules, a column each; who computes them decides where."""
+Drawn = Callable[[Draw], Array]  # Outputs of drawn modules, a column each; who computes them decides where
 
 
 def columns_of(

@@ -42,8 +42,7 @@ class UnmeasuredInput:
     value: float
     low: float
     high: float
-    status: str
-    """How the value is known: assumed, calibrated, handbook, datasheet, measured."""
+    status: str  # How the value is known: assumed, calibrated, handbook, datasheet, measured
     before: tuple[float, float] | None = None
     """Of one that a user's record has measured, the range in the record that is based on."""
 
@@ -145,8 +144,7 @@ def _within(
     return UnmeasuredInput(row.name, value, max(ends[0], row.lower), min(ends[1], row.upper), status)
 
 
-FREE_ANGLE = "preload_angle"
-"""The input that a spring's free angle adds to."""
+FREE_ANGLE = "preload_angle"  # The input that a spring's free angle adds to
 _ALLOWS_FOR = {"free_angle_margin": FREE_ANGLE}
 """Rules of a design that allow for the spread of an input: no limits of modules in which that input is drawn."""
 _OF_THE_DRAWING = frozenset(("adjuster_ledge_margin",))
@@ -188,14 +186,11 @@ def plus_minus(resolved: ResolvedModule, value: float, tolerance: Tolerance) -> 
     return abs(value) * tolerance.share if tolerance.share is not None else float(tolerance.plus_minus or 0.0)
 
 
-COVERED = 0.95
-"""Share of what is drawn that an interval holds."""
+COVERED = 0.95  # Share of what is drawn that an interval holds
 _BINS = 8
 """Groups of equal size into which the draws are sorted by an input, to see how much of the variance lies between."""
-_QUARTER = 0.25
-"""Share of the variance that is left of an interval of half the width."""
-_LEAST = 0.02
-"""Least share of a variance that some hundred draws separate from none."""
+_QUARTER = 0.25  # Share of the variance that is left of an interval of half the width
+_LEAST = 0.02  # Least share of a variance that some hundred draws separate from none
 
 
 @dataclass(frozen=True)
@@ -219,10 +214,8 @@ class Interval:
 
     nominal: float
     low: float
-    high: float
-    """Between these lie 95 % of the modules with all inputs anywhere in their ranges."""
-    swings: tuple[Swing, ...]
-    """One input at a time, the largest first; those that move nothing are left out."""
+    high: float  # Between these lie 95 % of the modules with all inputs anywhere in their ranges
+    swings: tuple[Swing, ...]  # One input at a time, the largest first; those that move nothing are left out
     shares: dict[str, float]
     """Share of the variance within the interval that knowing one input would take away, the largest first."""
 

@@ -30,18 +30,14 @@ and where it is short of that.
 """
 _MEDIAN, _DEVIATION = 0.5, 0.8413
 """Shares of a normal distribution up to its middle, and up to one standard deviation beyond."""
-PRESSING = 1e-6
-"""Multiplier from which on a limit holds the design, objectives a share of its scale."""
+PRESSING = 1e-6  # Multiplier from which on a limit holds the design, objectives a share of its scale
 _UNKNOWN = 0.1
 """Step of a margin, as a share of its limit's scale, where too many modules never come to its output at all."""
-_NO_ROOM = 0.05
-"""Share of a step of the margins that counts as none."""
+_NO_ROOM = 0.05  # Share of a step of the margins that counts as none
 SHAKES, _SHAKE = 3, 0.2
 """Designs beside one that does not bear a step, and how far off they are at most, as a share of each range."""
-_GAIN = 1e-3
-"""Share of the objective that margins which are larger than the yield needs must be worth to be given back."""
-_AIM = 0.05
-"""Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield."""
+_GAIN = 1e-3  # Share of the objective that margins which are larger than the yield needs must be worth to be given back
+_AIM = 0.05  # Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield
 
 
 @dataclass(frozen=True)
@@ -49,13 +45,10 @@ class Robust:
     """A converged design, its margins, and its yield over the modules drawn."""
 
     run: Run
-    margins: dict[str, float]
-    """By limit [shares of its scale]."""
+    margins: dict[str, float]  # By limit [shares of its scale]
     share: float
-    reached: bool
-    """Whether that is as many as asked, to the lower end of its interval of 95 %."""
-    plausible: bool = True
-    """Whether enough plausible cases satisfy each limit."""
+    reached: bool  # Whether that is as many as asked, to the lower end of its interval of 95 %
+    plausible: bool = True  # Whether enough plausible cases satisfy each limit
 
 
 def reach_yield(

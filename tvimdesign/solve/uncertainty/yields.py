@@ -40,8 +40,7 @@ class Drawn:
 
     limits: tuple[Constraint, ...]
     residuals: Array
-    inputs: tuple[str, ...] = ()
-    """What was drawn."""
+    inputs: tuple[str, ...] = ()  # What was drawn
     columns: Array = field(default_factory=lambda: np.zeros((0, MODULES)))
     """Its values [SI], a row an input, a column a module."""
 

@@ -18,8 +18,7 @@ from tvimdesign.study.text.yaml_text import Node
 
 Schema: TypeAlias = dict[str, Any]
 NUMBER = r"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
-POINT = "[a-z][a-z0-9_]{0,31}"
-"""Names of operating points."""
+POINT = "[a-z][a-z0-9_]{0,31}"  # Names of operating points
 DEFINITIONS: Schema = {
     "quantity": {"type": "string", "pattern": rf"^\s*{NUMBER} ?[^\s0-9.,_].*$"},
     "number": {"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^\s*{NUMBER}( ?%)?\s*$"}]},
@@ -35,14 +34,12 @@ class Section:
 
     name: str
     meaning: str
-    read: Callable[[Reading, Node | None], Any]
-    """Returns the section's value, and notes every problem."""
+    read: Callable[[Reading, Node | None], Any]  # Returns the section's value, and notes every problem
     schema: Schema | Callable[[Table], Schema]
     """The JSON Schema, without the meaning; a function of the table if it depends on the mode."""
     write: Callable[[Study], Any] | None = None
     """Returns the values from which the reader makes the same section; None if a read study has no such section."""
-    needs_mode: bool = True
-    """False if the section is read although the study's mode is not known."""
+    needs_mode: bool = True  # False if the section is read although the study's mode is not known
 
     def describe(self, table: Table | None = None) -> Schema:
         """Return the JSON Schema; without a table, that of a section that depends on the mode is its meaning alone."""

@@ -54,10 +54,8 @@ _TURNS = ("revolute", "continuous")
 class Frame(NamedTuple):
     """Place of a frame in that of the joint."""
 
-    origin: Array
-    """[m]."""
-    rotation: Array
-    """Matrix from it to that of the joint."""
+    origin: Array  # [m]
+    rotation: Array  # Matrix from it to that of the joint
 
     def then(self, element: ElementTree.Element | None) -> Frame:
         """Return the frame that an `origin` of a URDF places in this one."""
@@ -71,14 +69,10 @@ class Frame(NamedTuple):
 class Arm(NamedTuple):
     """Bodies that a joint carries, about its axis."""
 
-    length: float
-    """Largest distance of a link's frame from the axis [m]."""
-    mass: float
-    """[kg]."""
-    centre: float
-    """Distance of the centre of mass from the axis [m]."""
-    inertia: float
-    """[kg*m^2]."""
+    length: float  # Largest distance of a link's frame from the axis [m]
+    mass: float  # [kg]
+    centre: float  # Distance of the centre of mass from the axis [m]
+    inertia: float  # [kg*m^2]
 
 
 def arm_of(text: str, joint: str) -> Arm:

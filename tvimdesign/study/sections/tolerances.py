@@ -41,8 +41,7 @@ _ROBUST_KEYS: Schema = {
 _MOST_SIGMAS = 6.0
 
 
-standard_entries = partial(own_data, __file__, "tolerances.yaml")
-"""The usual tolerances by input."""
+standard_entries = partial(own_data, __file__, "tolerances.yaml")  # The usual tolerances by input
 
 
 def standard_tolerances(table: Table) -> dict[str, Tolerance]:

@@ -15,12 +15,10 @@ from typing import Protocol
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import own_data
 
-MOST_SHOWN = 50
-"""How many problems an error prints; the rest is counted."""
+MOST_SHOWN = 50  # How many problems an error prints; the rest is counted
 _MOST_NAMES = 12
 _LONGEST_WORD = 64
-_CLOSE, _NEAR = 0.8, 0.6
-"""Likeness of a misspelt name, and the least of one that is proposed if nothing else is."""
+_CLOSE, _NEAR = 0.8, 0.6  # Likeness of a misspelt name, and the least of one that is proposed if nothing else is
 
 
 class Place(Protocol):

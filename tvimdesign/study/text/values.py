@@ -30,17 +30,13 @@ class Reading:
     """A study while it is read: its nodes, what they are read against, and where their problems go."""
 
     problems: Mistakes
-    mode: str
-    """Empty if it is not known."""
+    mode: str  # Empty if it is not known
     table: Table
     catalog: Catalog
-    nodes: Mapped[str, Node]
-    """The sections as they are written."""
+    nodes: Mapped[str, Node]  # The sections as they are written
     readers: "Mapped[str, Callable[[Reading, Node | None], Any]]"
-    folder: Path = Path()
-    """The study's, from which the files that it names are sought."""
-    values: dict[str, Any] = field(default_factory=dict)
-    """The sections that have been read."""
+    folder: Path = Path()  # The study's, from which the files that it names are sought
+    values: dict[str, Any] = field(default_factory=dict)  # The sections that have been read
 
     def section(self, name: str) -> Any:
         """Return the value of a section; it is read when it is first asked for."""

@@ -137,7 +137,7 @@ def test_a_parameter_whose_bounds_leave_it_no_room_is_refused() -> None:
 
 
 def test_what_is_known_to_lie_between_two_ends_adds_their_variance() -> None:
-    # A mean read with an offset of which only the ends are known: GUM 4.3.7, width^2/12 beside the mean's variance.
+    # A mean read with an offset with known ends alone: GUM 4.3.7, width^2/12 beside the mean's variance.
     measured, width = 5.0 + NOISE, 0.03
     mean = Parameter("mean", "1", "", 5.0, positive=False)
     offset = Parameter("offset", "1", "", 0.0, positive=False, nuisance=True, least=-0.5 * width, most=0.5 * width)

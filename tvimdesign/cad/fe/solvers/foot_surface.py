@@ -4,10 +4,8 @@ from typing import Any
 
 import numpy as np
 
-MEAN, STEPS = 1.0, 20
-"""Length over which the stress is a mean [mm], and points of a millimetre."""
-WITHIN = 0.002
-"""How far within the surface it is read, over the core's radius."""
+MEAN, STEPS = 1.0, 20  # Length over which the stress is a mean [mm], and points of a millimetre
+WITHIN = 0.002  # How far within the surface it is read, over the core's radius
 
 
 def places(core: float, fillet: float) -> tuple[Any, Any]:

@@ -37,14 +37,11 @@ from ngsolve import (
 
 BETWEEN_PLATES = 0.25
 """Poisson's ratio of rigid modules: pressed between stiff plates they are as stiff as three times the shear modulus."""
-RUBBER = 100.0
-"""Bulk over shear modulus from which a pad hardly changes its volume."""
-LOWER, HIGHER = 2, 3
-"""Order of displacements, and in pads of rubber that are pressed."""
+RUBBER = 100.0  # Bulk over shear modulus from which a pad hardly changes its volume
+LOWER, HIGHER = 2, 3  # Order of displacements, and in pads of rubber that are pressed
 GRADING, GRADING_AT_SEATS = 0.6, 0.4
 """Growth of elements from one to the next; at the larger one lips beside a thin seat of adhesive get no mesh."""
-METAL = 0.33
-"""Poisson's ratio of a spreader where its shear modulus is not given."""
+METAL = 0.33  # Poisson's ratio of a spreader where its shear modulus is not given
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Results:
@@ -176,8 +173,7 @@ def _energies(mesh: Any, density: Any, mm: elastic.Results, torque: float) -> el
     return shares
 
 
-SETTLED = 1e-4
-"""Share of the squared frequency below which a step's change ends the iteration."""
+SETTLED = 1e-4  # Share of the squared frequency below which a step's change ends the iteration
 MOST = 12
 
 

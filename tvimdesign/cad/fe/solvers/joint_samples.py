@@ -25,8 +25,7 @@ from ngsolve import (
     z,
 )
 
-STRETCH = 2.0
-"""Length along an edge over which its highest stress is a mean [mm]."""
+STRETCH = 2.0  # Length along an edge over which its highest stress is a mean [mm]
 
 
 def at_foot(mesh: Any, tensor: Any, mm: Results, torque: float) -> Results:

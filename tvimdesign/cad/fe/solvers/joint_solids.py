@@ -15,15 +15,12 @@ SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
 PRESSED, RUBBER = 0.4, 0.8
 """Size of elements in a pad that is pressed, over its thickness; and in one of rubber, which keeps its volume: there
 displacements are cubic, as of quadratic ones 0.4 has it a fifth too stiff."""
-WINDOW = 0.125, 0.2
-"""Elements along the windows' edges, over the thickness of the pads on them, and at least [mm]."""
-PAD_GAP = 0.2
-"""How far the walls of a pad's pocket stand off it [mm]; they are not bonded to it."""
+WINDOW = 0.125, 0.2  # Elements along the windows' edges, over the thickness of the pads on them, and at least [mm]
+PAD_GAP = 0.2  # How far the walls of a pad's pocket stand off it [mm]; they are not bonded to it
 OTHER_GAPS = 0.3, 0.25, 0.35
 """The same where the first leaves an edge shorter than `SLIVER`, which gets no mesh: a wall beside a vane's end."""
 SLIVER = 0.02
-BEAD_ROOM = 0.2
-"""How far a vane's sill stands off a thermistor's hole [mm], which would graze its corner."""
+BEAD_ROOM = 0.2  # How far a vane's sill stands off a thermistor's hole [mm], which would graze its corner
 WALL_GAP = 0.3
 """How far the plain wall stands back from the springs' wells [mm], which would touch it: such a floor gets no mesh."""
 

@@ -36,12 +36,9 @@ DEEP, NEAR = 1.2, 1.6
 """Depth of the core that is drawn, over that of the screws' holes; how much of the link, over the core's radius."""
 STIFF = 30.0
 """Stiffness of the touching faces, in moduli over the link's thickness; 10 to 100 moves the radius by 0.1 %."""
-SPREADS = 0.25
-"""How far beyond the head the pressure is taken to reach at first, over the link's thickness."""
-CHANGES, SETTLED = 15, 1e-3
-"""Most solutions until what touches settles, and the radius' change that ends them."""
-SHARP = 8
-"""Order of integration on the touching faces, where the pressure ends within elements."""
+SPREADS = 0.25  # How far beyond the head the pressure is taken to reach at first, over the link's thickness
+CHANGES, SETTLED = 15, 1e-3  # Most solutions until what touches settles, and the radius' change that ends them
+SHARP = 8  # Order of integration on the touching faces, where the pressure ends within elements
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Results:

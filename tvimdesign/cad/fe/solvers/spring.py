@@ -32,8 +32,7 @@ from ngsolve import (
 
 POISSON = 0.3
 ORDER = 2  # 3 on the same mesh moves rates by 0.2 %, stresses by 2 %
-SIZE = 0.9
-"""Elements, in wire diameters."""
+SIZE = 0.9  # Elements, in wire diameters
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Results:

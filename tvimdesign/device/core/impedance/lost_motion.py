@@ -44,8 +44,7 @@ def pin_friction_torque(m: Module) -> Scalar:
     return m.spring_count * sliding_torque(m.pin_friction, m.pin_force, slip)
 
 
-WEAR_STROKES = 1e6
-"""Full strokes to both sides for which wear counts, as fatigue does [1]."""
+WEAR_STROKES = 1e6  # Full strokes to both sides for which wear counts, as fatigue does [1]
 
 
 @quantities.output("mm", advice=(at_most(1e-4, "legs wear into their pins: grease them"),), sprung=True)
@@ -80,14 +79,10 @@ def friction_share(m: Module) -> Scalar:
 class Support(NamedTuple):
     """Guide of the core in the hub [m, rad]."""
 
-    clearance: Scalar
-    """Radial play in either support."""
-    spread: Scalar
-    """Distance of the supports."""
-    top: Scalar
-    """Level of the upper one."""
-    tilt: Scalar
-    """Angle by which plate and retainer let the core lean."""
+    clearance: Scalar  # Radial play in either support
+    spread: Scalar  # Distance of the supports
+    top: Scalar  # Level of the upper one
+    tilt: Scalar  # Angle by which plate and retainer let the core lean
 
 
 @quantities.helper()

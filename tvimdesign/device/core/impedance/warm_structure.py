@@ -30,12 +30,9 @@ class Compliances(NamedTuple):
     """Compliance about the axis of the parts in series at 23 degC [rad/(N*m)], by what warms them."""
 
     core: Scalar
-    beside: Scalar
-    """The rotor plate where it does not lie on the PCL."""
-    plate: Scalar
-    """Part on the PCL: the plate, or the rotor's vanes."""
-    walls: Scalar
-    """Part between the pads."""
+    beside: Scalar  # The rotor plate where it does not lie on the PCL
+    plate: Scalar  # Part on the PCL: the plate, or the rotor's vanes
+    walls: Scalar  # Part between the pads
     floor: Scalar
     pads: Scalar
 
@@ -45,8 +42,7 @@ class PartTemperatures(NamedTuple):
 
     core: Scalar
     beside: Scalar
-    plate: Sequence[Scalar]
-    """In slices of its depth."""
+    plate: Sequence[Scalar]  # In slices of its depth
     walls: Scalar
     floor: Scalar
 

@@ -31,10 +31,8 @@ from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3
-_GOOD = 0.9973
-"""Yield from which a module is no concern: three standard deviations to either side."""
-DAY = 86400.0
-"""[s]."""
+_GOOD = 0.9973  # Yield from which a module is no concern: three standard deviations to either side
+DAY = 86400.0  # [s]
 STALLS = 3.5
 """Per cent of time for one per cent of the temperature's rise: 1 if a layer warms evenly, 2 as the root of time."""
 
@@ -259,8 +257,7 @@ def _manufacturing(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[
     return [Fact("Manufacturing", [text], f"by {_tolerances(uncertainty)}")]
 
 
-_SELDOM = 0.95
-"""Share of the cases in which a limit is met from which on it is not counted."""
+_SELDOM = 0.95  # Share of the cases in which a limit is met from which on it is not counted
 
 
 def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fact]:

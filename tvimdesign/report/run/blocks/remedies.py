@@ -22,10 +22,8 @@ from tvimdesign.solve.uncertainty.robust import Extreme, least_with_margins
 from tvimdesign.study import Study, given, read_study_text
 from tvimdesign.study.written_studies import started_at
 
-_NAMED = 2
-"""Limits that are named, of those that allow no more."""
-RULE_TOLERANCE = 1e-9
-"""By how much, in SI, a rule may seem violated by rounding."""
+_NAMED = 2  # Limits that are named, of those that allow no more
+RULE_TOLERANCE = 1e-9  # By how much, in SI, a rule may seem violated by rounding
 
 
 @dataclass(frozen=True)
@@ -34,8 +32,7 @@ class Remedy:
 
     line: str
     tried: bool = False
-    failed: bool = False
-    """True if the line does not cure at the numbers of the design."""
+    failed: bool = False  # True if the line does not cure at the numbers of the design
     words: str = ""
 
 

@@ -14,8 +14,7 @@ from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 HEADS = ("", "asked", "got", "plausible range", "met in", "margin")
-_WIDE = (3, 6)
-"""Columns that a narrow screen hides: the range, and the assumed input."""
+_WIDE = (3, 6)  # Columns that a narrow screen hides: the range, and the assumed input
 
 
 @dataclass(frozen=True)
@@ -25,18 +24,13 @@ class Requirement:
     name: str
     requested: str
     got: str
-    range: str
-    """`38 to 104`, over the ranges of unmeasured inputs; empty if that says no more than the value."""
-    stands: str
-    """`violated by 3 %`, `open`, `at the limit`, or the margin."""
+    range: str  # `38 to 104`, over the ranges of unmeasured inputs; empty if that says no more than the value
+    stands: str  # `violated by 3 %`, `open`, `at the limit`, or the margin
     tone: Tone
-    least: float
-    """The least margin over what history leaves open, as a share of the limit's scale."""
-    met_in: float | None = None
-    """Share of the plausible cases that meet the limits; none if it was not computed."""
+    least: float  # The least margin over what history leaves open, as a share of the limit's scale
+    met_in: float | None = None  # Share of the plausible cases that meet the limits; none if it was not computed
 
-    depends_on: str = ""
-    """`pcl_bond_strength 2 MPa (1 to 5)`, the assumed input that matters most; empty if none does."""
+    depends_on: str = ""  # `pcl_bond_strength 2 MPa (1 to 5)`, the assumed input that matters most; empty if none does
 
     state: str = ""
     """`51 to 80 °C` if the limit is also on the state in which heating ends; it stands for the point's name."""

@@ -16,8 +16,7 @@ from tvimdesign.report.run.reasons import complaint, sentences
 from tvimdesign.report.run.uncertainty_data import lost_in_words, yield_of
 from tvimdesign.solve.result import StudyResult
 
-COSTS = 5
-"""Active constraints that are shown unfolded, the costliest first."""
+COSTS = 5  # Active constraints that are shown unfolded, the costliest first
 
 
 def text_sections(answered: AnsweredStudy) -> list[Section]:

@@ -17,8 +17,7 @@ from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
-_MOVES = 0.02
-"""Share of an output's variance from which an input counts as moving it."""
+_MOVES = 0.02  # Share of an output's variance from which an input counts as moving it
 _NAMED = 4
 
 

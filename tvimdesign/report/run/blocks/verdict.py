@@ -32,16 +32,12 @@ from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import DOUBTFUL
 
-TARGET = 0.95
-"""Yield below which a design without margins is only a nominal one."""
-DOUBT = 0.25
-"""Share of the plausible cases in which the limit most in doubt must be met."""
+TARGET = 0.95  # Yield below which a design without margins is only a nominal one
+DOUBT = 0.25  # Share of the plausible cases in which the limit most in doubt must be met
 
-_MOST_NAMED = 2
-"""Unmeasured inputs that a verdict names, and one more rather than count it."""
+_MOST_NAMED = 2  # Unmeasured inputs that a verdict names, and one more rather than count it
 
-TO_MEASURE = "Measure first"
-"""First words of the table that lists all of them."""
+TO_MEASURE = "Measure first"  # First words of the table that lists all of them
 
 Kind = Literal[
     "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build_one",

@@ -17,18 +17,14 @@ from tvimdesign.report.run.reasons import endings
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult
 
-LOOSE = 0.05
-"""Share of the first swing without contact from which on small motions say little of the joint."""
+LOOSE = 0.05  # Share of the first swing without contact from which on small motions say little of the joint
 _PLACE = re.compile(r"<(\w+)>")
-TEMPERATURE = 0.5
-"""Kelvin by which heating may stop below the hot point."""
-SHOWN = 3
-"""Warnings of the first screen; their remedies are tried."""
+TEMPERATURE = 0.5  # Kelvin by which heating may stop below the hot point
+SHOWN = 3  # Warnings of the first screen; their remedies are tried
 _LEVELS = ("grave", "serious", "")
 _VARY = "vary the current or a size, and try"
 """What a study that varies nothing is advised, if a requirement is the cure."""
-_OTHER_SIZES = "with other sizes, try"
-"""Advice where a part or material does not cure with the sizes of the design."""
+_OTHER_SIZES = "with other sizes, try"  # Advice where a part or material does not cure with the sizes of the design
 
 
 class RunWarning(NamedTuple):
@@ -38,8 +34,7 @@ class RunWarning(NamedTuple):
     cure: str = ""
     """A line of the study behind *write* if it was tried, behind *may help:* if it was not, else in words."""
     level: str = ""
-    but: str = ""
-    """What the verdict says besides: of a part that is not to be had, or of what a grave warning means."""
+    but: str = ""  # What the verdict says besides: of a part that is not to be had, or of what a grave warning means
 
     @property
     def grave(self) -> bool:
@@ -60,8 +55,7 @@ def warnings_of(answer: StudyResult, doubts: Sequence[str], deadline: Deadline =
     return sorted([*warnings, *from_records], key=lambda warning: _LEVELS.index(warning.level))
 
 
-hints = partial(own_data, __file__, "warnings.yaml")
-"""Texts on each advice and rating, and on what else is warned of."""
+hints = partial(own_data, __file__, "warnings.yaml")  # Texts on each advice and rating, and on what else is warned of
 
 
 def _hint(name: str, value: float = -math.inf) -> dict[str, Any]:

@@ -18,19 +18,13 @@ from tvimdesign.simulation.measurement.fitting.intervals import (
 from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Problem, Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, RobustFit, criterion, robust_fit
 
-CLOSE = 0.95
-"""Correlation from which on two parameters are named together."""
+CLOSE = 0.95  # Correlation from which on two parameters are named together
 _FOLLOW = 0.5
-_CHANCE = 0.05
-"""Correlation from which on it is named, and the probability that it is none up to which it is sure."""
-_SAME = 0.05
-"""Share to which parameters must change alike for their ratios to be what is known."""
-_TOO_ALIKE = 0.9
-"""Correlation of residuals from which on they are no noise."""
-_NEGLIGIBLE = 2e-3
-"""Share of the range, or of the value, up to which residuals do not count as a misfit."""
-_RARE = 3.1
-"""Deviations: 1 in 1000 by chance."""
+_CHANCE = 0.05  # Correlation from which on it is named, and the probability that it is none up to which it is sure
+_SAME = 0.05  # Share to which parameters must change alike for their ratios to be what is known
+_TOO_ALIKE = 0.9  # Correlation of residuals from which on they are no noise
+_NEGLIGIBLE = 2e-3  # Share of the range, or of the value, up to which residuals do not count as a misfit
+_RARE = 3.1  # Deviations: 1 in 1000 by chance
 _FEWEST_RUNS = 8
 _AWAY, _ALSO = 4.5, 2.0
 """Deviations that two rows at an end of a series are off together, in the mean and each, where a law ends."""
@@ -48,8 +42,7 @@ class Estimate:
     value: float
     low: float | None
     high: float | None
-    drift: float = 0.0
-    """By how much drifts of the sensors that the residuals do not show may move it, in SI."""
+    drift: float = 0.0  # By how much drifts of the sensors that the residuals do not show may move it, in SI
 
 
 @dataclass(frozen=True)
@@ -60,15 +53,11 @@ class Fit:
     parameters: tuple[Estimate, ...]
     derived: tuple[Estimate, ...]
     correlation: Array
-    predicted: tuple[Array, ...]
-    """What each channel should be [SI]."""
-    noise: tuple[float, ...]
-    """Standard deviation of each channel, in SI or as a share."""
-    autocorrelation: tuple[float, ...]
-    """Of each channel's noise from one value to the next, as the intervals count it."""
+    predicted: tuple[Array, ...]  # What each channel should be [SI]
+    noise: tuple[float, ...]  # Standard deviation of each channel, in SI or as a share
+    autocorrelation: tuple[float, ...]  # Of each channel's noise from one value to the next, as the intervals count it
     words: tuple[str, ...]
-    misfit: str = ""
-    """Why the equations do not describe the data, so that no record may follow; empty where they do."""
+    misfit: str = ""  # Why the equations do not describe the data, so that no record may follow; empty where they do
 
     def value(self, name: str) -> float:
         """Return the value of a parameter, or of what follows [SI]."""

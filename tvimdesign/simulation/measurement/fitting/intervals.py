@@ -42,15 +42,13 @@ from tvimdesign.simulation.measurement.fitting.robust_fit import (
     weights_of,
 )
 
-FEWEST = 10
-"""Values below which their correlation cannot be estimated: they count as independent."""
+FEWEST = 10  # Values below which their correlation cannot be estimated: they count as independent
 _MOST_ALIKE = 0.99
 """Largest coefficient that is counted: beyond it the equations are wrong, and no interval says by how much."""
 _POINTS = 200
 _RHO = np.sin(np.pi * ((np.arange(_POINTS) + 0.5) / _POINTS - 0.5))
 """Coefficients in equal steps of their arc sine, in which the reference prior is even."""
-_FAINT = 1e-10
-"""Share of a parameter's information below which a direction counts as without any."""
+_FAINT = 1e-10  # Share of a parameter's information below which a direction counts as without any
 
 
 class Series(NamedTuple):
@@ -63,12 +61,9 @@ class Series(NamedTuple):
 class Following(NamedTuple):
     """The estimated serial correlation of a noise."""
 
-    rho: float
-    """Coefficient to count with."""
-    by_chance: float
-    """Posterior probability that there is none, or a negative one."""
-    wider: float
-    """Variance of the noise with that coefficient, over that of independent residuals."""
+    rho: float  # Coefficient to count with
+    by_chance: float  # Posterior probability that there is none, or a negative one
+    wider: float  # Variance of the noise with that coefficient, over that of independent residuals
 
 
 INDEPENDENT = Following(0.0, 1.0, 1.0)
@@ -140,17 +135,13 @@ def _left_and_logarithm(squares: Sequence[Array], others: Array, rho: Array) -> 
 CONFIDENCE = 0.95
 LEAST_DRIFT, _MOST_DRIFT = 0.005, 0.05
 """Share of its range, or of its value, by which a sensor may always drift over a test unseen; and at most."""
-_UNSEEN = 3.7
-"""Deviations of a drift that the residuals show in most tests, as from 3.1 on it counts as shown."""
+_UNSEEN = 3.7  # Deviations of a drift that the residuals show in most tests, as from 3.1 on it counts as shown
 _SMALLEST = 1e-7
 """Singular value over the largest, of derivatives by numbers scaled alike, below which a direction changes nothing."""
-_PART = 0.2
-"""Part of such a direction from which on a parameter is among those it moves."""
+_PART = 0.2  # Part of such a direction from which on a parameter is among those it moves
 _TRIES = 12
-_NEAR = 0.03
-"""Share to which the loss at an interval's end is what it shall be: 1.5 % of the interval."""
-_FARTHEST = 12.0
-"""Deviations beyond which a profile is not followed."""
+_NEAR = 0.03  # Share to which the loss at an interval's end is what it shall be: 1.5 % of the interval
+_FARTHEST = 12.0  # Deviations beyond which a profile is not followed
 
 
 @dataclass(frozen=True)
@@ -161,12 +152,9 @@ class Spread:
     free_directions: tuple[Array, ...]
     parts: tuple[Array, ...]
     """What the noise of each group of channels that err alike gives to the covariance; last, nuisances' bounds."""
-    freedom: tuple[float, ...]
-    """Degrees of freedom of each group's noise; of bounds, infinite."""
-    follows: tuple[Following, ...]
-    """How far the noise of each channel follows itself."""
-    slack: Array
-    """Covariance over that of the loss's own curvature, for each number."""
+    freedom: tuple[float, ...]  # Degrees of freedom of each group's noise; of bounds, infinite
+    follows: tuple[Following, ...]  # How far the noise of each channel follows itself
+    slack: Array  # Covariance over that of the loss's own curvature, for each number
 
     def deviation(self, direction: Array) -> float:
         """Return the standard deviation of a linear combination of the numbers."""
@@ -225,14 +213,10 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
 class Drifts(NamedTuple):
     """Sensors that drift evenly over a test, channel after channel."""
 
-    moves: Array
-    """Changes of the solver's numbers by a drift of one of each; a row for each sensor."""
-    unseen: Array
-    """Square of the drifts that may go unseen: a quadratic form, as a covariance is."""
-    sizes: Array
-    """Drifts that the residuals show, as shares of the range or of the value."""
-    deviations: float
-    """By how many deviations all of them together differ from none."""
+    moves: Array  # Changes of the solver's numbers by a drift of one of each; a row for each sensor
+    unseen: Array  # Square of the drifts that may go unseen: a quadratic form, as a covariance is
+    sizes: Array  # Drifts that the residuals show, as shares of the range or of the value
+    deviations: float  # By how many deviations all of them together differ from none
 
     def moved(self, slope: Array) -> float:
         """Return how far they may move a linear combination of the solver's numbers: all at once, or two deviations."""

@@ -12,14 +12,11 @@ from numpy.typing import NDArray
 from tvimdesign.simulation.working_cycle.symbols import ca
 
 Array = NDArray[np.float64]
-Values = Mapping[str, Any]
-"""Parameters by name, in SI: numbers or CasADi symbols."""
+Values = Mapping[str, Any]  # Parameters by name, in SI: numbers or CasADi symbols
 _LARGEST = 700.0  # the exponential of more is no number
 _FARTHEST, _STEEPEST = 1e6, 1e30  # beyond these a trial of the solver is merely bad
-_REMEMBERED = 8
-"""Last points at which the equations' numbers are stored: a fit asks for its best ones again and again."""
-FAR = 1e6
-"""A positive parameter is looked for between its start over this and its start times this."""
+_REMEMBERED = 8  # Last points at which the equations' numbers are stored: a fit asks for its best ones again and again
+FAR = 1e6  # A positive parameter is looked for between its start over this and its start times this
 
 
 @dataclass(frozen=True)
@@ -31,14 +28,10 @@ class Parameter:
     meaning: str
     start: float
     positive: bool = True
-    scale: float = 1.0
-    """Size of a usual change [SI] of one that may be negative."""
-    least: float = -np.inf
-    """Smallest value [SI]: 0 for a friction that may not be there."""
-    most: float = np.inf
-    """Largest value [SI]."""
-    profiled: bool = True
-    """Whether its interval is read off a profile of the likelihood; off the covariance otherwise."""
+    scale: float = 1.0  # Size of a usual change [SI] of one that may be negative
+    least: float = -np.inf  # Smallest value [SI]: 0 for a friction that may not be there
+    most: float = np.inf  # Largest value [SI]
+    profiled: bool = True  # Whether its interval is read off a profile of the likelihood; off the covariance otherwise
     nuisance: bool = False
     """Whether it is of this measurement alone, such as a baseline: fitted with the others, not reported."""
 
@@ -72,25 +65,19 @@ class Channel:
 
     name: str
     unit: str
-    measured: Array
-    """[SI]"""
+    measured: Array  # [SI]
     predicted: Callable[[Values], Any]
     """A column as long as the values, from the parameters: CasADi expressions through the product's equations."""
-    at: Array
-    """What they are drawn over [SI]."""
+    at: Array  # What they are drawn over [SI]
     at_name: str
     at_unit: str
-    relative: bool = False
-    """Whether the error is a share of the value: then the logarithms are compared."""
+    relative: bool = False  # Whether the error is a share of the value: then the logarithms are compared
     step: float = 0.0
     """Step of the last digit of the values, in SI or as a share: their noise is no less than what rounding makes."""
-    noise_of: str = ""
-    """Channels of one word here err alike; a channel without one has a noise of its own."""
-    zero_drifts: bool = False
-    """True if the sensor's zero drifts, though its noise is a share of the value."""
+    noise_of: str = ""  # Channels of one word here err alike; a channel without one has a noise of its own
+    zero_drifts: bool = False  # True if the sensor's zero drifts, though its noise is a share of the value
 
-    sensors: int = 1
-    """Sensors whose values stand one after the other, as many of each."""
+    sensors: int = 1  # Sensors whose values stand one after the other, as many of each
 
     def drifts(self, predicted: Array) -> Array:
         """Return what a drift by the whole range, or by the value itself, adds to the values; a column a sensor."""

@@ -23,12 +23,10 @@ _NORMAL = 1.4826  # deviation over the median of the sizes, for a normal distrib
 _ROUNDS, _PASSES = 20, 8
 _EXACT, _MOST_STEPS = 1e-9, 100
 _ROUGH, _FEW_STEPS = 1e-6, 8
-_PASSING = 1e-4
-"""Tolerance of the loss while the noise is not settled."""
+_PASSING = 1e-4  # Tolerance of the loss while the noise is not settled
 _SETTLED = 1e-3
 _LEAST_NOISE, _LEAST_SQUARE = 1e-9, 1e-14
-_LARGEST = 1e120
-"""Residual whose square, or whose share of a small one, still is a number."""
+_LARGEST = 1e120  # Residual whose square, or whose share of a small one, still is a number
 
 
 @dataclass(frozen=True)
@@ -36,10 +34,8 @@ class RobustFit:
     """The parameters that fit best, and each channel's noise."""
 
     inner: Array
-    noise: Array
-    """Standard deviation of each channel, in its unit or as a share."""
-    cost: float
-    """Sum of the loss of all residuals over their noise."""
+    noise: Array  # Standard deviation of each channel, in its unit or as a share
+    cost: float  # Sum of the loss of all residuals over their noise
 
 
 def loss(z: Array) -> Array:

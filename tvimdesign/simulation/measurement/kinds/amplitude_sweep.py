@@ -21,10 +21,8 @@ from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measuremen
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.symbols import ca
 
-_GONE = 0.2
-"""Share of the storage modulus that is gone at the last row used."""
-_SMOOTHED = 3
-"""Rows of the median by which a single row does not end the linear range."""
+_GONE = 0.2  # Share of the storage modulus that is gone at the last row used
+_SMOOTHED = 3  # Rows of the median by which a single row does not end the linear range
 _POWERS = (0.3, 8.0)
 
 
@@ -37,16 +35,11 @@ class Sweep(NamedTuple):
     strain: Array
     storage: Array
     loss: Array
-    linear: int
-    """Count of the rows up to the limit."""
-    limit: float
-    """Strain at which `LINEAR_DROP` is gone, roughly."""
-    left: float
-    """Share of the storage modulus that is left at the last row used."""
-    beyond: int
-    """Rows left out."""
-    share: float
-    """Step of the last digit of the moduli over them."""
+    linear: int  # Count of the rows up to the limit
+    limit: float  # Strain at which `LINEAR_DROP` is gone, roughly
+    left: float  # Share of the storage modulus that is left at the last row used
+    beyond: int  # Rows left out
+    share: float  # Step of the last digit of the moduli over them
 
     def parameters(self) -> list[Parameter]:
         """Return the plateaus, and the change of the loss modulus up to the limit with its power."""

@@ -29,16 +29,13 @@ _RECORD = ("latent_heat", "melting_start", "melting_end", "crystallization_half_
            "avrami_exponent")  # fmt: skip
 _HALF_TIMES = np.geomspace(3.0, 3000.0, 13)  # s
 _CONSTANTS = np.geomspace(3e4, 6e5, 11)  # K^2
-_EXPONENTS = (0.5, 6.0)
-"""Range of Avrami's exponent, as of the setting."""
-_STEPS = (0.2, 4.0)
-"""Range of the step of the specific heat where no mass is known."""
+_EXPONENTS = (0.5, 6.0)  # Range of Avrami's exponent, as of the setting
+_STEPS = (0.2, 4.0)  # Range of the step of the specific heat where no mass is known
 _NO_MASS = (
     "The heat flow is not per mass, and no file says the sample's: the heat of melting does not follow, all else does. "
     "--set sample_mass='5.2 mg' gives it."
 )
-_SHARP, _BLURRED = 0.1, 10.0
-"""K, least and largest width of the logistic that blurs a flank."""
+_SHARP, _BLURRED = 0.1, 10.0  # K, least and largest width of the logistic that blurs a flank
 _SMOOTHING = 500.0  # J/kg, of `Melting`; the equations used here do not depend on it
 
 
@@ -239,16 +236,11 @@ class Run:
     """A part of a measurement at one rate of the temperature."""
 
     name: str
-    way: str
-    """`cooled`, `held` or `heated`."""
-    time: Array
-    """From the run's start [s]."""
-    temperature: Array
-    """[K]"""
-    heat: Array
-    """Heat that the sample gives off [W/kg]; as the file has it until `turned`."""
-    step: float = 0.0
-    """Step of its last digit [W/kg]."""
+    way: str  # `cooled`, `held` or `heated`
+    time: Array  # From the run's start [s]
+    temperature: Array  # [K]
+    heat: Array  # Heat that the sample gives off [W/kg]; as the file has it until `turned`
+    step: float = 0.0  # Step of its last digit [W/kg]
 
     @property
     def rate(self) -> float:

@@ -23,10 +23,8 @@ from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.symbols import ca
 
 _CARREAU = 2.0
-_TOGETHER = 1.0
-"""Curves within so many kelvin are of one temperature."""
-_SEEN = 0.9
-"""Share of the plateau that a row must reach for the plateau not to be extrapolated."""
+_TOGETHER = 1.0  # Curves within so many kelvin are of one temperature
+_SEEN = 0.9  # Share of the plateau that a row must reach for the plateau not to be extrapolated
 _LAWS = ("no thinning", "Carreau's law", "the law of Carreau and Yasuda")
 
 

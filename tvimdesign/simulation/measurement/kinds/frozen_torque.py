@@ -26,10 +26,8 @@ from tvimdesign.simulation.working_cycle.symbols import ca
 _SIZES = ("layer_inner_radius", "layer_outer_radius", "layer_span")
 _TORQUE = "holding_torque"
 _CORNER = 0.02
-_BROKEN = 0.7
-"""Share of the largest torque below which, after it, the joint is broken."""
-_BENDS = 0.9
-"""Share of the first stiffness below which, near the largest torque, the joint gives."""
+_BROKEN = 0.7  # Share of the largest torque below which, after it, the joint is broken
+_BENDS = 0.9  # Share of the first stiffness below which, near the largest torque, the joint gives
 _LEAST_BREAKS = 3
 """Joints that must break without bending, or give at torques of their own, for these to have an interval."""
 
@@ -40,8 +38,7 @@ class Turned(NamedTuple):
     file: str
     angle: Array
     torque: Array
-    broke: bool
-    """Whether the torque fell after its largest value."""
+    broke: bool  # Whether the torque fell after its largest value
     end: str
     step: float
 

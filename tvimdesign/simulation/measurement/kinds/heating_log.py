@@ -29,12 +29,9 @@ PLACES = (
     "cold_temperature", "hot_temperature", "near_face_temperature", "far_face_temperature", "rotor_temperature",
     "link_temperature", "housing_temperature", "sink_temperature",
 )  # fmt: skip
-_ROWS = 25
-"""Of each of the two phases, that are used."""
-_ON = 0.05
-"""Share of the largest current below which the module is not heated."""
-_COLD = 3.0
-"""K: a log begins with everything at one temperature to within this."""
+_ROWS = 25  # Of each of the two phases, that are used
+_ON = 0.05  # Share of the largest current below which the module is not heated
+_COLD = 3.0  # K: a log begins with everything at one temperature to within this
 _AMBIENT = "ambient_temperature"
 
 
@@ -155,10 +152,8 @@ def _notes(rows: Sequence[Input], channels: Sequence[Channel], source: Path) -> 
 
 
 _GAMMA = 1.0 - np.sqrt(0.5)
-_LONGEST_STEP = 8.0
-"""s; temperatures are within 0.1 K of CVODES at 1e-8 (test)."""
-_LONGEST_SHARE = 0.15
-"""Share of the time since the current changed that a step takes at most."""
+_LONGEST_STEP = 8.0  # s; temperatures are within 0.1 K of CVODES at 1e-8 (test)
+_LONGEST_SHARE = 0.15  # Share of the time since the current changed that a step takes at most
 _NEWTON: dict[str, Any] = {"linear_solver": "qr", "abstol": 1e-9, "max_iter": 40, "error_on_fail": False}
 
 
@@ -167,8 +162,7 @@ class Course(NamedTuple):
 
     time: Array
     current: Array
-    cooled_from: int
-    """Interval from which on it cools; as many as there are where it only heats."""
+    cooled_from: int  # Interval from which on it cools; as many as there are where it only heats
 
 
 class LoggedModule:

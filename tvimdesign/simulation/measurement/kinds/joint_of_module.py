@@ -30,16 +30,13 @@ _EXPLAINS = {
     FROZEN: ("peltier_shear_modulus", "clamped_loss_factor"),
 }
 """The inputs that stiffness and damping determine, in this order: those whose ranges move them most."""
-_JOINT = "joint"
-"""The choice of the records that this kind itself writes."""
+_JOINT = "joint"  # The choice of the records that this kind itself writes
 _FRICTION, _INERTIA = "pin_friction", "moving_inertia"
-_HELD = 0.01
-"""Share of stiffness and of damping to which the values found must give them again."""
+_HELD = 0.01  # Share of stiffness and of damping to which the values found must give them again
 _NEWTON: dict[str, Any] = {"abstol": 1e-10, "max_iter": 60, "error_on_fail": False}
 
 
-_FARTHEST = 8.0
-"""Logarithm of the factor beyond which no value is looked for: three thousand times the study's."""
+_FARTHEST = 8.0  # Logarithm of the factor beyond which no value is looked for: three thousand times the study's
 
 
 def _factor(share: Any) -> Any:
@@ -54,10 +51,8 @@ class JointOfModule:
     resolved: ResolvedModule
     source: Path
     state: str
-    omega: float
-    """[rad/s]"""
-    amplitude: float
-    """[rad]"""
+    omega: float  # [rad/s]
+    amplitude: float  # [rad]
 
     @property
     def _explained(self) -> tuple[Input, Input]:

@@ -20,16 +20,11 @@ from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, 
 from tvimdesign.simulation.measurement.measurement import Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array
 
-_TOGETHER = 1.0
-"""Tests within so many kelvin are of one temperature."""
-_A_PARAMETER = 2
-"""Values for each parameter, at least, of a spectrum of several modes: with fewer it follows the noise."""
-BEYOND = 10.0
-"""Factor by which a relaxation time may lie outside the times that a test sees."""
-_SOLID = 1e3
-"""Factor beyond that by which the time of a mode lies that stands for a solid."""
-USUAL_ENERGY = 40e3
-"""J/mol, to start from: in the middle of what polymers' melts have."""
+_TOGETHER = 1.0  # Tests within so many kelvin are of one temperature
+_A_PARAMETER = 2  # Values for each parameter, at least, of a spectrum of several modes: with fewer it follows the noise
+BEYOND = 10.0  # Factor by which a relaxation time may lie outside the times that a test sees
+_SOLID = 1e3  # Factor beyond that by which the time of a mode lies that stands for a solid
+USUAL_ENERGY = 40e3  # J/mol, to start from: in the middle of what polymers' melts have
 
 
 class MeltTest(NamedTuple):
@@ -38,35 +33,25 @@ class MeltTest(NamedTuple):
     name: str
     temperature: float
     ramp: Array | None
-    curves: Sequence[Channel]
-    """Values, each predicted from modes, shift factors and the parameters."""
-    rates: Array
-    """Angular frequencies, or one over the times [1/s]."""
-    sizes: Array
-    """Modulus at each of them [Pa], roughly."""
-    note: str = ""
-    """Parts that were left out."""
-    own: Sequence[Parameter] = ()
-    """Unknowns of this test alone."""
-    blind: str = ""
-    """`inertia` or `rise` where first rows were left out for it: what relaxes faster is not seen."""
+    curves: Sequence[Channel]  # Values, each predicted from modes, shift factors and the parameters
+    rates: Array  # Angular frequencies, or one over the times [1/s]
+    sizes: Array  # Modulus at each of them [Pa], roughly
+    note: str = ""  # Parts that were left out
+    own: Sequence[Parameter] = ()  # Unknowns of this test alone
+    blind: str = ""  # `inertia` or `rise` where first rows were left out for it: what relaxes faster is not seen
 
 
 class Melt(NamedTuple):
     """Tests of a melt with what they are fitted by."""
 
     tests: Sequence[MeltTest]
-    temperatures: Sequence[float]
-    """Of the tests that have one each [K], those within a kelvin as one."""
+    temperatures: Sequence[float]  # Of the tests that have one each [K], those within a kelvin as one
     reference: float
     energy: float | None = None
     """Start of the activation energy where the shift goes by Arrhenius' law; a factor each otherwise."""
-    known_energy: float | None = None
-    """The activation energy, where it is known."""
-    fast: bool = False
-    """True where what relaxes faster than the tests see is a viscosity."""
-    solid: bool = False
-    """True where what relaxes slower than the tests see is the modulus of a solid."""
+    known_energy: float | None = None  # The activation energy, where it is known
+    fast: bool = False  # True where what relaxes faster than the tests see is a viscosity
+    solid: bool = False  # True where what relaxes slower than the tests see is the modulus of a solid
 
     @property
     def rates(self) -> Array:

@@ -28,8 +28,7 @@ from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measuremen
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.symbols import ca
 
-MOST_ROWS = 150
-"""Rows of a test in time that are used: an instrument writes thousands, which say no more."""
+MOST_ROWS = 150  # Rows of a test in time that are used: an instrument writes thousands, which say no more
 MELT = 70.0 + ZERO_CELSIUS
 """Least temperature [K] of a ramp unless set: polycaprolactone's melting ends at 62 to 70 degC."""
 _SAME_SWEEP = 1.5
@@ -42,12 +41,9 @@ _RISEN, _AFTER_RISE, _FALLS = 0.98, 10.0, 0.9
 below which the first one shows a rise."""
 _FASTER, _RINGING = 0.15, 10.0
 """Slope of a creep beyond one, of logarithms, that only inertia makes; times its end up to which it may ring."""
-_OF_SECOND_DIFFERENCES = 1.4826 / 6.0**0.5
-"""Deviation over the median size of second differences."""
-_UNLOADED = 0.1
-"""Share of the largest stress below which the stress is off."""
-_NO_COMPLIANCE = np.finfo(float).tiny
-"""Compliance [1/Pa] up to which one over it is no number."""
+_OF_SECOND_DIFFERENCES = 1.4826 / 6.0**0.5  # Deviation over the median size of second differences
+_UNLOADED = 0.1  # Share of the largest stress below which the stress is off
+_NO_COMPLIANCE = np.finfo(float).tiny  # Compliance [1/Pa] up to which one over it is no number
 
 
 def temperature_of(block: Block, settings: Settings) -> float:

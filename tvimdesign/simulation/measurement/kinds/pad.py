@@ -18,8 +18,7 @@ from tvimdesign.simulation.working_cycle.symbols import ca
 
 _COLUMNS = ("current", "voltage", "hot_temperature", "cold_temperature")
 _LEAST_DIFFERENCE = 5.0  # K
-_SPREAD = 0.2
-"""Range of the currents over the largest from which on they are several."""
+_SPREAD = 0.2  # Range of the currents over the largest from which on they are several
 _ONE_CURRENT = (
     "One current cannot tell Seebeck coefficient, resistance and conductance apart: many of them have this voltage and "
     "these temperatures. Measure at several; no record is written."

@@ -22,8 +22,7 @@ from tvimdesign.simulation.working_cycle.symbols import ca
 
 HARMONICS = 3
 _MOST_SAMPLES = 400
-_ALIKE = 1.05
-"""Ratio of frequencies below which two records say the same of inertia and stiffness."""
+_ALIKE = 1.05  # Ratio of frequencies below which two records say the same of inertia and stiffness
 _TRIED = 200
 
 
@@ -35,11 +34,9 @@ class Sine(NamedTuple):
     angle: Array
     torque: Array
     omega: float
-    start: Array
-    """Mean, then cosine and sine of each harmonic [rad]."""
+    start: Array  # Mean, then cosine and sine of each harmonic [rad]
     end: str
-    steps: tuple[float, float]
-    """Of the last digits of angle and torque [SI]."""
+    steps: tuple[float, float]  # Of the last digits of angle and torque [SI]
 
     @property
     def size(self) -> float:

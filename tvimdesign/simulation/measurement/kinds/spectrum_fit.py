@@ -25,10 +25,8 @@ _UNTOLD = (
 )
 _FAR = 0.15
 """Shift factors may miss Arrhenius' law by this share of themselves and it is still of use; more, and it is not."""
-_AT_END = 0.01
-"""Share of a time up to which a mode lies at the end of what is looked for."""
-_SPLIT = 0.02
-"""A mode that stands for two in a record is split this share above and below its time: no test could tell."""
+_AT_END = 0.01  # Share of a time up to which a mode lies at the end of what is looked for
+_SPLIT = 0.02  # A mode that stands for two in a record is split this share above and below its time: no test could tell
 
 
 def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:

@@ -34,8 +34,7 @@ from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blo
 
 Array = NDArray[np.float64]
 _COLDEST = 1.0  # K; nothing that is measured here is as cold
-_LOWEST = 150.0
-"""K; a sample in a rheometer or a calorimeter for polymers is not as cold."""
+_LOWEST = 150.0  # K; a sample in a rheometer or a calorimeter for polymers is not as cold
 _TINY = 1e-200
 _NOTHING = {"", "-", "--", "---", "n/a", "na", "nan", "none", "nd", "no value", "#n/a", "#nv", "#value!", "#wert!",
             "#div/0!", "ol", "open", "****"}  # fmt: skip
@@ -49,12 +48,9 @@ class Column:
     quantity: str
     heading: str
     unit: str
-    values: Array
-    """Not a number where the cell is empty."""
-    step: float = 0.0
-    """Step of the last digit, in SI: the middle one of those of all cells."""
-    share: float = 0.0
-    """Step over the size of the value, the middle one."""
+    values: Array  # Not a number where the cell is empty
+    step: float = 0.0  # Step of the last digit, in SI: the middle one of those of all cells
+    share: float = 0.0  # Step over the size of the value, the middle one
 
 
 @dataclass(frozen=True)
@@ -67,12 +63,10 @@ class Block:
     columns: Mapping[str, Column]
     unused: tuple[str, ...]
     settings: Mapping[str, str]
-    skipped: tuple[int, ...] = ()
-    """Lines among the rows that hold no number."""
+    skipped: tuple[int, ...] = ()  # Lines among the rows that hold no number
     problems: Mapping[str, str] = field(default_factory=dict)
     """Why a column of a known name could not be read, by its quantity: with line and column."""
-    flagged: str = ""
-    """How many rows the instrument itself flags, and how; they are left out."""
+    flagged: str = ""  # How many rows the instrument itself flags, and how; they are left out
 
     @property
     def place(self) -> str:
@@ -133,8 +127,7 @@ class DataFile:
 
     path: Path
     sha256: str
-    how: str
-    """Encoding, separator and decimal sign, in words."""
+    how: str  # Encoding, separator and decimal sign, in words
     blocks: tuple[Block, ...]
 
     def shown(self) -> list[str]:

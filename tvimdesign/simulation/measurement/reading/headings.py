@@ -182,8 +182,7 @@ class ColumnMap:
     columns: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     separator: str = ""
     decimal: str = ""
-    units: str = ""
-    """`SI`: what has no unit is in SI."""
+    units: str = ""  # `SI`: what has no unit is in SI
 
     def applied(self, headings: list[Heading]) -> list[Heading]:
         """Return the headings with what the map says; a quantity it names is no longer found elsewhere."""

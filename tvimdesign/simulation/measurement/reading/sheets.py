@@ -140,8 +140,7 @@ class Sheet:
     """The rows of a text or of a sheet of a workbook, and how its numbers are written."""
 
     rows: tuple[Row, ...]
-    separator: str
-    """By its name in `SEPARATORS`; `sheet` in a workbook."""
+    separator: str  # By its name in `SEPARATORS`; `sheet` in a workbook
     decimal: str
     title: str = ""
 
