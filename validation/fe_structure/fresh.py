@@ -3,7 +3,8 @@
     PYTHONPATH=benchmarks python validation/fe_structure/fresh.py --fe-python FE/bin/python [--work FOLDER] [STUDY ...]
 
 draws designs that keep all rules within the ranges of studies, seeded, exports their parts, and solves joint and link
-on elements 1.6 times as large as those of run.py. Studies of another command may run at once.
+on elements 1.6 times as large as those of run.py. What fresh.csv has is not solved again. Studies of another
+command may run at once.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from models import study_file
-from random_designs import FRESH, FRESH_SEED, Draws, Tally
+from random_designs import FRESH_BY_FE, FRESH_SEED, Draws, Tally
 from run import alone, solved_by
 
 from tvimdesign.cad.fe import model_comparison as comparison
@@ -45,9 +46,11 @@ def modules(study: str, seed: int, count: int) -> Iterator[tuple[Design, Resolve
         yield design, module
 
 
-def rows_of(study: str, work: Path, fe_python: Path) -> Iterator[list[str]]:
-    """Solve the random designs of a study; a design without a mesh gives a row without values."""
-    for place, (design, module) in enumerate(modules(study, FRESH_SEED, FRESH[study])):
+def rows_of(study: str, work: Path, fe_python: Path, solved: set[str]) -> Iterator[list[str]]:
+    """Solve the random designs of a study but those solved; a design without a mesh gives a row without values."""
+    for place, (design, module) in enumerate(modules(study, FRESH_SEED, FRESH_BY_FE[study])):
+        if str(place) in solved:
+            continue
         folder = work / f"{study}_{place}"
         if not (folder / "inputs.json").exists():
             export_parts(design, folder)
@@ -73,7 +76,7 @@ def compared(model: float, fe: float) -> tuple[str, str, str]:
 
 def with_model(study: str, rows: list[list[str]]) -> list[list[str]]:
     """Return rows of a study with today's model beside the same FE."""
-    models = [comparison.model_values(module) for _, module in modules(study, FRESH_SEED, FRESH[study])]
+    models = [comparison.model_values(module) for _, module in modules(study, FRESH_SEED, FRESH_BY_FE[study])]
     return [
         [study, place, name, *compared(models[int(place)][name], float(fe))]
         if fe
@@ -83,25 +86,32 @@ def with_model(study: str, rows: list[list[str]]) -> list[list[str]]:
 
 
 def main() -> None:
-    """Solve the designs of the studies named, and put their rows in place of those that stood in fresh.csv."""
+    """Solve the designs of the studies named that fresh.csv has not."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("studies", nargs="*", metavar="STUDY", default=list(FRESH))
+    parser.add_argument("studies", nargs="*", metavar="STUDY", default=list(FRESH_BY_FE))
     parser.add_argument("--fe-python", type=Path, default=Path(sys.executable))
     parser.add_argument("--work", type=Path, default=Path("fe_work"))
     parser.add_argument("--model", action="store_true", help="put today's model beside the same FE, and solve nothing")
     requested = parser.parse_args()
     for study in requested.studies:
+        solved = {row[1] for row in table_rows() if row[0] == study}
         fresh = []
-        for row in () if requested.model else rows_of(study, requested.work.resolve(), requested.fe_python):
+        for row in () if requested.model else rows_of(study, requested.work.resolve(), requested.fe_python, solved):
             print(*row, flush=True)
             fresh.append(row)
         with alone():
-            rows = list(csv.reader(RESULTS.open(newline="")))[1:]
+            rows = [*table_rows(), *fresh]
             if requested.model:
-                fresh = with_model(study, [row for row in rows if row[0] == study])
+                today = with_model(study, [row for row in rows if row[0] == study])
+                rows = [*(row for row in rows if row[0] != study), *today]
             with RESULTS.open("w", newline="") as file:
-                others = [row for row in rows if row[0] != study]
-                csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*others, *fresh])])
+                csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted(rows)])
+
+
+def table_rows() -> list[list[str]]:
+    """Return the rows of fresh.csv."""
+    with RESULTS.open(newline="") as file:
+        return list(csv.reader(file))[1:]
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 from device_values import inputs_of
-from random_designs import FRESH, FRESH_SEED, Draws, Tally
+from random_designs import FRESH_BY_FE, FRESH_SEED, Draws, Tally
 from support import ROOT, study_path
 
 from tvimdesign.cad.fe.model_comparison import model_values
@@ -223,7 +223,7 @@ def test_random_modules_are_as_stiff_as_in_fe_within_a_tenth() -> None:
         name: np.array([float(row["ratio"]) for row in BY_FE if row["quantity"] == name]) for name in ("hub", "link")
     }
     for name, of_modules in ratios.items():
-        assert len(of_modules) >= 48
+        assert len(of_modules) >= 58
         assert np.mean(np.abs(of_modules - 1.0) < 0.1) >= 0.9, name
         factor = next(row for row in table_for("shear").inputs if row.name == "branch_factor")
         assert factor.low <= np.min(1.0 / of_modules) < np.max(1.0 / of_modules) <= factor.high
@@ -232,7 +232,7 @@ def test_random_modules_are_as_stiff_as_in_fe_within_a_tenth() -> None:
 def fresh_designs(study: str) -> dict[str, Design]:
     """Return the random designs of a study that FE solved, by their draw."""
     solved = {row["draw"] for row in BY_FE if row["study"] == study and row["fe"]}
-    drawn = enumerate(Draws(read_study(study_path(study)), FRESH_SEED).keeping_rules(FRESH[study], Tally()))
+    drawn = enumerate(Draws(read_study(study_path(study)), FRESH_SEED).keeping_rules(FRESH_BY_FE[study], Tally()))
     return {str(place): design for place, design in drawn if str(place) in solved}
 
 
@@ -240,8 +240,8 @@ def fresh_designs(study: str) -> dict[str, Design]:
 def test_proportions_that_fe_solved_are_stated() -> None:
     stated = yaml.safe_load((ROOT / "tvimdesign/device/core/impedance/fe_range.yaml").read_text())
     sizes = [case["mm"] for case in SHIPPED.values()]
-    sizes += [design.values for study in FRESH for design in fresh_designs(study).values()]
-    assert len(sizes) == 186
+    sizes += [design.values for study in FRESH_BY_FE for design in fresh_designs(study).values()]
+    assert len(sizes) == 208
     for name, (low, high) in stated.items():
         above, below = name.split("/")
         ratios = [each[above] / each[below] for each in sizes if above in each and below in each]
