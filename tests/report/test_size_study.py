@@ -128,6 +128,13 @@ def test_a_set_s_own_values_replace_shared_ones(hardware: str) -> None:
     )
 
 
+@pytest.mark.parametrize("hardware", ["mini", "middle"])
+def test_the_process_is_the_one_asked_for(hardware: str) -> None:
+    task = JointTask.read(**WRIST, process="print_pa6_cf")
+    study = read_study_text(study_text(replace(task, diameter=diameters()[hardware]), hardware), "joint.yaml")
+    assert study.module["process"] == task.options()["process"] == "print_pa6_cf"
+
+
 @pytest.mark.parametrize(
     ("numbers", "message"),
     [
@@ -136,6 +143,8 @@ def test_a_set_s_own_values_replace_shared_ones(hardware: str) -> None:
         ({"diameter": "300 mm"}, "diameter: 300 mm is not from 20 mm to 200 mm"),
         ({"stroke": "50 deg"}, "stroke: 50 deg to either side of rest is beyond 28.6"),
         ({"stiff_time": "5"}, "stiff_time: .* write for instance '300 s'"),
+        ({"process": "print_pa6"}, "print_pa6 prints nothing; .*print_pa6_cf"),
+        ({"process": "machine_6061"}, "process: machine_6061 prints nothing; .*elbow_machined"),
         ({"supply": "24 V, 3"}, "supply: .* write for instance '24 V, 3 A'"),
         ({"stiffness": "2 to 1 N.m/rad"}, "stiffness: .* is upside down"),
     ],

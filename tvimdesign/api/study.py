@@ -40,7 +40,7 @@ def example(name: str) -> Study:
 
 def size(
     *, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "",
-    stiff_time: str = "", name: str = "joint", progress: bool = True,
+    stiff_time: str = "", process: str = "", name: str = "joint", progress: bool = True,
 ) -> Result[Study]:  # fmt: skip
     """Size a joint from five numbers, as `tvimdesign size` does.
 
@@ -61,6 +61,8 @@ def size(
         Angle that the soft joint turns to either side; 0.104 rad unless given.
     stiff_time : str, optional
         Time within which the joint gets stiff again.
+    process : str, optional
+        Process that prints the parts, such as ``"print_pa6_cf"``.
     name : str
         Name of the study.
     progress : bool
@@ -83,7 +85,7 @@ def size(
     from tvimdesign.report.run.study_files import sized_text
     from tvimdesign.study.sizing import JointTask
 
-    task = JointTask.read(torque, stiffness, diameter, time, supply, stroke, stiff_time)
+    task = JointTask.read(torque, stiffness, diameter, time, supply, stroke, stiff_time, process)
     with shown_progress(progress) as say:
         text = sized_text(task, name, say)
     return Study._of(tree_of_text(text, f"{name}.yaml", name, Path())).run(progress=progress)

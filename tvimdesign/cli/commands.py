@@ -142,6 +142,15 @@ def size(
     stroke: Annotated[
         str, typer.Option("--stroke", help="Angle that the soft joint turns to either side; 0.104 rad unless given.")
     ] = "",
+    process: Annotated[
+        str,
+        typer.Option(
+            "--process",
+            metavar="RECORD",
+            help="Process that prints the parts, such as print_pa6_cf; one that suits the diameter unless given.",
+            autocompletion=options.printing,
+        ),
+    ] = "",
     file: Annotated[Path, typer.Option("--study", help="Study file to write, and to edit afterwards.")] = Path(
         "joint.yaml"
     ),
@@ -159,7 +168,7 @@ def size(
 
     numbers = {
         "torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply,
-        "stroke": stroke, "stiff_time": stiff_time,
+        "stroke": stroke, "stiff_time": stiff_time, "process": process,
     }  # fmt: skip
     size_study(
         file, numbers, out or options.default_folder(file), overwrite=overwrite, cad=cad, plots=plots, as_json=json

@@ -112,6 +112,7 @@ class Size(_Message):
     supply: _Text
     stroke: _Text = ""
     stiff_time: _Text = ""
+    process: _Text = ""
 
 
 class MakeParts(_Message):

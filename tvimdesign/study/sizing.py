@@ -57,15 +57,18 @@ class JointTask:
     assumes_stroke: bool
     friction: float = 0.5  # Most friction over the springs' torque at full stroke
     stiff_time: float = math.inf  # Most time from the end of the heating until it is stiff again
+    process: str = ""  # Process that prints the parts; empty for the one that suits the diameter
     cautious: bool = False  # Whether three of four plausible cases of the assumed values must satisfy each limit
 
     @classmethod
     def read(
-        cls, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "", stiff_time: str = ""
-    ) -> Self:
+        cls, torque: str, stiffness: str, diameter: str, time: str, supply: str, stroke: str = "", stiff_time: str = "",
+        process: str = "",
+    ) -> Self:  # fmt: skip
         """Read quantities with their units, as `tvim.size` takes them; an empty stroke is `STROKE`.
 
-        Raises InputError with every one of them that is missing, no such quantity, or out of range.
+        Raises InputError with every one of them that is missing, no such quantity, or out of range, and for a process
+        that is not in the catalogue or does not print.
         """
         voltage, _, current = supply.partition(",")
         problems: list[str] = []
@@ -86,7 +89,7 @@ class JointTask:
             take("torque", torque, "N*m"), band, take("diameter", diameter, "mm"), take("time", time, "s"),
             take("supply", voltage.strip(), "V"), take("supply", current.strip(), "A") if current else math.inf,
             take("stroke", stroke or STROKE, "rad"), not stroke,
-            stiff_time=take("stiff_time", stiff_time, "s") if stiff_time else math.inf,
+            stiff_time=take("stiff_time", stiff_time, "s") if stiff_time else math.inf, process=process,
         )  # fmt: skip
         row = _inputs()["stroke"]
         if task.stroke < row.lower or task.stroke > row.upper:
@@ -94,6 +97,8 @@ class JointTask:
             problems.append(f"stroke: {stroke} to either side of rest is beyond {most}, the most that a module turns")
         if task.diameter < SMALLEST or task.diameter > LARGEST:
             problems.append(f"diameter: {diameter} is not from 20 mm to 200 mm, which `size` is made for")
+        if process and process not in printing():
+            problems.append(f"process: {process} prints nothing; {', '.join(printing())} do. To mill, {_MILLED}")
         if problems:
             raise InputError("\n".join(problems))
         return task
@@ -107,12 +112,23 @@ class JointTask:
             "torque": f"{self.torque:.4g} N.m", "diameter": _mm(self.diameter), "time": f"{self.time:.4g} s",
             "stiffness": f"{centre:.4g} N.m/rad" if around else f"{low:.4g} to {high:.4g} N.m/rad",
             "supply": f"{self.voltage:.4g} V" + ("" if math.isinf(self.current) else f", {self.current:.4g} A"),
-            "stroke": f"{self.stroke:.4g} rad",
+            "stroke": f"{self.stroke:.4g} rad", **({"process": self.process} if self.process else {}),
         }  # fmt: skip
 
     def with_stiffness(self, stiffness: float) -> Self:
         """Return the task with another stiffness, 20 % to either side."""
         return replace(self, stiffness=((1.0 - _BAND) * stiffness, (1.0 + _BAND) * stiffness))
+
+
+_MILLED = "write `tvimdesign new --example elbow_machined`"
+
+
+def printing() -> list[str]:
+    """Return the processes of the catalogue that print."""
+    catalog = Catalog()
+    return [
+        name for name in catalog.names("processes") if catalog.record("processes", name).word("method") == "printed"
+    ]
 
 
 def _positive(name: str, text: str, unit: str) -> float:
@@ -183,8 +199,9 @@ def study_text(
     cut_out = _CUT_OUT if task.diameter > _ROOMY * diameters()[hardware] else ""
     stiff = "" if math.isinf(task.stiff_time) else f'  stiffening_time: "<= {task.stiff_time:.4g} s"\n'
     supplied = "" if math.isinf(task.current) else f'  peak_current: "<= {task.current:.4g} A"\n'
+    process = f"process: {task.process}\n" if task.process else ""
     module = _last_of_each(
-        f"{stroke}{shared['common']}{caution}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}"
+        f"{stroke}{shared['common']}{caution}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}{process}"
     )
     if record:
         choice, other = record

@@ -135,7 +135,9 @@ def test_time_left_is_the_mean_of_the_steps_of_a_series() -> None:
     left.heard("point 1 of 9", 10.0)
     assert left.left(10.0) is None
     left.heard("point 3 of 9", 14.0)
-    assert left.left(14.0) == pytest.approx(14.0)
+    assert left.left(14.0) is None
+    left.heard("point 4 of 9", 16.0)
+    assert left.left(16.0) == pytest.approx(12.0)
     assert [duration(seconds) for seconds in (8.2, 59.4, 125.0, 4320.0)] == ["8 s", "59 s", "2 min 05 s", "1 h 12 min"]
     assert clock(0.4, 9.0) == ""
     assert clock(3.0, None) == "3 s"

@@ -105,6 +105,26 @@ def _ratings(design: Design) -> dict[str, float]:
     }
 
 
+_ORDERED = {
+    "air": "ambient_temperature",
+    "PCL starts to melt": "pcl_melting_start",
+    "coldest PCL as heating stops": "softened_temperature",
+    "all PCL molten": "pcl_melting_end",
+    "thermistor as heating stops": "sensed_temperature",
+    "heater's peak": "peak_peltier_temperature",
+}
+"""Temperatures of a switch, and the quantity of each."""
+
+
+def temperatures_in_order(design: Design) -> dict[str, float]:
+    """Return the temperatures [K] of a switch, where the cut-out may open and what parts bear, the lowest first."""
+    switch = {words: design.values.get(name, math.nan) for words, name in _ORDERED.items()}
+    points = {f"{point} point": design.values[f"temperature@{point}"] for point in design.study["operating_points"]}
+    limits = {f"limit of {what}": bears for what, bears in _ratings(design).items()} | _opening(design)
+    ordered = sorted((switch | points | limits).items(), key=lambda entry: entry[1])
+    return {words: kelvin for words, kelvin in ordered if math.isfinite(kelvin)}
+
+
 def thermistor_in_words(design: Design) -> str:
     """Return a thermistor for the temperature the heater is rated for: its number, and the bead that is drawn where
     one is."""

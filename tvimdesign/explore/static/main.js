@@ -42,7 +42,8 @@ at("toolbar").append(...Object.values(ways), undo, redo, button("Start again", (
 /** The options of `tvimdesign size`, each with a label and an example. */
 const SIZED = { torque: ["Torque held when frozen", "8 N.m"], stiffness: ["Stiffness when soft", "1.5 N.m/rad"],
   diameter: ["Largest diameter", "70 mm"], time: ["Soft within", "60 s"], supply: ["Supply (current if limited)", "24 V, 3 A"],
-  stroke: ["Stroke to either side", "0.104 rad"], stiff_time: ["Stiff again within (any if empty)", ""] };
+  stroke: ["Stroke to either side", "0.104 rad"], stiff_time: ["Stiff again within (any if empty)", ""],
+  process: ["Printing process (any if empty)", ""] };
 const sized = make("form", {}, ...Object.entries(SIZED).map(([name, [label, value]]) =>
   make("label", {}, label, make("input", { type: "text", name, value, size: 12, required: value !== "" }))), make("button", {}, "Size it"));
 sized.addEventListener("submit", (event) => {

@@ -251,7 +251,9 @@ _COUNTED = re.compile(r"(?P<of>.*?)(?P<done>\d+) of (?:about )?(?P<all>\d+)")
 
 
 class RemainingTime:
-    """The remaining time of a series, by the mean time of its steps so far; unknown before the first is done.
+    """The remaining time of a series, by the mean time of its steps so far; unknown before a quarter of them is done.
+
+    Steps differ: an estimate from the first few is several times off.
 
     A message between two steps belongs to the one before it; after the last step it is something else.
     """
@@ -274,8 +276,8 @@ class RemainingTime:
             self._series = (match["of"], match["all"])
             self._first, self._began, self._end = number, now, None
         elif self._first < number <= last:
-            each = (now - self._began) / (number - self._first)
-            self._end = now + each * (last - number + 1)
+            done, ahead = number - self._first, last - number + 1
+            self._end = now + (now - self._began) / done * ahead if 3 * done >= ahead else None
 
     def left(self, now: float) -> float | None:
         """Return seconds that are left; None where nothing can be said of it."""

@@ -165,7 +165,7 @@ def proportions(m: Module) -> dict[str, Scalar]:
 
 
 @quantities.output(
-    "1", advice=(at_most(0.0, "no module of such proportions was solved by FE: its stiffness may be off"),)
+    "1", advice=(at_most(0.0, "by that share a ratio of sizes exceeds those solved by FE: the stiffness may be off"),)
 )
 def structure_extrapolation(m: Module) -> Scalar:
     """Distance of proportions behind the structure's stiffness beyond those that FE solved (`fe_range.yaml`).

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tvimdesign.base.units import from_si, pretty
+from tvimdesign.cad.assembly.heater_leads import temperatures_in_order
 from tvimdesign.device import Table, table_for
 from tvimdesign.device.core.task import ARM
 from tvimdesign.report.output.choices_tables import choice_text, own_choices
@@ -284,6 +285,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
     facts = [
         Fact("Soft", _soft(answer)),
         Fact("Stiff", list(_stiff(answer, uncertainty))),
+        Fact("Temperatures", [_temperatures(answer)]),
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
@@ -311,6 +313,12 @@ def _stiff(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]
     else:
         time = answer.cooling.unpowered.get("frozen_time", math.inf)
         yield f"{'never' if math.isinf(time) else f'{number(time, _DIGITS)} s'} if the heaters are switched off"
+
+
+def _temperatures(answer: StudyResult) -> str:
+    """Return what happens to a switch at which temperature, the lowest first."""
+    ordered = temperatures_in_order(answer.design).items()
+    return " < ".join(f"{words} {from_si(kelvin, 'degC'):.0f} {pretty('degC')}" for words, kelvin in ordered)
 
 
 def time_over_rise(softening: Curves, time: float) -> float:
