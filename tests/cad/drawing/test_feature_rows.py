@@ -97,7 +97,7 @@ def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
     wall = cylinder(34.0, 0.0, 9.0).cut(cylinder(30.0, 1.0, 9.0), *grooves)
     vanes = [turned(sector(12.0, 20.0, 1.5, 0.5, 5.0), azimuth) for azimuth in (0.0, pi)]
     of_vanes = [text for text in described(wall.fuse(*vanes)) if "between ends" in text]
-    assert of_vanes == ["2× vane R12 to R20, 85.94° between ends, middle every 180° from 0°, h 1 to 5 (4)"]
+    assert of_vanes == ["2× raised sector R12 to R20, 85.94° between ends, middle every 180° from 0°, h 1 to 5 (4)"]
 
 
 @pytest.mark.slow
@@ -149,7 +149,7 @@ def check_faces(kind: str, solid: cq.Solid, rows: list[FeatureRow], document: Dr
 def has_cylinder(row: FeatureRow, radius: float, from_axis: float) -> bool:
     sizes = {f"⌀{figure(2.0 * radius)}", f"R{figure(radius)}"}
     is_sized = any(re.search(rf"{re.escape(size)}(?![\d.])", row.size) for size in sizes)
-    if row.what in ("corners", "pocket", "vane", "sector") or from_axis < 1e-6:
+    if row.what in ("corners", "pocket", "raised sector", "sector") or from_axis < 1e-6:
         return is_sized
     return is_sized and (f"on ⌀{figure(2.0 * from_axis)} " in row.place or row.place.startswith(("x ", "over")))
 
@@ -171,7 +171,7 @@ def has_width(rows: list[FeatureRow], face: cq.Face, solid: cq.Solid) -> bool:
 def has_wall(row: FeatureRow, face: cq.Face) -> bool:
     middle, normal = face.Center(), face.normalAt()
     offset = middle.x * normal.x + middle.y * normal.y
-    if row.what in ("pocket", "vane", "sector"):
+    if row.what in ("pocket", "raised sector", "sector"):
         (between,) = re.findall(r"([\d.]+)° between ends", row.size)
         azimuth = degrees(atan2(middle.y, middle.x))
         return any(

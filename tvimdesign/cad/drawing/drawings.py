@@ -41,7 +41,7 @@ from tvimdesign.cad.geometry.kinds import PRODUCTION
 from tvimdesign.cad.parts import jigs
 
 _PLATE = 1e-6  # Largest deviation of a plate's volume from area times thickness, relative
-_BESIDE = ("pocket", "vane", "thread", "hole", "slot")
+_BESIDE = ("pocket", "raised sector", "thread", "hole", "slot")
 """Features that are looked for beside the section's plane, the first before the others.
 
 The row of a thread describes it in full; a vane, with its slots and steps, is seen only where it is cut.

@@ -157,8 +157,8 @@ def _sector_row(group: list[Sector]) -> FeatureRow:
     place = f"middle {around(_azimuths([other.middle for other in group]))}"
     faces = tuple(face for other in group for face in other.faces)
     points = tuple(other.point for other in group)
-    # A single one is no vane of a part with an axis, but the part: an arc, a block, a spreader.
-    body = "vane" if len(group) > 1 else "sector"
+    # A single one is the part itself: an arc, a block, a spreader.
+    body = "raised sector" if len(group) > 1 else "sector"
     return FeatureRow("pocket" if sector.is_pocket else body, size, place, *sector.levels, points=points, of=faces,
                       azimuths=tuple(_azimuths([other.middle for other in group])))  # fmt: skip
 
