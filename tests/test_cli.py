@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from cad_designs import shipped_design
-from support import ROOT, Command, wait_until
+from support import ROOT, wait_until
 
 from tvimdesign.base.processes import communicate
 from tvimdesign.cli.options import default_folder, name_of
@@ -21,7 +21,7 @@ from tvimdesign.study.design import design_json
 HEAVY = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy", "numpy", "pint")
 
 
-def test_help_loads_no_heavy_library() -> None:
+def test_help_loads_no_heavy_library():
     code = f"""
 import sys
 sys.argv = ["tvimdesign", "--help"]
@@ -54,7 +54,7 @@ light("from tvimdesign.solve.optimizer.multistart import unit_points; next(unit_
 """Each import loads none of the libraries behind it, nor have the ones before it."""
 
 
-def test_imports_leave_libraries_to_those_who_need_them() -> None:
+def test_imports_leave_libraries_to_those_who_need_them():
     done = subprocess.run([sys.executable, "-c", LIGHT], capture_output=True, text=True, cwd=ROOT, check=False)
     assert done.returncode == 0, done.stderr
 
@@ -72,9 +72,7 @@ main._command = lambda: exec("import os, signal; os.kill(os.getpid(), signal.SIG
 @pytest.mark.parametrize(
     ("text", "code", "message"), [(SHUTDOWN, 3, ""), (IN_A_STRING, 128 + signal.SIGTERM, "interrupted; ")]
 )
-def test_an_interrupt_at_shutdown_or_in_a_string_ends_with_its_code(
-    tmp_path: Path, text: str, code: int, message: str
-) -> None:
+def test_an_interrupt_at_shutdown_or_in_a_string_ends_with_its_code(tmp_path, text, code, message):
     (tmp_path / "ends.py").write_text(f"import atexit, os, signal\nfrom tvimdesign.cli import main\n{text}main.main()")
     around = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(tmp_path)])}
     done = subprocess.run([sys.executable, "-m", "ends"], env=around, capture_output=True, text=True, check=False)
@@ -88,7 +86,7 @@ def test_an_interrupt_at_shutdown_or_in_a_string_ends_with_its_code(
     [[], ["run"], ["check"], ["new"], ["cad"], ["simulate"], ["compare"], ["paper-check"], ["rows"]],
     ids=lambda words: " ".join(words) or "tvimdesign",
 )
-def test_every_command_explains_itself(tvimdesign: Command, command: list[str]) -> None:
+def test_every_command_explains_itself(tvimdesign, command):
     done = tvimdesign(*command, "--help")
     assert done.returncode == 0
     assert "Usage:" in done.stdout
@@ -96,7 +94,7 @@ def test_every_command_explains_itself(tvimdesign: Command, command: list[str]) 
 
 
 @pytest.mark.gate
-def test_a_new_study_is_valid_and_never_replaces_a_file(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_new_study_is_valid_and_never_replaces_a_file(tvimdesign, tmp_path):
     file = tmp_path / "mine.yaml"
     assert tvimdesign("new", file).returncode == 0
     written = file.read_text()
@@ -110,7 +108,7 @@ def test_a_new_study_is_valid_and_never_replaces_a_file(tvimdesign: Command, tmp
 
 
 @pytest.mark.gate
-def test_the_new_study_ends_with_a_module_to_build(process: Command, tmp_path: Path) -> None:
+def test_the_new_study_ends_with_a_module_to_build(process, tmp_path):
     file = tmp_path / "mine.yaml"
     process("new", file)
     done = process("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out", spread="on")
@@ -131,20 +129,20 @@ def test_the_new_study_ends_with_a_module_to_build(process: Command, tmp_path: P
         (["run"], "STUDY"),
     ],
 )
-def test_bad_input_is_a_message_and_exit_code_2(tvimdesign: Command, arguments: list[str], words: str) -> None:
+def test_bad_input_is_a_message_and_exit_code_2(tvimdesign, arguments, words):
     done = tvimdesign(*arguments)
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_process_says_and_ends_with_what_the_command_does(tvimdesign: Command, process: Command) -> None:
+def test_a_process_says_and_ends_with_what_the_command_does(tvimdesign, process):
     done, here = process("check", "README.md"), tvimdesign("check", "README.md")
     assert (done.returncode, done.stdout, done.stderr) == (here.returncode, here.stdout, here.stderr)
     assert done.returncode == 2
 
 
-def test_a_module_that_cannot_be_is_refused_by_check_and_run(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_module_that_cannot_be_is_refused_by_check_and_run(tvimdesign, tmp_path):
     file = tmp_path / "inside_out.yaml"
     file.write_text("mode: shear\nmodule: {pcl_inner_radius: 35 mm, pcl_outer_radius: 28 mm}\n")
     for command in (["check", file], ["run", file, "--out", tmp_path / "out"]):
@@ -153,7 +151,7 @@ def test_a_module_that_cannot_be_is_refused_by_check_and_run(tvimdesign: Command
         assert "arc_width is -7 mm" in done.stderr
 
 
-def test_errors_are_json_too_where_scripts_ask(tvimdesign: Command, tmp_path: Path) -> None:
+def test_errors_are_json_too_where_scripts_ask(tvimdesign, tmp_path):
     file = tmp_path / "wrong.yaml"
     file.write_text("mode: shear\nmodule:\n  coil_count: 3,25\n")
     done = tvimdesign("check", file, "--json")
@@ -162,7 +160,7 @@ def test_errors_are_json_too_where_scripts_ask(tvimdesign: Command, tmp_path: Pa
     assert (problem["line"], problem["path"]) == (3, "module.coil_count")
 
 
-def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign, tmp_path):
     file = tmp_path / "small.yaml"
     file.write_text(
         "mode: shear\nvary: {current: [0.5 A, 2 A]}\n"
@@ -174,7 +172,7 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
     assert "placement_radius" in done.stderr
 
 
-def test_a_switch_that_never_ends_is_reported(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_switch_that_never_ends_is_reported(tvimdesign, tmp_path):
     file = tmp_path / "weak.yaml"
     file.write_text("mode: shear\nmodule: {current: 0.2 A}\n")
     done = tvimdesign("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")
@@ -185,7 +183,7 @@ def test_a_switch_that_never_ends_is_reported(tvimdesign: Command, tmp_path: Pat
 
 
 @pytest.mark.gate
-def test_a_module_that_never_stiffens_is_reported_with_a_whole_folder(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_module_that_never_stiffens_is_reported_with_a_whole_folder(tvimdesign, tmp_path):
     # In free air an ampere heats the module more than it cools the layer.
     study = tmp_path / "study.yaml"
     study.write_text("mode: shear\nmodule: {cooling_current: 1 A}\n")
@@ -208,9 +206,7 @@ def test_a_module_that_never_stiffens_is_reported_with_a_whole_folder(tvimdesign
     ("number", "after"),
     [(signal.SIGINT, 0.5), (signal.SIGTERM, 0.5), pytest.param(signal.SIGINT, 1.0, marks=pytest.mark.slow)],
 )
-def test_an_interrupt_ends_with_its_code_and_a_reusable_folder(
-    tvimdesign: Command, tmp_path: Path, number: signal.Signals, after: float
-) -> None:
+def test_an_interrupt_ends_with_its_code_and_a_reusable_folder(tvimdesign, tmp_path, number, after):
     out = tmp_path / "out"
     process = subprocess.Popen(
         [sys.executable, "-m", "tvimdesign", "run", "studies/wrist_joint.yaml", "--out", str(out)], cwd=ROOT,
@@ -228,7 +224,7 @@ def test_an_interrupt_ends_with_its_code_and_a_reusable_folder(
     assert again.returncode == 0, again.stderr
 
 
-def test_cad_refuses_what_is_no_design(tvimdesign: Command, process: Command, tmp_path: Path) -> None:
+def test_cad_refuses_what_is_no_design(tvimdesign, process, tmp_path):
     os.mkfifo(tmp_path / "pipe.json")
     (tmp_path / "zero.json").symlink_to("/dev/zero")
     (tmp_path / "folder.json").mkdir()
@@ -244,7 +240,7 @@ def test_cad_refuses_what_is_no_design(tvimdesign: Command, process: Command, tm
         assert "Traceback" not in done.stderr
 
 
-def test_version_and_rows_are_those_of_the_package(tvimdesign: Command) -> None:
+def test_version_and_rows_are_those_of_the_package(tvimdesign):
     import tvimdesign as package
 
     assert tvimdesign("--version").stdout.strip() == package.__version__
@@ -259,7 +255,7 @@ def test_version_and_rows_are_those_of_the_package(tvimdesign: Command) -> None:
     assert "pcl_thickness" not in blocks
 
 
-def test_simulate_without_a_test_lists_the_tests_with_what_they_show(tvimdesign: Command) -> None:
+def test_simulate_without_a_test_lists_the_tests_with_what_they_show(tvimdesign):
     done = tvimdesign("simulate", "studies/finger.yaml")
     assert done.returncode == 2  # nothing was tested: a script must not take it for done
     lines = {line.split()[0]: line.split()[1:] for line in done.stderr.splitlines() if line.startswith("  ")}
@@ -279,11 +275,11 @@ def test_simulate_without_a_test_lists_the_tests_with_what_they_show(tvimdesign:
         ("results/pair/shear/optimised.json", "results/pair/shear-optimised-cad", "shear-optimised"),
     ],
 )
-def test_every_design_has_a_folder_of_its_own(design: str, parts: str, test: str) -> None:
+def test_every_design_has_a_folder_of_its_own(design, parts, test):
     assert default_folder(Path(design)) == Path(parts).resolve()
     assert name_of(Path(design)) == test
 
 
-def test_a_study_or_a_run_gives_its_name(tmp_path: Path) -> None:
+def test_a_study_or_a_run_gives_its_name(tmp_path):
     assert default_folder(Path("studies/elbow.yaml")) == Path("results/elbow")
     assert (name_of(Path("studies/elbow.yaml")), name_of(tmp_path)) == ("elbow", tmp_path.name)

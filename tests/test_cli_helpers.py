@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from cad_designs import shipped_design
-from support import ROOT, STUDIES, Command, environment, run_process, study_path
+from support import ROOT, STUDIES, environment, run_process, study_path
 
 from tvimdesign.cli import options
 from tvimdesign.study import read_study
@@ -23,9 +23,7 @@ WRONG = ("--set", "pcl_thickness=1,2 mm", "--set", "require.holding_torque=15 N.
     [["run"], ["check"], ["simulate", "--test", "creep"], ["compare", "studies/wrist_compression.yaml"]],
     ids=lambda words: " ".join(words[:2]),
 )
-def test_commands_that_read_a_study_take_settings_and_name_their_place(
-    tvimdesign: Command, command: list[str], tmp_path: Path
-) -> None:
+def test_commands_that_read_a_study_take_settings_and_name_their_place(tvimdesign, command, tmp_path):
     out = [] if command[0] == "check" else ["--out", tmp_path / "out"]
     done = tvimdesign(*command, "studies/wrist_joint.yaml", *WRONG, *out)
     assert done.returncode == 2
@@ -35,7 +33,7 @@ def test_commands_that_read_a_study_take_settings_and_name_their_place(
 
 
 @pytest.mark.gate
-def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign, tmp_path):
     study, out = "studies/paper_reconstructed.yaml", tmp_path / "out"
     done = tvimdesign("run", study, "--set", "wire_diameter=2 mm", "--no-cad", "--no-plots", "--json", "--out", out)
     assert done.returncode == 0, done.stderr
@@ -47,15 +45,15 @@ def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Comman
 
 
 @pytest.mark.gate
-def test_a_study_that_is_not_changed_is_kept_as_it_was_written(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_study_that_is_not_changed_is_kept_as_it_was_written(tvimdesign, tmp_path):
     source = study_path("paper_reconstructed")
     assert tvimdesign("run", source, "--no-cad", "--no-plots", "--out", tmp_path / "out").returncode == 0
     assert (tmp_path / "out/study.yaml").read_bytes() == source.read_bytes()
 
 
 @pytest.mark.slow
-def test_a_setting_changes_what_is_tested(tvimdesign: Command, tmp_path: Path) -> None:
-    def tested(name: str, *settings: str) -> list[float]:
+def test_a_setting_changes_what_is_tested(tvimdesign, tmp_path):
+    def tested(name, *settings):
         done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "step", *settings, "--json",
                           "--out", tmp_path / name)  # fmt: skip
         assert done.returncode == 0, done.stderr
@@ -65,7 +63,7 @@ def test_a_setting_changes_what_is_tested(tvimdesign: Command, tmp_path: Path) -
     assert "# --set pcl_thickness=2 mm" in (tmp_path / "thicker/tested.yaml").read_text()
 
 
-def test_a_design_takes_no_settings(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_design_takes_no_settings(tvimdesign, tmp_path):
     design = write_design(shipped_design("paper_reconstructed"), tmp_path / "design.json")
     done = tvimdesign("simulate", design, "--test", "creep", "--set", "current=1 A", "--out", tmp_path / "out")
     assert done.returncode == 2
@@ -73,7 +71,7 @@ def test_a_design_takes_no_settings(tvimdesign: Command, tmp_path: Path) -> None
 
 
 @pytest.mark.slow
-def test_settings_reach_every_study_of_a_comparison(tvimdesign: Command, tmp_path: Path) -> None:
+def test_settings_reach_every_study_of_a_comparison(tvimdesign, tmp_path):
     pair = ("studies/wrist_joint.yaml", "studies/wrist_compression.yaml")
     settings = ("--set", "moving_inertia=50 kg.mm^2", "--set", "solver.starts=1")
     done = tvimdesign("compare", *pair, "--points", "0", "--no-plots", *settings, "--out", tmp_path / "out")
@@ -87,7 +85,7 @@ def test_settings_reach_every_study_of_a_comparison(tvimdesign: Command, tmp_pat
 # --- shipped studies ---
 
 
-def test_shipped_studies_are_listed_and_copied_once(tvimdesign: Command, tmp_path: Path) -> None:
+def test_shipped_studies_are_listed_and_copied_once(tvimdesign, tmp_path):
     lines = tvimdesign("new", "--list").stdout.splitlines()
     assert lines[::2] == [study.stem for study in STUDIES]
     assert all(line.startswith("    ") and len(line.split()) > 5 for line in lines[1::2])
@@ -133,7 +131,7 @@ print(json.dumps(offered))
 """
 
 
-def test_tab_completes() -> None:
+def test_tab_completes():
     done = subprocess.run([sys.executable, "-c", COMPLETES], input=json.dumps([*OFFERED]), cwd=ROOT, check=False,
                           capture_output=True, text=True)  # fmt: skip
     assert done.returncode == 0, done.stderr
@@ -142,13 +140,13 @@ def test_tab_completes() -> None:
         assert OFFERED[words] in zsh, words
 
 
-def test_help_names_the_completion_options(tvimdesign: Command) -> None:
+def test_help_names_the_completion_options(tvimdesign):
     shown = tvimdesign("--help").stdout
     assert "--install-completion" in shown
     assert "--show-completion" in shown
 
 
-def test_files_are_those_a_command_reads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_are_those_a_command_reads(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name in ("a.yaml", "b.yml", "c.txt", "d.json", ".hidden.yaml"):
         (tmp_path / name).touch()
@@ -173,14 +171,14 @@ def run(*words: object, **more: str) -> subprocess.CompletedProcess[bytes]:
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
-def test_a_terminal_that_lacks_letters_gets_plain_ones(encoding: str) -> None:
+def test_a_terminal_that_lacks_letters_gets_plain_ones(encoding):
     done = run("rows", "stiff_threshold", PYTHONIOENCODING=encoding)
     assert done.returncode == 0, done.stderr
     assert ("N.m/rad" if encoding == "ascii" else "N·m/rad") in done.stdout.decode(encoding)
 
 
 @pytest.mark.slow
-def test_a_study_whose_name_looks_like_markup_runs_on_any_terminal(tmp_path: Path) -> None:
+def test_a_study_whose_name_looks_like_markup_runs_on_any_terminal(tmp_path):
     (tmp_path / "nasty.yaml").write_text(NASTY, encoding="utf-8")
     words = ["--no-cad", "--no-plots", "--out", tmp_path / "[/bold]"]
     done = run("run", tmp_path / "nasty.yaml", *words, PYTHONIOENCODING="ascii", TVIMDESIGN_SPREAD="")
@@ -191,7 +189,7 @@ def test_a_study_whose_name_looks_like_markup_runs_on_any_terminal(tmp_path: Pat
 
 
 @pytest.mark.parametrize(("words", "unbuffered"), [(["rows"], ""), (["--help"], "1")])
-def test_output_that_cannot_be_written_is_one_line(words: list[str], unbuffered: str) -> None:
+def test_output_that_cannot_be_written_is_one_line(words, unbuffered):
     around = {**environment(), "PYTHONUNBUFFERED": unbuffered}
     with Path("/dev/full").open("wb") as full:
         command = [sys.executable, "-m", "tvimdesign", *words]
@@ -202,7 +200,7 @@ def test_output_that_cannot_be_written_is_one_line(words: list[str], unbuffered:
 
 
 @pytest.mark.gate
-def test_a_file_that_cannot_be_written_is_named_and_the_others_are_kept(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_named_and_the_others_are_kept(tmp_path):
     out = tmp_path / "out"
     done = run_process(
         [sys.executable, "-m", "tvimdesign", "run", "studies/paper_reconstructed.yaml", "--no-cad", "--no-plots",

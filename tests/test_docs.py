@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from answers import shipped_answer
 from section_drawing import SECTIONS, missing
-from support import ROOT, STUDIES, Command, study_path
+from support import ROOT, STUDIES, study_path
 
 from tvimdesign.catalog import Catalog, check_records
 from tvimdesign.device import MODES, Output, table_for
@@ -27,7 +27,7 @@ def _blocks(language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", README, re.M | re.S)
 
 
-def test_the_readme_is_read_in_a_few_minutes() -> None:
+def test_the_readme_is_read_in_a_few_minutes():
     assert len(README.split()) <= 1200
     pictures = {ROOT / path for path in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)}
     assert sum(path.stat().st_size for path in pictures) < 1_500_000
@@ -39,7 +39,7 @@ def _study_rows() -> dict[str, list[str]]:
     return {line[3 : line.index("]")]: [cell.strip() for cell in line.split("|")[1:-1]] for line in rows}
 
 
-def test_the_table_shows_every_study_with_its_picture_and_the_readme_six() -> None:
+def test_the_table_shows_every_study_with_its_picture_and_the_readme_six():
     rows = _study_rows()
     assert set(rows) == {path.stem for path in STUDIES}
     assert all(cells[1] == f"![](pictures/studies/{name}.png)" for name, cells in rows.items())
@@ -62,7 +62,7 @@ def _result(study: Path) -> str:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("study", STUDIES, ids=lambda path: str(path.stem))
-def test_the_table_of_studies_has_the_results(study: Path) -> None:
+def test_the_table_of_studies_has_the_results(study):
     assert _study_rows()[study.stem][3] == _result(study)
 
 
@@ -92,7 +92,7 @@ def _numbers(study: str) -> dict[str, str]:
 
 
 @pytest.mark.gate
-def test_the_table_in_the_readme_has_the_results() -> None:
+def test_the_table_in_the_readme_has_the_results():
     expected = _numbers("paper_reconstructed")
     table = README[README.index("| | paper |") :].partition("\n\n")[0].splitlines()[2:]
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in table]
@@ -100,14 +100,14 @@ def test_the_table_in_the_readme_has_the_results() -> None:
 
 
 @pytest.mark.slow
-def test_the_screen_in_the_readme_is_that_of_the_run(tvimdesign: Command, tmp_path: Path) -> None:
+def test_the_screen_in_the_readme_is_that_of_the_run(tvimdesign, tmp_path):
     study = study_path("elbow_printed")
     done = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "out", COLUMNS="100", spread="on")
     shown, written = (text.partition("Look first")[0].splitlines() for text in (done.stdout, _blocks("text")[0]))
     assert [re.sub(r" · \d+ s$", "", line) for line in shown] == written
 
 
-def test_the_readme_s_study_is_what_new_writes(tvimdesign: Command, tmp_path: Path) -> None:
+def test_the_readme_s_study_is_what_new_writes(tvimdesign, tmp_path):
     tvimdesign("new", tmp_path / "mine.yaml")
     ours, written = (
         study.model_dump(exclude={"name", "description"})
@@ -124,7 +124,7 @@ def test_the_readme_s_study_is_what_new_writes(tvimdesign: Command, tmp_path: Pa
     ],
     ids=["quick", "all"],
 )
-def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path, left_out: set[str]) -> None:
+def test_the_commands_in_the_readme_work(tvimdesign, tmp_path, left_out):
     (size,) = [block for block in _blocks("console") if "tvimdesign size" in block]
     lines = [line.split("#")[0] for line in (size + _blocks("sh")[2]).splitlines()]
     commands = [shlex.split(line)[1:] for line in lines if line.strip()]
@@ -143,7 +143,7 @@ def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path, le
         assert done.returncode == 0, done.stderr
 
 
-def test_the_record_in_the_docs_can_be_used(tmp_path: Path) -> None:
+def test_the_record_in_the_docs_can_be_used(tmp_path):
     page = (ROOT / "docs/catalogue.md").read_text()
     record = re.findall(r"^```yaml title=\"my_records/peltiers/my_pad.yaml\"\n(.*?)^```", page, re.M | re.S)[0]
     (tmp_path / "peltiers").mkdir()
@@ -155,7 +155,7 @@ def test_the_record_in_the_docs_can_be_used(tmp_path: Path) -> None:
     assert answer(study).design.choices["peltier_module"] == "my_pad"
 
 
-def test_the_prints_that_measure_a_printer_are_described() -> None:
+def test_the_prints_that_measure_a_printer_are_described():
     page = (ROOT / "docs/how-to/my-printer.md").read_text()
     records = "".join(path.read_text() for path in (ROOT / "tvimdesign/catalog/data/processes").glob("print_*.yaml"))
     prints = set(re.findall(r"test: ([\w ]+) as in docs/how-to/my-printer.md", records))
@@ -163,7 +163,7 @@ def test_the_prints_that_measure_a_printer_are_described() -> None:
     assert [words for words in prints if words.split()[-1] not in page] == []
 
 
-def test_links_lead_somewhere() -> None:
+def test_links_lead_somewhere():
     for page in (ROOT / "README.md", ROOT / "cad/README.md", *sorted((ROOT / "docs").rglob("*.md"))):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
@@ -180,7 +180,7 @@ def _public(module: Path) -> list[str]:
     return [f"{module.stem}.{name}" for name in named if not name.startswith("_")]
 
 
-def test_theory_names_every_equation_and_none_that_is_gone() -> None:
+def test_theory_names_every_equation_and_none_that_is_gone():
     names = [name for module in sorted((ROOT / "tvimdesign/physics").rglob("*.py")) for name in _public(module)]
     assert len(names) > 100
     without = [name for name in names if f"`{name}`" not in THEORY]
@@ -192,7 +192,7 @@ def test_theory_names_every_equation_and_none_that_is_gone() -> None:
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_every_group_and_headline_of_the_table_has_a_page(mode: str) -> None:
+def test_every_group_and_headline_of_the_table_has_a_page(mode):
     outputs = table_for(mode).outputs
     groups = {output.group for output in outputs if not output.hidden}
     headlines = {output.name for output in outputs if isinstance(output, Output) and output.headline}
@@ -201,7 +201,7 @@ def test_every_group_and_headline_of_the_table_has_a_page(mode: str) -> None:
     assert not without, f"docs/theory does not name: {', '.join(without)}"
 
 
-def test_every_source_that_a_page_cites_is_in_the_references() -> None:
+def test_every_source_that_a_page_cites_is_in_the_references():
     pages = [path for path in (ROOT / "docs/theory").glob("*.md") if path.name != "references.md"]
     marks = {mark for path in pages for mark in re.findall(r"\[([A-Z][A-Za-z, ]*)\](?!\()", path.read_text())}
     cited = {key for mark in marks for key in mark.split(", ")} - {"N", "K", "V", "W", "J", "Pa", "Hz", "A", "N/m"}
@@ -210,20 +210,20 @@ def test_every_source_that_a_page_cites_is_in_the_references() -> None:
 
 
 @pytest.mark.parametrize("study", SECTIONS)
-def test_a_section_labels_every_radius_level_and_height(study: str) -> None:
+def test_a_section_labels_every_radius_level_and_height(study):
     assert not missing(study)
     drawing = (ROOT / f"docs/pictures/section_{study}.svg").read_text()
     assert "housing_outer_radius" in drawing
 
 
-def test_every_study_has_a_small_picture() -> None:
+def test_every_study_has_a_small_picture():
     pictures = ROOT / "docs/pictures/studies"
     assert {path.stem for path in pictures.glob("*.png")} == {path.stem for path in STUDIES}
     assert all(path.stat().st_size < 40_000 for path in pictures.glob("*.png"))
 
 
 @pytest.mark.gate
-def test_the_site_builds_strictly_and_loads_nothing_from_another_host(tmp_path: Path) -> None:
+def test_the_site_builds_strictly_and_loads_nothing_from_another_host(tmp_path):
     done = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict", "--site-dir", str(tmp_path / "site")],
         cwd=ROOT, capture_output=True, text=True, check=False,

@@ -72,21 +72,21 @@ def _records(page: str, place: Path) -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("page", QUICK)
-def test_commands_of_a_page(page: str, tvimdesign: Command, tmp_path: Path) -> None:
+def test_commands_of_a_page(page, tvimdesign, tmp_path):
     _place(tmp_path)
     _records(page, tmp_path)
     _do(page, tvimdesign, tmp_path, ["--no-plots"] if page != "how-to/scripts.md" else [], LONG)
 
 
 @pytest.mark.slow
-def test_measurements_of_the_page_become_records(tvimdesign: Command, tmp_path: Path) -> None:
+def test_measurements_of_the_page_become_records(tvimdesign, tmp_path):
     _do("how-to/measure.md", tvimdesign, tmp_path, [], LONG | {"run"})
     written = {path.stem for path in (tmp_path / "my_records").rglob("*.yaml")}
     assert written == {"my_wire", "my_pad", "my_melt", "my_module"}
 
 
 @pytest.mark.gate
-def test_check_accepts_the_tutorial_s_study(tvimdesign: Command, tmp_path: Path) -> None:
+def test_check_accepts_the_tutorial_s_study(tvimdesign, tmp_path):
     _do("tutorial.md", tvimdesign, tmp_path, [], LONG | {"run"})
 
 
@@ -106,7 +106,7 @@ def _check_the_tutorial_s_table(results: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES)
-def test_all_commands_of_a_page(page: str, process: Command, tmp_path: Path) -> None:
+def test_all_commands_of_a_page(page, process, tmp_path):
     _place(tmp_path)
     _records(page, tmp_path)
     _do(page, process, tmp_path, [], set())
@@ -119,7 +119,7 @@ WRITES = ("parts(", "robot(", "save(", "show(", "run(", "sweep(")
 
 
 @pytest.mark.gate
-def test_the_code_of_the_python_page_prints_the_numbers_beside_it(tmp_path: Path) -> None:
+def test_the_code_of_the_python_page_prints_the_numbers_beside_it(tmp_path):
     page = python_page.PAGE.read_text()
     now, names = python_page.executed(page, tmp_path)
     assert now == page  # docs/make/python_page.py writes the numbers anew
@@ -168,7 +168,7 @@ def outputs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[Any]]:
 
 
 @pytest.mark.slow
-def test_it_shows_and_saves_a_study_results_tables_and_figures(outputs: list[Any]) -> None:
+def test_it_shows_and_saves_a_study_results_tables_and_figures(outputs):
     kinds = [type(output) for output in outputs]
     assert kinds.count(tvim.Study) == 1
     assert kinds.count(tvim.Result) == 1
@@ -190,12 +190,12 @@ def test_it_shows_and_saves_a_study_results_tables_and_figures(outputs: list[Any
     assert {"manifest.json", "results.json", "design.json", "study.yaml", "plots"} <= {p.name for p in folder.iterdir()}
 
 
-def test_the_notebook_is_kept_without_outputs() -> None:
+def test_the_notebook_is_kept_without_outputs():
     assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in CODE)
 
 
 @pytest.mark.slow
-def test_its_parts_are_made(outputs: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_its_parts_are_made(outputs, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (parts,) = executed([cell for cell in CODE if "slow" in cell["metadata"].get("tags", ())], outputs[-2])
     assert any(file.suffix == ".step" and file.stat().st_size > 10_000 for file in parts.files)

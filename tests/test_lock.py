@@ -3,14 +3,13 @@
 import csv
 import json
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 from device_values import inputs_of, values_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support import ROOT, Command
+from support import ROOT
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
@@ -32,9 +31,7 @@ def ring(power: int, inner: float, outer: float, angle: float) -> float:
 
 @settings(max_examples=20, deadline=None)
 @given(**SIZES, speed=st.floats(1e-3, 3.0))
-def test_a_molten_film_drags_as_newton_says(
-    inner: float, width: float, count: int, filled: float, thickness: float, speed: float
-) -> None:
+def test_a_molten_film_drags_as_newton_says(inner, width, count, filled, thickness, speed):
     span, inner, outer = 2.0 * np.pi * filled / count, inner * MM, (inner + width) * MM
     sizes = {"pcl_inner_radius": inner, "pcl_outer_radius": outer, "arc_count": float(count), "arc_span": span}
     values = values_of(
@@ -50,9 +47,7 @@ def test_a_molten_film_drags_as_newton_says(
 
 @settings(max_examples=20, deadline=None)
 @given(**SIZES, turn=st.floats(0.05, 1.0))
-def test_a_frozen_ring_holds_its_strength_times_radius_over_what_overlaps(
-    inner: float, width: float, count: int, filled: float, thickness: float, turn: float
-) -> None:
+def test_a_frozen_ring_holds_its_strength_times_radius_over_what_overlaps(inner, width, count, filled, thickness, turn):
     span, inner, outer = 2.0 * np.pi * filled / count, inner * MM, (inner + width) * MM
     sizes = {"pcl_inner_radius": inner, "pcl_outer_radius": outer, "arc_count": float(count), "arc_span": span}
     values = values_of(
@@ -67,7 +62,7 @@ def test_a_frozen_ring_holds_its_strength_times_radius_over_what_overlaps(
     assert values["turned_overlap"] == pytest.approx(left / (count * span), rel=1e-12)
 
 
-def test_a_lock_has_nothing_of_springs() -> None:
+def test_a_lock_has_nothing_of_springs():
     table, sprung = table_for("lock"), table_for("shear")
     of_springs = [row for row in sprung.quantities if row.group == "Springs" and row.name != "spring_stiffness"]
     assert not table.by_name.keys() & {row.name for row in of_springs}
@@ -83,7 +78,7 @@ def test_a_lock_has_nothing_of_springs() -> None:
         read_study_text("mode: lock\nmodule: {wire_diameter: 1 mm}\n")
 
 
-def test_the_lock_of_all_defaults_keeps_every_rule() -> None:
+def test_the_lock_of_all_defaults_keeps_every_rule():
     table, module = table_for("lock"), inputs_of("lock")
     for row in table.outputs:
         if row.rules and row.exists(module) and row.name not in table.behind_supplied:
@@ -93,7 +88,7 @@ def test_the_lock_of_all_defaults_keeps_every_rule() -> None:
 
 
 @pytest.mark.gate
-def test_the_page_s_lock_is_optimal_as_the_page_says() -> None:
+def test_the_page_s_lock_is_optimal_as_the_page_says():
     assert LISTING is not None
     optimum = answer(read_study_text(LISTING[1]))
     assert optimum.solution is not None
@@ -114,7 +109,7 @@ def test_the_page_s_lock_is_optimal_as_the_page_says() -> None:
 
 
 @pytest.mark.slow
-def test_the_page_s_metal_lock_takes_as_long_as_the_page_says() -> None:
+def test_the_page_s_metal_lock_takes_as_long_as_the_page_says():
     assert LISTING is not None
     text = LISTING[1].replace("module:\n", "module:\n  pcl_grade: fields_metal\n").replace("80 degC", "70 degC")
     values = answer(read_study_text(text)).design.values
@@ -123,7 +118,7 @@ def test_the_page_s_metal_lock_takes_as_long_as_the_page_says() -> None:
 
 
 @pytest.mark.slow
-def test_the_page_s_lock_becomes_parts_without_springs(tvimdesign: Command, tmp_path: Path) -> None:
+def test_the_page_s_lock_becomes_parts_without_springs(tvimdesign, tmp_path):
     assert LISTING is not None
     (tmp_path / "gripper_lock.yaml").write_text(LISTING[1])
     done = tvimdesign("run", tmp_path / "gripper_lock.yaml", "--no-plots", "--out", tmp_path / "out")

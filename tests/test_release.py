@@ -20,7 +20,7 @@ def _split(needed: str) -> tuple[str, str]:
     return match[1], (match[2] or "").replace(" ", "")
 
 
-def test_the_recipe_needs_what_the_package_needs() -> None:
+def test_the_recipe_needs_what_the_package_needs():
     project = PROJECT["project"]
     everywhere = [needed for needed in project["dependencies"] if ";" not in needed]  # conda builds for Macs itself
     wanted = {OF_CONDA.get(name, name): versions for name, versions in map(_split, everywhere)}
@@ -31,7 +31,7 @@ def test_the_recipe_needs_what_the_package_needs() -> None:
     assert host == {**built_with, "python": project["requires-python"], "pip": ""}
 
 
-def test_what_pip_takes_on_an_intel_mac_has_a_wheel_there() -> None:
+def test_what_pip_takes_on_an_intel_mac_has_a_wheel_there():
     (needed,) = (Requirement(requirement) for requirement in PROJECT["project"]["dependencies"] if ";" in requirement)
     assert needed.name == "llvmlite"
     assert needed.specifier.contains("0.45.1")
@@ -44,7 +44,7 @@ def test_what_pip_takes_on_an_intel_mac_has_a_wheel_there() -> None:
     }
 
 
-def test_the_version_is_one() -> None:
+def test_the_version_is_one():
     version = PROJECT["project"]["version"]
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
     package = (ROOT / "tvimdesign/__init__.py").read_text("utf-8")
@@ -55,7 +55,7 @@ def test_the_version_is_one() -> None:
     assert RECIPE["about"]["license"] == PROJECT["project"]["license"]
 
 
-def test_each_extra_in_the_docs_is_checked_from_the_wheel() -> None:
+def test_each_extra_in_the_docs_is_checked_from_the_wheel():
     extras = set(PROJECT["project"]["optional-dependencies"]) - {"dev", "docs", "bench"}
     page = (ROOT / "docs/install.md").read_text("utf-8")
     assert set(re.findall(r"^\| `pip install 'tvimdesign\[(\w+)\]'`", page, re.M)) == extras
@@ -65,7 +65,7 @@ def test_each_extra_in_the_docs_is_checked_from_the_wheel() -> None:
     assert set(re.findall(r'"(\w+)":', checked[1])) == extras
 
 
-def test_container_and_page_name_interpreters_and_extras_that_there_are() -> None:
+def test_container_and_page_name_interpreters_and_extras_that_there_are():
     text = (ROOT / "Containerfile").read_text("utf-8")
     versions = {tag.rsplit(" ", 1)[1] for tag in PROJECT["project"]["classifiers"] if ":: Python ::" in tag}
     base = re.search(r"^FROM python:([\d.]+)-slim$", text, re.M)

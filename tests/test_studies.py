@@ -85,7 +85,7 @@ def _front(folder: Path) -> list[dict[str, Any]]:
 
 @pytest.mark.gate
 @names
-def test_a_study_leaves_a_whole_folder(runs: Runs, study: Path) -> None:
+def test_a_study_leaves_a_whole_folder(runs, study):
     folder = runs[study.stem]
     expected = FILES | (OPTIMISED if _results(folder)["status"] == "optimal" else set())
     front = _front(folder)
@@ -104,7 +104,7 @@ def test_a_study_leaves_a_whole_folder(runs: Runs, study: Path) -> None:
 
 @pytest.mark.gate
 @names
-def test_a_study_s_results_keep_limits_ratings_and_the_schema(runs: Runs, study: Path) -> None:
+def test_a_study_s_results_keep_limits_ratings_and_the_schema(runs, study):
     reported = _results(runs[study.stem])
     assert reported["feasible"], [check for check in reported["checks"] if not check["met"]]
     assert reported["status"] in {"evaluated", "optimal"}
@@ -114,7 +114,7 @@ def test_a_study_s_results_keep_limits_ratings_and_the_schema(runs: Runs, study:
 
 
 @names
-def test_the_springs_of_a_study_hold_by_a_second_implementation(runs: Runs, study: Path) -> None:
+def test_the_springs_of_a_study_hold_by_a_second_implementation(runs, study):
     # Geometry and statics written a second time, which shares no code with what found the design.
     design, reported = json.loads((runs[study.stem] / "design.json").read_text()), _results(runs[study.stem])
     module = plain_module.with_strength({**design["values"], **design["choices"]}, design["values"])
@@ -148,7 +148,7 @@ def test_the_springs_of_a_study_hold_by_a_second_implementation(runs: Runs, stud
 
 @pytest.mark.slow
 @every
-def test_mass_inertia_and_envelope_of_a_study_are_those_of_its_solids(runs: Runs, study: Path, tmp_path: Path) -> None:
+def test_mass_inertia_and_envelope_of_a_study_are_those_of_its_solids(runs, study, tmp_path):
     path = runs[study.stem] / "design.json"
     values = json.loads(path.read_text())["values"]
     base, moving, report = make_bodies(path, tmp_path)
@@ -162,7 +162,7 @@ def test_mass_inertia_and_envelope_of_a_study_are_those_of_its_solids(runs: Runs
 
 
 @names
-def test_plots_are_pictures_with_something_on_them(runs: Runs, study: Path) -> None:
+def test_plots_are_pictures_with_something_on_them(runs, study):
     import matplotlib.image as mpimg
 
     for path in runs[study.stem].glob("plots/*"):
@@ -171,7 +171,7 @@ def test_plots_are_pictures_with_something_on_them(runs: Runs, study: Path) -> N
         assert picture[..., :3].std() > 0.02, f"{path.name} is blank"
 
 
-def test_the_published_module_is_the_paper_s(runs: Runs) -> None:
+def test_the_published_module_is_the_paper_s(runs):
     values = _results(runs["paper_reconstructed"])["values"]
     # 1.4023, 5.61, 18.5 and 0.0966: from the paper's table by its own formula, worked by hand.
     assert values["spring_rate"]["value"] == pytest.approx(1.4023, rel=1e-4)
@@ -182,14 +182,14 @@ def test_the_published_module_is_the_paper_s(runs: Runs) -> None:
 
 
 @pytest.mark.gate
-def test_the_re_optimised_module_is_better_in_all_it_was_asked_for(runs: Runs) -> None:
+def test_the_re_optimised_module_is_better_in_all_it_was_asked_for(runs):
     before = _results(runs["paper_reconstructed"])["values"]
     after = _results(runs["paper_shear"])["values"]
     for name in ("envelope_volume", "module_mass", "response_time"):
         assert after[name]["value"] < before[name]["value"], name
 
 
-def test_every_module_but_the_paper_s_holds_its_layer_and_its_melt() -> None:
+def test_every_module_but_the_paper_s_holds_its_layer_and_its_melt():
     built = [path for path in STUDIES if not path.stem.startswith("paper_")]
     assert len(built) == 7
     for study in map(read_study, built):
@@ -198,7 +198,7 @@ def test_every_module_but_the_paper_s_holds_its_layer_and_its_melt() -> None:
 
 
 @pytest.mark.gate
-def test_the_csv_holds_what_the_json_holds(runs: Runs) -> None:
+def test_the_csv_holds_what_the_json_holds(runs):
     import csv
 
     folder = runs["paper_shear"]
@@ -210,7 +210,7 @@ def test_the_csv_holds_what_the_json_holds(runs: Runs) -> None:
 
 
 @pytest.mark.slow
-def test_a_run_is_the_same_run_twice_in_another_process(process: Command, runs: Runs, tmp_path: Path) -> None:
+def test_a_run_is_the_same_run_twice_in_another_process(process, runs, tmp_path):
     process("run", study_path("paper_shear"), "--no-cad", "--no-plots", "--out", tmp_path / "out")
     first, second = _results(runs["paper_shear"])["values"], _results(tmp_path / "out")["values"]
     assert first == second
@@ -229,7 +229,7 @@ def _pair() -> list[Study]:
 
 
 @to_order
-def test_a_study_requires_a_yield_of_parts_one_can_buy(path: Path) -> None:
+def test_a_study_requires_a_yield_of_parts_one_can_buy(path):
     study = read_study(path)
     assert not study.accept
     assert study.robust is not None
@@ -242,14 +242,14 @@ def test_a_study_requires_a_yield_of_parts_one_can_buy(path: Path) -> None:
     assert study.tolerances["preload_angle"].adjustable == (study.module.get("preload_adjuster") == "rotary")
 
 
-def test_both_of_the_pair_may_be_compared() -> None:
+def test_both_of_the_pair_may_be_compared():
     shear, compression = pair = _pair()
     refuse_unequal([Case(study_path(name), study) for name, study in zip(PAIR, pair, strict=True)])
     both = (shear.module.keys() & compression.module.keys()) - shear.vary.keys() - compression.vary.keys()
     assert {key: shear.module[key] for key in both} == {key: compression.module[key] for key in both}
 
 
-def test_both_modes_of_the_pair_are_asked_the_same() -> None:
+def test_both_modes_of_the_pair_are_asked_the_same():
     shear, compression = _pair()
     only_compression = {row.name for row in compression.table.outputs} - {row.name for row in shear.table.outputs}
     required = {
@@ -267,7 +267,7 @@ def test_both_modes_of_the_pair_are_asked_the_same() -> None:
 
 @pytest.mark.slow
 @to_order
-def test_a_study_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path: Path) -> None:
+def test_a_study_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path):
     result = shipped_answer(path.stem)
     assert result.design.status == "optimal"
     assert result.design.accepting == ()
@@ -311,7 +311,7 @@ def bought(path: Path) -> list[Item]:
 
 
 @pytest.mark.parametrize("path", ORDERED, ids=lambda path: str(path.stem))
-def test_bought_items_have_a_number_a_standard_or_sizes_to_order_by(path: Path) -> None:
+def test_bought_items_have_a_number_a_standard_or_sizes_to_order_by(path):
     items = bought(path)
     assert {"heater", "polymer", "thermal_cutout", "spring_right", "link_screw"} <= {line.kind for line in items}
     for item in items:
@@ -330,7 +330,7 @@ MADE = ("elbow_printed", "elbow_machined", "wrist_joint", "wrist_compression", "
 
 @pytest.mark.slow
 @pytest.mark.parametrize("study", [study_path(name) for name in MADE], ids=MADE)
-def test_a_study_becomes_parts_that_pass_every_check(tvimdesign: Command, tmp_path: Path, study: Path) -> None:
+def test_a_study_becomes_parts_that_pass_every_check(tvimdesign, tmp_path, study):
     done = tvimdesign("run", study, "--no-plots", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     cad = tmp_path / "out/cad"

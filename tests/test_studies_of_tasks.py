@@ -1,13 +1,12 @@
 """The studies of tasks: each comes to an optimum that does its task, and to parts."""
 
 import json
-from pathlib import Path
 from time import process_time
 
 import pytest
 import yaml
 from answers import shipped_answer
-from support import TASKS, Command
+from support import TASKS
 
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
@@ -20,7 +19,7 @@ LONGER = 1.5
 
 
 @every
-def test_a_task_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path: Path) -> None:
+def test_a_task_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path):
     result = shipped_answer(path.stem)
     assert result.design.status == "optimal"
     assert result.feasible
@@ -32,7 +31,7 @@ def test_a_task_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path: Pa
 
 
 @every
-def test_a_task_takes_no_longer_than_its_torque(path: Path) -> None:
+def test_a_task_takes_no_longer_than_its_torque(path):
     values, text = shipped_answer(path.stem).design.values, yaml.safe_load(path.read_text())
     del text["task"]
     struck = values["impact_torque@cold"] if text["require"].pop("impact_torque_margin", None) else 0.0
@@ -48,7 +47,7 @@ def test_a_task_takes_no_longer_than_its_torque(path: Path) -> None:
 
 
 @every
-def test_a_task_becomes_parts_that_pass_every_check(tvimdesign: Command, tmp_path: Path, path: Path) -> None:
+def test_a_task_becomes_parts_that_pass_every_check(tvimdesign, tmp_path, path):
     done = tvimdesign("run", path, "--no-plots", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert all(check["ok"] for check in json.loads((tmp_path / "out/cad/checks.json").read_text())["checks"])

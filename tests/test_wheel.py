@@ -74,7 +74,7 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Installed:
     return Installed(tmp_path_factory.mktemp("wheel"))
 
 
-def test_the_package_is_the_wheel_s_and_has_solvers_and_studies(installed: Installed) -> None:
+def test_the_package_is_the_wheel_s_and_has_solvers_and_studies(installed):
     where = run([installed.python, "-c", "import tvimdesign; print(tvimdesign.__file__)"], installed.folder).stdout
     assert Path(where.strip()).is_relative_to(installed.folder)
     names = zipfile.ZipFile(installed.wheel).namelist()
@@ -84,7 +84,7 @@ def test_the_package_is_the_wheel_s_and_has_solvers_and_studies(installed: Insta
     assert installed.says("new", "--list").stdout.splitlines()[::2] == [study.stem for study in STUDIES]
 
 
-def test_a_fit_and_its_record(installed: Installed) -> None:
+def test_a_fit_and_its_record(installed):
     loads = [0.1, 0.2, 0.3, 0.4, 0.5, 0.4, 0.3, 0.2]
     rows = "".join(f"{torque},{angle}\n" for torque, angle in zip(loads, ANGLES, strict=True))
     (installed.folder / "weights.csv").write_text("torque [N.m],angle [rad]\n" + rows)
@@ -94,7 +94,7 @@ def test_a_fit_and_its_record(installed: Installed) -> None:
     assert "stiffness" in (installed.folder / "fitted/fit.json").read_text()
 
 
-def test_a_verification_of_a_shipped_design(installed: Installed) -> None:
+def test_a_verification_of_a_shipped_design(installed):
     write_design(shipped_answer("paper_reconstructed").design, installed.folder / "design.json")
     solver = os.environ.get("FE_PYTHON")
     done = installed.says("verify", "design.json", "--out", "verified", "--fe-python", solver or sys.executable)
@@ -106,7 +106,7 @@ def test_a_verification_of_a_shipped_design(installed: Installed) -> None:
     assert (installed.folder / "verified/report.html").stat().st_size > 1e5
 
 
-def test_the_cases_of_the_validation(installed: Installed) -> None:
+def test_the_cases_of_the_validation(installed):
     # All of them, and each comes to what the page says of it.
     with tarfile.open(installed.sources) as archive:
         for member in archive:

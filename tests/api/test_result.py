@@ -5,13 +5,12 @@ import json
 import math
 import subprocess
 import sys
-from pathlib import Path
 
 import matplotlib as mpl
 import pandas as pd
 import pint
 import pytest
-from support import ROOT, Command, study_path
+from support import ROOT, study_path
 
 import tvimdesign as tvim
 from tvimdesign.api.tables import quantity
@@ -19,7 +18,7 @@ from tvimdesign.device import Choice, table_for
 
 
 @pytest.mark.gate
-def test_values_are_quantities_and_choices_words(result: tvim.Result[tvim.Study]) -> None:
+def test_values_are_quantities_and_choices_words(result):
     mass = result["module_mass"]
     assert isinstance(mass, tvim.Quantity)
     assert f"{mass.units:~}" == "g"
@@ -31,7 +30,7 @@ def test_values_are_quantities_and_choices_words(result: tvim.Result[tvim.Study]
 
 
 @pytest.mark.gate
-def test_the_cycle_is_a_frame_of_its_phases_with_units(result: tvim.Result[tvim.Study]) -> None:
+def test_the_cycle_is_a_frame_of_its_phases_with_units(result):
     cycle = result.cycle
     phases, units = cycle.groupby("phase", sort=False), cycle.attrs["units"]
     assert list(phases.groups)[:2] == ["softening", "stiffening"]
@@ -46,7 +45,7 @@ def test_the_cycle_is_a_frame_of_its_phases_with_units(result: tvim.Result[tvim.
 
 
 @pytest.mark.gate
-def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result[tvim.Study]) -> None:
+def test_the_table_has_value_unit_meaning_and_status(result):
     table = result.table()
     assert list(table.columns)[:4] == ["value", "unit", "meaning", "status"]
     assert set(table.index) == set(result.design.values)
@@ -62,7 +61,7 @@ def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result[tvim.St
     assert "holding_torque" in torques.index
 
 
-def test_requirements_and_reasons_are_those_of_the_study(result: tvim.Result[tvim.Study]) -> None:
+def test_requirements_and_reasons_are_those_of_the_study(result):
     table = result.requirements()
     rows = table[table.origin == "require"]
     limits = " ".join(rows.limit)
@@ -88,7 +87,7 @@ def test_requirements_and_reasons_are_those_of_the_study(result: tvim.Result[tvi
 
 
 @pytest.mark.slow
-def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result[tvim.Study]) -> None:
+def test_intervals_say_what_may_be_and_what_to_measure_first(result):
     table = result.intervals()
     required = {limit["output"] for limit in result.design.study["require"]}
     assert required | {"module_mass", "softening_time", "frozen_time"} <= set(table.index)
@@ -101,7 +100,7 @@ def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result
     assert result.uncertainty()["parts_yield"] != result.uncertainty()["ranges_hold"]
 
 
-def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result[tvim.Study]) -> None:
+def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result):
     before = dict(mpl.rcParams)
     figures = {name: result.plot(name) for name in result.plots}
     assert {"cycle", "impedance", "torque"} <= set(figures)
@@ -114,9 +113,7 @@ def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result[tv
 
 
 @pytest.mark.gate
-def test_the_command_line_gives_the_same_and_writes_the_same(
-    result: tvim.Result[tvim.Study], tvimdesign: Command, tmp_path: Path
-) -> None:
+def test_the_command_line_gives_the_same_and_writes_the_same(result, tvimdesign, tmp_path):
     words = (study_path("paper_shear"), "--set", "solver.starts=1", "--no-cad", "--no-plots")
     done = tvimdesign("run", *words, "--out", tmp_path / "run")
     assert done.returncode == 0, done.stderr
@@ -130,7 +127,7 @@ def test_the_command_line_gives_the_same_and_writes_the_same(
     assert tvim.read_design(str(saved / "design.json")) == result.design
 
 
-def test_results_in_use_and_changed_studies_are_saved_rightly(study: tvim.Study, tmp_path: Path) -> None:
+def test_results_in_use_and_changed_studies_are_saved_rightly(study, tmp_path):
     changed = study.set(pcl_thickness="1.3 mm").evaluate(progress=False)
     folder = changed.save(tmp_path / "x", plots=False)
     with pytest.raises(tvim.InputError, match="holds results already"):
@@ -141,7 +138,7 @@ def test_results_in_use_and_changed_studies_are_saved_rightly(study: tvim.Study,
 
 
 @pytest.mark.gate
-def test_a_study_is_evaluated_as_it_is_drawn_within_two_lines(study: tvim.Study) -> None:
+def test_a_study_is_evaluated_as_it_is_drawn_within_two_lines(study):
     drawn = study.evaluate(progress=False)
     assert drawn.status == "evaluated"
     assert drawn["coil_count"].magnitude == pytest.approx(3.25)
@@ -151,7 +148,7 @@ def test_a_study_is_evaluated_as_it_is_drawn_within_two_lines(study: tvim.Study)
 
 
 @pytest.mark.gate
-def test_no_design_is_an_error_that_has_the_closest_one() -> None:
+def test_no_design_is_an_error_that_has_the_closest_one():
     study = tvim.Study(
         mode="shear",
         vary={"wire_diameter": (1.2, 3.2, "mm"), "coil_diameter": (8, 32, "mm"), "coil_count": [3, 8]},
@@ -168,9 +165,7 @@ def test_no_design_is_an_error_that_has_the_closest_one() -> None:
     assert closest.plots == []
 
 
-def test_a_notebook_and_show_print_what_a_run_prints(
-    result: tvim.Result[tvim.Study], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_notebook_and_show_print_what_a_run_prints(result, capsys):
     shown = result._repr_html_()
     assert "spring_stiffness &gt;= 5.2 N·m/rad" in shown
     assert "optimal" in shown
@@ -180,7 +175,7 @@ def test_a_notebook_and_show_print_what_a_run_prints(
 
 
 @pytest.mark.gate
-def test_a_front_is_sought_without_a_folder(tmp_path: Path) -> None:
+def test_a_front_is_sought_without_a_folder(tmp_path):
     study = tvim.load(study_path("paper_shear")).set(
         {"front.points": 3, "front.of": ["response_time", "module_mass"], "solver.starts": 1}
     )
@@ -193,13 +188,13 @@ def test_a_front_is_sought_without_a_folder(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_parts_are_made(result: tvim.Result[tvim.Study], tmp_path: Path) -> None:
+def test_parts_are_made(result, tmp_path):
     parts = result.parts(tmp_path / "parts", progress=False)
     assert any(file.suffix == ".step" for file in parts.files)
     assert (parts.table()["level"] != "failure").all()
 
 
-def test_quantities_are_pints_and_mix_with_a_users_own() -> None:
+def test_quantities_are_pints_and_mix_with_a_users_own():
     assert tvim.Quantity is pint.Quantity
     mine = pint.get_application_registry()
     for value, unit, other, expected in (
@@ -215,7 +210,7 @@ def test_quantities_are_pints_and_mix_with_a_users_own() -> None:
         torque.to("kg")
 
 
-def test_units_are_written_in_the_order_of_the_table() -> None:
+def test_units_are_written_in_the_order_of_the_table():
     assert f"{quantity(8.0, 'N*m'):.4g~P}" == "8 N·m"
     assert f"{quantity(8.0, 'N*m*s/rad'):.4g~P}" == "8 N·m·s/rad"
     formatter = pint.get_application_registry().formatter
@@ -227,7 +222,7 @@ def test_units_are_written_in_the_order_of_the_table() -> None:
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_pint_reads_every_unit_of_the_table_alike(mode: str) -> None:
+def test_pint_reads_every_unit_of_the_table_alike(mode):
     units = {row.unit for row in table_for(mode).quantities if not isinstance(row, Choice)}
     for unit in units - {"degC"}:  # Hz: SI has cycles a second here, as pint does
         assert quantity(1.0, unit).to_base_units().magnitude == pytest.approx(1.0, rel=1e-12), unit
@@ -243,17 +238,17 @@ def loaded_by(code: str) -> list[str]:
     ).stdout.split()
 
 
-def test_the_import_loads_no_library() -> None:
+def test_the_import_loads_no_library():
     assert loaded_by("import tvimdesign; dir(tvimdesign); tvimdesign.__version__; tvimdesign.InputError") == []
 
 
 @pytest.mark.gate
-def test_a_run_from_python_waits_for_pandas_until_a_table_is_asked_for() -> None:
+def test_a_run_from_python_waits_for_pandas_until_a_table_is_asked_for():
     modules = loaded_by("import tvimdesign as t; r = t.example('paper_reconstructed').evaluate(progress=False)")
     assert not {"pandas", "matplotlib"} & set(modules)  # scipy is loaded by numba, which runs the engine
 
 
-def test_public_names_are_there_and_on_the_page() -> None:
+def test_public_names_are_there_and_on_the_page():
     for name in tvim.__all__:
         assert getattr(tvim, name) is not None
     assert set(tvim.__all__) == set(dir(tvim))

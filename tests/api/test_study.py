@@ -1,7 +1,5 @@
 """A study in Python: read from text and paths, changed by copies, refused with the call that made it wrong."""
 
-from pathlib import Path
-
 import pytest
 from support import ROOT, study_path
 
@@ -10,7 +8,7 @@ import tvimdesign as tvim
 FILE = study_path("paper_shear")
 
 
-def test_studies_are_files_by_path_or_shipped_name() -> None:
+def test_studies_are_files_by_path_or_shipped_name():
     from tvimdesign.study import read_study
 
     assert read_study(str(FILE)) == read_study(FILE) == tvim.load(str(FILE)).resolved == tvim.load(FILE).resolved
@@ -23,7 +21,7 @@ def test_studies_are_files_by_path_or_shipped_name() -> None:
         tvim.read_design("nowhere.json")
 
 
-def test_a_study_written_in_python_is_the_same_as_in_yaml(tmp_path: Path) -> None:
+def test_a_study_written_in_python_is_the_same_as_in_yaml(tmp_path):
     text = """
 name: A joint
 mode: shear
@@ -54,7 +52,7 @@ write: {cad: false}
     assert written.resolved == tvim.load(tmp_path / "joint.yaml").resolved
 
 
-def test_all_mistakes_of_a_study_in_python_are_reported_at_once() -> None:
+def test_all_mistakes_of_a_study_in_python_are_reported_at_once():
     with pytest.raises(tvim.StudyError) as caught:
         tvim.Study(mode="shear", module={"curent": "1 A", "coil_count": "3,25"}, require={"module_mass": "<= 3 m"})
     assert [problem.path for problem in caught.value.problems] == [
@@ -65,7 +63,7 @@ def test_all_mistakes_of_a_study_in_python_are_reported_at_once() -> None:
     assert str(caught.value).startswith("Study(...): module.curent: no such input")
 
 
-def test_copies_are_changed_by_paths_and_the_study_is_not(study: tvim.Study) -> None:
+def test_copies_are_changed_by_paths_and_the_study_is_not(study):
     before = study.resolved
     fixed = study.set(pcl_thickness="1.2 mm").resolved
     assert fixed.module["pcl_thickness"] == pytest.approx(1.2e-3)
@@ -89,7 +87,7 @@ def test_copies_are_changed_by_paths_and_the_study_is_not(study: tvim.Study) -> 
     assert str(caught.value).startswith("study.set(pcl_thickness='1,2 mm'): module.pcl_thickness: '1,2 mm': a decimal")
 
 
-def test_a_copy_may_be_incomplete_until_it_is_used() -> None:
+def test_a_copy_may_be_incomplete_until_it_is_used():
     study = tvim.Study(mode="shear").vary(coil_count=[3, 8])
     with pytest.raises(tvim.StudyError, match="`minimize` is missing"):
         study.check()
@@ -97,7 +95,7 @@ def test_a_copy_may_be_incomplete_until_it_is_used() -> None:
 
 
 @pytest.mark.gate
-def test_check_refuses_what_bounds_prove_impossible(study: tvim.Study) -> None:
+def test_check_refuses_what_bounds_prove_impossible(study):
     (advice,) = study.check()  # its start is beyond a rating that its optimum keeps
     assert "stiffening_structure_margin" in advice
     assert study.accept("structure_temperature_margin", "stiffening_structure_margin").check() == []
@@ -105,14 +103,14 @@ def test_check_refuses_what_bounds_prove_impossible(study: tvim.Study) -> None:
         study.require(spring_stiffness=">= 5000 N.m/rad").check()
 
 
-def test_a_study_is_kept_as_a_file(study: tvim.Study, tmp_path: Path) -> None:
+def test_a_study_is_kept_as_a_file(study, tmp_path):
     changed = study.set(pcl_thickness="1.2 mm").require(module_mass="<= 200 g")
     again = tvim.load(changed.save(tmp_path / "changed.yaml"))
     assert again.resolved.model_dump(exclude={"name"}) == changed.resolved.model_dump(exclude={"name"})
     assert "# study.require(module_mass='<= 200 g')" in changed.text
 
 
-def test_the_user_s_records_are_found(tmp_path: Path) -> None:
+def test_the_user_s_records_are_found(tmp_path):
     shipped = (ROOT / "tvimdesign/catalog/data/structure_materials/petg.yaml").read_text()
     (tmp_path / "mine/structure_materials").mkdir(parents=True)
     (tmp_path / "mine/structure_materials/dense.yaml").write_text(shipped.replace("value: 1270", "value: 1280"))
@@ -120,7 +118,7 @@ def test_the_user_s_records_are_found(tmp_path: Path) -> None:
     assert study.evaluate(progress=False)["structure_density"].magnitude == pytest.approx(1280.0)
 
 
-def test_a_notebook_shows_what_the_study_says(study: tvim.Study) -> None:
+def test_a_notebook_shows_what_the_study_says(study):
     shown = study.set(name="<b>bold</b>")._repr_html_()
     assert "&lt;b&gt;bold" in shown
     assert "<b>bold" not in shown
@@ -130,7 +128,7 @@ def test_a_notebook_shows_what_the_study_says(study: tvim.Study) -> None:
     assert "optimises 13 variables" in repr(study)
 
 
-def test_ratings_are_accepted_by_name() -> None:
+def test_ratings_are_accepted_by_name():
     study = tvim.Study(mode="shear", accept=["structure_temperature_margin"])
     assert study.resolved.accept == ("structure_temperature_margin",)
     assert study.accept("current_margin", "pcl_temperature_margin").resolved.accept == (

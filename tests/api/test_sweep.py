@@ -2,7 +2,6 @@
 
 import sys
 import threading
-from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
@@ -29,7 +28,7 @@ def grid() -> tvim.Sweep[tvim.Study]:
 
 
 @pytest.mark.slow
-def test_cell_at_the_optimum_is_the_optimum(optimised: tvim.Sweep[tvim.Study], result: tvim.Result[tvim.Study]) -> None:
+def test_cell_at_the_optimum_is_the_optimum(optimised, result):
     assert result["pcl_thickness"].magnitude == pytest.approx(0.6, rel=1e-6)  # the end of its range, which is active
     # Mass and volume trade along a flat valley there, so what is minimised says whether it is the same optimum.
     reference, weights = result.design.solution["reference"], result.design.study["minimize"]
@@ -41,7 +40,7 @@ def test_cell_at_the_optimum_is_the_optimum(optimised: tvim.Sweep[tvim.Study], r
 
 
 @pytest.mark.slow
-def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Sweep[tvim.Study]) -> None:
+def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised):
     assert optimised.warm_solves == 3
     cell = optimised[2]
     assert cell.result is not None
@@ -54,7 +53,7 @@ def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Swee
         assert own <= others * (1 + 1e-5)
 
 
-def test_cells_are_single_evaluations_with_units_beside_the_table(grid: tvim.Sweep[tvim.Study]) -> None:
+def test_cells_are_single_evaluations_with_units_beside_the_table(grid):
     table = grid.table("spring_stiffness", "module_mass")
     assert table[["coil_count", "wire_diameter"]].to_numpy().tolist() == [
         [pytest.approx(n), pytest.approx(d)] for n in (3.0, 3.5) for d in (2.0, 2.4)
@@ -71,7 +70,7 @@ def test_cells_are_single_evaluations_with_units_beside_the_table(grid: tvim.Swe
 
 
 @pytest.mark.slow
-def test_a_table_has_the_verdicts_of_its_cells() -> None:
+def test_a_table_has_the_verdicts_of_its_cells():
     study = tvim.example("paper_reconstructed").set({"tolerances": {"pcl_thickness": "0.1 mm"}})
     table = study.sweep(coil_count=[3.0], progress=False).table("module_mass", verdicts=True)
     assert list(table.columns[:3]) == ["coil_count", "status", "verdict"]
@@ -79,7 +78,7 @@ def test_a_table_has_the_verdicts_of_its_cells() -> None:
 
 
 @pytest.mark.gate
-def test_requirements_may_be_swept(study: tvim.Study) -> None:
+def test_requirements_may_be_swept(study):
     lean = study.set({"solver.starts": 1})
     sweep = lean.sweep({"require.holding_torque": [">= 10 N.m", ">= 14 N.m"]}, progress=False)
     table = sweep.table("holding_torque", "module_mass")
@@ -102,21 +101,19 @@ def test_requirements_may_be_swept(study: tvim.Study) -> None:
         ),
     ],
 )
-def test_what_cannot_be_swept_is_refused_before_anything_is_solved(
-    study: tvim.Study, axes: dict[str, list[str]], message: str
-) -> None:
+def test_what_cannot_be_swept_is_refused_before_anything_is_solved(study, axes, message):
     with pytest.raises(tvim.InputError, match=message):
         study.sweep(axes, progress=False)
 
 
-def test_a_figure_has_a_line_for_each_value_of_the_second_axis(grid: tvim.Sweep[tvim.Study]) -> None:
+def test_a_figure_has_a_line_for_each_value_of_the_second_axis(grid):
     (axes,) = grid.plot("spring_stiffness").axes
     assert len(axes.lines) == 2
     assert axes.get_xlabel() == "coil count"
     assert axes.get_ylabel() == "spring stiffness (N·m/rad)"
 
 
-def test_the_study_s_section_is_swept_and_samples_lie_between_its_ends() -> None:
+def test_the_study_s_section_is_swept_and_samples_lie_between_its_ends():
     study = tvim.example("paper_reconstructed")
     own = study.set({"sweep.over": {"wire_diameter": {"from": "2 mm", "to": "2.4 mm"}}})
     sweep = own.sweep(method="latin_hypercube", count=4, seed=3, progress=False)
@@ -126,7 +123,7 @@ def test_the_study_s_section_is_swept_and_samples_lie_between_its_ends() -> None
 
 
 @pytest.mark.gate
-def test_workers_and_a_folder_give_the_table_of_this_process(grid: tvim.Sweep[tvim.Study], tmp_path: Path) -> None:
+def test_workers_and_a_folder_give_the_table_of_this_process(grid, tmp_path):
     study = tvim.example("paper_reconstructed")
     outputs = ["spring_stiffness"]
     stored = study.sweep(EVALUATED, outputs=outputs, out=tmp_path / "sweep", workers=2, progress=False)
@@ -157,7 +154,7 @@ def notebook(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return messages
 
 
-def test_a_notebook_s_line_is_empty_in_the_end_and_after_an_error(study: tvim.Study, notebook: list[str]) -> None:
+def test_a_notebook_s_line_is_empty_in_the_end_and_after_an_error(study, notebook):
     assert in_notebook()
     study.evaluate()
     assert "... simulating one working cycle" in notebook
@@ -176,7 +173,7 @@ def test_a_notebook_s_line_is_empty_in_the_end_and_after_an_error(study: tvim.St
     assert notebook == ["...", "... working", ""]
 
 
-def test_a_pipe_sees_lines_and_a_thread_nothing(study: tvim.Study, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_pipe_sees_lines_and_a_thread_nothing(study, capfd):
     with shown_progress(True) as say:
         say("working")
     assert capfd.readouterr() == ("", "... working\n")

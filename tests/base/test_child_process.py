@@ -14,7 +14,7 @@ from typing import Any
 
 import psutil
 import pytest
-from support import ROOT, Command, are_gone, is_at_work, study_path
+from support import ROOT, are_gone, is_at_work, study_path
 
 from tvimdesign.base import environment, processes
 from tvimdesign.base.errors import InputError
@@ -63,7 +63,7 @@ def started(name: str, text: str, folder: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
 
 
-def test_a_child_that_is_still_imported_ends_with_its_parent(tmp_path: Path) -> None:
+def test_a_child_that_is_still_imported_ends_with_its_parent(tmp_path):
     parent = started("slow_child", SLOW, tmp_path)
     child = int(parent.stdout.readline())
     assert is_at_work(child)
@@ -73,7 +73,7 @@ def test_a_child_that_is_still_imported_ends_with_its_parent(tmp_path: Path) -> 
     assert are_gone([child])
 
 
-def test_children_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+def test_children_end_with_a_parent_that_is_killed(tmp_path):
     parent = started("sleeping_child", CHILD, tmp_path)
     first, other, encoding = parent.stdout.readline().split()
     assert encoding == "utf-8"
@@ -98,7 +98,7 @@ time.sleep(600)
 """
 
 
-def test_a_pipe_ends_a_child_if_the_kernel_cannot(tmp_path: Path) -> None:
+def test_a_pipe_ends_a_child_if_the_kernel_cannot(tmp_path):
     (tmp_path / "sitecustomize.py").write_text(ELSEWHERE)  # every interpreter begins with it, the child's too
     parent = started("told_child", NAMES_ITS_PIPE, tmp_path)
     child, pipe = map(int, parent.stdout.readline().split())
@@ -122,7 +122,7 @@ time.sleep(600)
 """
 
 
-def test_descendants_end_with_their_process_and_a_gone_one_is_none() -> None:
+def test_descendants_end_with_their_process_and_a_gone_one_is_none():
     process = subprocess.Popen([sys.executable, "-c", TREE_PARENT], stdout=subprocess.PIPE, text=True)
     others = [psutil.Process(int(number)) for number in process.stdout.readline().split()]
     assert [is_at_work(other.pid) for other in others] == [True, True]
@@ -135,7 +135,7 @@ def test_descendants_end_with_their_process_and_a_gone_one_is_none() -> None:
     end_process_tree(process.pid)
 
 
-def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> None:
+def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others():
     code = (
         "import subprocess, sys; sys.stdin.readline(); "
         "print(subprocess.run([sys.executable, '-c', 'import psutil; print(psutil.Process().nice())'], "
@@ -150,7 +150,7 @@ def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> 
     set_low_priority(item.pid)  # it has ended: no priority is left to set
 
 
-def test_who_gives_way_a_little_gives_way_further_and_others_do_not() -> None:
+def test_who_gives_way_a_little_gives_way_further_and_others_do_not():
     with subprocess.Popen([sys.executable, "-c", "import sys; sys.stdin.read()"], stdin=subprocess.PIPE) as item:
         held = psutil.Process(item.pid)
         set_lower_priority(item.pid)
@@ -189,12 +189,12 @@ def _checks_often(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("code", [BURN, FORKED])
-def test_a_process_that_computes_too_long_is_reported(code: str) -> None:
+def test_a_process_that_computes_too_long_is_reported(code):
     with _running(code) as child, pytest.raises(ProcessorTimeError, match=r"0\.2 s of processor time"):
         communicate(child, 0.2)
 
 
-def test_waiting_uses_no_limit_and_hanging_is_reported() -> None:
+def test_waiting_uses_no_limit_and_hanging_is_reported():
     child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1); print(1)"], stdout=subprocess.PIPE)
     assert communicate(child, 0.5)[0].strip() == b"1"
     with _running(SLEEP) as child:
@@ -209,7 +209,7 @@ def _check(limit: ProcessorLimit, times: int) -> None:
         limit.check()
 
 
-def test_limits_count_work_and_start_again_with_progress(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_limits_count_work_and_start_again_with_progress(monkeypatch):
     now = [0.0]
     monkeypatch.setattr(processes.time, "monotonic", lambda: now[0])
     monkeypatch.setattr(processes, "processor_time", lambda _process: 1.0)
@@ -242,7 +242,7 @@ def without_cad(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("without_cad")
-def test_a_run_without_cad_says_so_and_does_the_rest(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_run_without_cad_says_so_and_does_the_rest(tvimdesign, tmp_path):
     study = study_path("paper_reconstructed")
     done = tvimdesign("run", study, "--no-plots", "--out", tmp_path / "run")
     assert done.returncode == 0, done.stderr
@@ -257,10 +257,10 @@ def test_a_run_without_cad_says_so_and_does_the_rest(tvimdesign: Command, tmp_pa
 
 
 @pytest.mark.usefixtures("without_cad")
-def test_parts_without_cad_are_refused_by_the_name_of_the_extra(tmp_path: Path) -> None:
+def test_parts_without_cad_are_refused_by_the_name_of_the_extra(tmp_path):
     with pytest.raises(InputError, match=r"parts: cadquery is not installed: pip install 'tvimdesign\[cad\]'"):
         make_cad(tmp_path / "design.json", tmp_path)
 
 
-def test_what_is_there_is_not_missed() -> None:
+def test_what_is_there_is_not_missed():
     assert [environment.how_to_install(extra) for extra in environment.MODULES] == [""]

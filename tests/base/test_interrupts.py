@@ -7,7 +7,6 @@ import sys
 import time
 from contextlib import suppress
 from importlib import import_module
-from pathlib import Path
 
 import pytest
 
@@ -17,7 +16,7 @@ from tvimdesign.base.interrupts import exit_code, interrupt_handler, raise_pendi
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_an_interrupt_that_was_swallowed_is_raised_again_until_all_is_over(number: signal.Signals) -> None:
+def test_an_interrupt_that_was_swallowed_is_raised_again_until_all_is_over(number):
     before = signal.getsignal(number)
     with interrupt_handler():
         with interrupt_handler(), suppress(KeyboardInterrupt):
@@ -29,7 +28,7 @@ def test_an_interrupt_that_was_swallowed_is_raised_again_until_all_is_over(numbe
     assert signal.getsignal(number) is before
 
 
-def test_signals_received_twice_or_ignored_do_not_disturb() -> None:
+def test_signals_received_twice_or_ignored_do_not_disturb():
     cleaned = False
     with interrupt_handler():
         try:
@@ -47,7 +46,7 @@ def test_signals_received_twice_or_ignored_do_not_disturb() -> None:
         signal.signal(signal.SIGHUP, before)
 
 
-def test_an_interrupt_that_cannot_be_raised_stays_pending(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_interrupt_that_cannot_be_raised_stays_pending(capsys):
     class Ends:
         def __del__(self) -> None:
             signal.raise_signal(signal.SIGTERM)  # as in a function of SciPy's that cannot hand an exception on
@@ -60,7 +59,7 @@ def test_an_interrupt_that_cannot_be_raised_stays_pending(capsys: pytest.Capture
     assert not capsys.readouterr().err
 
 
-def test_an_import_is_whole_before_an_interrupt_is_raised(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_import_is_whole_before_an_interrupt_is_raised(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "outer_module.py").write_text("import inner_module\nthrough = True\n")
     (tmp_path / "inner_module.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGTERM)\n")
@@ -71,7 +70,7 @@ def test_an_import_is_whole_before_an_interrupt_is_raised(tmp_path: Path, monkey
     assert sys.modules["outer_module"].through
 
 
-def test_a_script_that_is_imported_is_interrupted_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_script_that_is_imported_is_interrupted_at_once(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "imported_script.py").write_text(
         "import os, signal\n"
@@ -104,7 +103,7 @@ except KeyboardInterrupt:
 """
 
 
-def test_an_interrupt_in_what_cython_cannot_raise_is_not_printed() -> None:
+def test_an_interrupt_in_what_cython_cannot_raise_is_not_printed():
     done = subprocess.run([sys.executable, "-c", IN_CYTHON], capture_output=True, text=True, check=True)
     assert (done.stdout, done.stderr) == ("interrupted\n", "")
 
@@ -124,7 +123,7 @@ except KeyboardInterrupt:
 
 
 @pytest.mark.slow
-def test_an_interrupt_while_vtk_is_imported_is_no_fault() -> None:
+def test_an_interrupt_while_vtk_is_imported_is_no_fault():
     codes = []
     for share in range(24):
         process = subprocess.Popen([sys.executable, "-c", IMPORTS], stdout=subprocess.PIPE)
@@ -150,7 +149,7 @@ def clock() -> Clock:
     return Clock()
 
 
-def test_parts_leave_time_to_what_follows(clock: Clock) -> None:
+def test_parts_leave_time_to_what_follows(clock):
     whole = Deadline(20.0, clock)
     part = whole.leaving(4.0)
     assert (part.remaining, part.late.remaining, whole.remaining) == (16.0, 18.0, 20.0)
@@ -162,7 +161,7 @@ def test_parts_leave_time_to_what_follows(clock: Clock) -> None:
     assert not part.late.passed
 
 
-def test_a_part_leaves_half_of_the_time_at_most(clock: Clock) -> None:
+def test_a_part_leaves_half_of_the_time_at_most(clock):
     part = Deadline(5.0, clock).leaving(30.0)
     assert part.remaining == 2.5
     clock.now = 2.0
@@ -170,7 +169,7 @@ def test_a_part_leaves_half_of_the_time_at_most(clock: Clock) -> None:
     assert part.remaining == 0.5  # once left, time is not taken back
 
 
-def test_steps_without_time_are_noted_and_named(clock: Clock) -> None:
+def test_steps_without_time_are_noted_and_named(clock):
     whole = Deadline(5.0, clock)
     part, done = whole.leaving(1.0), list[str]()
     assert part.attempt("the first", lambda: done.append("first") or 1) == 1
@@ -184,7 +183,7 @@ def test_steps_without_time_are_noted_and_named(clock: Clock) -> None:
         limit.check("all was done")
 
 
-def test_a_step_that_runs_out_of_time_is_noted_once(clock: Clock) -> None:
+def test_a_step_that_runs_out_of_time_is_noted_once(clock):
     whole = Deadline(5.0, clock)
 
     def late() -> None:

@@ -3,7 +3,6 @@
 import os
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 from threading import Thread
 from types import SimpleNamespace
@@ -16,9 +15,7 @@ from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
 from tvimdesign.base.user_cache import cache_folder, find_code, is_own_folder, keep_code
 
 
-def test_things_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_things_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(tmp_path, monkeypatch):
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "here"))
     assert cache_folder("cad") == tmp_path / "here/cad"
     (tmp_path / "file").write_text("")
@@ -80,7 +77,7 @@ CHANGES: list[Any] = [
 
 
 @pytest.mark.parametrize("change", CHANGES)
-def test_code_that_others_could_change_is_not_loaded(cache: Path, change: Callable[[Path], object]) -> None:
+def test_code_that_others_could_change_is_not_loaded(cache, change):
     keep_code(b"ours", "text")
     (file,) = (cache / "code").iterdir()
     (cache / "code").chmod(0o777)  # anybody could write here once
@@ -92,7 +89,7 @@ def test_code_that_others_could_change_is_not_loaded(cache: Path, change: Callab
     assert find_code("text") == b"ours"
 
 
-def test_code_under_another_name_is_not_loaded(cache: Path) -> None:
+def test_code_under_another_name_is_not_loaded(cache):
     keep_code(b"ours", "text")
     (first,) = (cache / "code").iterdir()
     keep_code(b"others", "other text")
@@ -102,7 +99,7 @@ def test_code_under_another_name_is_not_loaded(cache: Path) -> None:
 
 
 @pytest.mark.usefixtures("cache")
-def test_a_cache_below_a_folder_of_others_is_not_used(tmp_path: Path) -> None:
+def test_a_cache_below_a_folder_of_others_is_not_used(tmp_path):
     for mode, used in ((0o777, False), (0o1777, True), (0o757, False), (0o755, True)):
         tmp_path.chmod(mode)
         assert (cache_folder("code") is not None) == used
@@ -110,7 +107,7 @@ def test_a_cache_below_a_folder_of_others_is_not_used(tmp_path: Path) -> None:
 
 
 @AS_ROOT
-def test_a_cache_below_or_in_a_folder_of_another_user_is_not_used(cache: Path, tmp_path: Path) -> None:
+def test_a_cache_below_or_in_a_folder_of_another_user_is_not_used(cache, tmp_path):
     for folder in (tmp_path, cache, cache / "code"):
         assert cache_folder("code") == cache / "code"
         give_away(folder)
@@ -118,7 +115,7 @@ def test_a_cache_below_or_in_a_folder_of_another_user_is_not_used(cache: Path, t
         os.chown(folder, 0, 0)
 
 
-def test_new_folders_of_a_cache_are_private(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_new_folders_of_a_cache_are_private(cache, monkeypatch):
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(cache / "below"))
     before = os.umask(0)
     try:
@@ -128,7 +125,7 @@ def test_new_folders_of_a_cache_are_private(cache: Path, monkeypatch: pytest.Mon
     assert {path.stat().st_mode & 0o777 for path in (cache, cache / "below", cache / "below/code")} == {0o700}
 
 
-def test_a_group_without_other_members_has_no_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_group_without_other_members_has_no_others(tmp_path, monkeypatch):
     user = SimpleNamespace(pw_gid=os.getgid(), pw_name="me")
     monkeypatch.setattr("pwd.getpwuid", lambda _: user)
     tmp_path.chmod(0o770)
@@ -139,7 +136,7 @@ def test_a_group_without_other_members_has_no_others(tmp_path: Path, monkeypatch
     tmp_path.chmod(0o700)
 
 
-def test_damaged_code_is_not_used_and_the_oldest_goes(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_damaged_code_is_not_used_and_the_oldest_goes(cache, monkeypatch):
     keep_code(b"code", "text")
     (file,) = (cache / "code").iterdir()
     whole = file.read_bytes()
@@ -164,14 +161,14 @@ time.sleep(600)
 """
 
 
-def test_what_a_command_says_and_its_code_are_given_back() -> None:
+def test_what_a_command_says_and_its_code_are_given_back():
     code = "import sys; print('out'); sys.stderr.write('err'); sys.exit(3)"
     with CommandGroup() as commands:
         done = commands.run([sys.executable, "-c", code], 60.0)
     assert (done.returncode, done.stdout.strip(), done.stderr) == (3, "out", "err")
 
 
-def test_commands_of_other_threads_end_with_the_group(tmp_path: Path) -> None:
+def test_commands_of_other_threads_end_with_the_group(tmp_path):
     reported, ended = tmp_path / "told", []
     with CommandGroup() as commands:
         command = [sys.executable, "-c", STARTS_ANOTHER, str(reported)]
@@ -185,7 +182,7 @@ def test_commands_of_other_threads_end_with_the_group(tmp_path: Path) -> None:
     assert commands.run([sys.executable, "-c", "print(1)"], 60.0).returncode < 0
 
 
-def test_a_command_that_takes_too_long_is_ended(tmp_path: Path) -> None:
+def test_a_command_that_takes_too_long_is_ended(tmp_path):
     reported = tmp_path / "told"
     starts_a_burner = STARTS_ANOTHER.replace("import time; time.sleep(600)", "while True: pass")
     with CommandGroup() as commands, pytest.raises(ProcessorTimeError):

@@ -29,7 +29,7 @@ def reference() -> Reference:
     return Reference(study())
 
 
-def test_the_functions_of_the_rivals_are_those_of_the_product(reference: Reference) -> None:
+def test_the_functions_of_the_rivals_are_those_of_the_product(reference):
     cycle = reference.optimizer.multistart.cycle
     values = reference.model.values(reference.model.start, cycle)
     assert lsoda(1e-9)(reference, reference.begin) == pytest.approx(values["response_time"], rel=1e-4)
@@ -38,7 +38,7 @@ def test_the_functions_of_the_rivals_are_those_of_the_product(reference: Referen
     assert rows[1:] == pytest.approx([limit.residual(values[limit.output]) for limit in reference.limits])
 
 
-def test_our_own_row_is_an_optimum_to_an_independent_integrator(reference: Reference) -> None:
+def test_our_own_row_is_an_optimum_to_an_independent_integrator(reference):
     optimum = by_tvimdesign(reference, reference.begin)
     objective, broken = exact(reference, optimum.design)
     assert broken < 1e-6
@@ -64,7 +64,7 @@ def others(reference: Reference) -> list[np.ndarray]:
 
 
 @pytest.mark.gate
-def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> None:
+def test_the_arithmetic_written_by_hand_is_the_tables(reference):
     compared_rows = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in (*CONSTANT, *SEAT)]
     by_width = np.array([reference.limits[i - 1].output in BY_STOP_WIDTH for i in compared_rows])
     sizes = reference.model.outputs(["envelope_volume", "module_mass", "stop_width"])
@@ -83,13 +83,13 @@ def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> N
 
 
 @pytest.mark.gate
-def test_the_switch_written_by_hand_is_the_tables(reference: Reference) -> None:
+def test_the_switch_written_by_hand_is_the_tables(reference):
     rows, _ = equations_by_hand(reference.begin)
     assert rows[2] == pytest.approx(lsoda(1e-9)(reference, reference.begin), rel=2e-5)
 
 
 @pytest.mark.slow
-def test_the_optimum_by_hand_is_ours(reference: Reference) -> None:
+def test_the_optimum_by_hand_is_ours(reference):
     design, _ = by_hand.by_hand(reference.begin, reference.lower, reference.upper)
     ours = exact(reference, by_tvimdesign(reference, reference.begin).design)
     objective, broken = exact(reference, design)
@@ -98,7 +98,7 @@ def test_the_optimum_by_hand_is_ours(reference: Reference) -> None:
 
 
 @pytest.mark.slow
-def test_the_slopes_written_by_hand_are_those_of_its_values(reference: Reference) -> None:
+def test_the_slopes_written_by_hand_are_those_of_its_values(reference):
     _, slopes = equations_by_hand(reference.begin, sensitive=True)
     for i in range(len(reference.begin)):
         aside = 1e-4 * (np.arange(len(reference.begin)) == i)
@@ -109,7 +109,7 @@ def test_the_slopes_written_by_hand_are_those_of_its_values(reference: Reference
 
 
 @pytest.mark.gate
-def test_a_generation_is_given_the_same_problem(reference: Reference) -> None:
+def test_a_generation_is_given_the_same_problem(reference):
     designs = others(reference)
     many = ManyDesigns(reference, ("response_time", "module_mass"), pace=100.0)
     outputs, residuals = many(np.array(designs).T.copy())
@@ -127,7 +127,7 @@ def model() -> DeviceFunctions:
     return DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
 
 
-def test_equations_by_hand_and_compiled_are_the_same(model: DeviceFunctions) -> None:
+def test_equations_by_hand_and_compiled_are_the_same(model):
     hand, machine = switch.written_by_hand(model, sparse=True), switch.compiled(model)
     assert hand.start == pytest.approx(machine.start)
     generator = np.random.default_rng(1)
@@ -144,7 +144,7 @@ def test_equations_by_hand_and_compiled_are_the_same(model: DeviceFunctions) -> 
 
 
 @pytest.mark.gate
-def test_all_rows_find_the_same_times(model: DeviceFunctions) -> None:
+def test_all_rows_find_the_same_times(model):
     machine = switch.compiled(model)
     ours = switch.by_tvimdesign(model)(0.0)
     assert switch.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-4)

@@ -8,7 +8,6 @@ import json
 import queue
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import cadquery as cq
@@ -18,7 +17,6 @@ import pytest
 import random_choices
 import random_designs
 import trimesh
-from cad_designs import Made
 from manifold3d import Manifold, Mesh64
 from plate_copies import copies_on_a_plate
 from support import study_path
@@ -27,7 +25,7 @@ from tvimdesign.base import processes
 from tvimdesign.base.child_process import read_lines
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError
-from tvimdesign.cad import CadReport, make_cad
+from tvimdesign.cad import make_cad
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.assembly_data import _linear
 from tvimdesign.cad.export.step_file import Product, in_fixed_order, write_assembly
@@ -43,7 +41,7 @@ COPIES = {"shear": 4, "compression": 12}
 
 
 @pytest.mark.gate
-def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
+def test_every_file_is_there_and_every_check_holds(made):
     design, report, steps, _ = made
     assert report.failed == ()
     assert report.notes == ()
@@ -79,7 +77,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
 
 
 @pytest.mark.gate
-def test_the_bed_has_every_printed_part_on_its_flat_side(made: Made) -> None:
+def test_the_bed_has_every_printed_part_on_its_flat_side(made):
     copies = copies_on_a_plate((made.report.folder / "print/plate_1.3mf").read_bytes())
     names = [name for name, _ in copies]
     # PETG is too soft for the casting jig.
@@ -97,7 +95,7 @@ def test_the_bed_has_every_printed_part_on_its_flat_side(made: Made) -> None:
 
 
 @pytest.mark.gate
-def test_moving_parts_are_compared_with_all_they_could_meet(made: Made) -> None:
+def test_moving_parts_are_compared_with_all_they_could_meet(made):
     pairs = {
         "shear": {"rotor | spring_right_1", "housing | spring_left_2"},
         "compression": {"rotor | pcl_block_1", "heater_2 | pcl_block_1", "housing | pcl_block_1"},
@@ -109,7 +107,7 @@ def test_moving_parts_are_compared_with_all_they_could_meet(made: Made) -> None:
 
 
 @pytest.mark.gate
-def test_step_and_mesh_read_back_with_names_and_colours(made: Made) -> None:
+def test_step_and_mesh_read_back_with_names_and_colours(made):
     for kind in MODULES[made.design.mode].kinds(dimensions(made.design)):
         copies = {"link_screw": 4, "link_dowel": 4}.get(kind, 1)
         if kind in ("pcl_arc", "pcl_block", "heater"):
@@ -147,7 +145,7 @@ def test_step_and_mesh_read_back_with_names_and_colours(made: Made) -> None:
 
 
 @pytest.mark.gate
-def test_pictures_show_the_parts_and_what_is_cut(made: Made) -> None:
+def test_pictures_show_the_parts_and_what_is_cut(made):
     image = matplotlib.image.imread(made.report.folder / "views/section.png")[:560, :, :3]
     for kind in ("heater", "pcl_arc" if made.design.mode == "shear" else "pcl_block", "rotor", "housing"):
         hue = np.array(KINDS[kind].colour) / max(KINDS[kind].colour)
@@ -166,9 +164,7 @@ def test_pictures_show_the_parts_and_what_is_cut(made: Made) -> None:
 
 
 @pytest.mark.slow
-def test_a_design_gives_the_same_bytes_on_another_day(
-    made: Made, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_design_gives_the_same_bytes_on_another_day(made, tmp_path, monkeypatch):
     write_design(made.design, tmp_path / "design.json")
     monkeypatch.setenv("PYTHONHASHSEED", "12345")
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
@@ -179,7 +175,7 @@ def test_a_design_gives_the_same_bytes_on_another_day(
         assert hashlib.sha256(first).digest() == hashlib.sha256(second).digest(), name
 
 
-def test_colours_are_written_in_the_order_of_their_parts() -> None:
+def test_colours_are_written_in_the_order_of_their_parts():
     def block(number: int, context: int) -> str:
         styles = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION"
         return (
@@ -199,7 +195,7 @@ def test_colours_are_written_in_the_order_of_their_parts() -> None:
     assert ordered == other == f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}"
 
 
-def test_a_name_in_any_script_survives_step(tmp_path: Path) -> None:
+def test_a_name_in_any_script_survives_step(tmp_path):
     box = cq.Solid.makeBox(1, 1, 1)
     product = Product(name="box", colour=(1, 0, 0), material="Stahl für Übung", density=7850.0)
     write_assembly(tmp_path / "a.step", "Gelenk ü'; #5 = 日本", {"box_1": box}, {"box_1": product})
@@ -208,28 +204,26 @@ def test_a_name_in_any_script_survives_step(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_coil_that_cannot_be_built_names_the_spring(job: Callable[..., CadReport]) -> None:
+def test_a_coil_that_cannot_be_built_names_the_spring(job):
     with pytest.raises(GeometryError, match="spring"):
         job(coil_diameter=2.1e-3)
 
 
 @pytest.mark.slow
-def test_a_part_the_model_has_wrong_is_written_and_reported(job: Callable[..., CadReport]) -> None:
+def test_a_part_the_model_has_wrong_is_written_and_reported(job):
     report = job(retainer_thickness=2.6e-3)
     assert "retainer_volume" in {check.name for check in report.failed}
     assert (report.folder / "step/retainer.step").exists()
 
 
-def test_a_process_that_reports_no_progress_is_an_error(
-    job: Callable[..., CadReport], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_process_that_reports_no_progress_is_an_error(job, monkeypatch):
     monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
     with pytest.raises(GeometryError, match=r"the CAD process failed: it was stopped after 0.05 s of processor time"):
         job(limit=0.05)
 
 
 @pytest.mark.slow
-def test_a_child_that_reports_progress_gets_more_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_child_that_reports_progress_gets_more_time(monkeypatch):
     monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
     burn = "    end = time.process_time() + 0.4\n    while time.process_time() < end: pass\n"
     says = f"import json, time\nfor step in range(8):\n    print(json.dumps({{'progress': step}}), flush=True)\n{burn}"
@@ -247,13 +241,13 @@ def test_a_child_that_reports_progress_gets_more_time(monkeypatch: pytest.Monkey
             child.wait()
 
 
-def test_a_crash_names_the_part() -> None:
+def test_a_crash_names_the_part():
     with pytest.raises(GeometryError, match="rotor: the CAD process ended with code -11"):
         _report(Path(), {"progress": "rotor"}, "the CAD process ended with code -11", "")
 
 
 @pytest.mark.gate
-def test_no_design_is_an_input_error(tmp_path: Path) -> None:
+def test_no_design_is_an_input_error(tmp_path):
     with pytest.raises(InputError, match="no such file"):
         make_cad(tmp_path / "none.json", tmp_path / "cad")
 
@@ -267,7 +261,7 @@ def tally(mode: str, count: int) -> random_designs.Tally:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("mode", "count"), [("shear", 12), ("compression", 8)])
-def test_designs_of_either_mode_that_keep_the_rules_are_sound(mode: str, count: int) -> None:
+def test_designs_of_either_mode_that_keep_the_rules_are_sound(mode, count):
     counted = tally(mode, count)
     assert counted.failed == []
     assert counted.built == count
@@ -275,7 +269,7 @@ def test_designs_of_either_mode_that_keep_the_rules_are_sound(mode: str, count: 
 
 
 @pytest.mark.slow
-def test_a_design_with_a_fault_is_reported() -> None:
+def test_a_design_with_a_fault_is_reported():
     draws = random_designs.Draws(read_study(study_path("wrist_joint")), seed=20)
     good = next(draws.keeping_rules(1, random_designs.Tally()))
     bad = good.model_copy(update={"values": good.values | {"housing_volume": 1.01 * good.value("housing_volume")}})
@@ -284,7 +278,7 @@ def test_a_design_with_a_fault_is_reported() -> None:
 
 
 @pytest.mark.slow
-def test_slivers_are_reported_where_a_process_makes_only_thick_walls() -> None:
+def test_slivers_are_reported_where_a_process_makes_only_thick_walls():
     draws = random_designs.Draws(read_study(study_path("wrist_compression")), seed=20)
     good = next(draws.keeping_rules(1, random_designs.Tally()))
     assert random_designs.slivers(good) == []
@@ -292,7 +286,7 @@ def test_slivers_are_reported_where_a_process_makes_only_thick_walls() -> None:
     assert any("the thinnest wall" in text for text in random_designs.slivers(thick))
 
 
-def test_random_choices_are_refused_by_name_or_satisfy_the_rules() -> None:
+def test_random_choices_are_refused_by_name_or_satisfy_the_rules():
     drawn = [random_choices.drawn(index, 3, inspect=True) for index in range(12)]
     ended = [choice for choice in drawn if isinstance(choice, random_choices.Ended)]
     assert len(ended) < len(drawn)
@@ -300,13 +294,13 @@ def test_random_choices_are_refused_by_name_or_satisfy_the_rules() -> None:
 
 
 @pytest.mark.slow
-def test_modules_of_random_choices_are_sound() -> None:
+def test_modules_of_random_choices_are_sound():
     built = [choice for choice in random_choices.run(range(12), 3, inspect=True, hands=1) if choice.how == "built"]
     assert built
     assert [fault for choice in built for fault in choice.faults] == []
 
 
-def test_a_draw_that_is_in_the_file_is_not_drawn_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_draw_that_is_in_the_file_is_not_drawn_again(tmp_path, capsys):
     file = tmp_path / "draws.jsonl"
     ended = [random_choices.Ended(index, 1, False, "built", faults=["a gap"] * index) for index in range(2)]
     file.write_text("".join(json.dumps(choice._asdict()) + "\n" for choice in ended))

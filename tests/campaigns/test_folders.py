@@ -7,7 +7,7 @@ import random
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import folders
@@ -51,13 +51,13 @@ def losses(tmp_path: Path, count: int) -> Iterator[str]:
 
 
 @pytest.mark.gate
-def test_no_byte_of_the_user_s_is_changed_or_removed(tmp_path: Path) -> None:
+def test_no_byte_of_the_user_s_is_changed_or_removed(tmp_path):
     assert list(losses(tmp_path, 20)) == []
 
 
 @pytest.mark.gate
 @pytest.mark.parametrize("broken", ["digest", "rename", pytest.param("links", marks=pytest.mark.slow)])
-def test_the_campaign_sees_what_is_lost(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, broken: str) -> None:
+def test_the_campaign_sees_what_is_lost(tmp_path, monkeypatch, broken):
     if broken == "digest":  # as if a file's name were enough to make it ours
         monkeypatch.setattr(manifest, "is_as_written", lambda folder, name, _: (folder / name).is_file())
     elif broken == "rename":
@@ -70,14 +70,14 @@ def test_the_campaign_sees_what_is_lost(tmp_path: Path, monkeypatch: pytest.Monk
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lack", machine.LACKS, ids=lambda lack: lack.name)
-def test_a_run_is_done_or_ends_in_one_line(lack: machine.Lack, tmp_path: Path) -> None:
+def test_a_run_is_done_or_ends_in_one_line(lack, tmp_path):
     if lack.mount and not machine.mounts():
         pytest.skip("`unshare -rm` fails here: a system may forbid it; only these two need a disk of their own")
     assert machine.faults_of(lack, tmp_path) == []
 
 
 @pytest.mark.slow
-def test_another_end_than_the_one_expected_is_a_fault(tmp_path: Path) -> None:
+def test_another_end_than_the_one_expected_is_a_fault(tmp_path):
     lack = next(known for known in machine.LACKS if known.name == "files of 20 kB at most")
     faults = machine.faults_of(dataclasses.replace(lack, code=0, says="no such words"), tmp_path)
     assert [fault.partition(":")[0] for fault in faults] == ["exit code 4, not 0", "not one line about 'no such words'"]
@@ -85,13 +85,13 @@ def test_another_end_than_the_one_expected_is_a_fault(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 5])
-def test_a_random_study_is_answered_and_its_answer_stands(seed: int) -> None:
+def test_a_random_study_is_answered_and_its_answer_stands(seed):
     verdict = random_studies.judged(seed)
     assert verdict["wrong"] == ""
     assert verdict["status"] == {3: "above_rating", 5: "infeasible"}[seed]
 
 
-def test_the_attack_counts_only_designs_whose_switch_ends() -> None:
+def test_the_attack_counts_only_designs_whose_switch_ends():
     study = random_studies.random_study(2)
     attack = Attack(study)
     optimum = random_studies.frozen(random.Random(2).choice(random_studies.BASES))
@@ -105,7 +105,7 @@ def test_the_attack_counts_only_designs_whose_switch_ends() -> None:
 
 
 @pytest.mark.slow
-def test_what_is_no_optimum_is_bettered() -> None:
+def test_what_is_no_optimum_is_bettered():
     study = random_studies.random_study(3)
     answered = answer(study)
     assert answered.solution is not None
@@ -139,23 +139,21 @@ def test_what_is_no_optimum_is_bettered() -> None:
         ),
     ],
 )
-def test_a_command_that_is_ended_leaves_nothing_behind(
-    command: str, number: signal.Signals, after: float, tmp_path: Path
-) -> None:
+def test_a_command_that_is_ended_leaves_nothing_behind(command, number, after, tmp_path):
     kills.prepare(command, tmp_path)
     own = tmp_path / "one"
     own.mkdir()
     assert kills.faults_after(Try(command, number, after), own) == []
 
 
-def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path, monkeypatch):
     monkeypatch.setitem(kills.COMMANDS, "run", ["run", "there_is_none.yaml"])
     with pytest.raises(SystemExit, match="run ends with 2 where nobody ends it"):
         kills.run_through("run", tmp_path)
 
 
 @pytest.mark.gate
-def test_a_command_that_goes_on_as_if_nothing_had_come_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_command_that_goes_on_as_if_nothing_had_come_is_seen(tmp_path, monkeypatch):
     goes_on = (
         "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN)\nwhile time.process_time() < 3.0: pass"
     )
@@ -169,7 +167,7 @@ def test_a_command_that_goes_on_as_if_nothing_had_come_is_seen(tmp_path: Path, m
     assert fault.startswith("went on for 2.")
 
 
-def test_signals_that_a_shell_has_ignored_are_followed() -> None:
+def test_signals_that_a_shell_has_ignored_are_followed():
     asks = "import signal, shell_signals; shell_signals.follow_signals(); print(signal.getsignal(signal.SIGINT))"
     command = ["sh", "-c", f"trap '' INT; exec {sys.executable} -c '{asks}'"]
     environment = {**os.environ, "PYTHONPATH": str(Path(kills.__file__).parent)}
@@ -177,7 +175,7 @@ def test_signals_that_a_shell_has_ignored_are_followed() -> None:
     assert "default_int_handler" in done.stdout
 
 
-def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
+def test_the_campaign_sees_broken_files(tmp_path):
     (tmp_path / "manifest.json").write_text(json.dumps({"status": "running"}))
     (tmp_path / "results.json").write_text('{"a": ')
     (tmp_path / "cycle.png").write_bytes(b"\x89PNG")
@@ -193,7 +191,7 @@ def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
     assert "joint.fmu is broken" in kills.broken_files(tmp_path, Try("robot", signal.SIGKILL, 1.0), through=False)
 
 
-def test_the_campaign_sees_what_an_explorer_has_lost(tmp_path: Path) -> None:
+def test_the_campaign_sees_what_an_explorer_has_lost(tmp_path):
     source, talk = open_source(kills.SMALL), Conversation(1)
     history = open_history(tmp_path, source.text, source.first)
     history.state = history.state.model_copy(update={"at": {**source.first.at, "current": "1.1 A"}})
@@ -219,13 +217,13 @@ USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "c
         *(pytest.param(kind, 500, marks=pytest.mark.slow) for kind in USUAL),
     ],
 )
-def test_mutated_inputs_are_read_or_refused_in_words(kind: str, inputs: int) -> None:
+def test_mutated_inputs_are_read_or_refused_in_words(kind, inputs):
     chunk = fuzz.done(fuzz.Chunk(kind, 5, 0, inputs))
     assert chunk.failures == []
     assert chunk.inputs >= inputs
 
 
-def test_what_failed_once_fails_no_more() -> None:
+def test_what_failed_once_fails_no_more():
     assert fuzz.known_failures() == []
 
 
@@ -261,16 +259,14 @@ def panics(_: Path) -> None:
         (starts_a_process, "touches subprocess.Popen"), (spins, "Hang in "), (panics, "BaseException in "),
     ],
 )  # fmt: skip
-def test_the_campaign_sees_a_fault(
-    use: Callable[[Path], None], fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_campaign_sees_a_fault(use, fault, tmp_path, monkeypatch):
     monkeypatch.setattr(watched, "HANG", 0.05)
     kind = Kind(lambda _: Drawn("input.txt", b""), use)
     assert watched.ending(kind, Drawn("input.txt", b"x").written(tmp_path))[0].startswith(fault)
 
 
 @pytest.mark.parametrize(("writes", "inside"), [(True, True), (False, False)])
-def test_what_writes_may_write_beside_its_input_alone(writes: bool, inside: bool, tmp_path: Path) -> None:
+def test_what_writes_may_write_beside_its_input_alone(writes, inside, tmp_path):
     kind = Kind(lambda _: Drawn("input.txt", b""), leaves_a_file, writes=writes)
     assert (watched.ending(kind, tmp_path / "input.txt")[0] == "") == inside
     kind = Kind(lambda _: Drawn("input.txt", b""), lambda _: leaves_a_file(tmp_path / "x"), writes=True)

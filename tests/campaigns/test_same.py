@@ -4,7 +4,6 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -30,7 +29,7 @@ def changes_of(now: Mapping[str, Value], **options: Any) -> list[tuple[str, str,
     return [(change.quantity, change.frozen, change.now) for change in differences("study", FROZEN, now, **options)]
 
 
-def test_lost_added_and_different_values_are_distinguished() -> None:
+def test_lost_added_and_different_values_are_distinguished():
     assert changes_of(dict(FROZEN)) == []
     assert changes_of({name: value for name, value in FROZEN.items() if name != "mass"}) == [("mass", "0.1", "lost")]
     assert changes_of({**FROZEN, "size": 3.0}) == [("size", "added", "3.0")]
@@ -53,16 +52,16 @@ def test_lost_added_and_different_values_are_distinguished() -> None:
         ("stiffness@hot", None, ("stiffness@hot", "5.0", "None")),
     ],
 )
-def test_a_changed_value(name: str, value: Value, difference: tuple[str, str, str]) -> None:
+def test_a_changed_value(name, value, difference):
     assert changes_of({**FROZEN, name: value}) == [difference]
 
 
 @pytest.mark.parametrize(("change", "count"), [(1e-10, 0), (1e-8, 1)])
-def test_tolerance(change: float, count: int) -> None:
+def test_tolerance(change, count):
     assert len(changes_of({**FROZEN, "stiffness@hot": 5.0 * (1.0 + change)}, tolerance=1e-9)) == count
 
 
-def test_renames() -> None:
+def test_renames():
     now = {**FROZEN, "rate@hot": 5.0, "size": 3.0}
     del now["stiffness@hot"], now["mass"]
     renames = Renames({"stiffness": "rate"}, frozenset({"mass"}), frozenset({"size"}))
@@ -74,7 +73,7 @@ def test_renames() -> None:
     ]  # fmt: skip
 
 
-def test_a_renamed_input_is_set_by_its_name_of_today() -> None:
+def test_a_renamed_input_is_set_by_its_name_of_today():
     study = tvimdesign.load(study_path("paper_shear"))
     design = {"chosen": {"wire_size": 0.0018}, "units": {"wire_size": "m"}, "current_profiles": {}}
     evaluated = study_outputs.evaluated_study(study, design, Renames({"wire_size": "wire_diameter"}))
@@ -82,7 +81,7 @@ def test_a_renamed_input_is_set_by_its_name_of_today() -> None:
     assert "wire_size" not in evaluated.text
 
 
-def test_a_file_of_renames(tmp_path: Path) -> None:
+def test_a_file_of_renames(tmp_path):
     assert Renames.read(tmp_path / "none.json").expected(FROZEN).keys() == FROZEN.keys()
     path = tmp_path / "renames.json"
     path.write_text(json.dumps({"renamed": {"a": "b"}, "removed": ["c"]}))
@@ -92,7 +91,7 @@ def test_a_file_of_renames(tmp_path: Path) -> None:
         Renames.read(path)
 
 
-def test_frozen_numbers_keep_every_bit(tmp_path: Path) -> None:
+def test_frozen_numbers_keep_every_bit(tmp_path):
     values = {"a": 0.1 + 0.2, "b": 5e-324, "c": math.inf, "d": -0.0, "e": 1.7976931348623157e308, "f": "\ud800"}
     write_frozen(tmp_path / "x.json", values)
     assert repr(read_frozen(tmp_path / "x.json")) == repr(dict(sorted(values.items())))
@@ -111,12 +110,12 @@ def test_frozen_numbers_keep_every_bit(tmp_path: Path) -> None:
         ({"reference": {"mass": 0.21}}, ["reference:mass"]),
     ],
 )
-def test_an_optimum(change: dict[str, Any], quantities: list[str]) -> None:
+def test_an_optimum(change, quantities):
     changes = optima.optimum_differences("study", OPTIMUM, OPTIMUM | change)
     assert [difference.quantity for difference in changes] == quantities
 
 
-def test_objectives_places_and_fits_are_compared_without_wording() -> None:
+def test_objectives_places_and_fits_are_compared_without_wording():
     changes = [optima.objective_change(OPTIMUM, OPTIMUM | {"objective": value}) for value in (0.9, 1.0, 1.25, None)]
     assert changes == pytest.approx([-0.1, 0.0, 0.2, 0.0])
     assert messages.message_places("mode: shear\nmodul: {}\n") == {"2:1 modul": 1.0}
@@ -132,7 +131,7 @@ def test_objectives_places_and_fits_are_compared_without_wording() -> None:
     assert fits.fit(replace(case, data=b"nothing")) == {"read:refused": "InputError", "fit:refused": "InputError"}
 
 
-def test_every_study_is_frozen() -> None:
+def test_every_study_is_frozen():
     frozen = {path.stem: read_frozen(path) for path in (frozen_files.FOLDER / "studies").glob("*.json")}
     assert frozen.keys() == study_outputs.study_files().keys()
     for name, data in frozen.items():
@@ -142,7 +141,7 @@ def test_every_study_is_frozen() -> None:
 
 
 @pytest.mark.gate
-def test_a_frozen_design_has_the_frozen_names() -> None:
+def test_a_frozen_design_has_the_frozen_names():
     frozen = read_frozen(study_outputs.frozen_file("paper_shear"))
     renames = Renames.read(same.RENAMES)
     now = study_outputs.outputs(study_outputs.evaluate_frozen("paper_shear", renames))

@@ -23,14 +23,14 @@ def strength(name: str, diameter: float) -> float:
     return min(row["coefficient"] / diameter ** row["exponent"] for row in rows) / 1e6
 
 
-def test_every_category_has_records_with_unit_source_and_status() -> None:
+def test_every_category_has_records_with_unit_source_and_status():
     assert check_records(CATALOG) == []
     # What a joint's own swings tell is nobody's until somebody has measured it.
     assert [category for category in CATEGORIES if not CATALOG.names(category)] == ["joints"]
     assert CATALOG.record("wires", "metric") is CATALOG.record("wires", "metric")
 
 
-def test_a_record_has_what_its_shelf_requires() -> None:
+def test_a_record_has_what_its_shelf_requires():
     def check(item: tuple[str, str]) -> None:
         category, name = item
         record = CATALOG.record(category, name)
@@ -57,14 +57,14 @@ def test_a_record_has_what_its_shelf_requires() -> None:
         ("stainless_302", 8.0, 2911 / 8**0.478),
     ],
 )
-def test_tensile_strength(name: str, diameter: float, expected: float) -> None:
+def test_tensile_strength(name, diameter, expected):
     assert strength(name, diameter) == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize(
     ("name", "offset", "slope"), [("patented_wire_sm", 1971, 740), ("patented_wire_sh", 2220, 820)]
 )
-def test_en_wire_stays_just_below_its_line(name: str, offset: float, slope: float) -> None:
+def test_en_wire_stays_just_below_its_line(name, offset, slope):
     for step in range(201):
         diameter = 0.3 * (11 / 0.3) ** (step / 200)
         line = offset - slope * math.log10(diameter)
@@ -90,7 +90,7 @@ JIS = {
 
 
 @pytest.mark.parametrize("name", JIS)
-def test_jis_wire_is_never_stronger_than_its_standard_nor_much_weaker(name: str) -> None:
+def test_jis_wire_is_never_stronger_than_its_standard_nor_much_weaker(name):
     table = [tuple(map(float, item.split())) for item in JIS[name].split(", ")]
     for diameter, least in table:
         assert 0.944 * least < strength(name, diameter) <= least
@@ -99,13 +99,13 @@ def test_jis_wire_is_never_stronger_than_its_standard_nor_much_weaker(name: str)
 
 
 @pytest.mark.parametrize(("jis", "en"), [("jis_sw_c", "patented_wire_sm"), ("jis_swp_b", "patented_wire_sh")])
-def test_wire_that_makers_call_equivalent_is_as_strong_within_a_twentieth(jis: str, en: str) -> None:
+def test_wire_that_makers_call_equivalent_is_as_strong_within_a_twentieth(jis, en):
     """Vinco and Hengming list SW-C beside SM and SWP-B beside SH."""
     for diameter in (0.5, 0.8, 1.0, 1.2, 1.4):
         assert strength(jis, diameter) == pytest.approx(strength(en, diameter), rel=0.05)
 
 
-def test_paper_wire_is_music_wire_of_a_gauge_size() -> None:
+def test_paper_wire_is_music_wire_of_a_gauge_size():
     paper, music = (CATALOG.record("spring_materials", name) for name in ("paper_wire", "music_wire"))
     assert paper.value("youngs_modulus") == pytest.approx(210e9)
     assert paper.table("strength") == music.table("strength")
@@ -117,7 +117,7 @@ SIZES = {"metric": 44, "metric_fine": 17, "music_wire_gauge": 50, "gb_1358": 16}
 """How many sizes each list has."""
 
 
-def test_wires_rise_in_the_preferred_metric_sizes() -> None:
+def test_wires_rise_in_the_preferred_metric_sizes():
     def check(name: str) -> None:
         sizes = [row["wire_diameter"] for row in CATALOG.record("wires", name).table("sizes")]
         assert sizes == sorted(set(sizes))
@@ -136,7 +136,7 @@ def test_wires_rise_in_the_preferred_metric_sizes() -> None:
 LOSS_FACTORS = {"eva_28": 0.1, "fields_metal": 0.01, "paraffin_rt60": 0.1}
 
 
-def test_solid_spectrum_has_a_modulus_of_one_at_1_hertz() -> None:
+def test_solid_spectrum_has_a_modulus_of_one_at_1_hertz():
     def check(name: str) -> None:
         polymer = CATALOG.record("polymers", name)
         modes = polymer.table("solid_spectrum")
@@ -147,7 +147,7 @@ def test_solid_spectrum_has_a_modulus_of_one_at_1_hertz() -> None:
     of_every(MELTING, check)
 
 
-def test_solids_soften_and_take_up_heat_as_calibrated() -> None:
+def test_solids_soften_and_take_up_heat_as_calibrated():
     def check(name: str) -> None:
         value = CATALOG.record("polymers", name).value
 
@@ -178,7 +178,7 @@ def test_solids_soften_and_take_up_heat_as_calibrated() -> None:
     of_every(PCL, check)
 
 
-def test_eva_flows_through_a_melt_indexer_as_its_title_states() -> None:
+def test_eva_flows_through_a_melt_indexer_as_its_title_states():
     value = CATALOG.record("polymers", "eva_28").value
     assert value("melt_reference_temperature") == pytest.approx(463.15)
     pressure = 2.16 * 9.81 / (math.pi / 4 * 9.474e-3**2)
@@ -191,7 +191,7 @@ def test_eva_flows_through_a_melt_indexer_as_its_title_states() -> None:
     ("name", "seebeck", "resistance", "conductance"),
     [("teci_12706", 52.6e-3, 2.05, 0.550), ("qc_17", 6.37e-3, 0.515, 0.028), ("pc_072", 29.9e-3, 0.446, 0.778)],
 )
-def test_peltier_follows_from_its_data_sheet(name: str, seebeck: float, resistance: float, conductance: float) -> None:
+def test_peltier_follows_from_its_data_sheet(name, seebeck, resistance, conductance):
     value = CATALOG.record("peltiers", name).value
     hot, drop = value("hot_side_temperature"), value("max_temperature_difference")
     current, voltage = value("max_current"), value("max_voltage")
@@ -205,7 +205,7 @@ def test_peltier_follows_from_its_data_sheet(name: str, seebeck: float, resistan
         assert value(field) == pytest.approx(published, rel=0.01)
 
 
-def test_names_near_by_are_suggested() -> None:
+def test_names_near_by_are_suggested():
     with pytest.raises(CatalogError, match="did you mean music_wire"):
         CATALOG.record("spring_materials", "musik_wire")
     with pytest.raises(CatalogError, match="did you mean peltiers"):
@@ -218,12 +218,12 @@ def test_names_near_by_are_suggested() -> None:
 
 
 @pytest.mark.parametrize("name", ["../../../etc/passwd", "", ".", "music_wire.yaml", "a\x00b", "x" * 9999])
-def test_no_name_leaves_the_shelf(name: str) -> None:
+def test_no_name_leaves_the_shelf(name):
     with pytest.raises(CatalogError, match="has no record"):
         CATALOG.record("spring_materials", name)
 
 
-def test_fasteners_fit_and_weigh_as_their_metal() -> None:
+def test_fasteners_fit_and_weigh_as_their_metal():
     def check(name: str) -> None:
         value = CATALOG.record("inserts", name).value
         ring = 0.25 * math.pi * (value("outer_diameter") ** 2 - value("nominal_diameter") ** 2) * value("length")
@@ -242,7 +242,7 @@ def test_fasteners_fit_and_weigh_as_their_metal() -> None:
     of_every(CATALOG.names("screws"), check)
 
 
-def test_what_is_assumed_is_reported_with_its_range() -> None:
+def test_what_is_assumed_is_reported_with_its_range():
     def check(item: tuple[str, str]) -> None:
         record = CATALOG.record(*item)
         for name, entry in record.entries.items():
@@ -259,7 +259,7 @@ def test_what_is_assumed_is_reported_with_its_range() -> None:
 @pytest.mark.parametrize(
     ("category", "name"), [("polymers", "pcl_80k"), ("adhesives", "scotch_weld_dp760"), ("heat_paths", "handbook")]
 )
-def test_each_assumed_value_names_its_least_test(category: str, name: str) -> None:
+def test_each_assumed_value_names_its_least_test(category, name):
     ranges = {key: entry for key, entry in CATALOG.record(category, name).entries.items() if entry.status == "assumed"}
     assert {key for key, entry in ranges.items() if "; test: " not in entry.source} == set()
 
@@ -269,7 +269,7 @@ def test_each_assumed_value_names_its_least_test(category: str, name: str) -> No
     ("record", "diameter"),
     [("handbook", 0.05), ("handbook", 0.09), ("handbook", 0.17), ("handbook_small", 0.02), ("handbook_small", 0.04)],
 )
-def test_convection_is_that_of_free_air_in_every_orientation(record: str, diameter: float, warmer: float) -> None:
+def test_convection_is_that_of_free_air_in_every_orientation(record, diameter, warmer):
     # Incropera, 7th ed.: air by Sutherland's law; eqs. 9.30 and 9.32 with L = A/P = D/4, eq. 9.27 with L = D.
     kelvin = 295.0 + 0.5 * warmer
     viscosity = 1.716e-5 * (kelvin / 273.15) ** 1.5 * 383.55 / (kelvin + 110.4)
@@ -289,7 +289,7 @@ def test_convection_is_that_of_free_air_in_every_orientation(record: str, diamet
         assert max(faces) * conductivity <= entry.high
 
 
-def test_a_data_sheet_is_that_of_the_type() -> None:
+def test_a_data_sheet_is_that_of_the_type():
     """Require that a sheet's source names the type or grade of the record's title: a figure of another is wrong."""
     in_doubt = {"flexural_modulus", "reference_temperature"}  # of the polymers: one figure for two grades
 
@@ -303,7 +303,7 @@ def test_a_data_sheet_is_that_of_the_type() -> None:
     of_every(EVERY_RECORD, check)
 
 
-def test_structure_materials_are_consistent() -> None:
+def test_structure_materials_are_consistent():
     def check(name: str) -> None:
         process = CATALOG.record("processes", name)
         assert process.word("structure_material") in CATALOG.names("structure_materials")

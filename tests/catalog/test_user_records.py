@@ -9,7 +9,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
-from support import ROOT, Command, refused, sample_text
+from support import ROOT, refused, sample_text
 
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.base.record import Record
@@ -37,7 +37,7 @@ def refusal(folder: Path, text: str | bytes, category: str = "peltiers") -> str:
     return str(caught.value)
 
 
-def test_a_user_record_adds_to_the_shelf_or_replaces(tmp_path: Path) -> None:
+def test_a_user_record_adds_to_the_shelf_or_replaces(tmp_path):
     catalog = put(tmp_path, GOOD)
     assert catalog.names("peltiers") == sorted([*Catalog().names("peltiers"), "mine"])
     record = catalog.record("peltiers", "mine")
@@ -53,12 +53,12 @@ def test_a_user_record_adds_to_the_shelf_or_replaces(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("good", "bad", "message"), refused("records"))
-def test_a_broken_record_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
+def test_a_broken_record_is_named(tmp_path, good, bad, message):
     assert good in GOOD
     assert message in refusal(tmp_path, GOOD.replace(good, bad, 1))
 
 
-def test_all_problems_are_named_at_once(tmp_path: Path) -> None:
+def test_all_problems_are_named_at_once(tmp_path):
     text = GOOD.replace(", unit: mV/K", "").replace("source: scale", "sauce: scale").replace("flexible", "floppy")
     problems = check_records(put(tmp_path, text))
     assert len(problems) == 4
@@ -69,7 +69,7 @@ WIRE = "title: w\ntables:\n  sizes: {{columns: {columns}, rows: {rows}, source: 
 
 
 @pytest.mark.parametrize(("columns", "rows", "status", "message"), refused("record_tables"))
-def test_a_broken_table_is_named(tmp_path: Path, columns: str, rows: str, status: str, message: str) -> None:
+def test_a_broken_table_is_named(tmp_path, columns, rows, status, message):
     assert message in refusal(tmp_path, WIRE.format(columns=columns, rows=rows, status=status), "wires")
 
 
@@ -85,7 +85,7 @@ PCL = (DATA / "polymers/pcl_80k.yaml").read_text(encoding="utf-8")
         ("[10, 0.07414]", "[1, 0.07414]", "[3].relaxation_time: 1 does not do: it must be below the row's before"),
     ],
 )
-def test_a_solid_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
+def test_a_solid_spectrum_that_cannot_be_is_named(tmp_path, good, bad, message):
     assert good in PCL
     refused = refusal(tmp_path, PCL.replace(good, bad, 1), "polymers")
     assert f"tables.solid_spectrum.rows{message}" in refused
@@ -96,7 +96,7 @@ OWN_SPECTRUM = sample_text("user_spectrum")
 """The sum of modulus times time is 3491 Pa s, that of the moduli 1.000 MPa."""
 
 
-def test_spectra_agree_with_viscosity_and_plateau(tmp_path: Path) -> None:
+def test_spectra_agree_with_viscosity_and_plateau(tmp_path):
     record = put(tmp_path, OWN_SPECTRUM, category="polymers").record("polymers", "mine")
     assert melt_modes(record) == [(1e-2, 2.5e5), (4e-3, 2.4e5), (1e-4, 3e5), (1e-5, 1e5), (1e-6, 6e4), (1e-7, 5e4)]
     lines = [line for line in OWN_SPECTRUM.splitlines() if "zero_shear" not in line]
@@ -126,12 +126,12 @@ def test_spectra_agree_with_viscosity_and_plateau(tmp_path: Path) -> None:
         ("[4e-3,", "[4e-2,", "rows[2].relaxation_time: 0.04 does not do: it must be below the row's before"),
     ],
 )
-def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
+def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path, good, bad, message):
     assert good in OWN_SPECTRUM
     assert message in refusal(tmp_path, OWN_SPECTRUM.replace(good, bad, 1), "polymers")
 
 
-def test_a_based_record_keeps_what_its_base_has(tmp_path: Path) -> None:
+def test_a_based_record_keeps_what_its_base_has(tmp_path):
     own = {
         "first": ("petg", "density: {value: 1300, unit: kg/m^3"),
         "second": ("first", "youngs_modulus: {value: 3, unit: GPa"),
@@ -161,7 +161,7 @@ def test_a_based_record_keeps_what_its_base_has(tmp_path: Path) -> None:
         ({"a": "../../x"}, "based_on: peltiers has no record"),
     ],
 )
-def test_what_a_record_cannot_be_based_on_is_named(tmp_path: Path, bases: dict[str, str], message: str) -> None:
+def test_what_a_record_cannot_be_based_on_is_named(tmp_path, bases, message):
     for name, base in bases.items():
         catalog = put(tmp_path, f"title: {name}\nbased_on: {base}\n", name=name)
     with pytest.raises(CatalogError) as caught:
@@ -170,7 +170,7 @@ def test_what_a_record_cannot_be_based_on_is_named(tmp_path: Path, bases: dict[s
     assert str(tmp_path) in str(caught.value)
 
 
-def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
+def test_strength_must_be_in_millimetres(tmp_path):
     shipped = (DATA / "spring_materials/music_wire.yaml").read_text(encoding="utf-8")
     text = shipped.replace("wire_diameter_to: mm", "wire_diameter_to: in", 1)
     assert "wire_diameter_to: must be in mm" in refusal(tmp_path, text, "spring_materials")
@@ -196,14 +196,14 @@ def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
     ],
     ids=lambda text: repr(text[:20]),
 )
-def test_rubbish_is_a_short_error_within_a_second(tmp_path: Path, text: bytes) -> None:
+def test_rubbish_is_a_short_error_within_a_second(tmp_path, text):
     start = time.process_time()
     refused = refusal(tmp_path, text)
     assert time.process_time() - start < 1.0  # though it is read twice
     assert len(refused) < 20_000
 
 
-def test_pipes_folders_and_wrong_shelves_are_named(tmp_path: Path) -> None:
+def test_pipes_folders_and_wrong_shelves_are_named(tmp_path):
     (tmp_path / "wires" / "folder.yaml").mkdir(parents=True)
     os.mkfifo(tmp_path / "wires" / "pipe.yaml")
     (tmp_path / "wires" / "gone.yaml").symlink_to(tmp_path / "nowhere")
@@ -221,7 +221,7 @@ OURS = "title: ours\nbased_on: pcl_80k\nvalues:\n  %s\n"
 
 
 @pytest.mark.parametrize(("molar_mass", "viscosity"), [(50, 660.0), (80, 4200.0), (120, 20750.0)])
-def test_viscosity_of_a_melt_follows_from_its_molar_mass(tmp_path: Path, molar_mass: int, viscosity: float) -> None:
+def test_viscosity_of_a_melt_follows_from_its_molar_mass(tmp_path, molar_mass, viscosity):
     # Published for melts at 100 degC: up to 660 Pa s at 50, 4.2 kPa s at 80 and 21 kPa s at 120 kg/mol.
     text = OURS % f"molar_mass: {{value: {molar_mass}, unit: kg/mol, source: our GPC, status: measured}}"
     entry = put(tmp_path, text, category="polymers").record("polymers", "mine").entry("zero_shear_viscosity")
@@ -230,7 +230,7 @@ def test_viscosity_of_a_melt_follows_from_its_molar_mass(tmp_path: Path, molar_m
     assert "molar_mass" in entry.source
 
 
-def test_molar_masses_give_viscosities_where_none_was_measured(tmp_path: Path) -> None:
+def test_molar_masses_give_viscosities_where_none_was_measured(tmp_path):
     mass = "molar_mass: {value: 60, unit: kg/mol, source: our GPC, status: measured}"
     text = OURS % f"{mass}\n  zero_shear_viscosity: {{value: 1, unit: kPa*s, source: ours, status: measured}}"
     entry = put(tmp_path, text, category="polymers").record("polymers", "mine").entry("zero_shear_viscosity")
@@ -238,7 +238,7 @@ def test_molar_masses_give_viscosities_where_none_was_measured(tmp_path: Path) -
     assert "values.molar_mass" in refusal(tmp_path, OURS % mass.replace("kg/mol", "kg"), "polymers")
 
 
-def test_a_folder_that_is_a_link_is_reported_with_its_target(tmp_path: Path) -> None:
+def test_a_folder_that_is_a_link_is_reported_with_its_target(tmp_path):
     (tmp_path / "kept").mkdir()
     put(tmp_path / "kept", GOOD)
     (tmp_path / "records").symlink_to(tmp_path / "kept")
@@ -256,9 +256,7 @@ def test_a_folder_that_is_a_link_is_reported_with_its_target(tmp_path: Path) -> 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="Windows: no folder has a numbered owner that could be another")
 @pytest.mark.parametrize("folder", [".", "peltiers"])
-def test_another_user_s_folder_is_reported_and_refused_if_all_may_write(
-    folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_user_s_folder_is_reported_and_refused_if_all_may_write(folder, tmp_path, monkeypatch):
     put(tmp_path, GOOD)
     (tmp_path / folder).chmod(0o777)
     Catalog(tmp_path)  # one's own stays one's own
@@ -276,7 +274,7 @@ def test_another_user_s_folder_is_reported_and_refused_if_all_may_write(
     Catalog(tmp_path)  # what is the machine's is as good as the program
 
 
-def test_the_commands_report_such_a_folder_in_one_line(tmp_path: Path, tvimdesign: Command) -> None:
+def test_the_commands_report_such_a_folder_in_one_line(tmp_path, tvimdesign):
     (tmp_path / "kept").mkdir()
     (tmp_path / "records").symlink_to(tmp_path / "kept")
     (tmp_path / "study.yaml").write_text("mode: shear\ncatalog: records\nmodule: {coil_cuont: 3}\n")  # refused: quick
@@ -303,7 +301,7 @@ HALF_TIME = {"crystallization_half_time": (20.0, "s")}
 VISCOSITY = {"zero_shear_viscosity": (200.0, "Pa*s")}
 
 
-def test_laws_of_another_material_have_a_warning_each(tmp_path: Path) -> None:
+def test_laws_of_another_material_have_a_warning_each(tmp_path):
     message = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA))
     assert [line.split(" are those of ")[0] for line in message] == [
         "Mine: the kinetics of freezing", "Mine: the viscosity of the melt", "Mine: the losses of the solid",
@@ -319,7 +317,7 @@ def test_laws_of_another_material_have_a_warning_each(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("base", ["pcl_80k", "fields_metal"])
-def test_a_wax_has_no_use_for_kinetics_and_is_refused_a_polymer_s_melt(tmp_path: Path, base: str) -> None:
+def test_a_wax_has_no_use_for_kinetics_and_is_refused_a_polymer_s_melt(tmp_path, base):
     words = "words: {freezing: equilibrium}"
     own = {"density_solid": (880.0, "kg/m^3"), "density_melt": (770.0, "kg/m^3")}
     if base == "fields_metal":  # the same kind, another material
@@ -335,7 +333,7 @@ def test_a_wax_has_no_use_for_kinetics_and_is_refused_a_polymer_s_melt(tmp_path:
     assert "viscosity of the melt: those of pcl_80k mean nothing here, where freezing is equilibrium" in message[0]
 
 
-def test_a_glass_needs_its_own_spectrum_and_constants(tmp_path: Path) -> None:
+def test_a_glass_needs_its_own_spectrum_and_constants(tmp_path):
     words = "words: {freezing: equilibrium, softening: glass}"
     own = {"density_solid": (1250.0, "kg/m^3"), "glass_transition": (57.0, "degC"), "wlf_c1": (17.44, '"1"'),
            "wlf_c2": (51.6, "K"), "glass_activation_energy": (300.0, "kJ/mol")}  # fmt: skip
@@ -348,7 +346,7 @@ def test_a_glass_needs_its_own_spectrum_and_constants(tmp_path: Path) -> None:
         record(tmp_path, "pla", glass_transition=(70.0, "degC"))
 
 
-def test_words_that_are_left_out_are_a_polymer_s_that_melts(tmp_path: Path) -> None:
+def test_words_that_are_left_out_are_a_polymer_s_that_melts(tmp_path):
     text = Catalog().path("polymers", "pcl_80k").read_text(encoding="utf-8")
     (tmp_path / "polymers").mkdir()
     own = text.replace("words: {freezing: kinetics, softening: melting}\n", "")
@@ -357,6 +355,6 @@ def test_words_that_are_left_out_are_a_polymer_s_that_melts(tmp_path: Path) -> N
     assert Catalog(tmp_path).record("polymers", "mine").words == {"freezing": "kinetics", "softening": "melting"}
 
 
-def test_a_resistivity_is_one(tmp_path: Path) -> None:
+def test_a_resistivity_is_one(tmp_path):
     with pytest.raises(CatalogError, match=r"values.resistivity.value: .*'10 mm'"):
         record(tmp_path, "pla", resistivity=(10.0, "mm"))

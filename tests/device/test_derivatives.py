@@ -7,8 +7,8 @@ import pytest
 from event_derivatives import differences, found_by_engine, shown_by_cvodes
 from numpy.typing import NDArray
 
-from tvimdesign.device import Table, table_for
-from tvimdesign.simulation.working_cycle.cycle import Cycle, Supplied
+from tvimdesign.device import table_for
+from tvimdesign.simulation.working_cycle.cycle import Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
 
@@ -37,17 +37,15 @@ def compare_with_differences(model: DeviceFunctions, numbers: Mapping[str, float
 
 
 @pytest.mark.gate
-def test_every_output_has_the_derivatives_of_differences(model: DeviceFunctions, numbers: dict[str, float]) -> None:
+def test_every_output_has_the_derivatives_of_differences(model, numbers):
     compare_with_differences(model, numbers)
 
 
-def test_outputs_of_compression_have_the_derivatives_of_differences(
-    squeezed_model: DeviceFunctions, squeezed_switch: Cycle
-) -> None:
+def test_outputs_of_compression_have_the_derivatives_of_differences(squeezed_model, squeezed_switch):
     compare_with_differences(squeezed_model, squeezed_switch.values)
 
 
-def test_derivatives_by_the_switch_are_those_of_differences(unity: DeviceFunctions, numbers: dict[str, float]) -> None:
+def test_derivatives_by_the_switch_are_those_of_differences(unity, numbers):
     supplied = np.array([numbers[name] for name in unity.switch_names])
     cycle = ca.MX.sym("cycle", len(supplied))
     jacobian = ca.Function("jacobian", [cycle], [ca.jacobian(unity.every_output(unity.start, cycle), cycle)])
@@ -76,9 +74,7 @@ def supplied(unity: DeviceFunctions) -> Supplied:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("event", EVENTS)
-def test_response_times_have_the_derivatives_that_simulations_show(
-    event: str, unity: DeviceFunctions, shown_by_simulation: dict[str, Array], supplied: Supplied, table: Table
-) -> None:
+def test_response_times_have_the_derivatives_that_simulations_show(event, unity, shown_by_simulation, supplied, table):
     assert {row.name for row in unity.phases["softening"].events} == set(EVENTS)
     place = unity.switch_names.index(event)
     time = supplied.values[place]
@@ -94,7 +90,7 @@ SQUEEZED = ("block_depth", "block_height", "vane_thickness", "pcl_outer_radius",
 
 
 @pytest.mark.slow
-def test_response_times_of_compression_have_those_derivatives(squeezed_model: DeviceFunctions) -> None:
+def test_response_times_of_compression_have_those_derivatives(squeezed_model):
     model, events = squeezed_model, ("far_face_time", "softening_time")
     by_cvodes, engine = shown_by_cvodes(model, events, SQUEEZED), found_by_engine(model, SQUEEZED)
     for event in events:

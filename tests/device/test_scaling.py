@@ -51,9 +51,7 @@ def _free_of_fixed_lengths(table: Table, name: str) -> bool:
 
 @settings(max_examples=25, deadline=None)
 @given(factor=st.floats(0.2, 5.0), transmission=st.sampled_from(["unity", "geometry"]), mode=st.sampled_from(MODES))
-def test_outputs_scale_with_the_length_as_their_units_say(
-    factor: float, transmission: str, mode: str, inputs: dict[str, Any], squeezed: dict[str, Any]
-) -> None:
+def test_outputs_scale_with_the_length_as_their_units_say(factor, transmission, mode, inputs, squeezed):
     table = TABLES[mode]
     wanted = [
         name

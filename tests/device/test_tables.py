@@ -17,7 +17,6 @@ from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Supplied, Table, table_for
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.device.table.quantity_group import _all_inputs
-from tvimdesign.simulation.working_cycle.cycle import Cycle
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
 from tvimdesign.study import given, read_study_text
@@ -28,7 +27,7 @@ each_mode = pytest.mark.parametrize("mode", MODES)
 
 
 @each_mode
-def test_numbers_are_described_and_have_a_unit_that_can_be_read(mode: str) -> None:
+def test_numbers_are_described_and_have_a_unit_that_can_be_read(mode):
     def check(row: Input | Output) -> None:
         assert len(row.description) >= 8
         assert row.group
@@ -38,7 +37,7 @@ def test_numbers_are_described_and_have_a_unit_that_can_be_read(mode: str) -> No
 
 
 @each_mode
-def test_choices_are_described_and_their_defaults_exist(mode: str) -> None:
+def test_choices_are_described_and_their_defaults_exist(mode):
     inputs = inputs_of(mode)
 
     def check(row: Choice) -> None:
@@ -52,7 +51,7 @@ def test_choices_are_described_and_their_defaults_exist(mode: str) -> None:
 
 
 @each_mode
-def test_defaults_lie_within_their_limits_and_have_a_source(mode: str) -> None:
+def test_defaults_lie_within_their_limits_and_have_a_source(mode):
     inputs = inputs_of(mode)
 
     def check(row: Input) -> None:
@@ -77,7 +76,7 @@ def dimension(unit: str) -> str:
 
 
 @each_mode
-def test_properties_have_the_dimension_of_their_record(mode: str) -> None:
+def test_properties_have_the_dimension_of_their_record(mode):
     inputs = inputs_of(mode)
 
     def check(row: Input) -> None:
@@ -88,15 +87,13 @@ def test_properties_have_the_dimension_of_their_record(mode: str) -> None:
 
 
 @each_mode
-def test_every_intermediate_result_is_used(mode: str) -> None:
+def test_every_intermediate_result_is_used(mode):
     table = table_for(mode)
     used = {name for row in table.outputs for name in table.ancestors(row.name)} | {"state_rates"}  # of the simulator
     assert {row.name for row in table.outputs if row.hidden} <= used
 
 
-def test_the_default_compression_module_satisfies_every_rule(
-    squeezed_model: DeviceFunctions, squeezed_switch: Cycle
-) -> None:
+def test_the_default_compression_module_satisfies_every_rule(squeezed_model, squeezed_switch):
     values = squeezed_model.values(squeezed_model.start, squeezed_switch.values)
     for row in table_for("compression").outputs:
         for rule in row.rules:
@@ -104,7 +101,7 @@ def test_the_default_compression_module_satisfies_every_rule(
             assert value <= rule.value if rule.sense == "<=" else value >= rule.value, row.name
 
 
-def test_every_feature_is_a_choice_that_has_the_word_for_none() -> None:
+def test_every_feature_is_a_choice_that_has_the_word_for_none():
     requires = {feature for row in TABLE.quantities for feature in row.requires}
     wanted = {"cover", "preload_adjuster", "motor", "encoder", "cold_side", "impedance_targets"}
     assert {feature.choice for feature in requires} >= wanted
@@ -119,7 +116,7 @@ WITHOUT = {"glass": {"pcl_grade": "pla"}, "rigid": {"peltier_module": "ma10_063_
 
 
 @each_mode
-def test_an_input_of_a_lacking_feature_is_refused(mode: str) -> None:
+def test_an_input_of_a_lacking_feature_is_refused(mode):
     table, study = table_for(mode), read_study_text(f"mode: {mode}\n", "a test")
 
     def check(name: str) -> None:
@@ -135,7 +132,7 @@ def test_an_input_of_a_lacking_feature_is_refused(mode: str) -> None:
     of_every([row.name for row in (*table.choices, *table.inputs) if row.requires], check)
 
 
-def test_refused_inputs_and_lacking_features_have_words_and_defaults() -> None:
+def test_refused_inputs_and_lacking_features_have_words_and_defaults():
     study = read_study_text("mode: shear\nmodule:\n  cover_thickness: 2 mm\n", "a test")
     with pytest.raises(InputError, match="add `cover: plate` under `module`"):
         refuse_impossible(study)
@@ -158,7 +155,7 @@ def test_refused_inputs_and_lacking_features_have_words_and_defaults() -> None:
 
 
 @each_mode
-def test_rules_hold_exactly_where_the_module_has_their_features(mode: str) -> None:
+def test_rules_hold_exactly_where_the_module_has_their_features(mode):
     table, study = table_for(mode), read_study_text(f"mode: {mode}\n", "a test")
     chosen = given(study)
     features = {feature for row in table.outputs if row.rules for feature in row.requires}
@@ -198,7 +195,7 @@ def algebraic(table: Table) -> list[str]:
 
 
 @pytest.mark.parametrize("case", MODULES)
-def test_floats_and_symbols_give_the_same_outputs(case: str) -> None:
+def test_floats_and_symbols_give_the_same_outputs(case):
     mode, module = MODULES[case]
     table = table_for(mode)
     model = DeviceFunctions(table, inputs_of(mode, **module), POINTS, 4)
@@ -217,7 +214,7 @@ def small_model() -> DeviceFunctions:
 
 @settings(max_examples=5, deadline=None)
 @drawn(seed=st.integers(0, 2**31))
-def test_arrays_and_symbols_give_the_same_outputs(seed: int, small_model: DeviceFunctions) -> None:
+def test_arrays_and_symbols_give_the_same_outputs(seed, small_model):
     random, model = np.random.default_rng(seed), small_model
     factors = random.uniform(0.97, 1.03, (len(model.names), 3))
     factors[model.index["rotor_cells"]] = 1.0
@@ -240,7 +237,7 @@ TABLES = [table_for(mode) for mode in ("shear", "compression")]
 INPUTS = {row.name: row for table in TABLES for row in table.inputs}
 
 
-def test_defaults_have_ranges_as_data_and_choices_a_reason() -> None:
+def test_defaults_have_ranges_as_data_and_choices_a_reason():
     def check(item: tuple[str, dict[str, object]]) -> None:
         name, entry = item
         if entry.get("status") == "assumed":
@@ -252,7 +249,7 @@ def test_defaults_have_ranges_as_data_and_choices_a_reason() -> None:
     of_every(ENTRIES, check)
 
 
-def test_what_surrounds_a_module_is_not_chosen() -> None:
+def test_what_surrounds_a_module_is_not_chosen():
     # Air, contacts, friction and a supply are not drawn: their ranges are what a result depends on.
     for name in ("ambient_temperature", "surface_emissivity", "adjuster_friction"):
         row = INPUTS[name]
@@ -264,7 +261,7 @@ def test_what_surrounds_a_module_is_not_chosen() -> None:
         assert handbook.entry(name).low < handbook.entry(name).value < handbook.entry(name).high, name
 
 
-def test_defaults_lie_within_ranges_that_are_read_in_their_unit() -> None:
+def test_defaults_lie_within_ranges_that_are_read_in_their_unit():
     def check(row: Input) -> None:
         if row.low is None or row.high is None:
             return
@@ -273,14 +270,14 @@ def test_defaults_lie_within_ranges_that_are_read_in_their_unit() -> None:
     of_every(list(INPUTS.values()), check)
 
 
-def test_a_viscosity_moves_by_the_record_s_range_alone() -> None:
+def test_a_viscosity_moves_by_the_record_s_range_alone():
     factor = INPUTS["melt_viscosity_factor"]
     assert (factor.low, factor.high, factor.range_of) == (None, None, None)
     assert INPUTS["pcl_zero_shear_viscosity"].record == ("pcl_grade", "zero_shear_viscosity")
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_rules_and_headlines_are_those_of_the_table(mode: str) -> None:
+def test_rules_and_headlines_are_those_of_the_table(mode):
     for output in table_for(mode).outputs:
         for rule in output.rules:
             if rule.exists_above is not None:

@@ -74,7 +74,7 @@ def order_of(errors: list[float]) -> list[float]:
     return [float(np.log2(error / other)) for error, other in pairwise(errors)]
 
 
-def test_the_coefficients_keep_the_conditions_of_third_order() -> None:
+def test_the_coefficients_keep_the_conditions_of_third_order():
     weights = TABLEAU[-1]
     assert weights.sum() == pytest.approx(1.0, abs=1e-14)
     assert weights @ TIMES == pytest.approx(1.0 / 2.0, abs=1e-14)
@@ -82,7 +82,7 @@ def test_the_coefficients_keep_the_conditions_of_third_order() -> None:
     assert weights @ TABLEAU @ TIMES == pytest.approx(1.0 / 6.0, abs=1e-14)
 
 
-def test_a_linear_system_is_solved_to_third_order(linear: Motion) -> None:
+def test_a_linear_system_is_solved_to_third_order(linear):
     k, y, end = np.array([0.3, -0.2, 1.0]), np.array([1.0, 2.0, -0.5]), 2.0
     still = -np.linalg.solve(MATRIX, k)
     expected = still + expm(MATRIX * end) @ (y - still)
@@ -93,7 +93,7 @@ def test_a_linear_system_is_solved_to_third_order(linear: Motion) -> None:
     assert order_of(errors) == pytest.approx([3.0, 3.0], abs=0.15)
 
 
-def test_a_current_that_changes_in_time_leaves_third_order() -> None:
+def test_a_current_that_changes_in_time_leaves_third_order():
     # dy/dt = -2 y + u, u = sin(3 t): y = (2 sin 3t - 3 cos 3t + 3 exp(-2t)) / 13 from zero.
     motion, end = motion_of(lambda y, u, _: -2.0 * y + u, 1, 0), 1.7
     expected = (2.0 * np.sin(3.0 * end) - 3.0 * np.cos(3.0 * end) + 3.0 * np.exp(-2.0 * end)) / 13.0
@@ -104,7 +104,7 @@ def test_a_current_that_changes_in_time_leaves_third_order() -> None:
     assert order_of(errors) == pytest.approx([3.0, 3.0], abs=0.15)
 
 
-def test_a_row_without_mass_is_an_equation_and_keeps_third_order(algebraic: Motion) -> None:
+def test_a_row_without_mass_is_an_equation_and_keeps_third_order(algebraic):
     k, end, errors = np.array([0.8]), 3.0, []
     for count in (16, 32, 64):
         a, b = stepped(algebraic, np.array([2.0, 0.8 * 4.0]), np.full(count, end / count), k)
@@ -114,19 +114,19 @@ def test_a_row_without_mass_is_an_equation_and_keeps_third_order(algebraic: Moti
     assert order_of(errors) == pytest.approx([3.0, 3.0], abs=0.35)
 
 
-def test_an_algebraic_row_finds_its_value_from_anywhere_near(algebraic: Motion) -> None:
+def test_an_algebraic_row_finds_its_value_from_anywhere_near(algebraic):
     lengths = np.full(32, 0.05)
     right, wrong = (stepped(algebraic, np.array([2.0, b]), lengths, np.array([0.8])) for b in (3.2, 2.5))
     assert wrong == pytest.approx(right, rel=1e-8)
 
 
-def test_a_row_that_is_stiff_does_not_ring() -> None:
+def test_a_row_that_is_stiff_does_not_ring():
     motion = motion_of(lambda y, _, k: -k * (y - 1.0), 1, 1)
     assert stepped(motion, np.array([5.0]), np.ones(1), np.array([1e9])) == pytest.approx([1.0], abs=1e-7)
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-def test_sensitivities_of_a_linear_system_are_those_of_its_solution(linear: Motion, seed: int) -> None:
+def test_sensitivities_of_a_linear_system_are_those_of_its_solution(linear, seed):
     # The method is linear in start, constants and current: so its own slopes are its values from one of each.
     generator = np.random.default_rng(seed)
     s, dk, of_current = generator.normal(size=(3, 2)), generator.normal(size=(3, 2)), generator.normal(size=2)
@@ -138,7 +138,7 @@ def test_sensitivities_of_a_linear_system_are_those_of_its_solution(linear: Moti
     assert state == pytest.approx(stepped(linear, y, lengths, k, np.cos), rel=1e-12)
 
 
-def test_sensitivities_along_directions_are_differences_of_the_steps(pendulum: Motion) -> None:
+def test_sensitivities_along_directions_are_differences_of_the_steps(pendulum):
     y, k, lengths = np.array([1.0, 0.2]), np.array([2.0, 0.1]), np.full(10, 0.13)
     along = {"y": np.array([[1.0, 0.0, 0.3], [0.0, 0.0, -1.0]]), "k": np.array([[0.0, 0.5, 1.0], [0.0, 1.0, 0.2]])}
     of_current = np.array([0.0, 0.7, -0.4])
@@ -161,7 +161,7 @@ def differences(function: Callable[[float], Array], by: float = 4e-3) -> Array:
     return np.asarray((8.0 * near - far) / (12.0 * by))
 
 
-def test_sensitivities_along_the_lengths_of_steps(pendulum: Motion) -> None:
+def test_sensitivities_along_the_lengths_of_steps(pendulum):
     y, k, lengths = np.array([1.0, 0.2]), np.array([2.0, 0.1]), np.array([0.1, 0.3, 0.2, 0.15])
     of_lengths = np.array([[0.0, 0.1], [0.0, 0.3], [0.0, 0.2], [1.0, 0.15]])
     _, slopes = with_slopes(
@@ -177,7 +177,7 @@ def one_error(motion: Motion, y: Array, h: float, k: Array) -> float:
     return float(step_error(motion.system, v, y.copy(), 0.0, 0.0, h, np.zeros(y.size)))
 
 
-def test_a_step_s_error_falls_with_the_third_power_and_is_exact_below(pendulum: Motion) -> None:
+def test_a_step_s_error_falls_with_the_third_power_and_is_exact_below(pendulum):
     y, k = np.array([1.0, 0.2]), np.array([2.0, 0.1])
     errors = [one_error(pendulum, y, h, k) for h in (0.08, 0.04, 0.02)]
     assert order_of(errors) == pytest.approx([3.0, 3.0], abs=0.15)
@@ -189,7 +189,7 @@ def test_a_step_s_error_falls_with_the_third_power_and_is_exact_below(pendulum: 
     assert bent > 1e-3
 
 
-def test_a_step_takes_the_length_its_error_allows_and_proposes_the_next(pendulum: Motion) -> None:
+def test_a_step_takes_the_length_its_error_allows_and_proposes_the_next(pendulum):
     k, tolerance = np.array([2.0, 0.1]), 1e-4
     _, _, v = pendulum.registers(k, np.zeros((2, 0)))
     for wished in (1e-3, 0.05, 3.0, 50.0):
@@ -202,7 +202,7 @@ def test_a_step_takes_the_length_its_error_allows_and_proposes_the_next(pendulum
         assert y == pytest.approx(stepped(pendulum, np.array([1.0, 0.2]), np.array([length]), k), abs=1e-9)
 
 
-def test_adapted_steps_come_as_near_to_a_solution_as_requested(linear: Motion) -> None:
+def test_adapted_steps_come_as_near_to_a_solution_as_requested(linear):
     k, end, counts, errors = np.zeros(3), 2.0, [], []
     begin = np.array([1.0, 2.0, -0.5])
     expected = expm(MATRIX * end) @ begin
@@ -220,7 +220,7 @@ def test_adapted_steps_come_as_near_to_a_solution_as_requested(linear: Motion) -
     assert errors[2] < 1e-5
 
 
-def test_a_current_that_rises_over_a_step_is_met_at_each_stage() -> None:
+def test_a_current_that_rises_over_a_step_is_met_at_each_stage():
     motion = motion_of(lambda _, u, k: k * u, 1, 1)
     _, _, v = motion.registers(np.ones(1), np.zeros((1, 0)))
     y = np.zeros(1)
@@ -229,7 +229,7 @@ def test_a_current_that_rises_over_a_step_is_met_at_each_stage() -> None:
     assert y == pytest.approx([0.5 + 2.0 * 0.25], rel=1e-12)
 
 
-def test_what_has_no_rate_is_not_stepped_and_the_state_stays() -> None:
+def test_what_has_no_rate_is_not_stepped_and_the_state_stays():
     motion = motion_of(lambda y, _, k: k * ca.sqrt(y), 1, 1)
     _, _, v = motion.registers(np.ones(1), np.zeros((1, 0)))
     y = np.array([-1.0])
@@ -242,7 +242,7 @@ def test_what_has_no_rate_is_not_stepped_and_the_state_stays() -> None:
     assert not good
 
 
-def test_steps_end_before_the_one_that_fails() -> None:
+def test_steps_end_before_the_one_that_fails():
     # Below a half there is no rate.
     motion = motion_of(lambda y, _, k: -k * (1.0 + ca.sqrt(y - 0.5)), 1, 1)
     states, tangents = np.empty((9, 1)), np.empty((9, 1, 0))

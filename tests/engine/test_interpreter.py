@@ -1,7 +1,6 @@
 """Tapes are recorded, interpreted and differentiated as CasADi does."""
 
 import math
-from pathlib import Path
 from typing import Any
 
 import casadi as ca
@@ -56,14 +55,14 @@ def bits(value: float) -> int:
     return int(np.array(math.nan if math.isnan(value) else value).view(np.int64))
 
 
-def test_every_operation_is_known_to_the_tape_by_its_number() -> None:
+def test_every_operation_is_known_to_the_tape_by_its_number():
     assert len(NAMES) == 44
     for name, (tape, *_) in MADE.items():
         assert tape.code.groups[:, 0].tolist() == [getattr(interpreter, name), 0], name
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_value_at_the_edges_is_that_of_casadi_to_the_last_bit(name: str) -> None:
+def test_a_value_at_the_edges_is_that_of_casadi_to_the_last_bit(name):
     tape, value, _ = MADE[name]
     for x in EDGES:
         for y in EDGES:
@@ -73,7 +72,7 @@ def test_a_value_at_the_edges_is_that_of_casadi_to_the_last_bit(name: str) -> No
 @pytest.mark.parametrize("name", NAMES)
 @settings(max_examples=30)
 @given(x=numbers, y=numbers)
-def test_a_value_is_that_of_casadi_to_the_last_bit(name: str, x: float, y: float) -> None:
+def test_a_value_is_that_of_casadi_to_the_last_bit(name, x, y):
     tape, value, _ = MADE[name]
     expected, at = bits(float(value(x, y))), np.array([x, y])
     assert bits(tape.values(at)[0][0]) == expected
@@ -88,7 +87,7 @@ def test_a_value_is_that_of_casadi_to_the_last_bit(name: str, x: float, y: float
 @example(x=-1.5, y=2.0, along=(-1.0, 2.0))
 @example(x=2.5, y=-0.5, along=(1.0, 0.0))
 @example(x=1e-05, y=1e-05, along=(2.991171371580771, 2.991171371580771))
-def test_tangents_are_those_of_casadi(name: str, x: float, y: float, along: tuple[float, float]) -> None:
+def test_tangents_are_those_of_casadi(name, x, y, along):
     tape, value, slope = MADE[name]
     directions = np.array([[along[0], 1.0], [along[1], -1.0]])
     expected = np.array([float(slope(x, y, column)) for column in directions.T])
@@ -104,7 +103,7 @@ def test_tangents_are_those_of_casadi(name: str, x: float, y: float, along: tupl
 @pytest.mark.parametrize("exponent", [-1.5, 0.25, 1.0 / 3.0, 1.7, 120.5])
 @settings(max_examples=30)
 @given(x=numbers)
-def test_a_power_with_a_number_as_exponent_is_that_of_casadi(exponent: float, x: float) -> None:
+def test_a_power_with_a_number_as_exponent_is_that_of_casadi(exponent, x):
     base = ca.SX.sym("base")
     value = ca.Function("value", [base], [base**exponent])
     slope = ca.Function("slope", [base], [ca.jacobian(base**exponent, base)])
@@ -116,7 +115,7 @@ def test_a_power_with_a_number_as_exponent_is_that_of_casadi(exponent: float, x:
         assert tangent[0, 0] == pytest.approx(float(slope(x)), rel=1e-12)
 
 
-def test_a_tangent_of_what_is_no_number_is_none() -> None:
+def test_a_tangent_of_what_is_no_number_is_none():
     x = ca.SX.sym("x")
     tape = Tape.of([x], [ca.sqrt(x), ca.log(x), ca.acosh(x)])
     for value, tangent in tape.tangents((np.array([-1.0]),), (np.ones((1, 1)),)):
@@ -124,7 +123,7 @@ def test_a_tangent_of_what_is_no_number_is_none() -> None:
         assert not np.isfinite(tangent[0, 0]) or tangent[0, 0] == -1.0  # a logarithm's slope goes on beyond zero
 
 
-def test_what_an_unused_operand_moves_by_never_comes_in() -> None:
+def test_what_an_unused_operand_moves_by_never_comes_in():
     # A branch that is not taken may be no number, and so may its tangent.
     x = ca.SX.sym("x")
     tape = Tape.of([x], [ca.if_else(x > 0.0, x, ca.sqrt(x))])
@@ -158,9 +157,7 @@ def operations(tape: Tape) -> int:
 
 @settings(max_examples=200)
 @given(taken=steps, at=st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3))
-def test_registers_that_are_used_again_never_lose_what_is_still_read(
-    taken: list[tuple[int, int, int]], at: list[float]
-) -> None:
+def test_registers_that_are_used_again_never_lose_what_is_still_read(taken, at):
     x, many, single = grown(taken)
     tape, function = Tape.of([x], [many, single]), ca.Function("f", [x], [many, single])
     expected = [np.asarray(ca.densify(part)).ravel() for part in function(at)]
@@ -173,7 +170,7 @@ def test_registers_that_are_used_again_never_lose_what_is_still_read(
 
 
 @given(taken=steps, at=st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3), first=st.integers(1, 2))
-def test_a_tape_in_two_parts_is_the_whole(taken: list[tuple[int, int, int]], at: list[float], first: int) -> None:
+def test_a_tape_in_two_parts_is_the_whole(taken, at, first):
     x, many, single = grown(taken)
     arguments = ca.SX.sym("y", first), ca.SX.sym("k", 3 - first)
     values = ca.substitute(ca.vertcat(many, single), x, ca.vertcat(*arguments))
@@ -188,7 +185,7 @@ def test_a_tape_in_two_parts_is_the_whole(taken: list[tuple[int, int, int]], at:
 
 
 @given(taken=steps)
-def test_no_operation_writes_where_its_own_group_reads(taken: list[tuple[int, int, int]]) -> None:
+def test_no_operation_writes_where_its_own_group_reads(taken):
     x, many, single = grown(taken)
     code = Tape.of([x], [many, single]).code
     for (_, start), (_, end) in zip(code.groups[:-1], code.groups[1:], strict=True):
@@ -197,7 +194,7 @@ def test_no_operation_writes_where_its_own_group_reads(taken: list[tuple[int, in
         assert not set(written) & {*code.first[start:end].tolist(), *code.second[start:end].tolist()}
 
 
-def test_a_long_chain_needs_few_registers() -> None:
+def test_a_long_chain_needs_few_registers():
     x = ca.SX.sym("x", 2)
     value = x[0]
     for _ in range(500):
@@ -207,7 +204,7 @@ def test_a_long_chain_needs_few_registers() -> None:
     assert tape.registers.size <= 2 + 4
 
 
-def test_what_is_written_twice_is_computed_once() -> None:
+def test_what_is_written_twice_is_computed_once():
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     twice = ca.exp(x * y) + ca.exp(y * x) * ca.sin(x + y) - ca.sin(y + x)
     tape = Tape.of([x, y], [twice, ca.exp(x * y)])
@@ -218,14 +215,14 @@ def test_what_is_written_twice_is_computed_once() -> None:
     assert values[1][0] == pytest.approx(np.exp(0.27), rel=1e-15)
 
 
-def test_operands_that_may_not_change_places_are_not_taken_for_the_same() -> None:
+def test_operands_that_may_not_change_places_are_not_taken_for_the_same():
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     tape = Tape.of([x, y], [x - y, y - x, x / y, y / x])
     assert operations(tape) == 4
     assert [float(part[0]) for part in tape.values(np.array([3.0]), np.array([2.0]))] == [1.0, -1.0, 1.5, 2.0 / 3.0]
 
 
-def test_results_may_be_arguments_constants_or_empty_and_have_zeros() -> None:
+def test_results_may_be_arguments_constants_or_empty_and_have_zeros():
     x = ca.SX.sym("x", 2)
     sparse = ca.diag(x)
     tape = Tape.of([x], [x, ca.SX(4.0), ca.SX(0, 1), sparse])
@@ -238,7 +235,7 @@ def test_results_may_be_arguments_constants_or_empty_and_have_zeros() -> None:
     assert of_number.tolist() == [[0.0, 0.0]]
 
 
-def test_a_run_leaves_nothing_to_the_next() -> None:
+def test_a_run_leaves_nothing_to_the_next():
     x = ca.SX.sym("x", 2)
     tape = Tape.of([x], [ca.sqrt(x[0]) * x[1], 3.0 * x[1]])
     first = [part.tolist() for part in tape.values(np.array([4.0, 5.0]))]
@@ -247,16 +244,14 @@ def test_a_run_leaves_nothing_to_the_next() -> None:
     assert [part.tolist() for part in tape.values(np.array([4.0, 5.0]))] == first == [[10.0], [15.0]]
 
 
-def test_unknown_operations_are_refused_or_give_no_number() -> None:
+def test_unknown_operations_are_refused_or_give_no_number():
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     with pytest.raises(ValueError, match=rf"operation {ca.OP_FMOD} is not known"):
         Tape.of([x, y], [ca.fmod(x, y) + 1.0])
     assert np.isnan(interpreter.slopes_of(90, 1.0, 2.0)[0])
 
 
-def test_a_stored_tape_computes_to_the_bit_what_the_recorded_one_does(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_a_stored_tape_computes_to_the_bit_what_the_recorded_one_does(monkeypatch, tmp_path):
     x = ca.SX.sym("x", 3)
     value = x[0]
     for k in range(tape_module.LONG):

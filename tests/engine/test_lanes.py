@@ -34,21 +34,21 @@ def _columns(function: Callable[[object], object], places: Array) -> Array:
     ("name", "low", "high"),
     [("exp", -708.0, 709.0), ("exp", -1.0, 1.0), ("log", 1e-300, 1e300), ("log", 0.5, 2.0), ("log1p", -0.9, 3.0)],
 )
-def test_functions_are_right_over_their_whole_range(name: str, low: float, high: float) -> None:
+def test_functions_are_right_over_their_whole_range(name, low, high):
     random = np.random.default_rng(1)
     places = random.uniform(low, high, 20_000) if high < 1e3 else 10.0 ** random.uniform(-300.0, 300.0, 20_000)
     exact = getattr(np, name)(places.astype(np.longdouble))
     assert np.max(np.abs(_columns(getattr(ca, name), places) / exact - 1.0)) < 1e-15
 
 
-def test_powers_are_right_where_their_logarithms_are_small() -> None:
+def test_powers_are_right_where_their_logarithms_are_small():
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     given = np.random.default_rng(2).uniform(0.2, 4.0, (2, 5_000))
     powers = Kernel(ca.Function("f", [x, y], [x**y]))(given)[0]
     assert np.max(np.abs(powers / given[0].astype(np.longdouble) ** given[1] - 1.0)) < 3e-15
 
 
-def test_quotients_that_share_a_divisor_may_be_products() -> None:
+def test_quotients_that_share_a_divisor_may_be_products():
     x = ca.SX.sym("x", 3)
     results = [ca.vertcat(x[0] / x[2], x[1] / x[2], x[0] / x[1]), x[2]]
     plain, inverses = Tape.of([x], results), Tape.of([x], results, inverses=True)
@@ -58,7 +58,7 @@ def test_quotients_that_share_a_divisor_may_be_products() -> None:
     assert inverses.code.to.size == plain.code.to.size + 1
 
 
-def test_elimination_solves_what_numpy_solves() -> None:
+def test_elimination_solves_what_numpy_solves():
     # An arrow about a chain, as the heat equation has it.
     random = np.random.default_rng(3)
     matrix = np.diag(random.uniform(4.0, 5.0, 8)) + np.diag(random.uniform(-1, 1, 7), 1) + np.diag(np.ones(7), -1)
@@ -96,7 +96,7 @@ def _marched(motion: Motion, rates: Array, steps: int, scales: Array) -> tuple[A
     return states, room, given
 
 
-def test_steps_are_of_second_order_each_as_long_as_asked(cooling: tuple[Motion, Tape]) -> None:
+def test_steps_are_of_second_order_each_as_long_as_asked(cooling):
     rates, scales = np.linspace(0.5, 3.0, COUNT), np.linspace(0.4, 1.2, COUNT)
     errors = []
     for steps in (20, 40):
@@ -108,7 +108,7 @@ def test_steps_are_of_second_order_each_as_long_as_asked(cooling: tuple[Motion, 
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
 
 
-def test_what_is_passed_is_found_where_it_is(cooling: tuple[Motion, Tape]) -> None:
+def test_what_is_passed_is_found_where_it_is(cooling):
     motion, gap = cooling
     rates, steps, scales = np.linspace(0.5, 3.0, COUNT), 40, np.ones(COUNT)
     states, room, given = _marched(motion, rates, steps, scales)
@@ -132,7 +132,7 @@ def test_what_is_passed_is_found_where_it_is(cooling: tuple[Motion, Tape]) -> No
     assert np.all(np.isnan(ends[:, ~passed]))
 
 
-def test_what_stays_is_found_with_its_current(cooling: tuple[Motion, Tape]) -> None:
+def test_what_stays_is_found_with_its_current(cooling):
     motion, gap = cooling
     rates = np.linspace(0.5, 3.0, COUNT)
     room, w, where = (lanes.Room(motion), lanes.lanes_of(gap), (np.array([3, 4]), np.array([np.zeros(COUNT), rates])))
@@ -177,14 +177,14 @@ def factored(case: Case) -> tuple[Pattern, Array]:
 
 
 @given(case=cases())
-def test_one_compiled_program_takes_every_pattern(case: Case) -> None:
+def test_one_compiled_program_takes_every_pattern(case):
     usual, _, _ = pattern_of(2, np.array([0]), np.array([1]))
     pattern, _, _ = pattern_of(len(case.matrix), case.rows, case.columns)
     assert numba.typeof(pattern) == numba.typeof(usual)
 
 
 @given(case=cases(), lanes=st.integers(0, 5), seed=st.integers(0, 2**32 - 1))
-def test_solutions_are_numpys(case: Case, lanes: int, seed: int) -> None:
+def test_solutions_are_numpys(case, lanes, seed):
     pattern, w = factored(case)
     right = np.random.default_rng(seed).uniform(-3.0, 3.0, (len(case.matrix), lanes + 1))
     expected = np.linalg.solve(case.matrix, right)
@@ -197,7 +197,7 @@ def test_solutions_are_numpys(case: Case, lanes: int, seed: int) -> None:
     assert single == pytest.approx(many[:, 0], rel=1e-12, abs=1e-14)
 
 
-def test_arrows_and_chains_are_eliminated_without_fill_in() -> None:
+def test_arrows_and_chains_are_eliminated_without_fill_in():
     size = 30
     tips = np.arange(1, size)
     nothing = np.zeros(size - 1, np.int64)
@@ -210,7 +210,7 @@ def test_arrows_and_chains_are_eliminated_without_fill_in() -> None:
     assert pattern.size == 3 * size - 2
 
 
-def test_a_matrix_without_a_pivot_gives_no_number() -> None:
+def test_a_matrix_without_a_pivot_gives_no_number():
     pattern, entries, diagonal = pattern_of(2, np.array([0, 1]), np.array([1, 0]))
     w = np.zeros(pattern.size)
     w[entries] = 1.0

@@ -3,15 +3,13 @@
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import axe_playwright_python
 import pytest
 from explored import SMALL, small_study
 from opened_page import Opened
-from playwright.sync_api import Browser
-from served_explorer import Explorer, Served, exploring
+from served_explorer import Served, exploring
 from support import environment
 
 WANTED = "minimize: {response_time: 1, module_mass: 1}"
@@ -28,7 +26,7 @@ def run(study: Path, out: Path) -> None:
 
 
 @pytest.mark.gate
-def test_dragging_a_requirement_moves_the_optimum(explorer: Explorer) -> None:
+def test_dragging_a_requirement_moves_the_optimum(explorer):
     page, power = explorer.page, explorer.knob("peak_power <=")
     current = explorer.knob("current").get_by_role("textbox").first
     before, number = current.input_value(), explorer.number
@@ -43,7 +41,7 @@ def test_dragging_a_requirement_moves_the_optimum(explorer: Explorer) -> None:
 
 
 @pytest.mark.gate
-def test_an_input_is_found_by_a_word_and_its_group_opens(explorer: Explorer) -> None:
+def test_an_input_is_found_by_a_word_and_its_group_opens(explorer):
     page = explorer.page
     page.get_by_role("searchbox", name="Search inputs and choices").fill("ambient")
     rows = page.locator(".inputs .knob:visible")
@@ -54,7 +52,7 @@ def test_an_input_is_found_by_a_word_and_its_group_opens(explorer: Explorer) -> 
 
 
 @pytest.mark.slow
-def test_a_joint_is_sized_by_the_form_and_undo_goes_back(explorer: Explorer) -> None:
+def test_a_joint_is_sized_by_the_form_and_undo_goes_back(explorer):
     page = explorer.page
     page.get_by_text("Size a joint from a few numbers").click()
     page.get_by_label("Largest diameter").fill("70")
@@ -75,7 +73,7 @@ def test_a_joint_is_sized_by_the_form_and_undo_goes_back(explorer: Explorer) -> 
 
 
 @pytest.mark.slow
-def test_a_dragged_slider_is_answered_quickly_then_exactly(explorer: Explorer) -> None:
+def test_a_dragged_slider_is_answered_quickly_then_exactly(explorer):
     page, power = explorer.page, explorer.knob("peak_power <=")
     slider, field = power.get_by_role("slider"), power.get_by_role("textbox")
     explorer.answered(0, "exact")
@@ -103,7 +101,7 @@ def test_a_dragged_slider_is_answered_quickly_then_exactly(explorer: Explorer) -
 
 
 @pytest.mark.slow
-def test_nonsense_is_refused_and_undo_goes_back(explorer: Explorer) -> None:
+def test_nonsense_is_refused_and_undo_goes_back(explorer):
     field = explorer.knob("peak_power <=").get_by_role("textbox")
     field.fill("ten wats")
     field.press("Enter")
@@ -123,7 +121,7 @@ def test_nonsense_is_refused_and_undo_goes_back(explorer: Explorer) -> None:
 
 
 @pytest.mark.slow
-def test_a_design_is_pinned_and_a_study_saved_that_run_answers_the_same(explorer: Explorer, served: Served) -> None:
+def test_a_design_is_pinned_and_a_study_saved_that_run_answers_the_same(explorer, served):
     page, number = explorer.page, explorer.number
     page.get_by_role("button", name="Pin", exact=True).click()
     page.get_by_role("columnheader", name="pin 1").wait_for()
@@ -150,9 +148,7 @@ def test_a_design_is_pinned_and_a_study_saved_that_run_answers_the_same(explorer
 
 
 @pytest.mark.slow
-def test_a_browser_that_is_closed_and_opened_again_goes_on_where_it_was(
-    explorer: Explorer, another: Callable[..., Explorer]
-) -> None:
+def test_a_browser_that_is_closed_and_opened_again_goes_on_where_it_was(explorer, another):
     page, number = explorer.page, explorer.number
     field = explorer.knob("peak_power <=").get_by_role("textbox")
     before = field.input_value()
@@ -173,9 +169,7 @@ def test_a_browser_that_is_closed_and_opened_again_goes_on_where_it_was(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("colours", ["light", "dark"])
-def test_a_phone_has_it_all_in_its_width_and_axe_finds_no_serious_fault(
-    another: Callable[..., Explorer], colours: str
-) -> None:
+def test_a_phone_has_it_all_in_its_width_and_axe_finds_no_serious_fault(another, colours):
     page = another(viewport={"width": 360, "height": 740}, color_scheme=colours, bypass_csp=True).page
     page.locator("#report[data-report]").wait_for()
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
@@ -190,7 +184,7 @@ def test_a_phone_has_it_all_in_its_width_and_axe_finds_no_serious_fault(
 
 
 @pytest.mark.slow
-def test_a_cut_connection_comes_back_with_the_same_state(explorer: Explorer, served: Served) -> None:
+def test_a_cut_connection_comes_back_with_the_same_state(explorer, served):
     page = explorer.page
     field = explorer.knob("peak_power <=").get_by_role("textbox")
     number = explorer.number
@@ -207,7 +201,7 @@ def test_a_cut_connection_comes_back_with_the_same_state(explorer: Explorer, ser
 
 
 @pytest.mark.slow
-def test_the_draft_in_3d_follows_a_slider_that_is_held(explorer: Explorer) -> None:
+def test_the_draft_in_3d_follows_a_slider_that_is_held(explorer):
     page, number = explorer.page, explorer.number
     page.get_by_role("button", name="Evaluate").click()
     explorer.answered(number, "exact")
@@ -234,7 +228,7 @@ def test_the_draft_in_3d_follows_a_slider_that_is_held(explorer: Explorer) -> No
 
 
 @pytest.mark.slow
-def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browser: Browser, tmp_path: Path) -> None:
+def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browser, tmp_path):
     study = small_study(tmp_path, SMALL.replace(WANTED, FRONT))
     run(study, tmp_path / "run")
     result = Served(tmp_path / "run", tmp_path / "out")

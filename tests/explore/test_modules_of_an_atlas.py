@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 from explored import SMALL
-from playwright.sync_api import Browser
 from served_explorer import Served, exploring
 
 from tvimdesign.base.errors import InputError
@@ -34,7 +33,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_each_point_is_the_study_of_its_cell(folder: Path) -> None:
+def test_each_point_is_the_study_of_its_cell(folder):
     source = open_source(folder)
     assert [(point["number"], point["status"]) for point in source.points_shown()["points"]] == [
         (1, "foil"),
@@ -47,7 +46,7 @@ def test_each_point_is_the_study_of_its_cell(folder: Path) -> None:
         source.at_point(3, source.first)
 
 
-def test_what_holds_no_module_of_its_mode_is_refused(folder: Path) -> None:
+def test_what_holds_no_module_of_its_mode_is_refused(folder):
     source = open_source(folder)
     (folder / STUDIES / "wax-5Nm-60s.yaml").write_text("mode: compression")
     with pytest.raises(InputError, match="module 2: it is of another mode; explore"):
@@ -58,7 +57,7 @@ def test_what_holds_no_module_of_its_mode_is_refused(folder: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_clicked_module_is_seen_in_3_d(browser: Browser, folder: Path, tmp_path: Path) -> None:
+def test_a_clicked_module_is_seen_in_3_d(browser, folder, tmp_path):
     served = Served(folder, tmp_path / "out")
     served.begin()
     try:

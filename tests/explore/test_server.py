@@ -36,7 +36,7 @@ async def _statuses(study: Path, folder: Path, requests: list[tuple[str, dict[st
         return result
 
 
-def test_only_the_token_opens_the_folder_and_nothing_outside(tmp_path: Path) -> None:
+def test_only_the_token_opens_the_folder_and_nothing_outside(tmp_path):
     outside = [
         f"/{TOKEN}/parts/..%2fexplore.json", f"/{TOKEN}/parts/%2e%2e/explore.json", f"/{TOKEN}/parts/link",
         f"/{TOKEN}/parts//etc/passwd", f"/{TOKEN}/static/page/..%2fpage_file.py", f"/{TOKEN}/static/other/x",
@@ -56,7 +56,7 @@ REFUSED = [
 ]  # fmt: skip
 
 
-def test_what_is_typed_is_refused_in_the_words_of_a_study(tmp_path: Path) -> None:
+def test_what_is_typed_is_refused_in_the_words_of_a_study(tmp_path):
     study = small_study(tmp_path)
 
     async def talk() -> list[dict[str, Any]]:
@@ -86,12 +86,12 @@ _LONG = '{"kind": "pin", "name": "' + "x" * 200_000 + '"}'
     ["no JSON", "{}", '{"kind": "delete"}', '{"kind": "set", "name": "x"}', '{"kind": "pin", "name": 3}',
      '{"kind": "undo", "more": 1}', '{"kind": "unpin", "number": -1}', _LONG],
 )  # fmt: skip
-def test_a_message_of_no_known_form_is_refused(text: str) -> None:
+def test_a_message_of_no_known_form_is_refused(text):
     with pytest.raises(InputError, match="message"):
         read_message(text)
 
 
-def test_sections_and_folders_are_out_of_reach(tmp_path: Path) -> None:
+def test_sections_and_folders_are_out_of_reach(tmp_path):
     async def talk() -> list[str]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             words = []
@@ -109,7 +109,7 @@ def test_sections_and_folders_are_out_of_reach(tmp_path: Path) -> None:
     assert not (tmp_path / "x.yaml").exists()
 
 
-def test_a_catalogue_outside_the_studys_folder_is_refused(tmp_path: Path) -> None:
+def test_a_catalogue_outside_the_studys_folder_is_refused(tmp_path):
     (tmp_path / "records").mkdir()
     (tmp_path / "inner").mkdir()
     study = small_study(tmp_path / "inner", f"catalog: ../records\n{SMALL}")
@@ -117,7 +117,7 @@ def test_a_catalogue_outside_the_studys_folder_is_refused(tmp_path: Path) -> Non
         open_source(study)
 
 
-def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_path: Path) -> None:
+def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_path):
     study, folder = small_study(tmp_path), tmp_path / "out"
 
     async def change() -> list[dict[str, Any]]:
@@ -157,7 +157,7 @@ def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_pa
     assert json.loads((folder / FILE).read_text())["state"]["changes"]["core_radius"] == "9.5 mm"
 
 
-def test_a_folder_of_something_else_and_a_study_that_changed_are_refused(tmp_path: Path) -> None:
+def test_a_folder_of_something_else_and_a_study_that_changed_are_refused(tmp_path):
     study, folder = small_study(tmp_path), tmp_path / "out"
 
     async def opened() -> None:
@@ -175,7 +175,7 @@ def test_a_folder_of_something_else_and_a_study_that_changed_are_refused(tmp_pat
         awaited(opened())
 
 
-def test_overwriting_loses_no_history_where_the_explorer_is_refused(tmp_path: Path) -> None:
+def test_overwriting_loses_no_history_where_the_explorer_is_refused(tmp_path):
     study, folder = small_study(tmp_path), tmp_path / "out"
 
     async def change() -> None:
@@ -193,7 +193,7 @@ def test_overwriting_loses_no_history_where_the_explorer_is_refused(tmp_path: Pa
     assert (folder / FILE).read_text() == '{"name": "an application"}'
 
 
-def test_a_history_that_somebody_changed_meanwhile_is_kept_beside(tmp_path: Path) -> None:
+def test_a_history_that_somebody_changed_meanwhile_is_kept_beside(tmp_path):
     opened = open_source(small_study(tmp_path))
     out = tmp_path / "out"
     out.mkdir()
@@ -206,7 +206,7 @@ def test_a_history_that_somebody_changed_meanwhile_is_kept_beside(tmp_path: Path
     assert json.loads((out / FILE).read_text())["study"] == stored.study
 
 
-def test_a_study_that_is_saved_replaces_only_what_was_saved_before(tmp_path: Path) -> None:
+def test_a_study_that_is_saved_replaces_only_what_was_saved_before(tmp_path):
     study, folder = small_study(tmp_path), tmp_path / "out"
 
     async def save() -> list[str]:
@@ -231,7 +231,7 @@ def _input(state: dict[str, Any], name: str) -> str:
     return str(next(item["text"] for item in state["controls"]["inputs"] if item["name"] == name))
 
 
-def test_a_server_that_ends_does_not_wait_for_the_pages_that_are_open(tmp_path: Path) -> None:
+def test_a_server_that_ends_does_not_wait_for_the_pages_that_are_open(tmp_path):
     async def ended() -> tuple[float, WSMsgType]:
         server = TestServer(Server(small_study(tmp_path), tmp_path / "out", token=TOKEN).app(), host="127.0.0.1")
         await server.start_server()
@@ -289,7 +289,7 @@ async def _first_line(port: int, request: bytes) -> bytes:
     return line
 
 
-def test_malformed_requests_are_refused_in_silence(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_malformed_requests_are_refused_in_silence(tmp_path, caplog):
     async def ask() -> dict[str, bytes]:
         async with served(small_study(tmp_path), tmp_path / "out") as (_, client):
             result = {name: await _first_line(client.port or 0, request) for name, request in MALFORMED.items()}
@@ -303,7 +303,7 @@ def test_malformed_requests_are_refused_in_silence(tmp_path: Path, caplog: pytes
     assert [record.getMessage() for record in caplog.records] == []
 
 
-def test_pages_that_vanish_leave_no_word(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_pages_that_vanish_leave_no_word(tmp_path, caplog):
     key = b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ=="
     opened = _request(f"/{TOKEN}/socket", *UPGRADE, key)
     frames = (b"", 40 * b"\xff", b"\x81\xfe", b"\x88\x00")
@@ -324,9 +324,7 @@ def test_pages_that_vanish_leave_no_word(tmp_path: Path, caplog: pytest.LogCaptu
     assert [record.getMessage() for record in caplog.records] == []
 
 
-def test_a_fault_of_the_program_is_logged(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_a_fault_of_the_program_is_logged(tmp_path, monkeypatch, caplog):
     def fault(_: str) -> str:
         raise ValueError("a fault")
 

@@ -5,7 +5,6 @@ import json
 import os
 import signal
 from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -24,7 +23,7 @@ from tvimdesign.study.tree import tree_of_file
 
 
 @pytest.mark.gate
-def test_the_newest_state_of_a_drag_is_answered(tmp_path: Path) -> None:
+def test_the_newest_state_of_a_drag_is_answered(tmp_path):
     async def drag() -> tuple[list[dict[str, Any]], dict[str, Any], dict[str, Any]]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             first = await page.answer("quick")
@@ -47,7 +46,7 @@ def test_the_newest_state_of_a_drag_is_answered(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_an_impossible_module_has_a_reason_in_place_of_a_draft(tmp_path: Path) -> None:
+def test_an_impossible_module_has_a_reason_in_place_of_a_draft(tmp_path):
     async def dragged() -> list[dict[str, Any]]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             await page.send(kind="way", way="evaluate")
@@ -68,7 +67,7 @@ def test_an_impossible_module_has_a_reason_in_place_of_a_draft(tmp_path: Path) -
 
 
 @pytest.mark.slow
-def test_the_exact_answer_is_the_one_of_run_and_comes_with_the_report(tmp_path: Path) -> None:
+def test_the_exact_answer_is_the_one_of_run_and_comes_with_the_report(tmp_path):
     study = small_study(tmp_path)
 
     async def settled() -> dict[str, Any]:
@@ -88,7 +87,7 @@ def test_the_exact_answer_is_the_one_of_run_and_comes_with_the_report(tmp_path: 
 
 
 @pytest.mark.slow
-def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) -> None:
+def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path):
     async def superseded() -> tuple[list[tuple[int, str]], bool]:
         async with (
             served(small_study(tmp_path), tmp_path / "out") as (server, client),
@@ -109,7 +108,7 @@ def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) ->
 
 
 @pytest.mark.slow
-def test_an_infeasible_state_reports_the_conflict(tmp_path: Path) -> None:
+def test_an_infeasible_state_reports_the_conflict(tmp_path):
     async def reply_of() -> dict[str, Any]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             await page.answer("quick")
@@ -126,7 +125,7 @@ def test_an_infeasible_state_reports_the_conflict(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_two_pages_share_a_study_a_design_is_pinned_and_gone_back_to(tmp_path: Path) -> None:
+def test_two_pages_share_a_study_a_design_is_pinned_and_gone_back_to(tmp_path):
     async def pinned() -> tuple[list[dict[str, Any]], dict[str, Any]]:
         async with (
             served(small_study(tmp_path), tmp_path / "out") as (_, client),
@@ -159,7 +158,7 @@ def _current(state: dict[str, Any]) -> str:
 
 
 @pytest.mark.slow
-def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path: Path) -> None:
+def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path):
     async def killed() -> dict[str, Any]:
         async with (
             served(small_study(tmp_path), tmp_path / "out") as (server, client),
@@ -176,7 +175,7 @@ def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path: Pa
 
 
 @pytest.mark.slow
-def test_a_result_is_opened_with_its_own_optimum(tmp_path: Path) -> None:
+def test_a_result_is_opened_with_its_own_optimum(tmp_path):
     result = shipped_answer("paper_shear").design
     write_design(result, tmp_path / "design.json")
     source = open_source(tmp_path)
@@ -189,7 +188,7 @@ def test_a_result_is_opened_with_its_own_optimum(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_quick_evaluation_is_the_exact_one_to_two_thousandths(tmp_path: Path) -> None:
+def test_a_quick_evaluation_is_the_exact_one_to_two_thousandths(tmp_path):
     source = open_source(small_study(tmp_path))
     engine = Engine(source.tree)
     for thickness in ("0.7 mm", "1 mm", "1.6 mm"):
@@ -214,7 +213,7 @@ class _Counted(WorkerProcess):
         super()._start()
 
 
-def test_a_worker_that_cannot_start_is_tried_again_per_job() -> None:
+def test_a_worker_that_cannot_start_is_tried_again_per_job():
     async def reply_of() -> tuple[list[tuple[int, str]], int]:
         reported: list[tuple[int, str]] = []
         worker = _Counted(
@@ -249,7 +248,7 @@ class _Interrupted(Engine):
         return super().answer(state, stage, progress)
 
 
-def test_a_job_ends_at_the_next_thing_it_says_and_another_is_answered(tmp_path: Path) -> None:
+def test_a_job_ends_at_the_next_thing_it_says_and_another_is_answered(tmp_path):
     source = open_source(small_study(tmp_path))
     engine, written = _Interrupted(source.tree), list[Any]()
     state = json.loads(source.first.model_dump_json())

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 from explored import SMALL, awaited, talking
-from playwright.sync_api import Browser
 from served_explorer import Served, exploring
 from support import sample_text
 
@@ -53,7 +52,7 @@ def _table(folder: Path) -> list[dict[str, str]]:
 
 
 @pytest.mark.gate
-def test_the_page_begins_at_the_best_cell_and_opens_each(swept: Path) -> None:
+def test_the_page_begins_at_the_best_cell_and_opens_each(swept):
     source = open_source(swept)
     rows = _table(swept)
     assert [row["status"] for row in rows] == ["infeasible", "optimal", "optimal"]
@@ -78,7 +77,7 @@ def test_the_page_begins_at_the_best_cell_and_opens_each(swept: Path) -> None:
 
 
 @pytest.mark.gate
-def test_what_is_no_cell_or_no_finished_sweep_is_refused_in_words(swept: Path, tmp_path: Path) -> None:
+def test_what_is_no_cell_or_no_finished_sweep_is_refused_in_words(swept, tmp_path):
     source = open_source(swept)
     with pytest.raises(InputError, match="cell 4: the sweep has the cells 1 to 3"):
         source.at_point(4, source.first)
@@ -101,7 +100,7 @@ def test_what_is_no_cell_or_no_finished_sweep_is_refused_in_words(swept: Path, t
 
 
 @pytest.mark.gate
-def test_a_sweep_of_words_with_records_of_its_own_is_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_sweep_of_words_with_records_of_its_own_is_opened(tmp_path, monkeypatch):
     study = "mode: shear\ncatalog: records\nsolver: {cells: 6}\nsweep: {over: {spring_material: [music_wire, own]}}\n"
     records = tmp_path / "records/spring_materials"
     records.mkdir(parents=True)
@@ -117,7 +116,7 @@ def test_a_sweep_of_words_with_records_of_its_own_is_opened(tmp_path: Path, monk
 
 
 @pytest.mark.gate
-def test_a_page_gets_the_cells_once_and_shows_the_one_it_chooses(swept: Path, tmp_path: Path) -> None:
+def test_a_page_gets_the_cells_once_and_shows_the_one_it_chooses(swept, tmp_path):
     async def chosen() -> tuple[dict[str, Any], dict[str, Any], dict[str, Any], list[dict[str, Any]]]:
         async with talking(swept, tmp_path / "out") as page:
             points = await page.kind("points")
@@ -141,7 +140,7 @@ def test_a_page_gets_the_cells_once_and_shows_the_one_it_chooses(swept: Path, tm
 
 
 @pytest.mark.slow
-def test_a_cell_is_clicked_and_one_is_asked_for_by_its_number(browser: Browser, swept: Path, tmp_path: Path) -> None:
+def test_a_cell_is_clicked_and_one_is_asked_for_by_its_number(browser, swept, tmp_path):
     result = Served(swept, tmp_path / "out")
     result.begin()
     try:
@@ -177,7 +176,7 @@ minimize: {module_mass: 1}
 """
 
 
-def test_controls_have_units_labels_and_groups() -> None:
+def test_controls_have_units_labels_and_groups():
     study = read_study_text(CONTROLLED)
     at = {"pcl_thickness": "0.0012 m", "arc_span": "1.3592 rad"}
     thickness, span = controls_shown(study, study, State(way="optimize", at=at))["variables"]
@@ -194,7 +193,7 @@ def test_controls_have_units_labels_and_groups() -> None:
 
 
 @pytest.mark.parametrize("hardware", ["small", "heavy"])
-def test_a_sized_study_takes_the_place_of_the_one_that_is_open(hardware: str) -> None:
+def test_a_sized_study_takes_the_place_of_the_one_that_is_open(hardware):
     text = study_text(JointTask.read("8 N.m", "1 to 2 N.m/rad", "90 mm", "60 s", "24 V, 3 A"), hardware)
     base = tree_of_text(SMALL, "small.yaml", "small", Path())
     sized, alone = read_tree(tree_of(base, sized_state(base, text))), read_study_text(text)

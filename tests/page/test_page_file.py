@@ -7,7 +7,6 @@ import json
 import random
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import html5lib
 import pytest
@@ -26,7 +25,7 @@ VENDOR = ROOT / "tvimdesign/page/static/vendor"
 
 
 @pytest.mark.gate
-def test_the_page_of_a_run_is_valid_html(report: Path) -> None:
+def test_the_page_of_a_run_is_valid_html(report):
     html5lib.HTMLParser(strict=True).parse(report.read_text("utf-8"))
     names = re.findall(r'\bid="([^"]+)"', report.read_text("utf-8"))
     assert len(names) == len(set(names))
@@ -34,7 +33,7 @@ def test_the_page_of_a_run_is_valid_html(report: Path) -> None:
             "spring", "study", "versions"} <= set(names)  # fmt: skip
 
 
-def test_a_page_is_the_same_bytes_its_text_text_and_its_numbers_numbers() -> None:
+def test_a_page_is_the_same_bytes_its_text_text_and_its_numbers_numbers():
     drawn = Drawn("nasty", "lines.js", NASTY, {"panels": [], "text": NASTY})
     cells = Grid(NASTY, [Head(NASTY)], [[Cell(NASTY)]])
     page = replace(PAGE, title=NASTY, sections=[Section("one", NASTY, [drawn, Folded(NASTY, [cells])])])
@@ -47,7 +46,7 @@ def test_a_page_is_the_same_bytes_its_text_text_and_its_numbers_numbers() -> Non
         page_html(replace(PAGE, first=[Drawn("lines", "lines.js", "Lines", {"x": [float("nan")]})]))
 
 
-def test_a_library_is_there_only_where_a_figure_needs_it() -> None:
+def test_a_library_is_there_only_where_a_figure_needs_it():
     plain = page_html(PAGE)
     curves = page_html(replace(PAGE, first=[Drawn("lines", "lines.js", "Lines", {"panels": []}, b"", ["echarts"])]))
     assert not any("vendor/" in name for name in _code(plain))
@@ -64,7 +63,7 @@ def _code(page: bytes) -> dict[str, str]:
     return code
 
 
-def test_a_page_carries_files_in_their_order_as_far_as_it_has_room() -> None:
+def test_a_page_carries_files_in_their_order_as_far_as_it_has_room():
     large, noise = bytes(1000), random.Random(1).randbytes(3_000_000)
     page = page_html(replace(PAGE, carried={"cad/a.step": large, "cad/b.3mf": noise, "cad/c.pdf": large}))
     assert re.findall(rb'data-file="([^"]+)"', page) == [b"cad/a.step", b"cad/c.pdf"]
@@ -72,7 +71,7 @@ def test_a_page_carries_files_in_their_order_as_far_as_it_has_room() -> None:
     html5lib.HTMLParser(strict=True).parse(page.decode())
 
 
-def test_the_libraries_are_those_that_are_pinned() -> None:
+def test_the_libraries_are_those_that_are_pinned():
     pinned = yaml.safe_load((ROOT / "vendor/packages.yaml").read_text("utf-8"))
     for bundle, names in pinned["bundles"].items():
         code, licence = (VENDOR / f"{bundle}.js").read_bytes(), (VENDOR / f"{bundle}.LICENSE.txt").read_text("utf-8")

@@ -29,7 +29,7 @@ Open = Callable[..., Opened]
 FIGURES = ("cycle", "front", "solids")
 
 
-def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path) -> None:
+def test_it_opens_offline_and_complains_of_nothing(screen, report):
     view = screen
     for name in FIGURES:
         view.figure(name)
@@ -46,7 +46,7 @@ def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path)
         pytest.param("dark", ["color-contrast"], marks=pytest.mark.gate),
     ],
 )
-def test_axe_finds_no_serious_fault(opened: Open, report: Path, colours: str, rules: list[str] | None) -> None:
+def test_axe_finds_no_serious_fault(opened, report, colours, rules):
     view = opened(report, color_scheme=colours, bypass_csp=True)
     for name in FIGURES:
         view.figure(name)
@@ -63,7 +63,7 @@ def test_axe_finds_no_serious_fault(opened: Open, report: Path, colours: str, ru
     assert [(fault["id"], [node["html"][:120] for node in fault["nodes"][:3]]) for fault in serious] == []
 
 
-def test_a_page_is_dark_where_the_reader_is_without_white_slabs(opened: Open, report: Path) -> None:
+def test_a_page_is_dark_where_the_reader_is_without_white_slabs(opened, report):
     def brightness(colours: str) -> int:
         page = opened(report, color_scheme=colours).page
         ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
@@ -81,7 +81,7 @@ def test_a_page_is_dark_where_the_reader_is_without_white_slabs(opened: Open, re
     assert (grey > 235).mean() < 2e-3
 
 
-def test_a_page_fits_a_phone_and_is_read_without_its_code(opened: Open, report: Path) -> None:
+def test_a_page_fits_a_phone_and_is_read_without_its_code(opened, report):
     view = opened(report, viewport={"width": 360, "height": 740})
     for name in FIGURES:
         view.figure(name)
@@ -93,7 +93,7 @@ def test_a_page_fits_a_phone_and_is_read_without_its_code(opened: Open, report: 
 
 
 @pytest.mark.parametrize("size", [(1400, 900), (390, 844)], ids=["desktop", "phone"])
-def test_the_answer_is_seen_without_scrolling(opened: Open, report: Path, size: tuple[int, int]) -> None:
+def test_the_answer_is_seen_without_scrolling(opened, report, size):
     page = opened(report, viewport={"width": size[0], "height": size[1]}).page
     table = page.get_by_role("table", name="Requirements")
     assert table.locator("tbody tr").count() == len(sample_pages.REQUIREMENTS)
@@ -104,7 +104,7 @@ def test_the_answer_is_seen_without_scrolling(opened: Open, report: Path, size: 
         assert 0 <= box["y"] < box["y"] + box["height"] <= size[1]
 
 
-def test_a_page_is_read_in_minutes_and_links_unfold_the_rest(screen: Opened) -> None:
+def test_a_page_is_read_in_minutes_and_links_unfold_the_rest(screen):
     words = "document.body.innerText.split(/\\s+/).length"
     assert screen.page.evaluate(words) < 2500
     assert screen.page.evaluate("document.body.textContent.split(/\\s+/).length") > 10_000
@@ -117,7 +117,7 @@ def test_a_page_is_read_in_minutes_and_links_unfold_the_rest(screen: Opened) -> 
 
 
 @pytest.mark.parametrize("wide", [1400, 390])
-def test_no_table_is_cut_and_hidden_columns_are_named(opened: Open, report: Path, wide: int) -> None:
+def test_no_table_is_cut_and_hidden_columns_are_named(opened, report, wide):
     page = opened(report, viewport={"width": wide, "height": 844}).page
     page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
     cut = "[...document.querySelectorAll('.grid, .listing')].filter((one) => one.scrollHeight > one.clientHeight + 1)"
@@ -133,7 +133,7 @@ def test_no_table_is_cut_and_hidden_columns_are_named(opened: Open, report: Path
         assert hidden.is_visible()
 
 
-def test_it_prints_on_a4_with_its_figures(opened: Open, report: Path, tmp_path: Path) -> None:
+def test_it_prints_on_a4_with_its_figures(opened, report, tmp_path):
     view = opened(report, color_scheme="dark")
     view.page.wait_for_selector("html[data-ready=all]")
     assert [view.page.locator(f"#figure-{name}").get_attribute("data-state") for name in FIGURES] == ["drawn"] * 3
@@ -149,7 +149,7 @@ def test_it_prints_on_a4_with_its_figures(opened: Open, report: Path, tmp_path: 
     assert view.page.evaluate(cut) == 0
 
 
-def test_tables_are_sorted_and_filtered(screen: Opened) -> None:
+def test_tables_are_sorted_and_filtered(screen):
     page = screen.page
     table = page.get_by_role("table", name="Points of the front")
     column = "(one) => [...one.tBodies[0].rows].map((row) => Number(row.cells[1].textContent))"
@@ -173,7 +173,7 @@ def test_tables_are_sorted_and_filtered(screen: Opened) -> None:
     assert "module_mass" in rows.first.inner_text()
 
 
-def test_the_cursor_of_time_moves_by_keys_and_tells_what_is_then(screen: Opened) -> None:
+def test_the_cursor_of_time_moves_by_keys_and_tells_what_is_then(screen):
     figure = screen.figure("cycle")
     assert "softening at 0 s" in figure.locator(".told").inner_text()
     time = figure.get_by_role("slider", name="Time")
@@ -183,7 +183,7 @@ def test_the_cursor_of_time_moves_by_keys_and_tells_what_is_then(screen: Opened)
     assert time.get_attribute("aria-valuetext") == figure.locator(".told").inner_text()
 
 
-def test_a_brush_keeps_the_designs_within(screen: Opened) -> None:
+def test_a_brush_keeps_the_designs_within(screen):
     view = screen
     figure = view.figure("front")
     axes = figure.locator("[role=img]").nth(1)
@@ -209,7 +209,7 @@ def test_a_brush_keeps_the_designs_within(screen: Opened) -> None:
     assert rows.count() == 2
 
 
-def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: Open, tmp_path: Path) -> None:
+def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened, tmp_path):
     data = b"ISO-10303-21;\r\n" + bytes(range(256))
     links = Cell("STEP 3MF", links=[("STEP", "cad/step/housing.step"), ("3MF", "cad/print/housing.3mf")])
     sections = [Section("materials", "Bill of materials", [Grid("Parts", [Head("files")], [[links]])])]
@@ -228,7 +228,7 @@ def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: 
     assert view.page.url == alone.as_uri()
 
 
-def test_the_page_of_a_run_carries_the_files_of_its_parts(report: Path) -> None:
+def test_the_page_of_a_run_carries_the_files_of_its_parts(report):
     carried = re.findall(r'data-file="([^"]+)"', report.read_text("utf-8"))
     assert carried[0] == "cad/step/housing.step"
     assert "cad/step/pcl_arc_1.step" in carried
@@ -241,7 +241,7 @@ sweep: {over: {pcl_thickness: [0.6 mm, 1 mm, 2 mm], current: [1 A, 1.2 A]}}
 """
 
 
-def test_a_sweep_is_drawn_and_its_cells_are_brushed(opened: Callable[..., Opened], tmp_path: Path) -> None:
+def test_a_sweep_is_drawn_and_its_cells_are_brushed(opened, tmp_path):
     study, out = tmp_path / "study.yaml", tmp_path / "out"
     study.write_text(STUDY)
     sweep_plan = plan(study)

@@ -46,7 +46,7 @@ def solids(screen: Opened) -> Iterator[Solids]:
     shown.figure.get_by_role("combobox", name="View").select_option("corner")
 
 
-def test_parts_are_hidden_taken_apart_and_turned(solids: Solids) -> None:
+def test_parts_are_hidden_taken_apart_and_turned(solids):
     before = solids.picture()
     box = solids.figure.get_by_role("checkbox", name="housing", exact=True)
     box.uncheck()
@@ -62,7 +62,7 @@ def test_parts_are_hidden_taken_apart_and_turned(solids: Solids) -> None:
 
 
 @pytest.mark.parametrize(("view", "apart"), [("corner", 0), ("corner", 1), ("top", 0), ("front", 0)])
-def test_the_module_fills_its_picture_and_is_whole_in_it(solids: Solids, view: str, apart: int) -> None:
+def test_the_module_fills_its_picture_and_is_whole_in_it(solids, view, apart):
     solids.slide("Apart", apart)
     solids.figure.get_by_role("combobox", name="View").select_option("below")
     solids.figure.get_by_role("combobox", name="View").select_option(view)
@@ -76,7 +76,7 @@ def test_the_module_fills_its_picture_and_is_whole_in_it(solids: Solids, view: s
     assert max((right - left) / width, (bottom - top) / height) > 0.8
 
 
-def test_parts_are_cut_picked_and_turned_by_keys(solids: Solids) -> None:
+def test_parts_are_cut_picked_and_turned_by_keys(solids):
     before = solids.picture()
     solids.figure.get_by_role("combobox", name="Cut").select_option("y")
     assert solids.part("housing", "outside.clippingPlanes.length") == 1
@@ -100,7 +100,7 @@ def test_parts_are_cut_picked_and_turned_by_keys(solids: Solids) -> None:
     assert len(position) == 3
 
 
-def test_the_rotor_turns_and_winds_the_spring(solids: Solids) -> None:
+def test_the_rotor_turns_and_winds_the_spring(solids):
     vertex = f"geometry.getAttribute('position').getY({2 * RING})"
     resting, held = solids.part("spring_right_1", vertex), "geometry.getAttribute('position').getY(0)"
     tang = solids.part("spring_right_1", held)
@@ -113,7 +113,7 @@ def test_the_rotor_turns_and_winds_the_spring(solids: Solids) -> None:
     assert solids.part("spring_right_1", vertex) == pytest.approx(resting - 0.76 * LEG_MOVED, abs=1e-4)
 
 
-def test_the_layer_has_the_colour_of_its_temperature(solids: Solids) -> None:
+def test_the_layer_has_the_colour_of_its_temperature(solids):
     solids.figure.get_by_role("checkbox", name="Layer by its temperature").check()
     painted = f"{VIEWER}.parts.get('pcl_arc_1').geometry.getAttribute('color')"
     colours = f"Array.from({painted}.array)"
@@ -123,7 +123,7 @@ def test_the_layer_has_the_colour_of_its_temperature(solids: Solids) -> None:
     assert wait_until(lambda: max(solids.view.page.evaluate(colours)[0::3]) > max(cold[0::3]))
 
 
-def test_the_assembly_is_put_together_step_by_step_with_pictures(solids: Solids) -> None:
+def test_the_assembly_is_put_together_step_by_step_with_pictures(solids):
     solids.slide("Assembly step", 2)
     assert "Lay the pad and the arc into it." in solids.figure.inner_text()
     assert solids.part("rotor", "object.visible") is False

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support import ROOT, Command
+from support import ROOT
 
 from tvimdesign.report.simulate_study import figure_data, findings, sheet_csv
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
@@ -22,7 +22,7 @@ def weights(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_fit_writes_its_folder_and_its_record(tvimdesign: Command, weights: Path, tmp_path: Path) -> None:
+def test_a_fit_writes_its_folder_and_its_record(tvimdesign, weights, tmp_path):
     sizes = ("wire_diameter=2.413 mm", "coil_diameter=24.41 mm", "coil_count=3.25", "arm=100 mm")
     done = tvimdesign("fit", weights, *(word for size in sizes for word in ("--set", size)), "--record", "my_wire",
                       "--out", "out", cwd=tmp_path)  # fmt: skip
@@ -39,9 +39,7 @@ def test_a_fit_writes_its_folder_and_its_record(tvimdesign: Command, weights: Pa
     assert len(rows) == 1 + 7
 
 
-def test_a_fit_without_a_record_keeps_its_folder_and_json_has_it(
-    tvimdesign: Command, weights: Path, tmp_path: Path
-) -> None:
+def test_a_fit_without_a_record_keeps_its_folder_and_json_has_it(tvimdesign, weights, tmp_path):
     done = tvimdesign(
         "fit", weights, "--set", "arm=100 mm", "--record", "mine", "--no-plots", "--out", "out", cwd=tmp_path
     )
@@ -65,9 +63,7 @@ def test_a_fit_without_a_record_keeps_its_folder_and_json_has_it(
           for maker in ("ta_universal", "trios_dsc", "setaram", "mettler", "netzsch", "plain_dsc")),
     ],
 )  # fmt: skip
-def test_a_file_goes_through_without_an_option(
-    tvimdesign: Command, tmp_path: Path, file: str, kind: str, name: str, truth: float
-) -> None:
+def test_a_file_goes_through_without_an_option(tvimdesign, tmp_path, file, kind, name, truth):
     shutil.copy(ROOT / "tests/simulation/measurement/kinds/instrument_files" / file, tmp_path / "data.txt")
     done = tvimdesign("fit", "data.txt", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -78,7 +74,7 @@ def test_a_file_goes_through_without_an_option(
     assert (tmp_path / "results/data-fit/fit.png").exists()
 
 
-def test_kinds_are_listed(tvimdesign: Command) -> None:
+def test_kinds_are_listed(tvimdesign):
     listed = tvimdesign("fit", "--kinds").stdout
     assert "columns: angle, torque or mass or force" in listed
     assert set(json.loads(tvimdesign("fit", "--kinds", "--json").stdout)) == {
@@ -98,7 +94,7 @@ def test_kinds_are_listed(tvimdesign: Command) -> None:
         (["weights.csv", "--columns", "weights.csv"], "expected quantities with their columns"),
     ],
 )
-def test_an_error_is_reported(tvimdesign: Command, weights: Path, words: list[str], message: str) -> None:
+def test_an_error_is_reported(tvimdesign, weights, words, message):
     done = tvimdesign("fit", *words, "--no-plots", cwd=weights.parent)
     assert done.returncode == 2
     assert message in done.stderr
@@ -127,7 +123,7 @@ TRIAL = Trial(
 )
 
 
-def test_sheets_figures_and_findings_have_numbers_in_their_units() -> None:
+def test_sheets_figures_and_findings_have_numbers_in_their_units():
     rows = list(csv.reader(sheet_csv(SHEET).splitlines()))
     assert rows[0] == ["temperature [°C]", "strain [%]", "strain_low [%]", "strain_high [%]"]
     assert [float(value) for value in rows[2]] == pytest.approx([60.0, 2.0, 1.0, 3.0])
@@ -145,7 +141,7 @@ def test_sheets_figures_and_findings_have_numbers_in_their_units() -> None:
 
 
 @pytest.mark.gate
-def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign, tmp_path):
     out = tmp_path / "out"
     done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequency", "--out", out)
     assert done.returncode == 0, done.stderr
@@ -175,7 +171,7 @@ def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Comm
     assert "--overwrite" in again.stderr
 
 
-def test_scripts_get_json(tvimdesign: Command, tmp_path: Path) -> None:
+def test_scripts_get_json(tvimdesign, tmp_path):
     done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "amplitude", "--json", "--out",
                       tmp_path / "out")  # fmt: skip
     assert done.returncode == 0, done.stderr
@@ -185,7 +181,7 @@ def test_scripts_get_json(tvimdesign: Command, tmp_path: Path) -> None:
     assert "linear_limit@30_degC" in names
 
 
-def test_an_unknown_test_leaves_no_folder(tvimdesign: Command, tmp_path: Path) -> None:
+def test_an_unknown_test_leaves_no_folder(tvimdesign, tmp_path):
     done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequence", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "did you mean frequency?" in done.stderr

@@ -45,9 +45,7 @@ class NoProcess:
         NoProcess.design = design
 
 
-def test_the_design_of_parts_under_way_is_no_temporary_folder(
-    tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_design_of_parts_under_way_is_no_temporary_folder(tmp_path, temporary, monkeypatch):
     monkeypatch.setattr("tvimdesign.cad.make.PartsProcess", NoProcess)
     monkeypatch.setattr(parts_of_design, "set_low_priority", lambda *_: None)
     out = tmp_path / "out/cad"
@@ -59,9 +57,7 @@ def test_the_design_of_parts_under_way_is_no_temporary_folder(
     assert list(out.iterdir()) == []
 
 
-def test_what_is_verified_stands_beside_the_results_while_it_is_solved(
-    tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_verified_stands_beside_the_results_while_it_is_solved(tmp_path, temporary, monkeypatch):
     seen: list[Path] = []
 
     def solve(_names: Any, parts: Path, work: Path, *_: Any) -> None:

@@ -26,7 +26,7 @@ def printed(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_every_word_and_every_term_finds_rows(mode: str) -> None:
+def test_every_word_and_every_term_finds_rows(mode):
     every = rows.named_rows(mode)
     for word, terms in synonyms().items():
         assert rows.matching(every, word) or (mode == "lock" and word in {"coils", "fatigue"}), word
@@ -46,11 +46,11 @@ def test_every_word_and_every_term_finds_rows(mode: str) -> None:
         ("heat sink", "sink_capacity"), ("wire diameter", "wire_diameter"),
     ],
 )  # fmt: skip
-def test_what_an_engineer_looks_for_is_found(word: str, name: str) -> None:
+def test_what_an_engineer_looks_for_is_found(word, name):
     assert name in {row.name for row in rows.matching(rows.named_rows("shear"), word)}
 
 
-def test_the_groups_come_first_with_their_counts(printed: Any) -> None:
+def test_the_groups_come_first_with_their_counts(printed):
     text = printed("", 80)
     every = rows.named_rows("shear")
     groups = {row.group for row in every}
@@ -62,7 +62,7 @@ def test_the_groups_come_first_with_their_counts(printed: Any) -> None:
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_names_are_never_broken(printed: Any, mode: str) -> None:
+def test_names_are_never_broken(printed, mode):
     groups = {row.group for row in rows.named_rows(mode)}
     words = set(printed("", 80, mode).replace(",", " ").split())
     for group in groups:
@@ -72,18 +72,18 @@ def test_names_are_never_broken(printed: Any, mode: str) -> None:
         assert set(rows._important(own)) <= words
 
 
-def test_an_input_of_records_has_its_value_by_each(printed: Any) -> None:
+def test_an_input_of_records_has_its_value_by_each(printed):
     text = " ".join(printed("minimum_wall", 110).split())
     assert "print_pc_bambu 1.2 (0.8 to 1.6), print_peek 1.2" in text
 
 
-def test_a_choice_says_what_its_records_are(printed: Any) -> None:
+def test_a_choice_says_what_its_records_are(printed):
     text = " ".join(printed("heater_fuse", 160).split())
     assert "sefuse_sm_b Thermal cut-out SEFUSE" in text
     assert "functioning temperature 92 to 146 °C; holding temperature 62 to 116 °C" in text
 
 
-def test_a_word_that_matches_nothing_is_reported_with_the_nearest() -> None:
+def test_a_word_that_matches_nothing_is_reported_with_the_nearest():
     with pytest.raises(InputError, match="did you mean 'weight'"):
         rows.print_rows("shear", "wieght", as_json=False)
     with pytest.raises(InputError, match="lists the groups"):

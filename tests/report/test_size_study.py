@@ -5,11 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
-from typing import Any
 
 import pytest
-from support import Command
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.report.run.study_files import sized_text
@@ -36,7 +33,7 @@ def sized(**numbers: str) -> Study:
                       (90, 15, 2.5), (110, 35, 5), (140, 60, 12), (170, 90, 20), (200, 150, 40))),
     ],
 )  # fmt: skip
-def test_a_joint_of_each_size_has_hardware_that_fits(diameter: float, torque: float, stiffness: float) -> None:
+def test_a_joint_of_each_size_has_hardware_that_fits(diameter, torque, stiffness):
     study = sized(diameter=f"{diameter} mm", torque=f"{torque} N.m", stiffness=f"{stiffness} N.m/rad")
     refuse_what_cannot_be(study)
     vary = study.vary["placement_radius"]
@@ -47,7 +44,7 @@ def test_a_joint_of_each_size_has_hardware_that_fits(diameter: float, torque: fl
     assert limits["joint_stiffness@hot", "<="] == pytest.approx(1.2 * stiffness)
 
 
-def test_a_stroke_moves_the_preload_and_is_named_as_assumed_if_not_given() -> None:
+def test_a_stroke_moves_the_preload_and_is_named_as_assumed_if_not_given():
     task = JointTask.read(**WRIST, stroke="9 deg")
     wide = study_text(task, "middle")
     assert "stroke: 0.1571 rad  # to either side of rest\n" in wide
@@ -58,7 +55,7 @@ def test_a_stroke_moves_the_preload_and_is_named_as_assumed_if_not_given() -> No
     assert "assumed, as --stroke was not given" in study_text(JointTask.read(**WRIST), "middle")
 
 
-def test_a_study_names_what_gives_room_for_the_assumed_values() -> None:
+def test_a_study_names_what_gives_room_for_the_assumed_values():
     task = JointTask.read(**WRIST)
     line = study_text(replace(task, cautious=True), "middle").splitlines()[1]
     assert line.startswith("# Room for assumed values: minimum_feature, slip_clearance, ")
@@ -67,7 +64,7 @@ def test_a_study_names_what_gives_room_for_the_assumed_values() -> None:
 
 
 @pytest.mark.gate
-def test_a_range_of_stiffness_and_the_supply_are_taken_as_written() -> None:
+def test_a_range_of_stiffness_and_the_supply_are_taken_as_written():
     study = sized(stiffness="1 to 1.5 N.m/rad", supply="12 V, 2 A", diameter="76 mm")
     limits = {(limit.output, limit.sense): limit.limit for limit in study.require}
     assert [limits["joint_stiffness@hot", sense] for sense in (">=", "<=")] == [1.0, 1.5]
@@ -75,7 +72,7 @@ def test_a_range_of_stiffness_and_the_supply_are_taken_as_written() -> None:
     assert study.module["peltier_module"] == "polyimide_foil_12v"
 
 
-def test_a_supply_without_a_current_leaves_the_heater_s_rating() -> None:
+def test_a_supply_without_a_current_leaves_the_heater_s_rating():
     task = JointTask.read(**WRIST | {"supply": "24 V"})
     assert task.options()["supply"] == "24 V"
     study = read_study_text(study_text(task, "middle"), "joint.yaml")
@@ -86,7 +83,7 @@ def test_a_supply_without_a_current_leaves_the_heater_s_rating() -> None:
     assert current.upper == pytest.approx(0.9375, rel=1e-3)  # amperes, a quarter of the way from 0.75 to 1.5
 
 
-def test_the_time_to_stiffen_is_required_where_it_is_asked() -> None:
+def test_the_time_to_stiffen_is_required_where_it_is_asked():
     quick, usual = (
         read_study_text(study_text(JointTask.read(**WRIST, **more), "middle"), "joint.yaml")
         for more in ({"stiff_time": "5 min"}, {})
@@ -98,7 +95,7 @@ def test_the_time_to_stiffen_is_required_where_it_is_asked() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("numbers", [{"diameter": "66 mm"}, {"torque": "10 N.m"}])
-def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers: dict[str, str]) -> None:
+def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers):
     with pytest.raises(InfeasibleError, match="fit at nominal sizes, with margins by estimate only") as refusal:
         sized(**numbers)
     enough = re.search(r"--diameter '(\d+) mm'", str(refusal.value))
@@ -108,7 +105,7 @@ def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers: dict[st
 
 
 @pytest.mark.slow
-def test_a_small_joint_that_is_too_small_names_the_least_diameter() -> None:
+def test_a_small_joint_that_is_too_small_names_the_least_diameter():
     small = {"diameter": "20 mm", "torque": "0.2 N.m", "stiffness": "0.08 N.m/rad"}
     with pytest.raises(InfeasibleError, match=r"2\d(\.\d)? mm is the least that .* allow") as refusal:
         sized(**small)
@@ -119,7 +116,7 @@ def test_a_small_joint_that_is_too_small_names_the_least_diameter() -> None:
 
 
 @pytest.mark.parametrize("hardware", diameters())
-def test_a_set_s_own_values_replace_shared_ones(hardware: str) -> None:
+def test_a_set_s_own_values_replace_shared_ones(hardware):
     text = study_text(replace(JointTask.read(**WRIST), diameter=diameters()[hardware]), hardware)
     module = re.findall(r"(?m)^  (\w+):", text.partition("\nvary:")[0])
     assert len(module) == len(set(module))
@@ -129,7 +126,7 @@ def test_a_set_s_own_values_replace_shared_ones(hardware: str) -> None:
 
 
 @pytest.mark.parametrize("hardware", ["mini", "middle"])
-def test_the_process_is_the_one_asked_for(hardware: str) -> None:
+def test_the_process_is_the_one_asked_for(hardware):
     task = JointTask.read(**WRIST, process="print_pa6_cf")
     study = read_study_text(study_text(replace(task, diameter=diameters()[hardware]), hardware), "joint.yaml")
     assert study.module["process"] == task.options()["process"] == "print_pa6_cf"
@@ -149,12 +146,12 @@ def test_the_process_is_the_one_asked_for(hardware: str) -> None:
         ({"stiffness": "2 to 1 N.m/rad"}, "stiffness: .* is upside down"),
     ],
 )
-def test_a_number_that_is_none_is_named(numbers: dict[str, Any], message: str) -> None:
+def test_a_number_that_is_none_is_named(numbers, message):
     with pytest.raises(InputError, match=message):
         JointTask.read(**WRIST | numbers)
 
 
-def test_options_that_are_missing_or_no_number_are_named_at_once(tvimdesign: Command) -> None:
+def test_options_that_are_missing_or_no_number_are_named_at_once(tvimdesign):
     done = tvimdesign("size", "--torque", "8", "--stiffness", "1.5", "--supply", "24 V", "--time", "60 s")
     assert done.returncode == 2
     named = [line.partition(":")[0] for line in done.stderr.splitlines()]
@@ -163,13 +160,13 @@ def test_options_that_are_missing_or_no_number_are_named_at_once(tvimdesign: Com
 
 
 @pytest.mark.slow
-def test_a_set_of_hardware_with_another_record_is_tried() -> None:
+def test_a_set_of_hardware_with_another_record_is_tried():
     study = sized(torque="9 N.m")  # the set's screws leave a core that bears 8.7 N.m
     assert study.module["link_screw"] == "iso_4762_m2_5"
     refuse_what_cannot_be(study)
 
 
-def test_a_study_that_is_there_is_left_alone(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_study_that_is_there_is_left_alone(tvimdesign, tmp_path):
     file = tmp_path / "joint.yaml"
     file.write_text("mine")
     options = [part for name, value in WRIST.items() for part in (f"--{name}", value)]

@@ -30,7 +30,7 @@ def _optimum(name: str, draws: int) -> ResolvedModule:
 
 
 @pytest.mark.slow
-def test_drawn_modules_are_soft_in_their_own_time_and_do_not_overshoot() -> None:
+def test_drawn_modules_are_soft_in_their_own_time_and_do_not_overshoot():
     control = control_of(_optimum("elbow_printed", 16))
     assert control is not None
     assert control.overshoot < OVERSHOOT
@@ -54,7 +54,7 @@ def _soft_after(fmu: Path, seconds: float, threshold: float, **start: float) -> 
 
 @pytest.mark.slow  # a compiler builds each module
 @pytest.mark.parametrize("name", ["elbow_printed", "wrist_joint"])
-def test_drawn_modules_are_controlled_in_fmpy(name: str, tmp_path: Path) -> None:
+def test_drawn_modules_are_controlled_in_fmpy(name, tmp_path):
     resolved = _optimum(name, 64)
     controller = controller_of(resolved)
     assert controller is not None
@@ -79,7 +79,7 @@ def test_drawn_modules_are_controlled_in_fmpy(name: str, tmp_path: Path) -> None
 
 
 @pytest.mark.slow
-def test_the_fmu_s_controller_is_the_simulated_one(tmp_path: Path) -> None:
+def test_the_fmu_s_controller_is_the_simulated_one(tmp_path):
     resolved = _optimum("elbow_printed", 0)
     controller, model = controller_of(resolved), resolved.functions
     assert controller is not None

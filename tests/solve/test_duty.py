@@ -51,7 +51,7 @@ def _returning(mode: str) -> tuple[Duty, DutyCycle, float, tuple[NDArray[np.floa
 
 
 @pytest.mark.parametrize("mode", ["shear", pytest.param("compression", marks=pytest.mark.slow)])
-def test_fifty_cycles_end_in_the_periodic_state(mode: str) -> None:
+def test_fifty_cycles_end_in_the_periodic_state(mode):
     duty, first, period, (state, cycle) = _returning(mode)
     now, last = duty.ambient, first
     for _ in range(50):
@@ -78,7 +78,7 @@ def _lost(now: heat.Profile, stack: heat.Stack, current: Any) -> Any:
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_the_heat_of_a_period_is_lost_in_it(mode: str) -> None:
+def test_the_heat_of_a_period_is_lost_in_it(mode):
     duty, _, period, (state, cycle) = _returning(mode)
     assert duty.hold is not None
     up, back = (float(duty.drives[name].currents[0]) for name in ("softening", "stiffening"))
@@ -109,7 +109,7 @@ def test_the_heat_of_a_period_is_lost_in_it(mode: str) -> None:
     assert y[: duty.heat] == pytest.approx(state[: duty.heat], abs=1e-3)  # a tenth of a kelvin
 
 
-def test_the_first_cycle_is_the_one_of_a_run() -> None:
+def test_the_first_cycle_is_the_one_of_a_run():
     duty = _duty("shear")
     cycle = Duty(duty.model, duty.inputs, {}, 0.0).cycle(duty.ambient, 0.0)
     assert cycle is not None
@@ -118,7 +118,7 @@ def test_the_first_cycle_is_the_one_of_a_run() -> None:
         assert cycle.values[name] == pytest.approx(duty.cold.values[name], rel=0.01)
 
 
-def test_a_duty_too_quick_for_a_cycle_has_its_limit_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_duty_too_quick_for_a_cycle_has_its_limit_alone(monkeypatch):
     duty = _duty("shear")
     above = duty.above({}, ())
     assert duty.most((), 3.0) == (0.0, above[0])  # one switch is beyond it
@@ -140,7 +140,7 @@ def test_a_duty_too_quick_for_a_cycle_has_its_limit_alone(monkeypatch: pytest.Mo
         ("require: {overshoot: '<= 3 K'}", "limit `overshoot@control`"),
     ],
 )
-def test_a_limit_on_what_is_not_simulated_is_refused(sections: str, words: str) -> None:
+def test_a_limit_on_what_is_not_simulated_is_refused(sections, words):
     with pytest.raises(StudyError, match=words):
         read_study_text(f"mode: shear\n{sections}")
 
@@ -162,7 +162,7 @@ def limited(study: Study) -> StudyResult:
     return answer(study)
 
 
-def test_limits_of_both_are_read_written_and_checked(study: Study, limited: StudyResult) -> None:
+def test_limits_of_both_are_read_written_and_checked(study, limited):
     assert (len(study.require), len(study.simulated)) == (0, 5)
     names = ["return_time@duty", "response_time@control", "highest_switch_rate@duty", "overshoot@control",
              "slowdown@control"]  # fmt: skip
@@ -174,7 +174,7 @@ def test_limits_of_both_are_read_written_and_checked(study: Study, limited: Stud
     assert not limited.feasible
 
 
-def test_a_study_reports_its_duty(study: Study, limited: StudyResult) -> None:
+def test_a_study_reports_its_duty(study, limited):
     duty = limited.duty
     assert (study.duty.switches_per_hour, study.duty.soft) == (2.0, SOFT)
     assert written(study)["duty"] == {"switches_per_hour": 2.0, "soft": "60 s"}
@@ -194,7 +194,7 @@ def test_a_study_reports_its_duty(study: Study, limited: StudyResult) -> None:
     assert _duty("shear").limit(HOUR / (1.05 * duty.most), study.accept, None)[0] == duty.limited_by != ""
 
 
-def test_a_study_reports_its_controller(study: Study, limited: StudyResult) -> None:
+def test_a_study_reports_its_controller(study, limited):
     assert written(study)["control"]["thermistor_lag"] == "1 s"
     assert limited.control is not None
     entry = control_entry(limited.control)
@@ -203,14 +203,14 @@ def test_a_study_reports_its_controller(study: Study, limited: StudyResult) -> N
     assert "overshoot" in next(fact for fact in main_facts(limited, {}) if fact.label == "Control").text
 
 
-def test_a_study_without_them_has_the_same_values(limited: StudyResult) -> None:
+def test_a_study_without_them_has_the_same_values(limited):
     without = shipped_answer("paper_reconstructed")
     assert (without.duty, without.control) == (None, None)
     assert without.design.values.items() <= limited.design.values.items()
 
 
 @pytest.mark.slow
-def test_a_limit_in_the_duty_is_kept_by_another_search() -> None:
+def test_a_limit_in_the_duty_is_kept_by_another_search():
     text = study_path("paper_shear").read_text()
     switched = read_study_text(f"{text}\nduty: {{switches_per_hour: 4}}\n")
     rows = (Requirement(output="return_time@duty", sense="<=", limit=292.0, text="<= 292 s"),)
@@ -226,7 +226,7 @@ def test_a_limit_in_the_duty_is_kept_by_another_search() -> None:
     assert "switches_per_hour" in complaint(missed, switched.table)
 
 
-def test_a_sweep_refuses_limits_on_a_duty() -> None:
+def test_a_sweep_refuses_limits_on_a_duty():
     text = "mode: shear\nduty: {switches_per_hour: 2}\nrequire: {return_time@duty: '<= 60 s'}"
     with pytest.raises(InputError, match="return_time@duty: a sweep simulates no duty"):
         plan_of(tree_of_text(f"{text}\nsweep: {{over: {{pcl_thickness: [1 mm]}}}}", "study", "study", Path()))

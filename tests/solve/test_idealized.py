@@ -5,11 +5,9 @@ import io
 import json
 import math
 from functools import cache
-from pathlib import Path
 
 import pytest
 from answers import shipped_answer
-from support import Command
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
@@ -31,7 +29,7 @@ def published() -> StudyResult:
 
 
 @pytest.mark.gate
-def test_the_papers_ratio_is_shown_with_the_stiffness_as_drawn(published: StudyResult) -> None:
+def test_the_papers_ratio_is_shown_with_the_stiffness_as_drawn(published):
     by = {idealization.text: idealization.as_drawn for idealization in published.idealizations}
     assert list(by) == ["leg_model: ignored", "transmission: unity"]
     # An independent reading of the drawn module found 4.53 N*m/rad at rest and 4.09 at full stroke, for 5.61.
@@ -47,13 +45,13 @@ def test_the_papers_ratio_is_shown_with_the_stiffness_as_drawn(published: StudyR
     assert rows["envelope_diameter"]["idealized"] == ""
 
 
-def test_a_study_as_drawn_has_none() -> None:
+def test_a_study_as_drawn_has_none():
     result = answer(read_study_text("mode: shear\n"))
     assert result.idealizations == ()
     assert not any(row["idealized"] for row in results(result, TABLE)["values"].values())
 
 
-def test_every_idealization_is_no_default_and_names_its_omission() -> None:
+def test_every_idealization_is_no_default_and_names_its_omission():
     idealized = {row.name: row for mode in ("shear", "compression") for row in table_for(mode).choices if row.idealized}
     assert set(idealized) == {"leg_model", "transmission", "phase_model"}
     for row in idealized.values():
@@ -62,7 +60,7 @@ def test_every_idealization_is_no_default_and_names_its_omission() -> None:
 
 
 @pytest.mark.gate
-def test_a_layer_that_freezes_where_it_melts_changes_times_alone() -> None:
+def test_a_layer_that_freezes_where_it_melts_changes_times_alone():
     study = read_study_text("mode: shear\nmodule: {phase_model: equilibrium}\n")
     (idealization,) = answer(study).idealizations
     assert "stiffening_time" in idealization.as_drawn
@@ -83,7 +81,7 @@ def stiff(of: StudyResult) -> str:
 
 
 @pytest.mark.gate
-def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
+def test_the_pads_unpowered_are_a_module_with_no_cooling_current():
     cooled, air = module(SINK), module(SINK.replace("0.8 A", "0 A"))
     assert cooled.design.values["frozen_time"] < 0.8 * air.design.values["frozen_time"]
     for name, seconds in cooled.cooling.unpowered.items():
@@ -96,7 +94,7 @@ def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
 
 
 @pytest.mark.gate
-def test_a_foil_heater_heats_with_either_sign_of_its_current() -> None:
+def test_a_foil_heater_heats_with_either_sign_of_its_current():
     alone, heated = module(FOIL), module(f"{FOIL}, peltier_seebeck: 1e-9 V/K, cooling_current: 0.1 A")
     assert alone.design.values["cooling_current"] == 0.0
     assert (alone.cooling.able, alone.cooling.used, alone.cooling.unpowered) == (False, False, {})
@@ -128,7 +126,7 @@ def _facts(result: StudyResult) -> dict[str, str]:
     return {fact.label: fact.text for fact in more_facts(result, {}, None)}
 
 
-def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
+def test_an_optimum_beyond_ratings_is_not_called_optimal():
     result = answered()
     assert result.design.status == "above_rating"
     assert set(result.design.above_rating) == {*BOTH, PADS}
@@ -140,7 +138,7 @@ def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
     assert f"accept: [{', '.join(result.design.above_rating)}]" in text
 
 
-def test_an_optimum_within_accepted_ratings_says_what_it_accepts() -> None:
+def test_an_optimum_within_accepted_ratings_says_what_it_accepts():
     result = answered(ACCEPTED)
     assert (result.design.status, result.design.above_rating) == ("optimal", ())
     assert set(result.design.accepting) == {*BOTH, PADS}
@@ -158,7 +156,7 @@ def test_an_optimum_within_accepted_ratings_says_what_it_accepts() -> None:
     assert "pcl_temperature_margin: not needed" in _facts(result)["Accepts"]
 
 
-def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
+def test_an_evaluation_claims_nothing_and_says_it_too():
     result = answered(searched=False)
     assert result.design.status == "evaluated"
     assert set(result.design.above_rating) == {*BOTH, PADS}
@@ -166,7 +164,7 @@ def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
     assert verdict(answered(ACCEPTED, searched=False), {}, []).kind != "rating"
 
 
-def test_check_says_it_beforehand_of_the_module_a_search_starts_from() -> None:
+def test_check_says_it_beforehand_of_the_module_a_search_starts_from():
     messages = foreseen_ratings(read_study_text(SEARCHED))
     assert [line.split(" is ")[1].split(": ")[1] for line in messages if "starts from" in line] == [PADS, *BOTH]
     assert all("accept: [" in line and "An optimum may be, too." in line for line in messages)
@@ -175,7 +173,7 @@ def test_check_says_it_beforehand_of_the_module_a_search_starts_from() -> None:
     assert foreseen_ratings(read_study_text(SEARCHED + ACCEPTED)) == []
 
 
-def test_a_point_of_a_front_has_its_own() -> None:
+def test_a_point_of_a_front_has_its_own():
     values, study = answered().design.values, {"accept": list(BOTH)}
     assert of_ratings(Point("between", values, {}), study, TABLE) == {
         "status": "above_rating", "above_rating": (PADS,), "accepting": ("structure_temperature_margin", BOTH[1]),
@@ -186,7 +184,7 @@ def test_a_point_of_a_front_has_its_own() -> None:
 
 
 @pytest.mark.slow
-def test_the_command_ends_with_3_and_a_whole_folder(tvimdesign: Command, tmp_path: Path) -> None:
+def test_the_command_ends_with_3_and_a_whole_folder(tvimdesign, tmp_path):
     for accept, code, word in (("", 3, "above_rating"), (ACCEPTED, 0, "optimal")):
         study, out = tmp_path / f"{word}.yaml", tmp_path / word
         study.write_text(SEARCHED + accept)

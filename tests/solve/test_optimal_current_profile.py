@@ -41,7 +41,7 @@ def terminals(solution: Solution, phase: str) -> tuple[np.ndarray, np.ndarray, n
 
 
 @pytest.mark.slow
-def test_more_pieces_are_never_slower_and_beat_a_constant_current() -> None:
+def test_more_pieces_are_never_slower_and_beat_a_constant_current():
     # Nodes of four pieces are nodes of eight; each is also free to stay constant.
     times = [solve(with_pieces(pieces)).values["response_time"] for pieces in (0, 1, 4, 8)]
     assert all(solve(with_pieces(pieces)).status == "optimal" for pieces in (0, 1, 4, 8))
@@ -53,7 +53,7 @@ def test_more_pieces_are_never_slower_and_beat_a_constant_current() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("pieces", [4, pytest.param(8, marks=pytest.mark.slow)])
-def test_the_limits_hold_all_along_the_simulated_heating(pieces: int) -> None:
+def test_the_limits_hold_all_along_the_simulated_heating(pieces):
     solution = solve(with_pieces(pieces))
     voltage, hot, _ = terminals(solution, "softening")
     line = solution.cycle.trajectories["softening"]
@@ -73,7 +73,7 @@ def test_the_limits_hold_all_along_the_simulated_heating(pieces: int) -> None:
 
 
 @pytest.mark.slow
-def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
+def test_the_limits_hold_all_along_the_simulated_cycle():
     solution = solve(CYCLE)
     assert solution.status == "optimal"
     voltage, hot, _ = terminals(solution, "softening")
@@ -91,7 +91,7 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
 
 
 @pytest.mark.slow
-def test_the_reported_times_are_those_of_the_drives_simulated_again() -> None:
+def test_the_reported_times_are_those_of_the_drives_simulated_again():
     solution = solve(CYCLE)
     again = fine(solution.model).run(solution.inputs, solution.current_profiles)
     for phase, event in (("softening", "response_time"), ("stiffening", "stiffening_time")):
@@ -103,7 +103,7 @@ def test_the_reported_times_are_those_of_the_drives_simulated_again() -> None:
 
 
 @pytest.mark.slow
-def test_a_cycle_with_profiles_is_not_longer_than_with_constants() -> None:
+def test_a_cycle_with_profiles_is_not_longer_than_with_constants():
     # A constant current must be small from the start, for the pads' temperature at the end.
     constant, profile = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", "")), solve(CYCLE)
     for solution in (constant, profile):
@@ -114,7 +114,7 @@ def test_a_cycle_with_profiles_is_not_longer_than_with_constants() -> None:
 
 
 @pytest.mark.slow
-def test_a_slow_supply_costs_time_and_is_reported() -> None:
+def test_a_slow_supply_costs_time_and_is_reported():
     slow, eased = (solve(CYCLE.replace("0.5 A/s", f"{slew} A/s")) for slew in ("0.08", "0.0808"))
     assert slow.status == "optimal"
     assert slow.values["cycle_time"] > solve(CYCLE).values["cycle_time"]
@@ -142,9 +142,7 @@ def active(solution: Solution, name: str) -> ActiveConstraint:
         pytest.param(CYCLE, "stiffening_peak_voltage <=", "6 V", 0.06, 1.0, marks=pytest.mark.slow),
     ],
 )
-def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
-    text: str, name: str, written: str, step: float, shares: float
-) -> None:
+def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(text, name, written, step, shares):
     # `shares` is the step in kelvins or hundredths. To either side, for another limit may take over nearby.
     number, unit = written.split()
     below, above = (
@@ -156,7 +154,7 @@ def test_the_price_of_a_limit_on_a_path_is_what_moving_it_saves(
     assert saved == pytest.approx(shadow_price, rel=0.1)
 
 
-def test_a_profile_of_no_effect_or_beside_another_time_is_refused() -> None:
+def test_a_profile_of_no_effect_or_beside_another_time_is_refused():
     text = CYCLE.replace("minimize: cycle_time", "minimize: response_time").replace(
         '  stiffening_peak_voltage: "<= 6 V"\n', ""
     )

@@ -65,7 +65,7 @@ def paper() -> Solution:
 @pytest.mark.parametrize(
     ("text", "apart"), [(SMALL.replace("starts: 1", "starts: 11"), 1e-4), (BLOCKS_SMALL, 1e-3)], ids=["shear", "blocks"]
 )
-def test_random_starts_come_to_one_optimum(text: str, apart: float) -> None:
+def test_random_starts_come_to_one_optimum(text, apart):
     solution = optimize(read_study_text(text, "test"))
     assert solution.feasible
     assert all(start.converged for start in solution.starts)
@@ -77,7 +77,7 @@ def test_random_starts_come_to_one_optimum(text: str, apart: float) -> None:
 
 
 @pytest.mark.slow
-def test_the_paper_s_study_ends_in_optima_that_are_all_reported(paper: Solution) -> None:
+def test_the_paper_s_study_ends_in_optima_that_are_all_reported(paper):
     """Springs of another lever, narrow arcs farther out and both are optima of their own, 2 to 7 % worse."""
     assert sum(start.converged for start in paper.starts) >= 10
     reported = [start.objective for start in paper.distinct_optima()]
@@ -93,7 +93,7 @@ def test_the_paper_s_study_ends_in_optima_that_are_all_reported(paper: Solution)
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 3])
-def test_a_search_from_other_starts_finds_the_same_best(paper: Solution, seed: int) -> None:
+def test_a_search_from_other_starts_finds_the_same_best(paper, seed):
     # The best is no luck of the study's own start: this one begins six coils long, and shares no start with that.
     study = read_study(study_path("paper_shear"))
     elsewhere = {**study.module, "coil_count": 6.0, "wire_diameter": 2.9e-3, "placement_radius": 57e-3}
@@ -105,7 +105,7 @@ def test_a_search_from_other_starts_finds_the_same_best(paper: Solution, seed: i
 
 
 @pytest.mark.slow
-def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: Solution) -> None:
+def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper):
     """Ten times the cells in layer and rotor, scipy's Radau at a tolerance far below a tenth of the step."""
     study = read_study(study_path("paper_shear"))
     fine = dict(given(study))
@@ -131,7 +131,7 @@ def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: S
 
 
 @pytest.mark.gate
-def test_a_price_is_what_relaxing_a_limit_or_a_range_saves() -> None:
+def test_a_price_is_what_relaxing_a_limit_or_a_range_saves():
     study = read_study_text(SMALL)
     before = optimize(study)
     priced = [held for held in before.held if held.origin == "require" and held.shadow_price > 1e-2]
@@ -143,7 +143,7 @@ def test_a_price_is_what_relaxing_a_limit_or_a_range_saves() -> None:
 
 
 @pytest.mark.gate
-def test_listed_records_are_compared_by_one_measure() -> None:
+def test_listed_records_are_compared_by_one_measure():
     text = SMALL.replace("vary:", "vary:\n  spring_material: {choose: [stainless_302, music_wire]}")
     solution = optimize(read_study_text(text))
     by_material = {candidate.choices["spring_material"]: candidate.objective for candidate in solution.choosing.best}
@@ -153,7 +153,7 @@ def test_listed_records_are_compared_by_one_measure() -> None:
     assert all(start.end.keys() <= solution.model.index.keys() for start in solution.starts)
 
 
-def test_a_peak_of_a_constant_current_can_have_a_least() -> None:
+def test_a_peak_of_a_constant_current_can_have_a_least():
     """Least power is asked for, and no less than so much."""
     solution = optimize(read_study_text(SMALL.replace('peak_power: "<= 9 W"', 'peak_power: ">= 9 W"').replace(
         "{envelope_volume: 1, module_mass: 1, response_time: 1}", "peak_power"
@@ -163,7 +163,7 @@ def test_a_peak_of_a_constant_current_can_have_a_least() -> None:
 
 
 @pytest.mark.gate
-def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
+def test_a_start_that_never_ends_still_finds_the_optimum():
     """Objectives are ratios to each study's own start, so the same goal is set with one output alone."""
     goal = SMALL.replace("{envelope_volume: 1, module_mass: 1, response_time: 1}", "response_time")
     goal = goal.replace("[0.5 A, 2 A]", "[0.1 A, 2 A]")
@@ -184,7 +184,7 @@ def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
         ("stiff_impedance: 90000 N.m/rad", "stiff_impedance 90000 N·m/rad cannot be reached: the stiffest joint"),
     ],
 )
-def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets: str, message: str) -> None:
+def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets, message):
     text = (
         f"mode: shear\nmodule: {{impedance_targets: stated, soft_impedance: 40 N.m/rad, {targets}}}\n".replace(
             "soft_impedance: 40 N.m/rad, soft_", "soft_"
@@ -202,7 +202,7 @@ def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets: str, m
     assert optimize(read_study_text(again, "a test")).starts
 
 
-def test_where_no_switch_ends_the_arithmetic_conflict_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_where_no_switch_ends_the_arithmetic_conflict_is_reported(monkeypatch):
     monkeypatch.setattr(search, "find_conflicts", lambda *_: None)
     limits = "  spring_stiffness: '>= 9 N.m/rad'\n  spring_fatigue_safety: '>= 3'\nminimize: {peak_power: 1}\n"
     with pytest.raises(
@@ -214,7 +214,7 @@ def test_where_no_switch_ends_the_arithmetic_conflict_is_reported(monkeypatch: p
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("row", "most"), [("backlash@cold", "<= 0.000008 rad"), ("relaxation_loss@cold", "<= 0.003")])
-def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row: str, most: str) -> None:
+def test_what_a_hold_leaves_can_be_limited_and_costs_size_or_time(row, most):
     def solved(more: str) -> Solution:
         text = BLOCKS_SMALL.replace("accept:", f"{more}accept:").replace("starts: 7", "starts: 2")
         return optimize(read_study_text(text, "test"), lambda _: None)
@@ -243,7 +243,7 @@ def _frozen(name: str) -> tuple[Optimizer, np.ndarray, dict[str, Any]]:
     return optimizer, inputs, frozen["optimum"]
 
 
-def test_a_frozen_optimum_is_found_from_beside_it() -> None:
+def test_a_frozen_optimum_is_found_from_beside_it():
     optimizer, inputs, optimum = _frozen("paper_shear")
     run = optimizer.solve(begin=inputs, beginning="near")
     assert run.start.converged
@@ -255,7 +255,7 @@ def test_a_frozen_optimum_is_found_from_beside_it() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("name", NUMBERS_ALONE)
-def test_a_frozen_design_keeps_its_limits_and_its_objective(name: str) -> None:
+def test_a_frozen_design_keeps_its_limits_and_its_objective(name):
     """With margins, too: what is not within its limits by them is so without."""
     optimizer, inputs, optimum = _frozen(name)
     x, parameters = optimizer.guess(inputs), optimizer.parameters(Objective(optimizer.study.minimize))

@@ -28,7 +28,7 @@ def _answer(more: str = "", criterion: str = "mean") -> StudyResult:
 
 
 @pytest.mark.gate
-def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None:
+def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold():
     # The threshold is arithmetic of the hot point; the impedance at the end is read off the simulated layer.
     values = _answer(criterion="softening").design.values
     assert values["softened_impedance"] == pytest.approx(values["soft_threshold"], rel=1e-4)
@@ -37,7 +37,7 @@ def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None
 
 @pytest.mark.gate
 @pytest.mark.parametrize("name", ENDS)
-def test_it_is_the_last_of_the_simulated_history(name: str) -> None:
+def test_it_is_the_last_of_the_simulated_history(name):
     result = _answer()
     column, zero = {"softened_temperature": ("far_face", 273.15)}.get(name, (f"joint_{name.partition('_')[2]}", 0.0))
     last = result.histories["softening"][column][-1] + zero
@@ -45,7 +45,7 @@ def test_it_is_the_last_of_the_simulated_history(name: str) -> None:
 
 
 @pytest.mark.slow
-def test_simulation_confirms_the_stiffness_required_at_the_end() -> None:
+def test_simulation_confirms_the_stiffness_required_at_the_end():
     free = _answer().design.values["softened_stiffness"]
     limit = free - 0.25 * (free - 4.0)
     held = _answer(f', softened_stiffness: "<= {limit:.6f} N.m/rad"')
@@ -62,7 +62,7 @@ def test_simulation_confirms_the_stiffness_required_at_the_end() -> None:
 @pytest.mark.parametrize(
     ("criterion", "reached"), [("far_face", True), pytest.param("softening", False, marks=pytest.mark.gate)]
 )
-def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, reached: bool) -> None:
+def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion, reached):
     # The thermometer at the far face waits for 100 degC, which is the hot point; the impedance does not.
     result = _answer(criterion=criterion)
     warned = [check for check in result.warnings if check.output == "hot_point_margin"]
@@ -83,7 +83,7 @@ HOT = 'require: {joint_stiffness@hot: [">= 2 N.m/rad", "<= 3 N.m/rad"]'
          ["joint_stiffness@hot", "softened_stiffness", "joint_stiffness@hot", "softened_stiffness"]),
     ],
 )  # fmt: skip
-def test_a_limit_at_an_unreached_hot_point_is_also_put_on_the_end(module: str, more: str, outputs: list[str]) -> None:
+def test_a_limit_at_an_unreached_hot_point_is_also_put_on_the_end(module, more, outputs):
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n{HOT}{more}}}\n", "test")
     limits = [limit for limit in constraints_of(study, study.table, study.module) if limit.origin == "require"]
     assert [limit.output for limit in limits] == outputs
@@ -91,7 +91,7 @@ def test_a_limit_at_an_unreached_hot_point_is_also_put_on_the_end(module: str, m
     assert ends == ({} if "softened_stiffness" not in outputs else {">=": 2.0, "<=": 4.0 if more else 3.0})
 
 
-def test_a_limit_that_means_nothing_where_heating_ends_is_refused() -> None:
+def test_a_limit_that_means_nothing_where_heating_ends_is_refused():
     text = 'mode: shear\nmodule: {{{}}}\nrequire: {{natural_frequency@hot: ">= 1 Hz"}}\n'
     with pytest.raises(InputError, match=r"natural_frequency@hot: heating may end before .*, or limit joint_impedance"):
         refuse_impossible(read_study_text(text.format("response_criterion: softening"), "test"))
@@ -111,7 +111,7 @@ def warned(result: StudyResult) -> set[str]:
     return {check.output for check in result.warnings}
 
 
-def test_a_cold_point_hotter_than_the_hot_one_and_melts_are_warned_of() -> None:
+def test_a_cold_point_hotter_than_the_hot_one_and_melts_are_warned_of():
     result = answered(f"{QUICK}, pcl_crystallization_half_time: 100000 s")
     assert np.isfinite(result.design.value("stiffening_time"))
     assert np.isinf(result.design.value("frozen_time"))
@@ -124,7 +124,7 @@ def test_a_cold_point_hotter_than_the_hot_one_and_melts_are_warned_of() -> None:
     assert "thresholds_apart" not in warned(answered("current: 1.5 A"))
 
 
-def test_the_last_slice_of_a_layer_is_half_frozen_at_the_frozen_time() -> None:
+def test_the_last_slice_of_a_layer_is_half_frozen_at_the_frozen_time():
     # On the melting curve, from 65 to 50 degC, the middle of the window is half frozen. The least frozen slice, taken
     # smoothly, may be 0.03 short of that.
     result = answered("phase_model: equilibrium, stiffening_band: 1.01")
@@ -135,7 +135,7 @@ def test_the_last_slice_of_a_layer_is_half_frozen_at_the_frozen_time() -> None:
 
 
 @pytest.mark.gate
-def test_the_way_back_ends_by_the_criterion_that_was_chosen() -> None:
+def test_the_way_back_ends_by_the_criterion_that_was_chosen():
     frozen = answered("stiffening_criterion: frozen").design
     assert frozen.value("return_time") == pytest.approx(frozen.value("frozen_time"), rel=1e-6)
     stiff = answered("current: 1.5 A").design
@@ -174,7 +174,7 @@ def liquid_impedance(result: StudyResult, celsius: float) -> complex:
 
 
 @pytest.mark.slow
-def test_softening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
+def test_softening_to_a_point_in_the_melting_range_takes_an_interval():
     result = answered_between("current: 1.5 A", hot=60.0)
     low, high = result.intervals["softening_time"]
     target = abs(liquid_impedance(result, 60.0))
@@ -185,7 +185,7 @@ def test_softening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
 
 
 @pytest.mark.gate
-def test_stiffening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
+def test_stiffening_to_a_point_in_the_melting_range_takes_an_interval():
     result = answered_between("current: 1.5 A", cold=60.0)
     low, high = result.intervals["stiffening_time"]
     assert 0.0 < low < result.design.value("stiffening_time") < high
@@ -195,13 +195,13 @@ def test_stiffening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
 
 
 @pytest.mark.gate
-def test_a_switch_that_never_ends_has_no_advice_on_what_never_began() -> None:
+def test_a_switch_that_never_ends_has_no_advice_on_what_never_began():
     result = answered_between("current: 0.3 A", hot=60.0)
     assert np.isinf(result.design.value("response_time"))
     assert not [check.text for check in result.warnings if not np.isfinite(check.value)]
 
 
-def test_the_temperature_sweep_is_a_band_in_the_melting_range_only() -> None:
+def test_the_temperature_sweep_is_a_band_in_the_melting_range_only():
     result = answered_between("current: 1.5 A")
     sweep = {name: np.array(column) for name, column in result.sweep.items()}
     inside = (sweep["temperature"] >= 45.0) & (sweep["temperature"] <= 70.0)
@@ -215,7 +215,7 @@ def test_the_temperature_sweep_is_a_band_in_the_melting_range_only() -> None:
 
 
 @pytest.mark.gate
-def test_a_limit_that_only_some_histories_satisfy_is_undecided() -> None:
+def test_a_limit_that_only_some_histories_satisfy_is_undecided():
     points = "operating_points: {warm: {temperature: 60 degC}}\n"
     require = "require: {joint_stiffness@warm: '>= 100 N.m/rad', joint_stiffness@hot: '>= 1 N.m/rad'}\n"
     study = read_study_text(f"mode: shear\nmodule: {{{STIFF}}}\n{points}{require}", "a test")

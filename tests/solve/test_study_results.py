@@ -31,9 +31,7 @@ solver: {cells: 6, starts: 2}
 
 
 @pytest.mark.parametrize("first", [True, False])
-def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
-    monkeypatch: pytest.MonkeyPatch, first: bool
-) -> None:
+def test_a_feasible_design_is_reported_before_a_better_infeasible_one(monkeypatch, first):
     study = read_study_text(STUDY, "test")
     made: list[Run] = []
 
@@ -62,7 +60,7 @@ def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
 
 
 @pytest.mark.gate
-def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch):
     study = Study.model_validate(shipped_answer("paper_reconstructed").design.study)
     order: list[Any] = []
     histories = result._histories
@@ -73,7 +71,7 @@ def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch: pytest.M
 
 
 @pytest.mark.gate
-def test_where_a_search_ends_without_a_design_nothing_is_handed_on() -> None:
+def test_where_a_search_ends_without_a_design_nothing_is_handed_on():
     known = shipped_answer("paper_shear")
     assert known.solution
     study = Study.model_validate(known.design.study)
@@ -100,7 +98,7 @@ solver: {{starts: 1}}
 
 
 @pytest.mark.parametrize(("process", "wall"), [("print_petg", 1.2e-3), ("machine_6061", 1.0e-3)])
-def test_walls_end_where_the_process_ends(process: str, wall: float) -> None:
+def test_walls_end_where_the_process_ends(process, wall):
     design = answer(read_study_text(PROCESS_STUDY.format(process=process), "a test")).design
     assert design.status == "optimal"
     assert design.values["wall_thickness"] == pytest.approx(wall, rel=1e-4)
@@ -110,7 +108,7 @@ def test_walls_end_where_the_process_ends(process: str, wall: float) -> None:
     assert design.values["floor_thickness"] >= 1.5e-3 + wall - 1e-7
 
 
-def test_one_yardstick_is_the_geometric_mean_and_one_of_zeros() -> None:
+def test_one_yardstick_is_the_geometric_mean_and_one_of_zeros():
     starts = [{"module_mass": 0.2, "response_time": 50.0}, None, {"module_mass": 0.8, "response_time": 200.0}]
     for order in (starts, starts[::-1]):
         assert anchored_search.common(order) == pytest.approx({"module_mass": 0.4, "response_time": 100.0})
@@ -120,7 +118,7 @@ def test_one_yardstick_is_the_geometric_mean_and_one_of_zeros() -> None:
     )
 
 
-def test_a_switch_that_never_ends_counts_as_long_as_it_is_followed() -> None:
+def test_a_switch_that_never_ends_counts_as_long_as_it_is_followed():
     cold = SHEAR.replace("current: 1.5 A", "current: 0.1 A\n  horizon: 900 s")
     values = anchored_search.at_its_start(read_study_text(cold, "test"))
     assert values["response_time"] == 900.0
@@ -159,7 +157,7 @@ def partial_study(mode: str, seed: int) -> str:
     return f"mode: {mode}\nminimize: module_mass\nvary:\n" + "\n".join(lines)
 
 
-def test_open_lengths_follow_those_that_are_given() -> None:
+def test_open_lengths_follow_those_that_are_given():
     study = study_of("vary: {pcl_outer_radius: [12 mm, 30 mm]}\nminimize: module_mass\n")
     refuse_impossible(study)
     start = given(study)
@@ -169,7 +167,7 @@ def test_open_lengths_follow_those_that_are_given() -> None:
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_a_partial_study_has_a_module_or_says_what_clashes(mode: str) -> None:
+def test_a_partial_study_has_a_module_or_says_what_clashes(mode):
     studies = {seed: read_study_text(partial_study(mode, seed), "test") for seed in range(60)}
     refused = {seed: refusal(study) for seed, study in studies.items() if missing_geometry(given(study), study.table)}
     for seed, study in studies.items():
@@ -181,14 +179,14 @@ def test_a_partial_study_has_a_module_or_says_what_clashes(mode: str) -> None:
     assert len(refused) <= 6
 
 
-def test_the_values_that_clash_are_named_with_the_defaults() -> None:
+def test_the_values_that_clash_are_named_with_the_defaults():
     assert "It follows from pcl_inner_radius 41 mm, pcl_outer_radius 25 mm." in refusal(study_of(CROSSED))
     wide = refusal(study_of("module: {arc_span: 130 deg}"))
     assert "It follows from arc_span 130°, pcl_inner_radius 26 mm (default), arc_count 4 (default)." in wide
 
 
 @pytest.mark.parametrize("text", [CROSSED, "module: {pcl_inner_radius: 45 mm, pcl_outer_radius: 40 mm}\n"])
-def test_each_cure_that_is_advised_cures(text: str) -> None:
+def test_each_cure_that_is_advised_cures(text):
     study = study_of(text)
     advice = refusal(study).partition("is enough: ")[2]
     cures = re.findall(r"(\w+) (\S+ mm) in place of \S+ mm(?: \(beyond its range\))?[,.]", advice)
@@ -198,7 +196,7 @@ def test_each_cure_that_is_advised_cures(text: str) -> None:
         refuse_impossible(study.model_copy(update={"module": module, "vary": {}, "minimize": {}}))
 
 
-def test_a_cure_of_one_limit_violates_no_other_that_is_met() -> None:
+def test_a_cure_of_one_limit_violates_no_other_that_is_met():
     wire = "module: {spring_material: music_wire}\nvary: {pcl_outer_radius: [12 mm, 30 mm]}\nminimize: module_mass\n"
     study = study_of(wire)
     start, table = given(study), study.table

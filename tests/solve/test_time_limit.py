@@ -6,7 +6,6 @@ import os
 import re
 import signal
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -69,7 +68,7 @@ class Clock:
         return optimize(study, self.say, deadline=self.deadline)
 
 
-def test_starts_that_are_left_are_counted_and_the_best_design_stays() -> None:
+def test_starts_that_are_left_are_counted_and_the_best_design_stays():
     clock = Clock("start 3 of 6")
     answered = clock.answer(read_study_text(SEARCHED))
     solution = answered.solution
@@ -80,7 +79,7 @@ def test_starts_that_are_left_are_counted_and_the_best_design_stays() -> None:
     assert any("time limit of 5 min" in warning.text for warning in warnings_of(answered, ()))
 
 
-def test_combinations_that_are_left_are_counted_as_such() -> None:
+def test_combinations_that_are_left_are_counted_as_such():
     clock = Clock("^1 combination solved")
     solution = clock.optimize(read_study_text(LISTED))
     choosing = solution.choosing
@@ -91,7 +90,7 @@ def test_combinations_that_are_left_are_counted_as_such() -> None:
     assert not choosing.proven
 
 
-def test_a_search_without_a_design_when_the_time_is_over_says_what_to_do() -> None:
+def test_a_search_without_a_design_when_the_time_is_over_says_what_to_do():
     clock = Clock("start 1 of 6")
     solution = clock.optimize(read_study_text(SEARCHED))
     assert solution.status == "not converged: ran out of time"
@@ -102,7 +101,7 @@ def test_a_search_without_a_design_when_the_time_is_over_says_what_to_do() -> No
 
 
 @pytest.mark.gate
-def test_the_search_for_the_conflict_ends_with_the_time() -> None:
+def test_the_search_for_the_conflict_ends_with_the_time():
     clock = Clock("searching for the design of least violation")
     quick = SEARCHED.replace('">= 2 N.m"', '">= 2 N.m", response_time: "<= 1 s"').replace("starts: 6", "starts: 1")
     solution = clock.optimize(read_study_text(quick))
@@ -119,7 +118,7 @@ ROBUST = ALGEBRAIC.replace("{starts: 1}", "{starts: 1, time_limit: 5 min}") + "r
     [("preparing the equations", FOLLOWING), ("adding tolerance margins", 1e6)],
     ids=["begun", "moved"],
 )
-def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word: str, then: float) -> None:
+def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word, then):
     clock = Clock(word, then)
     answered = clock.answer(read_study_text(ROBUST))
     assert (answered.design.status, answered.feasible, answered.has_design) == (BELOW_YIELD, True, True)
@@ -135,7 +134,7 @@ def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word:
 
 
 @pytest.mark.gate
-def test_alternatives_that_are_left_out_are_named() -> None:
+def test_alternatives_that_are_left_out_are_named():
     clock = Clock("simulating the next-best choice", 1e6)
     solution = clock.optimize(read_study_text(LISTED))
     assert solution.status == OPTIMAL
@@ -143,7 +142,7 @@ def test_alternatives_that_are_left_out_are_named() -> None:
     assert ALTERNATIVES in solution.left_out
 
 
-def test_without_time_neither_search_nor_simulation_starts() -> None:
+def test_without_time_neither_search_nor_simulation_starts():
     with pytest.raises(TimeOverError, match="before the search could start"):
         optimize(read_study_text(SEARCHED), deadline=Deadline(1e-3, lambda: 0.0))
     optimizer = Optimizer(read_study_text(SEARCHED))
@@ -152,7 +151,7 @@ def test_without_time_neither_search_nor_simulation_starts() -> None:
         optimizer.simulator.run(optimizer.model.start, deadline=over)
 
 
-def test_a_run_of_the_solver_ends_between_two_iterations() -> None:
+def test_a_run_of_the_solver_ends_between_two_iterations():
     # One solver serves a run that has time, one that has not, and one that has time again.
     optimizer, ticks = Optimizer(read_study_text(SEARCHED)), iter(range(10_000))
     whole = optimizer.solve()
@@ -167,7 +166,7 @@ def test_a_run_of_the_solver_ends_between_two_iterations() -> None:
     assert optimizer._solvers == solvers
 
 
-def test_the_limit_is_a_time() -> None:
+def test_the_limit_is_a_time():
     assert read_study_text(SEARCHED).solver.time_limit == 300.0
     with pytest.raises(StudyError, match=r"solver\.time_limit: '60': say the unit"):
         read_study_text(SEARCHED.replace("5 min", "60"))
@@ -193,7 +192,7 @@ def _interrupted(study: Study, at: str) -> Study | None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("text", [TWO_STARTS, LISTED_WIRES])
-def test_the_study_begins_at_a_design_that_keeps_all_limits(text: str, tmp_path: Path) -> None:
+def test_the_study_begins_at_a_design_that_keeps_all_limits(text, tmp_path):
     best = _interrupted(read_study_text(text), "so far")
     (tmp_path / "best.yaml").write_text(study_text(best, "the best", tmp_path))
     read = read_study(tmp_path / "best.yaml")
@@ -205,13 +204,11 @@ def test_the_study_begins_at_a_design_that_keeps_all_limits(text: str, tmp_path:
     assert result.design.values["response_time"] < 0.9 * plain.design.values["response_time"]
 
 
-def test_before_the_first_design_there_is_none() -> None:
+def test_before_the_first_design_there_is_none():
     assert _interrupted(read_study_text(TWO_STARTS), "start 1 of 2") is None
 
 
-def test_an_interrupted_run_keeps_it_and_says_where(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_interrupted_run_keeps_it_and_says_where(tmp_path, monkeypatch, capsys):
     path, out = tmp_path / "study.yaml", tmp_path / "out"
     path.write_text(TWO_STARTS)
     best = read_study_text(TWO_STARTS)
@@ -233,7 +230,7 @@ def test_an_interrupted_run_keeps_it_and_says_where(
 
 
 @pytest.mark.gate
-def test_a_design_that_is_found_is_kept_until_it_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_design_that_is_found_is_kept_until_it_is_written(tmp_path, monkeypatch):
     path, out = tmp_path / "study.yaml", tmp_path / "out"
     path.write_text(SMALL)
 

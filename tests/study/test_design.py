@@ -26,7 +26,7 @@ def _plain() -> Any:
     return json.loads(design_json(shipped_design("paper_shear")))
 
 
-def test_a_design_that_lacks_an_input_is_of_another_version(tmp_path: Path) -> None:
+def test_a_design_that_lacks_an_input_is_of_another_version(tmp_path):
     other = write_design(shipped_design("paper_shear"), tmp_path / "design.json")
     assert read_design(other).mode == "shear"
     plain = _plain()
@@ -67,7 +67,7 @@ EDITS: dict[str, tuple[Callable[[Any], None], str]] = {
 
 
 @pytest.mark.parametrize("name", EDITS)
-def test_an_edited_design_is_refused_in_words_with_the_line(name: str, tmp_path: Path) -> None:
+def test_an_edited_design_is_refused_in_words_with_the_line(name, tmp_path):
     change, expected = EDITS[name]
     plain = _plain()
     change(plain)
@@ -78,7 +78,7 @@ def test_an_edited_design_is_refused_in_words_with_the_line(name: str, tmp_path:
     assert all(problem.line > 0 for problem in reported.value.problems)
 
 
-def test_a_folder_of_records_whose_name_is_too_long_is_not_there(tmp_path: Path) -> None:
+def test_a_folder_of_records_whose_name_is_too_long_is_not_there(tmp_path):
     plain = _plain()
     plain["study"]["catalog_folder"] = "9" * 5000
     edited = tmp_path / "design.json"
@@ -87,7 +87,7 @@ def test_a_folder_of_records_whose_name_is_too_long_is_not_there(tmp_path: Path)
         resolve_design(read_design(edited))
 
 
-def test_all_mistakes_of_a_design_and_its_version_are_reported(tmp_path: Path) -> None:
+def test_all_mistakes_of_a_design_and_its_version_are_reported(tmp_path):
     plain = _plain()
     plain |= {"tvimdesign": "2019.1"}
     plain["values"]["wire_diameter"] = 1.0
@@ -116,7 +116,7 @@ def _paths(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 
 @pytest.mark.gate
-def test_no_edit_of_a_design_ends_in_a_traceback(tmp_path: Path) -> None:
+def test_no_edit_of_a_design_ends_in_a_traceback(tmp_path):
     plain = _plain()
     places = [path for path in _paths(plain) if path and path[0] not in ("values", "solution")]
     draw, edited, refused = random.Random(20), tmp_path / "design.json", 0
@@ -138,7 +138,7 @@ def test_no_edit_of_a_design_ends_in_a_traceback(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
-def test_a_study_written_from_what_was_read_is_read_the_same(path: Path) -> None:
+def test_a_study_written_from_what_was_read_is_read_the_same(path):
     study = read_study(path)
     assert read_tree(tree_of_values(written(study), "written", Path())) == study
 
@@ -159,7 +159,7 @@ def marks(node: yaml.Node, path: str = "") -> Iterator[tuple[str, int, int]]:
 
 
 @pytest.mark.parametrize("indent", [None, 2])
-def test_places_are_those_of_yaml(indent: int | None) -> None:
+def test_places_are_those_of_yaml(indent):
     plain: dict[str, Any] = json.loads(design_json(shipped_design("paper_compression")))
     plain["name"] = 'a "quote", a \\, {[ and é'
     text = json.dumps(plain, indent=indent, ensure_ascii=False)
@@ -170,7 +170,7 @@ def test_places_are_those_of_yaml(indent: int | None) -> None:
         assert (places.at(path).line, places.at(path).column) == (line, column)
 
 
-def test_a_step_that_is_not_there_is_where_the_last_one_is() -> None:
+def test_a_step_that_is_not_there_is_where_the_last_one_is():
     places = JsonPlaces(b'{"a": [1,\n {"b": 2}], "c": 3}')
     assert [(places.at(path).line, places.at(path).column) for path in ("a.1.b.x", "a.7", "c.d", "", "z")] == [
         (2, 3), (1, 2), (2, 13), (1, 1), (1, 1),
@@ -178,7 +178,7 @@ def test_a_step_that_is_not_there_is_where_the_last_one_is() -> None:
 
 
 @pytest.mark.parametrize("data", [b"", b"{", b"\xff\xfe\x00", b"[" * 5000])
-def test_of_a_broken_file_no_line_is_known(data: bytes) -> None:
+def test_of_a_broken_file_no_line_is_known(data):
     assert JsonPlaces(data).at("a").line == 0
 
 
@@ -191,7 +191,7 @@ def _given(read: Read, module: str = "", more: str = "") -> dict[str, Any]:
     return given(read(BASE % module + more))
 
 
-def test_every_input_has_a_value_that_the_table_accepts(read: Read) -> None:
+def test_every_input_has_a_value_that_the_table_accepts(read):
     study = read(BASE % "wire_diameter: 2 mm" + "operating_points: {warm: {temperature: 60 degC}}")
     result = given(study)
     points = {f"{row.name}@{point}" for row in study.table.inputs if row.per_point for point in ("cold", "hot", "warm")}
@@ -206,7 +206,7 @@ def test_every_input_has_a_value_that_the_table_accepts(read: Read) -> None:
     assert result["envelope_diameter"] == pytest.approx(0.138)
 
 
-def test_values_are_the_study_s_the_record_s_or_the_default(read: Read) -> None:
+def test_values_are_the_study_s_the_record_s_or_the_default(read):
     assert _given(read)["youngs_modulus"] == 203.4e9
     assert _given(read, "spring_material: stainless_302")["youngs_modulus"] == 193e9
     assert _given(read, "youngs_modulus: 200 GPa")["youngs_modulus"] == pytest.approx(200e9)
@@ -236,7 +236,7 @@ def test_values_are_the_study_s_the_record_s_or_the_default(read: Read) -> None:
         ("rate_model: smi", "rate_model: {choose: [bending, smi]}", "rate_model", "smi"),
     ],
 )
-def test_what_varies_starts_within(read: Read, *, module: str, vary: str, name: str, value: float | str) -> None:
+def test_what_varies_starts_within(read, *, module, vary, name, value):
     result = _given(read, module, VARY % vary)[name]
     assert result == (value if isinstance(value, str) else pytest.approx(value))
 
@@ -257,7 +257,7 @@ def mine(tmp_path: Path) -> str:
     return str(tmp_path)
 
 
-def test_copies_have_their_own_mode_and_records(study: Study, mine: str) -> None:
+def test_copies_have_their_own_mode_and_records(study, mine):
     assert study.catalog is study.catalog
     assert study.table is table_for("shear")
     stored = study.model_copy(update={"module": {}})
@@ -275,7 +275,7 @@ def test_copies_have_their_own_mode_and_records(study: Study, mine: str) -> None
     assert "mine" not in other.model_copy(update={"catalog_folder": None}).catalog.names("structure_materials")
 
 
-def test_what_it_has_opened_is_no_part_of_it(study: Study, mine: str) -> None:
+def test_what_it_has_opened_is_no_part_of_it(study, mine):
     fresh = Study.model_validate(study.model_dump())
     assert not {"catalog", "table"} & fresh.__dict__.keys()
     _ = fresh.catalog.record("structure_materials", "petg"), fresh.table

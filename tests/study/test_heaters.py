@@ -15,7 +15,7 @@ from tvimdesign.study import Study, given, read_study, read_study_text
 from tvimdesign.study.resolve import record_checks
 
 
-def test_both_modes_take_rigid_modules_as_they_are() -> None:
+def test_both_modes_take_rigid_modules_as_they_are():
     study = read_study_text("mode: shear\nmodule: {peltier_module: tm_31_14_85, tiles_per_arc: 1}\n", "a test")
     known = given(study)
     assert (known["heater_form"], known["peltier_length"]) == ("rigid", 20e-3)
@@ -24,7 +24,7 @@ def test_both_modes_take_rigid_modules_as_they_are() -> None:
     assert given(study)["heater_pressure_limit"] == 2.5e6
 
 
-def test_a_missing_pressure_limit_is_reported_under_blocks() -> None:
+def test_a_missing_pressure_limit_is_reported_under_blocks():
     def reported(mode: str, module: str) -> list[str]:
         text = f"mode: {mode}\nmodule: {{{module}}}\n"
         return [line for line in record_checks(read_study_text(text, "a test")) if "pressure" in line]
@@ -40,7 +40,7 @@ def test_a_missing_pressure_limit_is_reported_under_blocks() -> None:
     assert reported("shear", "peltier_module: qc_17") == []
 
 
-def test_tiles_are_refused_beside_a_sheet_and_chosen_where_listed() -> None:
+def test_tiles_are_refused_beside_a_sheet_and_chosen_where_listed():
     study = read_study_text("mode: shear\nmodule: {tiles_per_arc: 3}\n", "a test")
     with pytest.raises(InputError, match="tiles_per_arc: no effect, as heater_form is flexible"):
         answer(study)
@@ -55,7 +55,7 @@ FOILS = [name for name, foil in RECORDS.items() if foil.value("seebeck") == 0.0 
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_both_modes_take_them_and_leave_cooling_to_the_air(mode: str) -> None:
+def test_both_modes_take_them_and_leave_cooling_to_the_air(mode):
     assert len(FOILS) >= 8
     for name in FOILS:
         study = read_study_text(f"mode: {mode}\nmodule: {{peltier_module: {name}}}\n", "a test")
@@ -68,14 +68,14 @@ def test_both_modes_take_them_and_leave_cooling_to_the_air(mode: str) -> None:
     ["module: {%s, cooling_current: 0.3 A}",
      "module: {%s}\nvary: {cooling_current: [0.3 A, 0.5 A]}\nminimize: {module_mass: 1}"],
 )  # fmt: skip
-def test_a_study_cannot_ask_a_foil_to_cool(sections: str) -> None:
+def test_a_study_cannot_ask_a_foil_to_cool(sections):
     study = read_study_text(f"mode: shear\n{sections % 'peltier_module: silicone_9ar_04_12v'}\n", "a test")
     message = "cooling_current of 0.3 A and peltier_module silicone_9ar_04_12v cannot stand together"
     with pytest.raises(InputError, match=message):
         given(study)
 
 
-def test_foils_are_refused_cooling_and_listed_without(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_foils_are_refused_cooling_and_listed_without(capsys, tmp_path):
     text = "module: {peltier_module: silicone_9ar_04_12v}\nvary: {cooling_current: [0 A, 0.5 A]}\n"
     study = read_study_text(f"mode: shear\n{text}minimize: {{module_mass: 1}}\n", "a test")
     assert given(study)["peltier_seebeck"] == 0.0
@@ -92,7 +92,7 @@ def test_foils_are_refused_cooling_and_listed_without(capsys: pytest.CaptureFixt
     assert message.startswith("cooling_current of 0.2 A heats: Mine cannot cool")
 
 
-def test_all_of_an_order_gives_the_same_heat_for_an_area() -> None:
+def test_all_of_an_order_gives_the_same_heat_for_an_area():
     for name in FOILS:
         value = Catalog().record("peltiers", name).value
         density = value("max_current") ** 2 * value("resistance") / value("area")
@@ -124,7 +124,7 @@ def _study(folder: Path, record: str) -> Study:
     return read_study(folder / "study.yaml")
 
 
-def test_only_sheets_that_contradict_themselves_are_reported(shipped: Path, tmp_path: Path) -> None:
+def test_only_sheets_that_contradict_themselves_are_reported(shipped, tmp_path):
     study = _study(tmp_path, _cut_to_size(shipped))
     (message,) = record_checks(study)
     # S^2 T^2/(2 R) is V_max^2/(2 R) at the sheet's own 27 degC: 15.8^2/(2 * 2.0455) = 61.0 W.
@@ -137,7 +137,7 @@ def test_only_sheets_that_contradict_themselves_are_reported(shipped: Path, tmp_
     assert record_checks(study) == []
 
 
-def test_another_material_with_the_polymer_s_laws_is_reported_on_the_page(tmp_path: Path) -> None:
+def test_another_material_with_the_polymer_s_laws_is_reported_on_the_page(tmp_path):
     """Describe a metal by a few numbers of its own, based on a polymer."""
     folder = tmp_path / "records/polymers"
     folder.mkdir(parents=True)

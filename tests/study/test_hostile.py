@@ -67,7 +67,7 @@ TEXTS = {
 }
 
 
-def test_hints_are_sought_for_as_many_names_as_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_hints_are_sought_for_as_many_names_as_are_shown(monkeypatch):
     sought: list[str] = []
     monkeypatch.setattr(mistakes, "get_close_matches", lambda word, *_, **__: sought.append(word) or [])
     with pytest.raises(StudyError):
@@ -76,7 +76,7 @@ def test_hints_are_sought_for_as_many_names_as_are_shown(monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize("case", TEXTS)
-def test_hostile_text_is_refused_in_time(problems: Callable[..., list[str]], case: str) -> None:
+def test_hostile_text_is_refused_in_time(problems, case):
     text, message = TEXTS[case]
     start = time.process_time()
     lines = problems(text)
@@ -90,9 +90,7 @@ def test_hostile_text_is_refused_in_time(problems: Callable[..., list[str]], cas
 @pytest.mark.parametrize(
     "case", ["deep lists", "python object", "alias bomb", "unquoted limit", "duplicate key", "tab"]
 )
-def test_the_parser_in_python_says_the_same(
-    problems: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch, case: str
-) -> None:
+def test_the_parser_in_python_says_the_same(problems, monkeypatch, case):
     monkeypatch.setattr(yaml_text, "LOADER", yaml.SafeLoader)
     text, message = TEXTS[case]
     assert message in "\n".join(problems(text))
@@ -109,7 +107,7 @@ FILES: dict[str, tuple[bytes, str]] = {
 
 
 @pytest.mark.parametrize("case", FILES)
-def test_hostile_files(tmp_path: Path, case: str) -> None:
+def test_hostile_files(tmp_path, case):
     raw, message = FILES[case]
     (tmp_path / "x.yaml").write_bytes(raw)
     with pytest.raises(StudyError) as caught:
@@ -117,9 +115,7 @@ def test_hostile_files(tmp_path: Path, case: str) -> None:
     assert message in str(caught.value)
 
 
-def test_marked_files_are_read_and_unreadable_ones_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, table_of: Callable[..., object]
-) -> None:
+def test_marked_files_are_read_and_unreadable_ones_named(tmp_path, monkeypatch, table_of):
     path = tmp_path / "large.yaml"
     with path.open("wb") as file:
         file.truncate(50_000_000)
@@ -140,7 +136,7 @@ def test_marked_files_are_read_and_unreadable_ones_named(
         read_study(path)
 
 
-def test_what_is_no_ordinary_file_is_refused_in_words(tmp_path: Path) -> None:
+def test_what_is_no_ordinary_file_is_refused_in_words(tmp_path):
     (tmp_path / "paper_shear.yaml").touch()
     with pytest.raises(InputError, match=r"no such file; did you mean 'paper_shear\.yaml'\?"):
         read_study(tmp_path / "paper_sheer.yaml")
@@ -189,26 +185,26 @@ def _reads_or_refuses(read: Read, text: str) -> None:
 
 
 @given_that(st.text(max_size=200))
-def test_any_text(read: Read, text: str) -> None:
+def test_any_text(read, text):
     _reads_or_refuses(read, text)
 
 
 @settings(max_examples=300)
 @given_that(YAML_LIKE)
-def test_anything_like_yaml(read: Read, text: str) -> None:
+def test_anything_like_yaml(read, text):
     _reads_or_refuses(read, "mode: shear\n" + text)
 
 
 @settings(max_examples=200)
 @given_that(st.dictionaries(WORDS, TREES, max_size=5))
-def test_any_tree(read: Read, tree: dict[str, object]) -> None:
+def test_any_tree(read, tree):
     import yaml
 
     _reads_or_refuses(read, yaml.safe_dump({"mode": "shear"} | tree, allow_unicode=True))
 
 
 @given_that(st.binary(max_size=200))
-def test_any_bytes(tmp_path_factory: pytest.TempPathFactory, raw: bytes) -> None:
+def test_any_bytes(tmp_path_factory, raw):
     path = tmp_path_factory.getbasetemp() / "any.yaml"
     path.write_bytes(raw)
     with pytest.raises(InputError):
@@ -216,7 +212,7 @@ def test_any_bytes(tmp_path_factory: pytest.TempPathFactory, raw: bytes) -> None
 
 
 @given_that(st.floats(0.5, 5.0), st.floats(0.5, 5.0))
-def test_a_range_is_read_or_refused_by_its_order(read: Read, lower: float, upper: float) -> None:
+def test_a_range_is_read_or_refused_by_its_order(read, lower, upper):
     text = f"mode: shear\nminimize: module_mass\nvary: {{wire_diameter: [{lower!r} mm, {upper!r} mm]}}"
     if upper > lower * (1 + 1e-6):
         result = read(text).vary["wire_diameter"].model_dump()
@@ -228,7 +224,7 @@ def test_a_range_is_read_or_refused_by_its_order(read: Read, lower: float, upper
 
 
 @given_that(st.text(st.characters(codec="utf-8"), min_size=1, max_size=30))
-def test_no_file_name_gives_a_traceback(tmp_path_factory: pytest.TempPathFactory, name: str) -> None:
+def test_no_file_name_gives_a_traceback(tmp_path_factory, name):
     with pytest.raises(InputError) as caught:
         read_study(Path(tmp_path_factory.getbasetemp() / "nowhere" / name.replace("/", "_")))
     assert str(caught.value).isprintable()

@@ -43,7 +43,7 @@ Refuse = Callable[..., list[str]]
 GOOD = sample_text("of_the_small_table")
 
 
-def test_a_full_study(read: Read) -> None:
+def test_a_full_study(read):
     study = read(GOOD)
     assert study.name == "The paper's module, re-optimised"
     assert study.description == "Two lines\nof text"
@@ -78,7 +78,7 @@ def test_a_full_study(read: Read) -> None:
     assert (study.write.plots, study.write.cad) == (True, False)
 
 
-def test_only_the_mode_is_needed_and_empty_sections_are_none(read: Read) -> None:
+def test_only_the_mode_is_needed_and_empty_sections_are_none(read):
     study = read("mode: shear", name="my_study")
     assert (study.name, study.task, study.module, study.vary) == ("my_study", "evaluate", {}, {})
     assert set(study.operating_points) == {"cold", "hot"}
@@ -87,13 +87,13 @@ def test_only_the_mode_is_needed_and_empty_sections_are_none(read: Read) -> None
 
 
 @pytest.mark.parametrize("text", [GOOD, "mode: shear"])
-def test_json_round_trip(read: Read, text: str) -> None:
+def test_json_round_trip(read, text):
     study = read(text)
     assert Study.model_validate(study.model_dump(mode="json")) == study
     assert Study.model_validate_json(study.model_dump_json()) == study
 
 
-def test_problems_are_data_and_capped_in_print(read: Read) -> None:
+def test_problems_are_data_and_capped_in_print(read):
     with pytest.raises(StudyError) as caught:
         read("mode: shear\nmodule: {wire_diamter: 2 mm}")
     (problem,) = caught.value.problems
@@ -106,7 +106,7 @@ def test_problems_are_data_and_capped_in_print(read: Read) -> None:
     assert str(caught.value).splitlines()[50:] == ["... and 10 more"]
 
 
-def test_a_folder_of_records(tmp_path: Path, table_of: Any, make_catalog: Any, problems: Refuse) -> None:
+def test_a_folder_of_records(tmp_path, table_of, make_catalog, problems):
     (tmp_path / "mine").mkdir()
     (tmp_path / "x.yaml").write_text("mode: shear\ncatalog: mine\n", encoding="utf-8")
     study = read_study(tmp_path / "x.yaml", table=table_of, catalog=make_catalog)
@@ -119,7 +119,7 @@ def test_a_folder_of_records(tmp_path: Path, table_of: Any, make_catalog: Any, p
     assert lines[0].endswith("mine is broken; in two ways")
 
 
-def test_no_folder_of_records(problems: Refuse, tmp_path: Path) -> None:
+def test_no_folder_of_records(problems, tmp_path):
     (tmp_path / "file").touch()
     for written in ("file", "é" * 190, "../nowhere", "[a]"):
         (line,) = problems(f"mode: shear\ncatalog: {written}", folder=tmp_path)
@@ -137,7 +137,7 @@ tables:
 """
 
 
-def test_the_users_records_in_the_shipped_catalogue(tmp_path: Path) -> None:
+def test_the_users_records_in_the_shipped_catalogue(tmp_path):
     (tmp_path / "mine" / "wires").mkdir(parents=True)
     (tmp_path / "mine" / "wires" / "drawer.yaml").write_text(WIRES, encoding="utf-8")
     text = "mode: shear\ncatalog: mine\nminimize: module_mass\nvary: {wire_diameter: {catalog: %s, to: 5 mm}}\n"
@@ -166,7 +166,7 @@ def cases(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("name", SNAPSHOTS)
-def test_messages_are_those_of_the_snapshot(problems: Callable[..., list[str]], name: str) -> None:
+def test_messages_are_those_of_the_snapshot(problems, name):
     path = FOLDER / name
     expected = path.read_text(encoding="utf-8")
     result = ""
@@ -202,7 +202,7 @@ def mistake(section: str, name: str, value: str) -> Mistake:
         ("mass@hot", "module_mass"), ("diamter", "envelope_diameter"), ("module_mas", "module_mass"),
     ],
 )  # fmt: skip
-def test_a_limit_gets_the_quantity_that_is_meant(name: str, meant: str) -> None:
+def test_a_limit_gets_the_quantity_that_is_meant(name, meant):
     assert mistake("require", name, "<= 1 mm").hint == f"did you mean {meant!r}?"
     # What is meant most often stands first among the names.
     assert mistake("require", "xyz", "<= 1 mm").expected.startswith("one of module_mass, envelope_diameter, ")
@@ -215,12 +215,12 @@ def test_a_limit_gets_the_quantity_that_is_meant(name: str, meant: str) -> None:
         ("layer_thickness", "did you mean 'pcl_thickness'?"),
     ],
 )  # fmt: skip
-def test_an_input_gets_the_input_or_the_limit_that_is_meant(name: str, hint: str) -> None:
+def test_an_input_gets_the_input_or_the_limit_that_is_meant(name, hint):
     assert mistake("module", name, "1 mm").hint == hint
 
 
 @pytest.mark.parametrize("text", [">= 1 Nm/rad, <= 1.5 Nm/rad", ">= 1 Nm/rad and <= 1.5 Nm/rad", "1 to 1.5 Nm/rad"])
-def test_two_limits_in_one_text_become_a_list(text: str) -> None:
+def test_two_limits_in_one_text_become_a_list(text):
     problem = mistake("require", "spring_stiffness", text)
     assert (problem.message, problem.expected) == ("2 limits in one text", 'a list: [">= 1 Nm/rad", "<= 1.5 Nm/rad"]')
 
@@ -235,7 +235,7 @@ def validator(table: Table) -> Any:
     return jsonschema.Draft7Validator(schema)
 
 
-def test_names_and_units_stand_in_the_schema(table: Table) -> None:
+def test_names_and_units_stand_in_the_schema(table):
     module = json_schema({"shear": table})["allOf"][0]["then"]["properties"]["module"]["properties"]
     assert set(module) == {row.name for row in (*table.inputs, *table.choices)} - {"temperature", "frequency"}
     assert module["wire_diameter"]["description"] == "Wire diameter [mm]"
@@ -255,20 +255,20 @@ def test_names_and_units_stand_in_the_schema(table: Table) -> None:
         "mode: shear\nsweep: {cells: [{pcl_thickness: 1 mm, rate_model: smi}], outputs: all, most: 3}",
     ],
 )
-def test_a_good_study_fits(validator: Any, read: Callable[..., Study], text: str) -> None:
+def test_a_good_study_fits(validator, read, text):
     validator.validate(yaml.safe_load(text))
     read(text)
 
 
 @pytest.mark.parametrize("text", WRONG)
-def test_a_wrong_study_does_not(validator: Any, read: Callable[..., Study], text: str) -> None:
+def test_a_wrong_study_does_not(validator, read, text):
     assert not validator.is_valid(yaml.safe_load(text))
     with pytest.raises(StudyError):
         read(text)
 
 
 @pytest.mark.gate
-def test_the_command_prints_the_schema_of_all_modes() -> None:
+def test_the_command_prints_the_schema_of_all_modes():
     done = subprocess.run([sys.executable, "-m", "tvimdesign", "schema"], capture_output=True, text=True, check=True)
     printed = json.loads(done.stdout)
     jsonschema.Draft7Validator.check_schema(printed)
@@ -277,7 +277,7 @@ def test_the_command_prints_the_schema_of_all_modes() -> None:
         jsonschema.Draft7Validator(printed).validate({"mode": mode})
 
 
-def test_schema_and_studies_name_format_and_version() -> None:
+def test_schema_and_studies_name_format_and_version():
     schema = json_schema({})
     assert schema["$id"] == f"urn:tvimdesign:study:1:{__version__}"
     line = "# yaml-language-server: $schema={}study.schema.json\n"
@@ -288,7 +288,7 @@ def test_schema_and_studies_name_format_and_version() -> None:
     assert example_text("paper_as_published") == example_text("paper_reconstructed")  # its name before
 
 
-def test_the_template_and_its_commented_lines_fit_the_schema() -> None:
+def test_the_template_and_its_commented_lines_fit_the_schema():
     study = read_study_text(template_text(), "template.yaml")
     assert study.task == "optimize"
     assert given(study)["process"].name == study.module["process"]
@@ -316,19 +316,19 @@ OF_THE_OTHER = [
 
 
 @pytest.mark.parametrize(("mode", "other", "text"), OF_THE_OTHER)
-def test_the_schema_takes_a_name_in_its_own_mode(mode: str, other: str, text: str) -> None:
+def test_the_schema_takes_a_name_in_its_own_mode(mode, other, text):
     validator = jsonschema.Draft7Validator(json_schema(TABLES))
     assert validator.is_valid(yaml.safe_load(f"mode: {other}\n{text}"))
     assert not validator.is_valid(yaml.safe_load(f"mode: {mode}\n{text}"))
 
 
 @pytest.mark.parametrize("goal", ["require: {contact_lost@hot: '<= 0.1'}", "minimize: contact_lost@hot"])
-def test_the_schema_has_no_output_of_a_simulated_release(goal: str) -> None:
+def test_the_schema_has_no_output_of_a_simulated_release(goal):
     validator = jsonschema.Draft7Validator(json_schema(TABLES))
     assert not any(validator.is_valid(yaml.safe_load(f"mode: {mode}\n{goal}")) for mode in MODES)
 
 
-def test_a_study_may_exceed_an_assumed_rule() -> None:
+def test_a_study_may_exceed_an_assumed_rule():
     def limits(text: str) -> list[float]:
         study = read_study_text(f"mode: compression\n{text}")
         return [
@@ -343,7 +343,7 @@ def test_a_study_may_exceed_an_assumed_rule() -> None:
     assert limits("require: {block_strain: '<= 0.6'}") == [0.6]
 
 
-def test_rows_of_one_name_mean_the_same_in_both_modes() -> None:
+def test_rows_of_one_name_mean_the_same_in_both_modes():
     shear, compression = (TABLES[mode].by_name for mode in ("shear", "compression"))
     shared = shear.keys() & compression.keys()
     assert len(shared) > 200

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from cad_designs import shipped_design
 from comparable import COMPRESSION, SHEAR, cases
-from support import ROOT, Command, refused
+from support import ROOT, refused
 
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.result import answer
@@ -36,7 +36,7 @@ def values_of(folder: Path) -> dict[str, float | str]:
 
 
 @pytest.mark.gate
-def test_a_result_as_a_study_is_answered_the_same_to_the_last_digit(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_result_as_a_study_is_answered_the_same_to_the_last_digit(tvimdesign, tmp_path):
     (tmp_path / "searched.yaml").write_text(SEARCHED)
     words, again = ["--no-cad", "--no-plots", "--out"], tmp_path / "again.yaml"
     first = tvimdesign("run", tmp_path / "searched.yaml", *words, tmp_path / "first")
@@ -55,7 +55,7 @@ def design(**changes: object) -> Design:
     return shipped_design("paper_shear").model_copy(update=changes)
 
 
-def test_what_the_module_lacks_is_left_out() -> None:
+def test_what_the_module_lacks_is_left_out():
     released = design()
     vary = {
         **released.study["vary"],
@@ -75,7 +75,7 @@ PROFILES = {
 }
 
 
-def test_a_current_profile_becomes_given_currents() -> None:
+def test_a_current_profile_becomes_given_currents():
     study = evaluating(design(current_profiles=PROFILES))
     assert {phase: item.model_dump(mode="json") for phase, item in study.currents.items()} == PROFILES
     again = read_study_text(study_text(study, "written", ROOT), "again", ROOT)
@@ -97,7 +97,7 @@ def study(currents: str) -> Study:
 
 
 @pytest.mark.gate
-def test_a_given_current_is_followed_and_a_constant_one_is_the_same() -> None:
+def test_a_given_current_is_followed_and_a_constant_one_is_the_same():
     """Compare with constant currents, which are inputs of their own: the two ways share only the integrator."""
     flat = "{softening: {moments: [0 s, 5 s], currents: [1.5 A, 1500 mA]},"
     flat += " stiffening: {moments: [0 s, 1 min], currents: [-0.3 A, -0.3 A]}}"
@@ -114,7 +114,7 @@ def test_a_given_current_is_followed_and_a_constant_one_is_the_same() -> None:
 
 
 @pytest.mark.gate
-def test_tolerate_leaves_out_the_constant_current_that_a_profile_replaces(tvimdesign: Command, tmp_path: Path) -> None:
+def test_tolerate_leaves_out_the_constant_current_that_a_profile_replaces(tvimdesign, tmp_path):
     (tmp_path / "given.yaml").write_text(
         MODULE + "require: {holding_torque: '>= 1 N.m'}\n"
         "currents: {softening: {moments: [0 s, 5 s], currents: [1 A, 1.5 A]}}\n"
@@ -135,7 +135,7 @@ def problems_of(folder: Path, *texts: str) -> list[str]:
     return []
 
 
-def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
+def test_two_modes_with_one_task_can_be_compared(tmp_path):
     assert problems_of(tmp_path, SHEAR, COMPRESSION) == []
     own = "  spring_material: stainless_302\n  floor_thickness: 5 mm\n  leg_model: ignored\n  current: 1.5 A"
     assert problems_of(tmp_path, SHEAR, SHEAR.replace("  current: 1.5 A", own)) == []
@@ -146,9 +146,7 @@ def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("old", "new", "place", "words"), refused("conditions"))
-def test_a_different_task_or_condition_is_reported_with_both_places(
-    tmp_path: Path, old: str, new: str, place: str, words: str
-) -> None:
+def test_a_different_task_or_condition_is_reported_with_both_places(tmp_path, old, new, place, words):
     assert old in COMPRESSION
     reported = problems_of(tmp_path, SHEAR, COMPRESSION.replace(old, new))
     assert len(reported) == 1
@@ -157,7 +155,7 @@ def test_a_different_task_or_condition_is_reported_with_both_places(
     assert reported[0].count("study_0.yaml:") + reported[0].count("study_1.yaml:") == 2
 
 
-def test_ranges_and_limits_are_compared_with_their_places(tmp_path: Path) -> None:
+def test_ranges_and_limits_are_compared_with_their_places(tmp_path):
     ranged = COMPRESSION.replace("vary:", "vary:\n  current: [1 A, 2 A]")
     reported = problems_of(tmp_path, SHEAR, ranged)
     assert len(reported) == 1
@@ -174,7 +172,7 @@ def test_ranges_and_limits_are_compared_with_their_places(tmp_path: Path) -> Non
     assert "block_strain <= 0.4 is required here" in reported[0]
 
 
-def test_another_record_or_an_evaluated_study_is_one_difference(tmp_path: Path) -> None:
+def test_another_record_or_an_evaluated_study_is_one_difference(tmp_path):
     start, end = COMPRESSION.index("vary:"), COMPRESSION.index("require:")
     drawn = (COMPRESSION[:start] + COMPRESSION[end:]).replace("minimize: {module_mass: 1, response_time: 1}\n", "")
     reported = problems_of(tmp_path, SHEAR, drawn)

@@ -31,7 +31,7 @@ def problems(*settings: str) -> list[str]:
     return str(caught.value).splitlines()
 
 
-def test_a_name_fixes_what_is_varied_and_the_last_of_two_counts() -> None:
+def test_a_name_fixes_what_is_varied_and_the_last_of_two_counts():
     study = read("pcl_thickness=1.2 mm")
     assert study.module["pcl_thickness"] == pytest.approx(1.2e-3)
     assert list(study.vary) == ["coil_diameter"]
@@ -41,7 +41,7 @@ def test_a_name_fixes_what_is_varied_and_the_last_of_two_counts() -> None:
     assert read("current=1 A", "current=2 A").module["current"] == 2.0
 
 
-def test_a_path_sets_what_stands_there_and_leaves_the_rest() -> None:
+def test_a_path_sets_what_stands_there_and_leaves_the_rest():
     study = read(
         "module.pcl_thickness=1.2 mm", "require.module_mass=<= 90 g", "operating_points.hot.temperature=90 degC"
     )
@@ -64,18 +64,18 @@ def test_a_path_sets_what_stands_there_and_leaves_the_rest() -> None:
         ("name=A = B", lambda s: s.name, "A = B"),
     ],
 )
-def test_what_may_be_set(setting: str, find: Any, wanted: Any) -> None:
+def test_what_may_be_set(setting, find, wanted):
     assert find(read(setting)) == wanted
 
 
 @pytest.mark.parametrize(("setting", "message"), refused("settings"))
-def test_a_wrong_setting_is_named_as_the_place(setting: str, message: str) -> None:
+def test_a_wrong_setting_is_named_as_the_place(setting, message):
     (line,) = problems(setting)
     assert line.startswith("--set " + setting.partition("\x07")[0])
     assert message in line
 
 
-def test_mistakes_of_all_settings_and_of_the_file_are_reported_at_once() -> None:
+def test_mistakes_of_all_settings_and_of_the_file_are_reported_at_once():
     tree = tree_of_text(TEXT.replace("1.5 A", "1.5 V"), "x.yaml", "x", Path())
     with pytest.raises(StudyError) as caught:
         read_tree(with_settings(tree, ["coil_diameter=1 s", "nothing", "solver.starts=many"]))
@@ -96,7 +96,7 @@ ureg: Any = pint.UnitRegistry()
     ],
     ids=str,
 )  # fmt: skip
-def test_a_number_with_its_unit_may_be_given_in_many_ways(value: Any) -> None:
+def test_a_number_with_its_unit_may_be_given_in_many_ways(value):
     tree = tree_of_values({"mode": "shear", "module": {"pcl_thickness": value}}, "Study(...)", Path())
     assert read_tree(tree).module["pcl_thickness"] == pytest.approx(1.2e-3, rel=1e-12)
 
@@ -109,7 +109,7 @@ def test_a_number_with_its_unit_may_be_given_in_many_ways(value: Any) -> None:
         ("3 J/kg/K", "J/kg/delta_degC"),
     ],
 )  # fmt: skip
-def test_pints_own_words_for_units_are_read(value: str, unit: str) -> None:
+def test_pints_own_words_for_units_are_read(value, unit):
     from tvimdesign.base.units import parse_quantity
 
     number = float(value.split(maxsplit=1)[0])
@@ -130,7 +130,7 @@ def test_pints_own_words_for_units_are_read(value: str, unit: str) -> None:
     ],
     ids=str,
 )
-def test_a_range_may_be_given_in_many_ways(pair: Any) -> None:
+def test_a_range_may_be_given_in_many_ways(pair):
     sections = {"mode": "shear", "vary": {"pcl_thickness": pair}, "minimize": "module_mass"}
     result = read_tree(tree_of_values(sections, "Study(...)", Path())).vary["pcl_thickness"]
     assert isinstance(result, Range)
@@ -150,14 +150,14 @@ def endless() -> list[Any]:
         ("1 mm\x00", "control character"), (endless(), "nested deeper"), (True, "'true'"), (b"1 mm", "type bytes"),
     ],
 )  # fmt: skip
-def test_what_cannot_stand_in_a_study_is_refused(value: Any, message: str) -> None:
+def test_what_cannot_stand_in_a_study_is_refused(value, message):
     with pytest.raises(StudyError) as caught:
         read_tree(tree_of_values({"mode": "shear", "module": {"pcl_thickness": value}}, "Study(...)", Path()))
     assert message in str(caught.value)
     assert {problem.file for problem in caught.value.problems} == {"Study(...)"}
 
 
-def test_a_changed_study_is_written_as_text_that_reads_as_the_same_study() -> None:
+def test_a_changed_study_is_written_as_text_that_reads_as_the_same_study():
     settings = ["pcl_thickness=1.2 mm", 'require.impedance_range=[">= 50", "<= 90"]', "description=it's: one #2, [x]"]
     tree = with_settings(tree_of_text(TEXT, "x.yaml", "x", Path()), settings)
     text = tree_yaml(tree)
@@ -168,6 +168,6 @@ def test_a_changed_study_is_written_as_text_that_reads_as_the_same_study() -> No
 
 
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
-def test_every_shipped_study_survives_being_written(path: Path) -> None:
+def test_every_shipped_study_survives_being_written(path):
     tree = tree_of_text(path.read_text(), path.name, path.stem, path.parent)
     assert read_study_text(tree_yaml(tree), path.stem, path.parent) == read_tree(tree)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from small_sweeps import plan, swept, tables
-from support import ROOT, Command, environment, study_path
+from support import ROOT, environment, study_path
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
@@ -27,7 +27,7 @@ def rows(out: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
-def test_cells_are_those_of_single_evaluations(one_process: Path) -> None:
+def test_cells_are_those_of_single_evaluations(one_process):
     table = rows(one_process)
     assert [row["status"] for row in table] == ["evaluated", "refused"] * 3
     assert "arc_width is" in table[1]["reason"]
@@ -40,7 +40,7 @@ def test_cells_are_those_of_single_evaluations(one_process: Path) -> None:
     assert int(table[2]["violated"]) == int((~satisfied).sum())
 
 
-def test_the_data_base_has_the_table_s_numbers(one_process: Path) -> None:
+def test_the_data_base_has_the_table_s_numbers(one_process):
     connection = sqlite3.connect(one_process / "cells.sqlite")
     try:
         masses = [mass for (mass,) in connection.execute("SELECT module_mass FROM cells ORDER BY cell")]
@@ -57,9 +57,7 @@ def test_the_data_base_has_the_table_s_numbers(one_process: Path) -> None:
 
 
 @pytest.mark.gate
-def test_two_workers_and_a_resumed_sweep_give_the_same_bytes(
-    study_file: Path, one_process: Path, tmp_path: Path
-) -> None:
+def test_two_workers_and_a_resumed_sweep_give_the_same_bytes(study_file, one_process, tmp_path):
     out = tmp_path / "out"
     first = swept(study_file, out, workers=2)
     assert (first["reused"], first["computed"]) == (0, 6)
@@ -70,9 +68,7 @@ def test_two_workers_and_a_resumed_sweep_give_the_same_bytes(
 
 
 @pytest.mark.gate
-def test_a_sweep_whose_workers_were_killed_in_a_line_is_resumed(
-    study_file: Path, one_process: Path, tmp_path: Path
-) -> None:
+def test_a_sweep_whose_workers_were_killed_in_a_line_is_resumed(study_file, one_process, tmp_path):
     out = tmp_path / "out"
     with joined(out) as folder:
         run_sweep(plan_of(tree_of_file(study_file)), folder, Executor(2), lambda _: None)
@@ -85,9 +81,7 @@ def test_a_sweep_whose_workers_were_killed_in_a_line_is_resumed(
 
 
 @pytest.mark.slow
-def test_parts_of_an_array_share_a_folder_and_the_last_gathers(
-    tvimdesign: Command, study_file: Path, one_process: Path, tmp_path: Path
-) -> None:
+def test_parts_of_an_array_share_a_folder_and_the_last_gathers(tvimdesign, study_file, one_process, tmp_path):
     out = tmp_path / "out"
     for part in (3, 1, 2):
         done = tvimdesign("sweep", study_file, "--out", out, "--shard", f"{part}/3", "--workers", 1, "--no-plots")
@@ -97,7 +91,7 @@ def test_parts_of_an_array_share_a_folder_and_the_last_gathers(
     assert tables(out) == tables(one_process)
 
 
-def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file: Path, one_process: Path, tmp_path: Path) -> None:
+def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file, one_process, tmp_path):
     out = tmp_path / "out"
     out.mkdir()
     (out / "shards").symlink_to(one_process / "shards")
@@ -116,25 +110,21 @@ def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file: Path, one_p
         (["--resume", "--overwrite"], "--overwrite and --resume: choose one"),
     ],
 )
-def test_what_cannot_be_done_is_reported_in_a_line(
-    tvimdesign: Command, study_file: Path, tmp_path: Path, words: list[str], message: str
-) -> None:
+def test_what_cannot_be_done_is_reported_in_a_line(tvimdesign, study_file, tmp_path, words, message):
     done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", *words)
     assert done.returncode == 2, done.stderr
     assert message in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_folder_of_results_is_not_written_over(tvimdesign: Command, study_file: Path, one_process: Path) -> None:
+def test_a_folder_of_results_is_not_written_over(tvimdesign, study_file, one_process):
     done = tvimdesign("sweep", study_file, "--out", one_process)
     assert done.returncode == 2
     assert "--resume goes on with a front or a sweep" in done.stderr
 
 
 @pytest.mark.gate
-def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(
-    study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(study_file, tmp_path, monkeypatch):
     (tmp_path / "sitecustomize.py").write_text(KILLED_BY_TWO_MILLIMETRES)
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{ROOT}")
     sweep_plan = plan(study_file, "sweep.over.pcl_inner_radius=[20 mm]")
@@ -160,7 +150,7 @@ if sys.argv[0] == "-m" and "tvimdesign.sweep.pool" in sys.orig_argv:
 """
 
 
-def test_outputs_and_executors_are_read_from_words(study_file: Path) -> None:
+def test_outputs_and_executors_are_read_from_words(study_file):
     assert Executor.of(2, "").part == (1, 1)
     assert Executor.of(0, "3/8").part == (3, 8)
     for wrong in ("0/3", "4/3", "a/3", "3", "1/"):
@@ -172,7 +162,7 @@ def test_outputs_and_executors_are_read_from_words(study_file: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_disk_that_fills_once_costs_no_cell(study_file: Path, one_process: Path, tmp_path: Path) -> None:
+def test_a_disk_that_fills_once_costs_no_cell(study_file, one_process, tmp_path):
     out, room = tmp_path / "out", 900  # B: the manifest has 850, six cells have 1050
     words = ["sweep", str(study_file), "--out", str(out), "--no-plots", "--workers", "1"]
     full = subprocess.run(
@@ -190,7 +180,7 @@ def test_a_disk_that_fills_once_costs_no_cell(study_file: Path, one_process: Pat
 
 
 @pytest.mark.slow
-def test_optimised_cells_are_the_same_bytes_for_one_and_two_workers(tmp_path: Path) -> None:
+def test_optimised_cells_are_the_same_bytes_for_one_and_two_workers(tmp_path):
     path = tmp_path / "optimised.yaml"
     text = study_path("paper_shear").read_text()
     over = (

@@ -36,7 +36,7 @@ def written(folder: Path, keys: list[str], columns: tuple[str, ...] = COLUMNS) -
         shard.append([(key, answer(number), 0.25) for number, key in enumerate(keys)])
 
 
-def test_what_is_kept_comes_back_to_the_last_digit(tmp_path: Path) -> None:
+def test_what_is_kept_comes_back_to_the_last_digit(tmp_path):
     written(tmp_path, KEYS[:3])
     written(tmp_path, KEYS[3:])
     shards = Shards(tmp_path, COLUMNS)
@@ -47,7 +47,7 @@ def test_what_is_kept_comes_back_to_the_last_digit(tmp_path: Path) -> None:
     assert len(list((tmp_path / "shards").iterdir())) == 2
 
 
-def test_an_unfinished_line_is_no_cell_and_the_next_shard_is_new(tmp_path: Path) -> None:
+def test_an_unfinished_line_is_no_cell_and_the_next_shard_is_new(tmp_path):
     written(tmp_path, KEYS)
     (path,) = (tmp_path / "shards").iterdir()
     whole = path.read_bytes()
@@ -60,7 +60,7 @@ def test_an_unfinished_line_is_no_cell_and_the_next_shard_is_new(tmp_path: Path)
     assert len(Shards(tmp_path, COLUMNS)) == 2
 
 
-def test_a_shard_with_fewer_columns_is_left_alone_and_one_with_more_serves(tmp_path: Path) -> None:
+def test_a_shard_with_fewer_columns_is_left_alone_and_one_with_more_serves(tmp_path):
     written(tmp_path, KEYS)
     shards = Shards(tmp_path, ("spring_material", "module_mass"))
     (stored,) = shards.cells(iter(KEYS[1:2]))
@@ -85,7 +85,7 @@ with ShardWriter(Path(sys.argv[1]), ("a", "b", "c")) as shard:
 
 
 @pytest.mark.gate
-def test_full_disks_and_folders_in_the_way_keep_the_cells_before(tmp_path: Path) -> None:
+def test_full_disks_and_folders_in_the_way_keep_the_cells_before(tmp_path):
     done = subprocess.run(
         [sys.executable, "-c", FILLS_ITS_DISK, str(tmp_path)], capture_output=True, text=True, check=True,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300)),
@@ -114,7 +114,7 @@ def plan_over(tmp_path: Path, sweep: str, study: str = "mode: shear\n") -> Sweep
     return plan(path)
 
 
-def test_grids_and_samples_lie_where_they_are_asked_for(tmp_path: Path) -> None:
+def test_grids_and_samples_lie_where_they_are_asked_for(tmp_path):
     sweep_plan = plan_over(tmp_path, "{over: {current: [1 A, 2 A], arc_count: {from: 3, to: 5}}}")
     cells = [sweep_plan.points.texts(number) for number in range(sweep_plan.count)]
     assert cells == [(current, count) for current in ("1 A", "2 A") for count in ("3", "4", "5")]
@@ -132,7 +132,7 @@ def test_grids_and_samples_lie_where_they_are_asked_for(tmp_path: Path) -> None:
     assert sorted(counts) == ["3", "3", "4", "4", "5", "5", "6", "6"]
 
 
-def test_bad_or_too_many_cells_are_refused_with_advice(tmp_path: Path) -> None:
+def test_bad_or_too_many_cells_are_refused_with_advice(tmp_path):
     with pytest.raises(StudyError, match=r"study.yaml:2:\d+: module.current: '99 A' is above the upper limit"):
         plan_over(tmp_path, "{over: {pcl_thickness: [1 mm], current: [1 A, 99 A]}}")
     with pytest.raises(StudyError, match="no unit"):
@@ -157,13 +157,13 @@ def test_bad_or_too_many_cells_are_refused_with_advice(tmp_path: Path) -> None:
         "{method: latin_hypercube, count: 4, over: {wire_diameter: {from: 2 mm, to: 3 mm}, solver.starts: [1, 2]}}",
     ],
 )
-def test_every_cell_has_a_key_of_its_own(tmp_path: Path, sweep: str) -> None:
+def test_every_cell_has_a_key_of_its_own(tmp_path, sweep):
     sweep_plan = plan_over(tmp_path, sweep, OPTIMISED)
     keys = CellKeys(sweep_plan)
     assert len({keys.key(sweep_plan.points.texts(number)) for number in range(sweep_plan.count)}) == sweep_plan.count
 
 
-def test_a_key_changes_with_study_and_record_not_with_other_cells(tmp_path: Path) -> None:
+def test_a_key_changes_with_study_and_record_not_with_other_cells(tmp_path):
     def key(sweep: str = "{over: {current: [1 A, 2 A]}}", study: str = "mode: shear\n") -> str:
         sweep_plan = plan_over(tmp_path, sweep, study)
         return CellKeys(sweep_plan).key(sweep_plan.points.texts(0))
@@ -175,7 +175,7 @@ def test_a_key_changes_with_study_and_record_not_with_other_cells(tmp_path: Path
     assert key() == key(study="mode: shear\nname: other\nwrite: {cad: false}\n")
 
 
-def test_a_key_changes_with_what_the_table_reads_of_a_record(tmp_path: Path) -> None:
+def test_a_key_changes_with_what_the_table_reads_of_a_record(tmp_path):
     records = tmp_path / "records/structure_materials"
     records.mkdir(parents=True)
 
@@ -200,7 +200,7 @@ def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswe
     return {number: cells.answer(Cell("", sweep_plan.points.texts(number))) for number in order}
 
 
-def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
+def test_the_order_of_cells_changes_no_digit(study_file):
     over = "sweep.over={pcl_thickness: [0.6 mm, 1 mm], arc_count: [3, 4]}"
     forward, backward = answers(study_file, [0, 1, 2, 3], over), answers(study_file, [3, 0], over)
     assert backward == {number: forward[number] for number in backward}
@@ -208,7 +208,7 @@ def test_the_order_of_cells_changes_no_digit(study_file: Path) -> None:
 
 
 @pytest.mark.gate
-def test_a_cell_below_its_yield_says_by_how_much(tmp_path: Path) -> None:
+def test_a_cell_below_its_yield_says_by_how_much(tmp_path):
     path = tmp_path / "study.yaml"
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     path.write_text(f"{band}robust: {{yield: 95 %}}\nsweep: {{over: {{link_thickness: [5 mm]}}}}\n")
@@ -218,7 +218,7 @@ def test_a_cell_below_its_yield_says_by_how_much(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
+def test_optimised_cells_are_the_same_in_any_order(tmp_path):
     path = tmp_path / "study.yaml"
     path.write_text(tvim.load(study_path("paper_shear")).text)
     over = "sweep={over: {pcl_thickness: [0.6 mm, 0.9 mm], require.holding_torque: ['>= 12 N.m', '>= 120 N.m']}}"
@@ -230,7 +230,7 @@ def test_optimised_cells_are_the_same_in_any_order(tmp_path: Path) -> None:
     assert "violates" in forward[1].reason
 
 
-def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file: Path) -> None:
+def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file):
     sweep_plan = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
     cells = [Cell(str(number), sweep_plan.points.texts(number)) for number in range(4)]
     left = CellQueue(cells, SweptStudy.of(sweep_plan), workers=2)
@@ -243,9 +243,7 @@ def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file: P
     assert len(left) == 0
 
 
-def test_own_records_are_found_by_a_worker_that_began_in_another_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_own_records_are_found_by_a_worker_that_began_in_another_folder(tmp_path, monkeypatch):
     study = "mode: shear\ncatalog: records\nsolver: {cells: 6}\nsweep: {over: {spring_material: [own]}}\n"
     own = "title: Own\nbased_on: music_wire\nvalues: {stress_relief_temperature: {value: 250, unit: degC, "
     (tmp_path / "records/spring_materials").mkdir(parents=True)

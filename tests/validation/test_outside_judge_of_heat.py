@@ -34,7 +34,7 @@ with (ROOT / "validation/heat_sector/outside_judge.csv").open(newline="", encodi
 named = pytest.mark.parametrize("study", list(studies()))
 
 
-def test_finite_elements_bear_the_plane_out() -> None:
+def test_finite_elements_bear_the_plane_out():
     assert {row["case"] for row in ROWS} == set(CASES)
     assert {row["pads"] for row in ROWS} == set(PADS)
     assert {read_study(study_path(row["study"])).mode for row in ROWS} == {"shear", "compression"}
@@ -46,7 +46,7 @@ def test_finite_elements_bear_the_plane_out() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("case", ["paper_shear", "paper_compression"])
-def test_the_plane_that_was_judged_is_today_s(case: str) -> None:
+def test_the_plane_that_was_judged_is_today_s(case):
     model = model_of(study_path(CASES[case].study))
     judge = Judge(model, plane_of(model))
     switch = judge.heated(CASES[case].seconds, 100)
@@ -58,7 +58,7 @@ FRESH_ROWS = list(csv.DictReader((ROOT / "validation/heat_sector/fresh.csv").rea
 """Random modules that nobody optimized, by the product and by the plane, with the interval that the product states."""
 
 
-def test_random_modules_switch_as_in_the_plane_within_a_twentieth() -> None:
+def test_random_modules_switch_as_in_the_plane_within_a_twentieth():
     assert len({(row["study"], row["design"]) for row in FRESH_ROWS}) == sum(FRESH.values()) == 50
     for judged in (("softening_time", "mean_time"), ("far_face_time",)):
         errors = [abs(float(row["difference [%]"])) for row in FRESH_ROWS if row["time"] in judged]
@@ -69,7 +69,7 @@ def test_random_modules_switch_as_in_the_plane_within_a_twentieth() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("study", ["wrist_joint", "wrist_compression"])
-def test_random_modules_that_were_judged_are_today_s(study: str) -> None:
+def test_random_modules_that_were_judged_are_today_s(study):
     name, model, module = list(designs(study, FRESH[study]))[-1]
     rows = {row["time"]: row for row in FRESH_ROWS if (row["study"], row["design"]) == (study, name)}
     times, bounds = product_times(model), intervals(study, module)
@@ -80,7 +80,7 @@ def test_random_modules_that_were_judged_are_today_s(study: str) -> None:
 
 
 @pytest.mark.slow
-def test_the_ring_takes_as_long_with_half_as_many_cells_again() -> None:
+def test_the_ring_takes_as_long_with_half_as_many_cells_again():
     model = model_of(study_path("wrist_compression"))
     coarse, fine = (Judge(model, plane_of(model, cells)) for cells in (1.0, 1.5))
     times = [judge.time("softening_time", judge.heated(150.0, 60)) for judge in (coarse, fine)]
@@ -106,7 +106,7 @@ def drawn_twice(study: str) -> tuple[Any, Drawing]:
 
 
 @named
-def test_both_draw_parts_of_the_same_size_and_conductivity(study: str) -> None:
+def test_both_draw_parts_of_the_same_size_and_conductivity(study):
     plane, drawing = drawn_twice(study)
     drawn_areas = areas(drawing)
     sheets = 4.0 * SHEET * (np.ptp(drawing.x) + np.ptp(drawing.y))
@@ -120,7 +120,7 @@ def test_both_draw_parts_of_the_same_size_and_conductivity(study: str) -> None:
 
 
 @named
-def test_both_have_the_same_bodies_and_currents(study: str) -> None:
+def test_both_have_the_same_bodies_and_currents(study):
     plane, drawing = drawn_twice(study)
     for theirs, ours in zip(drawing.bodies, plane.bodies, strict=True):
         wanted = ours.capacity, ours.surface, ours.coefficient, ours.emissivity
@@ -134,7 +134,7 @@ def test_both_have_the_same_bodies_and_currents(study: str) -> None:
     )
 
 
-def test_lines_of_a_grid_keep_to_their_places_and_widen_between_them() -> None:
+def test_lines_of_a_grid_keep_to_their_places_and_widen_between_them():
     lines = graded([(0.0, 0.1), (1.0, 0.01), (3.0, 0.2)], 1.0)
     widths = np.diff(lines)
     assert {0.0, 1.0, 3.0} <= set(lines)
@@ -152,7 +152,7 @@ def joint_of(name: str) -> WarmJoint:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_alike_columns_are_one_and_molten_ones_are_soft(name: str) -> None:
+def test_alike_columns_are_one_and_molten_ones_are_soft(name):
     joint = joint_of(name)
     parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 100.0, 23.0)
     column = joint.stiffness(np.full((1, 4), 100.0), np.ones(1), np.full(4, 0.25), parts)
@@ -166,7 +166,7 @@ def test_alike_columns_are_one_and_molten_ones_are_soft(name: str) -> None:
     assert alone < molten < 0.2 * frozen
 
 
-def test_a_molten_film_is_in_series_and_uneven_blocks_are_refused() -> None:
+def test_a_molten_film_is_in_series_and_uneven_blocks_are_refused():
     joint = joint_of(NAMES[0])
     parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
     shares, slices = np.ones(1), np.array([0.1, 0.9])
@@ -210,7 +210,7 @@ def looked_at(study: str) -> dict[str, dict[str, str]]:
     return {row["quantity"]: row for row in OF_PARTS if row["study"] == study and row["fe"]}
 
 
-def test_fe_looked_at_every_study_and_reports_what_is_beyond_a_tenth() -> None:
+def test_fe_looked_at_every_study_and_reports_what_is_beyond_a_tenth():
     every = {path.stem for folder in MODELS.FOLDERS for path in folder.glob("*.yaml")}
     assert set(STUDIES) == every - MODELS.LEFT_OUT
     readme = (FOLDER / "README.md").read_text(encoding="utf-8")
@@ -220,7 +220,7 @@ def test_fe_looked_at_every_study_and_reports_what_is_beyond_a_tenth() -> None:
 
 
 @each_study
-def test_a_study_s_spring_joint_and_parts_are_within_a_tenth_of_fe(study: str) -> None:
+def test_a_study_s_spring_joint_and_parts_are_within_a_tenth_of_fe(study):
     today = {name: value for name, (_, value) in MODELS.model_values(study, design_of(study)).items()}
     ratios = looked_at(study)
     assert {"spring_rate", "hub", "core", "core_stress"} <= set(ratios)
@@ -232,14 +232,14 @@ def test_a_study_s_spring_joint_and_parts_are_within_a_tenth_of_fe(study: str) -
 
 
 @each_study
-def test_fe_looked_at_a_design_that_the_study_still_allows(study: str) -> None:
+def test_fe_looked_at_a_design_that_the_study_still_allows(study):
     varied, design = read_study(MODELS.study_file(study)).vary, design_of(study)
     assert set(varied) == set(design)
 
 
 @pytest.mark.slow
 @each_study
-def test_today_s_optimum_is_the_design_that_fe_looked_at(study: str) -> None:
+def test_today_s_optimum_is_the_design_that_fe_looked_at(study):
     read = read_study(MODELS.study_file(study))
     if not read.vary:
         return

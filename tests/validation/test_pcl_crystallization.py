@@ -82,7 +82,7 @@ def joint_fit() -> tuple[Array, Array]:
     return np.exp(fit.x), np.linalg.inv(fit.jac.T @ fit.jac)
 
 
-def test_half_time_and_nucleation_constant_are_the_joint_fit() -> None:
+def test_half_time_and_nucleation_constant_are_the_joint_fit():
     # At the record's reference of 35 degC an error of one says nothing of the other: each may be moved alone.
     (half_time, constant), covariance = joint_fit()
     assert PCL.reference_half_time == pytest.approx(half_time, rel=0.03)
@@ -90,7 +90,7 @@ def test_half_time_and_nucleation_constant_are_the_joint_fit() -> None:
     assert abs(covariance[0, 1]) < 0.15 * np.sqrt(covariance[0, 0] * covariance[1, 1])
 
 
-def test_interval_of_the_nucleation_constant_spans_the_sources() -> None:
+def test_interval_of_the_nucleation_constant_spans_the_sources():
     entry = RECORD.entry("nucleation_constant")
     assert entry.status in ("assumed", "calibrated")
     assert entry.high >= slope_of_half_times() == pytest.approx(1.51e5, rel=0.01)
@@ -100,7 +100,7 @@ def test_interval_of_the_nucleation_constant_spans_the_sources() -> None:
     assert widest == pytest.approx(cooling["minutes"], rel=cooling["fit"]["deviation"])
 
 
-def test_interval_of_the_half_time_holds_what_is_published_at_40_degrees() -> None:
+def test_interval_of_the_half_time_holds_what_is_published_at_40_degrees():
     entry = RECORD.entry("crystallization_half_time")
     at_40 = [
         float(textbook.half_time(CELSIUS + 40.0, PCL._replace(reference_half_time=end)))
@@ -113,7 +113,7 @@ def test_interval_of_the_half_time_holds_what_is_published_at_40_degrees() -> No
 
 
 @pytest.mark.parametrize("melting", [69.0, 82.0])
-def test_equilibrium_melting_and_nucleation_constant_are_one_fact(melting: float) -> None:
+def test_equilibrium_melting_and_nucleation_constant_are_one_fact(melting):
     # K_g read off the same half-times with another T_m0 gives the same exotherm within a kelvin: only the pair counts.
     own = PCL._replace(nucleation_constant=slope_of_half_times())
     other = own._replace(equilibrium_melting=CELSIUS + melting)
@@ -132,7 +132,7 @@ def test_equilibrium_melting_and_nucleation_constant_are_one_fact(melting: float
     assert exotherm(10.0, fitted)[0] == pytest.approx(exotherm(10.0, own)[0], abs=1.0)
 
 
-def test_cooling_by_integral_is_the_products_own_rate_integrated_in_time() -> None:
+def test_cooling_by_integral_is_the_products_own_rate_integrated_in_time():
     celsius, fraction = cooled(10.0, PCL)
     solved = solve_ivp(
         lambda t, psi: transitions.rate(CELSIUS + 50.0 - t / 6.0, psi, PCL, MELTING),
@@ -142,7 +142,7 @@ def test_cooling_by_integral_is_the_products_own_rate_integrated_in_time() -> No
     assert by_time == pytest.approx(np.interp([-40.0, -30.0, -20.0], -celsius, fraction), abs=1e-3)
 
 
-def test_second_implementation_finds_the_same_exotherm() -> None:
+def test_second_implementation_finds_the_same_exotherm():
     data = DATA["second_implementation"]
     kinetics = PCL._replace(
         nucleation_constant=data["nucleation_constant"], reference_half_time=data["half_time"],
@@ -153,7 +153,7 @@ def test_second_implementation_finds_the_same_exotherm() -> None:
     assert width == pytest.approx(data["width"], abs=0.1)
 
 
-def test_exotherms_peak_where_the_sheet_says() -> None:
+def test_exotherms_peak_where_the_sheet_says():
     # Between the sheet's 27.4 degC at an unknown rate and 31.8 degC of the steep half-times; 3.5 to 7 K wide.
     peak, width = exotherm(10.0, PCL)
     assert 27.4 < peak < DATA["second_implementation"]["peak"]
@@ -169,7 +169,7 @@ def test_exotherms_peak_where_the_sheet_says() -> None:
 @pytest.mark.parametrize(
     ("half_time", "constant", "least"), [("value", "value", 0.99), ("high", "value", 0.9), ("value", "low", 0.9)]
 )
-def test_at_50_kelvin_a_minute_it_freezes_whole(half_time: str, constant: str, least: float) -> None:
+def test_at_50_kelvin_a_minute_it_freezes_whole(half_time, constant, least):
     # A usual calorimeter cannot keep polycaprolactone amorphous. The record before this fit left 86 % unfrozen.
     kinetics = PCL._replace(
         reference_half_time=getattr(RECORD.entry("crystallization_half_time"), half_time),

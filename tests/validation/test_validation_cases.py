@@ -30,13 +30,13 @@ def copied(name: str, folder: Path, *changes: tuple[str, str]) -> Path:
     return path
 
 
-def test_sixty_cases_are_compared() -> None:
+def test_sixty_cases_are_compared():
     assert sum(not case.open for case in ALL) >= 60
     assert all(case.source and case.title for case in ALL)
     assert all("issing" in case.open or "nothing is left" in case.open for case in ALL if case.open)
 
 
-def test_the_page_has_every_case_its_verdict_and_its_figure() -> None:
+def test_the_page_has_every_case_its_verdict_and_its_figure():
     text = PAGE.read_text()
     for case in ALL:
         assert f"{{#{case.name}}}" in text, case.name
@@ -48,7 +48,7 @@ def test_the_page_has_every_case_its_verdict_and_its_figure() -> None:
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_a_case_is_inside_its_limit(name: str) -> None:
+def test_a_case_is_inside_its_limit(name):
     compared = outcome(read_case(CASES / name / "case.yaml"))
     assert compared.verdict == INSIDE
     assert b"<svg" in figure(compared)
@@ -64,9 +64,7 @@ def test_a_case_is_inside_its_limit(name: str) -> None:
         ("part_fits_iso_286", "values: [10, 15,", "values: [10, 16,"),
     ],
 )
-def test_a_wrong_number_fails_the_run(
-    name: str, old: str, new: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_wrong_number_fails_the_run(name, old, new, tmp_path, capsys):
     copied(name, tmp_path)
     assert run.main(["--folder", str(tmp_path), name]) == 0
     shutil.rmtree(tmp_path / name)
@@ -75,7 +73,7 @@ def test_a_wrong_number_fails_the_run(
     assert f"{OUTSIDE:<17}{name}" in capsys.readouterr().out
 
 
-def test_a_known_page_accepts_what_it_lists_as_outside(tmp_path: Path) -> None:
+def test_a_known_page_accepts_what_it_lists_as_outside(tmp_path):
     name = "part_fits_iso_286"
     copied(name, tmp_path / "cases", ("values: [10, 15,", "values: [10, 16,"))
     known = tmp_path / "known.md"
@@ -86,9 +84,7 @@ def test_a_known_page_accepts_what_it_lists_as_outside(tmp_path: Path) -> None:
     assert run.main(command) == 0
 
 
-def test_a_failed_comparison_fails_the_run_and_leaves_the_page(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_failed_comparison_fails_the_run_and_leaves_the_page(tmp_path, capsys):
     copied("part_fits_iso_286", tmp_path / "cases", ("[H7, 3]", "[Q7, 3]"))
     copied("part_bearing", tmp_path / "cases")
     assert run.main(["--folder", str(tmp_path / "cases"), "--docs", str(tmp_path / "docs")]) == 1
@@ -98,7 +94,7 @@ def test_a_failed_comparison_fails_the_run_and_leaves_the_page(
     assert not (tmp_path / "docs").exists()
 
 
-def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path) -> None:
+def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path):
     name = "heater_electracool_heat"
     assert outcome(read_case(copied(name, tmp_path / "as it is"))).verdict == KNOWN
     gone = copied(name, tmp_path / "gone", ("value: 32", "value: 37.3"))
@@ -119,14 +115,14 @@ def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path)
         ("compare: peltier_modules:largest_heat\n", "", "`open` says what is missing"),
     ],
 )
-def test_a_case_that_lacks_something_is_refused_by_name(old: str, new: str, message: str, tmp_path: Path) -> None:
+def test_a_case_that_lacks_something_is_refused_by_name(old, new, message, tmp_path):
     path = copied("heater_electracool_heat", tmp_path, (old, new))
     with pytest.raises(CaseError, match=re.escape(message)) as refused:
         read_case(path)
     assert str(path) in str(refused.value)
 
 
-def test_references_do_not_import_the_product() -> None:
+def test_references_do_not_import_the_product():
     for path in (ROOT / "validation/references").glob("*.py"):
         nodes = list(ast.walk(ast.parse(path.read_text())))
         names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
@@ -135,7 +131,7 @@ def test_references_do_not_import_the_product() -> None:
 
 
 @pytest.mark.slow
-def test_every_case_is_inside_or_a_known_difference(tmp_path: Path) -> None:
+def test_every_case_is_inside_or_a_known_difference(tmp_path):
     assert run.main(["--docs", str(tmp_path)]) == 0
     made, committed = ((folder / "validation.md").read_text() for folder in (tmp_path, ROOT / "docs"))
     assert sections(made) == sections(committed)

@@ -40,7 +40,7 @@ def data(dims: Dimensions) -> dict[str, Any]:
     return page_data
 
 
-def test_parts_have_their_kind_and_steps_come_from_their_side(data: dict[str, Any]) -> None:
+def test_parts_have_their_kind_and_steps_come_from_their_side(data):
     parts = {part["name"]: part for part in data["parts"]}
     assert {part["kind"] for part in parts.values()} == {"housing", *SPRINGS}
     assert not any(part["turns"] for part in parts.values())  # neither housing nor springs turn with the rotor
@@ -52,9 +52,7 @@ def test_parts_have_their_kind_and_steps_come_from_their_side(data: dict[str, An
 
 
 @pytest.mark.parametrize("kind", SPRINGS)
-def test_a_wound_spring_lies_on_the_wire_that_the_kernel_sweeps(
-    data: dict[str, Any], dims: Dimensions, kind: str
-) -> None:
+def test_a_wound_spring_lies_on_the_wire_that_the_kernel_sweeps(data, dims, kind):
     mirror = np.array([1.0, 1.0 if kind == "spring_right" else -1.0, 1.0])
     mesh = spring_mesh(installed_coils(dims)[kind]).vertices * mirror
     for share, flat in zip(SHARES, data["wires"]["moved"][kind], strict=True):
@@ -93,7 +91,7 @@ def drawn_by(script: str) -> dict[str, Any]:
         pytest.param("tiles in vanes", marks=pytest.mark.gate),
     ],
 )
-def test_its_solids_and_their_places_are_those_of_the_module(name: str) -> None:
+def test_its_solids_and_their_places_are_those_of_the_module(name):
     dims, script = script_of(name)
     names, solids = drawn_by(script), drawn_parts(dims)
     assert names["PARTS"].keys() == solids.keys()
@@ -106,7 +104,7 @@ def test_its_solids_and_their_places_are_those_of_the_module(name: str) -> None:
         assert off.Length < 1e-6, part
 
 
-def test_a_part_follows_a_number_that_is_changed() -> None:
+def test_a_part_follows_a_number_that_is_changed():
     dims, script = script_of("paper")
     thicker = re.sub(r"^link_thickness = .*$", f"link_thickness = {2.0 * dims.link_thickness}", script, flags=re.M)
     before, after = (drawn_by(text)["PARTS"]["link"]().Volume() for text in (script, thicker))

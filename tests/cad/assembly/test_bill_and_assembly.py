@@ -8,7 +8,6 @@ import io
 import os
 import re
 from collections import Counter
-from collections.abc import Mapping
 from math import pi, radians
 from pathlib import Path
 from typing import Any
@@ -53,9 +52,7 @@ DESIGNS = [
 
 
 @pytest.mark.parametrize(("mode", "changes"), DESIGNS)
-def test_every_solid_is_on_the_bill_with_its_count_and_the_reverse(
-    mode: str, changes: Mapping[str, float | str]
-) -> None:
+def test_every_solid_is_on_the_bill_with_its_count_and_the_reverse(mode, changes):
     priced = {**changes, "structure_price": 40.0, "pcl_price": 50.0, "heater_price": 18.0, "spring_price": 4.0}
     design = design_of("listed", priced, mode)
     placed = place(dimensions(design), drawn_parts(dimensions(design)))
@@ -78,7 +75,7 @@ def test_every_solid_is_on_the_bill_with_its_count_and_the_reverse(
     assert any(f"{grams:.2f} g for all of it" in row["title"] for row in rows if row["part"] == "polymer")
 
 
-def test_springs_seats_and_screws_are_ordered_by_number_and_fit() -> None:
+def test_springs_seats_and_screws_are_ordered_by_number_and_fit():
     small = {"placement_radius": 16e-3, "leg_overhang": 1.5e-3, "pin_diameter": 1.5e-3}
     mode, overrides = "shear", {"stock_spring": "central_t10180", **small}
     design = design_of("from stock", overrides, mode)
@@ -114,7 +111,7 @@ def test_springs_seats_and_screws_are_ordered_by_number_and_fit() -> None:
 @pytest.mark.parametrize(
     "name", ["paper", "tiles", "tiles in vanes", "bearings", "sprung blocks", "bearings among blocks"]
 )
-def test_parts_and_fasteners_are_counted_as_they_are_drawn(name: str) -> None:
+def test_parts_and_fasteners_are_counted_as_they_are_drawn(name):
     mode, changes = CASES[name]
     design = design_of(name, changes, mode)
     dims = dimensions(design)
@@ -141,7 +138,7 @@ def _short(radius: float) -> float:
     return 4.0 * CHORD / (3.0 * radius)
 
 
-def test_drafts_have_the_volumes_of_formulas_and_change_nothing_exact() -> None:
+def test_drafts_have_the_volumes_of_formulas_and_change_nothing_exact():
     with drawn_by(KERNEL):
         assert _volume(block((1.0, 5.0), 3.0, -1.0, 1.0)) == pytest.approx(24.0)
         assert _volume(cylinder(20.0, 0.0, 2.0, (3.0, 4.0))) == pytest.approx(pi * 400.0 * 2.0, rel=_short(20.0))
@@ -165,7 +162,7 @@ def test_drafts_have_the_volumes_of_formulas_and_change_nothing_exact() -> None:
 
 @pytest.mark.parametrize(("mode", "sizes"), [("shear", WRIST), ("compression", BLOCKS)])
 @pytest.mark.slow
-def test_a_draft_is_the_module_that_is_built(mode: str, sizes: Mapping[str, float | str]) -> None:
+def test_a_draft_is_the_module_that_is_built(mode, sizes):
     design = design_of("drafted", sizes, mode)
     draft, exact = draft_module(dimensions(design)), build(design)
     assert set(draft.places) == set(exact)
@@ -183,7 +180,7 @@ def test_a_draft_is_the_module_that_is_built(mode: str, sizes: Mapping[str, floa
         assert points.max(axis=0) == pytest.approx(highs, abs=0.35), name
 
 
-def test_a_draft_has_normals_outwards_and_the_edges_of_its_parts() -> None:
+def test_a_draft_has_normals_outwards_and_the_edges_of_its_parts():
     draft = draft_module(dimensions(design_of("drafted", WRIST)))
     retainer = draft.meshes["retainer"]
     a, b, c = (retainer.points[retainer.triangles[:, i]] for i in range(3))
@@ -246,7 +243,7 @@ def note_of(design: Design) -> str:
 
 
 @pytest.mark.parametrize("name", MADE)
-def test_a_note_is_that_of_the_snapshot(name: str) -> None:
+def test_a_note_is_that_of_the_snapshot(name):
     path, text = NOTES / f"{name}.txt", note_of(made(name))
     assert [words for words in BY_HAND.get(name, ()) if words not in text] == []
     if os.environ.get("UPDATE_NOTES"):
@@ -254,7 +251,7 @@ def test_a_note_is_that_of_the_snapshot(name: str) -> None:
     assert text == path.read_text(encoding="utf-8")
 
 
-def test_steps_that_open_bring_no_part_and_each_says_who_holds_what() -> None:
+def test_steps_that_open_bring_no_part_and_each_says_who_holds_what():
     opening = [
         step
         for step in all_steps()
@@ -276,7 +273,7 @@ def test_steps_that_open_bring_no_part_and_each_says_who_holds_what() -> None:
     assert preload_tolerance(made("milled")) == pytest.approx(radians(1.0))
 
 
-def test_modules_never_switched_or_with_a_profile_say_how_to_bond() -> None:
+def test_modules_never_switched_or_with_a_profile_say_how_to_bond():
     profiled = made("blocks").model_copy(update={"current_profiles": {"softening": {}}})
     assert "with the study's current profile for 37.6 s" in note_of(profiled)
     assert "until the rotor turns by hand" in note_of(design_of("never switched", {}))
@@ -290,7 +287,7 @@ def steps_with(design: Design, *items: Item) -> list[WrittenStep]:
 
 
 @pytest.mark.parametrize("name", MADE)
-def test_every_part_comes_into_its_place_before_the_steps_that_open(name: str) -> None:
+def test_every_part_comes_into_its_place_before_the_steps_that_open(name):
     steps = steps_with(made(name), Item("unheard_of", 1, False, "", "", 1.0, ()))
     fallen_through = [step.text for step in steps if step.text.startswith("Fit the ") and not step.needs]
     assert fallen_through == ["Fit the unheard of (1)."]
@@ -304,7 +301,7 @@ def test_every_part_comes_into_its_place_before_the_steps_that_open(name: str) -
 
 @pytest.mark.parametrize("friction", [0.15, 0.25, 0.7])
 @pytest.mark.parametrize("name", MADE)
-def test_steps_grease_what_the_list_of_parts_has_grease_for(name: str, friction: float) -> None:
+def test_steps_grease_what_the_list_of_parts_has_grease_for(name, friction):
     design = made(name)
     design.values.update(bore_friction=friction, pin_friction=friction)
     texts = [step.text for step in steps_with(design)]
@@ -318,7 +315,7 @@ def test_steps_grease_what_the_list_of_parts_has_grease_for(name: str, friction:
     assert ("bore" in greasing) == (plain and friction < 0.2)
 
 
-def test_what_cures_wear_greases_the_pins() -> None:
+def test_what_cures_wear_greases_the_pins():
     cure = plain_data(hints()["advice"]["pin_wear"]["mend"][0])["module"]
     design = design_of("worn", {})
     assert "pins" not in greased(design)
@@ -326,7 +323,7 @@ def test_what_cures_wear_greases_the_pins() -> None:
     assert "pins" in greased(design)
 
 
-def test_parts_are_treated_as_the_specimens_before_all_else() -> None:
+def test_parts_are_treated_as_the_specimens_before_all_else():
     design = design_of("annealed", {"process": "print_pc_bambu"})
     titles = _titles(design)
     (housing,) = bill(design, titles, {"housing": cq.Solid.makeBox(1.0, 1.0, 1.0)})
@@ -337,7 +334,7 @@ def test_parts_are_treated_as_the_specimens_before_all_else() -> None:
     assert not any("specimens" in step.text for step in steps_with(design_of("petg", {})))
 
 
-def test_a_part_that_does_not_fit_is_not_fitted() -> None:
+def test_a_part_that_does_not_fit_is_not_fitted():
     design = design_of("misfit", {})
     misfit = Item("thermal_cutout", 1, False, "", f"Does not fit. {NOT_TO_BE_ORDERED}: 5MA3", 0.6, ())
     (step,) = (step.text for step in steps_with(design, misfit) if "Crimp the thermal cut-out" in step.text)
@@ -345,7 +342,7 @@ def test_a_part_that_does_not_fit_is_not_fitted() -> None:
     assert not any("No listed" in step.text for step in steps_with(design))
 
 
-def test_what_is_made_to_order_is_asked_for_first() -> None:
+def test_what_is_made_to_order_is_asked_for_first():
     design = design_of("ordered", {})
     spring = Item("spring_left", 4, False, "music_wire", "Torsion spring of Music wire", 1.0, ())
     screw = Item("link_screw", 4, False, "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 10 - A2-70", 1.0, ())

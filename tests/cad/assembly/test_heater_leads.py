@@ -43,7 +43,7 @@ def listed(design: Design) -> dict[str, str]:
 
 
 @pytest.mark.parametrize(("changes", "mode"), [({}, "shear"), (TILES, "shear"), ({}, "compression")])
-def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, Any], mode: str) -> None:
+def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes, mode):
     items = listed(switched(changes, mode=mode))
     cutout = items["thermal_cutout"]
     assert cutout.startswith("Does not fit: it opens above the 60 °C that the structure bears")
@@ -56,7 +56,7 @@ def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, An
     assert "for 2.1 A and 120 °C" in items["heater_wire"]
 
 
-def test_cut_outs_and_beads_say_only_what_they_can() -> None:
+def test_cut_outs_and_beads_say_only_what_they_can():
     bears = {"peltier_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}
     cutout = listed(switched(bears, hottest=83.0))["thermal_cutout"]
     assert "5MA3SPF152019340: opens from 147 to 157 °C" in cutout  # of what opens below the heater's 160 the highest
@@ -96,9 +96,7 @@ def test_cut_outs_and_beads_say_only_what_they_can() -> None:
         ({"process": "print_pei_1010", "liner_material": "petg", "key_count": 0.0}, 40.0, -13.0, 0.0),
     ],
 )
-def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(
-    parts: dict[str, Any], hottest: float, margin: float, holding: float
-) -> None:
+def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(parts, hottest, margin, holding):
     changes = {"peltier_module": "silicone_9ar_08_24v", **parts}
     module = ", ".join(f"{name}: {word}" for name, word in changes.items())
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n")
@@ -110,7 +108,7 @@ def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(
     assert margin < 0.0 or ("ask the maker how long" in cutout) == (holding < 0.0)
 
 
-def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin() -> None:
+def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin():
     design = switched({"peltier_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}, 83.0)
     for current, rated in ((15.9, True), (16.1, False)):
         design.values["peak_current"] = current
@@ -121,7 +119,7 @@ def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin() -> None:
         assert ("None fits" in heater_leads.fuse_in_words(FUSE, design)) != rated
 
 
-def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out() -> None:
+def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out():
     # By hand: 10 kohm exp(3988 K (1/373.15 K - 1/298.15 K)) is 680 ohm, and 3.3 V x 680 / 10680 is 0.21 V.
     foil = {"peltier_module": "polyimide_foil_24v", "process": "print_pc_bambu", "heater_fuse": "microtemp_g4a"}
     design = switched({"process": "print_pei_1010"}, hottest=101.0)
@@ -161,9 +159,7 @@ def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out() -> None:
         ((0.0, 4.0), "silicone_9ar_08_24v", "AMF58B-103F3950"),  # that heater bears 160 degC
     ],
 )
-def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(
-    bead: tuple[float, float], heater: str, number: str | None
-) -> None:
+def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(bead, heater, number):
     sizes = {"thermistor_diameter": 1e-3 * bead[0], "thermistor_length": 1e-3 * bead[1]}
     text = heater_leads.thermistor_in_words(switched({"peltier_module": heater, **sizes}))
     named = [thermistor.number for thermistor in heater_leads.thermistors() if thermistor.number in text]
@@ -171,7 +167,7 @@ def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(
     assert "needs its own table in the controller" in text
 
 
-def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
+def test_foils_films_and_spreaders_are_ordered_by_their_measures():
     design = switched({"peltier_module": "silicone_9ar_08_24v"})
     (item,) = bill(design, _titles(design), {"heater_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
     each = 45.0 * design.values["peltier_volume"] / (1.6e-3 * 1600e-6) / 4.0  # 45 ohm of 1600 mm2, four pads
@@ -206,7 +202,7 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
     assert item.mass == 0.0
 
 
-def test_a_small_foil_on_a_strong_supply_is_ordered_by_its_working_voltage() -> None:
+def test_a_small_foil_on_a_strong_supply_is_ordered_by_its_working_voltage():
     design = switched({"peltier_module": "polyimide_foil_24v"})
     large = "; ".join(heater_leads.heater_order(design))
     assert "which the driver" not in large
@@ -220,7 +216,7 @@ def test_a_small_foil_on_a_strong_supply_is_ordered_by_its_working_voltage() -> 
     assert f"only {each:.2g} cm² each: ask whether such leads have room, or for a flat tail" in small
 
 
-def test_a_wire_is_ordered_by_the_thinnest_section_that_bears_the_current() -> None:
+def test_a_wire_is_ordered_by_the_thinnest_section_that_bears_the_current():
     assert "copper of 0.326 mm² (AWG 22; PTFE" in listed(switched({}))["heater_wire"]  # 2.1 A; AWG 24 bears 2 A
     strong = switched({})
     strong.values.update(peak_current=40.0)

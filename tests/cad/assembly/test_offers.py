@@ -24,7 +24,7 @@ DATE, UNDATED = re.compile(r"20\d\d-\d\d(-\d\d)?"), "not stated"
 BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"
 
 
-def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source() -> None:
+def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source():
     catalog = Catalog()
     known = {name for category in catalog.categories() for name in catalog.names(category)}
     for offer in offers():
@@ -37,7 +37,7 @@ def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source() -> Non
         assert offer.high is None or offer.high >= (offer.price or 0.0)
 
 
-def test_a_screw_is_ordered_by_its_length() -> None:
+def test_a_screw_is_ordered_by_its_length():
     ten = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 10 - A2-70")
     assert ten is not None
     assert (ten.number, ten.pack, ten.in_words) == ("92095A182", 100, "7.19 to 7.91 USD a pack of 100 (2025-06)")
@@ -49,7 +49,7 @@ def test_a_screw_is_ordered_by_its_length() -> None:
     assert (eleven.supplier, eleven.number) == ("any fastener shop", "ISO 7380-1 - M3 x 11 - A2-70")
 
 
-def test_a_price_of_a_neighbour_is_an_interval_and_says_whose_it_is() -> None:
+def test_a_price_of_a_neighbour_is_an_interval_and_says_whose_it_is():
     pin = offer_for("link_dowel", "iso_8734_2", "Dowel pin ISO 8734 - 2 m6 x 8 - A, hardened steel")
     assert pin is not None
     assert (pin.price, pin.high) == pytest.approx((12.70 / 2.2, 12.70 * 2.2))
@@ -59,7 +59,7 @@ def test_a_price_of_a_neighbour_is_an_interval_and_says_whose_it_is() -> None:
     assert (twenty.price, twenty.high) == pytest.approx((7.19 / 2 / 2.2, 7.91 / 2 * 2.2))
 
 
-def test_the_spread_holds_all_prices_of_one_screw_whatever_its_length() -> None:
+def test_the_spread_holds_all_prices_of_one_screw_whatever_its_length():
     screws = [offer for offer in offers() if offer.record.startswith("iso_") and not offer.like]
     spans = [(screw.record, screw.price, screw.high or screw.price, screw.pack) for screw in screws if screw.price]
     assert len(spans) >= 8
@@ -83,9 +83,7 @@ def test_the_spread_holds_all_prices_of_one_screw_whatever_its_length() -> None:
         ("spring_left", "music_wire", "Torsion spring of Music wire", "any spring maker", "to springs/spring.pdf"),
     ],
 )  # fmt: skip
-def test_the_number_is_a_standards_a_makers_or_that_of_a_drawing(
-    kind: str, record: str, title: str, supplier: str, number: str
-) -> None:
+def test_the_number_is_a_standards_a_makers_or_that_of_a_drawing(kind, record, title, supplier, number):
     offer = offer_for(kind, record, title)
     assert offer is not None
     assert (offer.supplier, offer.number) == (supplier, number)
@@ -107,14 +105,12 @@ def test_the_number_is_a_standards_a_makers_or_that_of_a_drawing(
         ("supply", "", (13.0, 6.6), None),
     ],
 )
-def test_the_first_that_bears_volts_and_amperes_is_taken(
-    kind: str, title: str, asks: tuple[float, float], number: str | None
-) -> None:
+def test_the_first_that_bears_volts_and_amperes_is_taken(kind, title, asks, number):
     offer = offer_for(kind, "", title, *asks)
     assert (offer.number if offer else None) == number
 
 
-def test_the_sum_is_of_whole_packs_and_counts_what_has_no_price() -> None:
+def test_the_sum_is_of_whole_packs_and_counts_what_has_no_price():
     screws = offer_for("", "iso_7380_m3", "M3 x 10 ")
     inserts = offer_for("", "heat_set_m3", "")
     polymer = offer_for("polymer", "pcl_50k", "")
@@ -136,7 +132,7 @@ SVG = "{http://www.w3.org/2000/svg}"
         ("all_parallel", [[1], [2], [3], [4], [5], [6]]),
     ],
 )
-def test_heaters_are_in_strings_as_they_are_wired(wiring: str, expected: list[list[int]]) -> None:
+def test_heaters_are_in_strings_as_they_are_wired(wiring, expected):
     assert strings(design_of("wired", TILES | {"heater_wiring": wiring})) == expected
 
 
@@ -152,7 +148,7 @@ def words(picture: ElementTree.Element) -> set[str]:
     return {text.text or "" for text in picture.iter(f"{SVG}text")}
 
 
-def test_the_diagram_names_what_is_bought() -> None:
+def test_the_diagram_names_what_is_bought():
     bought = {"IRM-90-12ST (MEAN WELL)", "2992 (G2 24v13)", "thermal cut-out", "heater 6", "3 thermistors"}
     bought |= {"3 resistors", "10 kohm, 1 %", "step-down converter", "Seeed XIAO ESP32C6"}
     assert bought <= words(drawn(TILES))
@@ -161,13 +157,13 @@ def test_the_diagram_names_what_is_bought() -> None:
     assert "to be chosen" in words(ElementTree.fromstring(wiring_svg(design, [misfit])))
 
 
-def test_only_peltiers_come_with_a_note_on_cooling() -> None:
+def test_only_peltiers_come_with_a_note_on_cooling():
     assert "cools" in " ".join(words(drawn(TILES)))
     assert "cools" not in " ".join(words(drawn({"peltier_module": "polyimide_foil_24v"})))
 
 
 @pytest.mark.parametrize("wiring", ["series", "arcs_parallel", "all_parallel"])
-def test_no_lines_cross_and_none_runs_through_a_box(wiring: str) -> None:
+def test_no_lines_cross_and_none_runs_through_a_box(wiring):
     picture = drawn(TILES | {"heater_wiring": wiring})
     pieces = []
     for line in picture.iter(f"{SVG}polyline"):

@@ -39,11 +39,11 @@ MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_rati
         ("g6", 30, -20, -7), ("G7", 40, 9, 34), ("k6", 40, 2, 18), ("k5", 20, 2, 11), ("H7", 31.5, 0, 25),
     ],
 )  # fmt: skip
-def test_limit_deviations_are_those_of_the_standard(fit: str, size: float, lower: float, upper: float) -> None:
+def test_limit_deviations_are_those_of_the_standard(fit, size, lower, upper):
     assert limit_deviations(fit, size) == pytest.approx((1e-3 * lower, 1e-3 * upper))
 
 
-def test_tolerance_grades_follow_the_standard_s_formula() -> None:
+def test_tolerance_grades_follow_the_standard_s_formula():
     # ISO 286-1: 7, 10, 16, 25 and 40 units i = 0.45 D^(1/3) + 0.001 D at the geometric mean of the range, then rounded.
     for over, up_to in ((3, 6), (10, 18), (18, 30), (30, 50), (50, 80), (80, 120), (120, 180)):
         mean = (over * up_to) ** 0.5
@@ -55,7 +55,7 @@ def test_tolerance_grades_follow_the_standard_s_formula() -> None:
 @pytest.mark.parametrize(
     ("fit", "size"), [("H7", 0.0), ("H7", 501.0), ("H12", 10.0), ("z6", 10.0), ("k8", 10.0), ("H4", 9.0)]
 )
-def test_what_the_table_has_not_is_refused(fit: str, size: float) -> None:
+def test_what_the_table_has_not_is_refused(fit, size):
     with pytest.raises(GeometryError, match=r"iso_286\.yaml"):
         limit_deviations(fit, size)
 
@@ -68,9 +68,7 @@ def milled(case: Mapping[str, float | str], mode: str) -> Design:
     ("case", "mode", "kinds"),
     [(BEARING_BLOCKS, "compression", ("housing", "rotor")), (DRIVEN, "shear", ("motor_hub", "motor_housing"))],
 )
-def test_what_is_milled_to_the_file_is_within_every_fit(
-    case: Mapping[str, float | str], mode: str, kinds: tuple[str, ...]
-) -> None:
+def test_what_is_milled_to_the_file_is_within_every_fit(case, mode, kinds):
     design = milled(case, mode)
     for kind in kinds:
         seats = drawing_requirements(kind, dimensions(design), design.choices).seats
@@ -80,7 +78,7 @@ def test_what_is_milled_to_the_file_is_within_every_fit(
             assert seat.limits.lower - 1e-9 <= seat.drawn - seat.size <= seat.limits.upper + 1e-9
 
 
-def test_seats_and_threads_have_fits_where_milled() -> None:
+def test_seats_and_threads_have_fits_where_milled():
     design = milled(BEARING_BLOCKS | {"seat_clearance": 0.05e-3}, "compression")
     seat = drawing_requirements("housing", dimensions(design), design.choices).seats[0]
     assert (seat.fit, seat.size) == ("", seat.drawn)
@@ -104,7 +102,7 @@ def test_seats_and_threads_have_fits_where_milled() -> None:
     ("kind", "about", "size"),
     [("housing", "bearings' outer rings", "⌀21.1 H8"), ("rotor", "bearings' inner rings", "⌀14.9 h8")],
 )
-def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind: str, about: str, size: str) -> None:
+def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind, about, size):
     design = design_of("printed", BEARINGS | {"process": "print_pc"}, "shear")
     dims = dimensions(design)
     requirements = drawing_requirements(kind, dims, design.choices)
@@ -123,7 +121,7 @@ def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind: s
     assert size.removeprefix("⌀").split()[1] in fits(design, dims)[seat.mates]
 
 
-def test_drawings_of_a_milled_module_have_fits_threads_and_edges() -> None:
+def test_drawings_of_a_milled_module_have_fits_threads_and_edges():
     lines = {}
     for kind, design in (("motor_housing", milled(DRIVEN, "shear")), ("rotor", milled(BEARING_BLOCKS, "compression"))):
         sheet = sheet_of(design, kind, drawn_part(dimensions(design), kind))
@@ -145,7 +143,7 @@ def test_drawings_of_a_milled_module_have_fits_threads_and_edges() -> None:
     assert not any(text.startswith("Printing") for text in lines["rotor"])
 
 
-def test_holes_beside_threads_and_dowels_are_none() -> None:
+def test_holes_beside_threads_and_dowels_are_none():
     mode, overrides = CASES["wrist"]
     design = design_of("wrist", overrides, mode)  # its keys' pockets are 2.5 mm wide, as the hole for the retainer's M3
     cylinders = upright_cylinders(drawn_part(dimensions(design), "rotor"))
@@ -166,7 +164,7 @@ def test_holes_beside_threads_and_dowels_are_none() -> None:
 
 
 @pytest.mark.parametrize("case", ["tiles", "tiles in vanes", "paper", "blocks"])
-def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case: str) -> None:
+def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case):
     mode, overrides = CASES[case]
     design = design_of(case, overrides, mode)
     dims = dimensions(design)
@@ -185,7 +183,7 @@ def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case: str) -> None:
 
 
 @pytest.mark.gate
-def test_every_seat_is_a_face_of_its_part() -> None:
+def test_every_seat_is_a_face_of_its_part():
     for case, mode, kinds in (
         (BEARING_BLOCKS, "compression", ("housing", "rotor", "adjuster", "cover")),
         ({}, "shear", ("housing", "rotor", "link")),
@@ -202,7 +200,7 @@ FRAME = 10.0  # mm from the paper's edge
 
 
 @pytest.mark.parametrize("ratio", [1.5, 2.5])
-def test_the_spring_sheet_tells_the_bend_and_both_mandrels(ratio: float) -> None:
+def test_the_spring_sheet_tells_the_bend_and_both_mandrels(ratio):
     design = design_of("bent", {"tang_bend_ratio": ratio})
     dims = dimensions(design)
     lines = {line.name: line for line in spring_lines(design, dims, {})}
@@ -212,7 +210,7 @@ def test_the_spring_sheet_tells_the_bend_and_both_mandrels(ratio: float) -> None
     assert float(lines["measuring mandrel, at most"].value) == pytest.approx(2.0 * dims.post_radius, abs=0.005)
 
 
-def test_no_words_of_the_spring_sheet_leave_its_frame() -> None:
+def test_no_words_of_the_spring_sheet_leave_its_frame():
     design = design_of("paper", {})
     dims = dimensions(design)
     lines = {line.name: line for line in spring_lines(design, dims, {})}
@@ -246,7 +244,7 @@ def content(sheet: DrawingSheet) -> list[str]:
 
 
 @pytest.mark.parametrize("scale", [0.5, 2.0])
-def test_lines_are_as_wide_as_their_layer_says_at_any_scale(scale: float) -> None:
+def test_lines_are_as_wide_as_their_layer_says_at_any_scale(scale):
     sheet = DrawingSheet(scale)
     for layer in ("OUTLINE", "FINE", "CENTRE"):
         sheet.lines([(20.0, 30.0), (50.0, 30.0)], layer)
@@ -256,7 +254,7 @@ def test_lines_are_as_wide_as_their_layer_says_at_any_scale(scale: float) -> Non
     assert lines.count(f"{round(20.0 * MM, 6)} {round(30.0 * MM, 6)} m") == 3
 
 
-def test_a_circle_is_curves_and_letters_are_filled() -> None:
+def test_a_circle_is_curves_and_letters_are_filled():
     sheet = DrawingSheet(1.0)
     sheet.space.add_circle((100.0, 100.0), 10.0, dxfattribs={"layer": "OUTLINE"})
     sheet.text("O8", (200.0, 100.0))

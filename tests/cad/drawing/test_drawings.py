@@ -70,9 +70,7 @@ def measured(document: Drawing) -> list[float]:
     return [size.y if isinstance(size, Vec3) else float(size) for size in sizes]
 
 
-def test_drawings_dimension_call_out_and_title_the_design(
-    module: tuple[Design, Solids], drawings: dict[str, Drawing]
-) -> None:
+def test_drawings_dimension_call_out_and_title_the_design(module, drawings):
     design, _ = module
     mm = {name: 1e3 * value for name, value in design.values.items()}
     expected = {
@@ -112,7 +110,7 @@ def test_drawings_dimension_call_out_and_title_the_design(
         no_text_lies_on_another(kind, document)
 
 
-def test_a_sheet_has_number_revision_true_size_and_no_date(module: tuple[Design, Solids]) -> None:
+def test_a_sheet_has_number_revision_true_size_and_no_date(module):
     design, solids = module
     numbers = set()
     for solid in (solids["retainer"], solids["retainer"], solids["retainer"].scale(1.01)):
@@ -133,7 +131,7 @@ def test_a_sheet_has_number_revision_true_size_and_no_date(module: tuple[Design,
     assert again.dxf() == sheet.dxf()
 
 
-def test_the_fork_s_sheet_has_its_legs_as_drawn_with_their_tolerance() -> None:
+def test_the_fork_s_sheet_has_its_legs_as_drawn_with_their_tolerance():
     design = design_of("fork", {})
     dims = dimensions(design)
     solid = jigs.fork(dims).Solids()[0]
@@ -172,7 +170,7 @@ def no_text_lies_on_another(kind: str, document: Drawing) -> None:
             assert apart, f"{kind}: {text!r} lies on {other!r}"
 
 
-def test_views_figures_and_letters_are_laid_out() -> None:
+def test_views_figures_and_letters_are_laid_out():
     # A tube of 20 and 10 mm, 30 high: cut through, two rectangles of 5 x 30.
     tube = cq.Solid.makeCylinder(10, 30).cut(cq.Solid.makeCylinder(5, 30)).Solids()[0]
     assert from_above(tube).bounds == pytest.approx((-10, 10, -10, 10))
@@ -204,7 +202,7 @@ def by_name(lines: list[SpringLine]) -> dict[str, SpringLine]:
     return {line.name: line for line in lines}
 
 
-def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
+def test_the_spring_maker_s_sheet_has_the_paper_s_spring():
     design = design_of("paper", {})
     lines = by_name(spring_lines(design, dimensions(design), TITLES))
     # The paper's table I: d 2.413, D 24.4094, n 3.25; the rest by hand.
@@ -230,7 +228,7 @@ def test_the_spring_maker_s_sheet_has_the_paper_s_spring() -> None:
     assert {row["name"]: row["value"] for row in reported} == {line.name: line.value for line in lines.values()}
 
 
-def test_the_spring_s_sheet_is_drawn_at_true_size() -> None:
+def test_the_spring_s_sheet_is_drawn_at_true_size():
     for case in ("paper", "odd"):
         mode, overrides = CASES[case]
         design = design_of(case, overrides, mode)
@@ -243,7 +241,7 @@ def test_the_spring_s_sheet_is_drawn_at_true_size() -> None:
         assert document.audit().errors == []
 
 
-def test_the_bill_counts_and_weighs_the_module(module: tuple[Design, Solids]) -> None:
+def test_the_bill_counts_and_weighs_the_module(module):
     design, solids = module
     items = bill(design, TITLES, place(dimensions(design), solids))
     assert sum(line.quantity * line.mass for line in items) == pytest.approx(
@@ -261,7 +259,7 @@ def test_the_bill_counts_and_weighs_the_module(module: tuple[Design, Solids]) ->
     assert sum(float(row["mass_all_g"]) for row in rows) == pytest.approx(1e3 * design.values["module_mass"], rel=1e-3)
 
 
-def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
+def test_a_supply_bears_the_peaks_of_the_whole_cycle():
     design = design_of("fed", {})
     switch = {"peak_voltage": 3.21, "stiffening_peak_voltage": -4.01, "peak_current": 1.5, "cooling_current": 0.2}
     fed = design.model_copy(update={"values": design.values | switch | {"stiffening_peak_current": math.nan}})
@@ -288,7 +286,7 @@ def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
 
 
 @pytest.mark.slow
-def test_a_drawing_is_the_same_file_whatever_order_sets_have_in_a_process() -> None:
+def test_a_drawing_is_the_same_file_whatever_order_sets_have_in_a_process():
     code = """
 import hashlib
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
@@ -319,7 +317,7 @@ print(hashlib.sha256(sheet.dxf()).hexdigest())
         ([10.0, 20.0, 50.0, 70.0], "at 10°, 20°, 50°, 70°"),
     ],
 )  # fmt: skip
-def test_azimuths_are_written_as_short_as_their_pattern(azimuths: list[float], words: str) -> None:
+def test_azimuths_are_written_as_short_as_their_pattern(azimuths, words):
     assert around(azimuths) == words
 
 

@@ -2,7 +2,7 @@
 
 import io
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 from math import atan2, cos, degrees, hypot, pi, sin
 
@@ -43,7 +43,7 @@ def described(solid: cq.Shape) -> list[str]:
     return [row.text for row in feature_rows(solid.Solids()[0], BARE)]
 
 
-def test_rows_have_width_depth_and_azimuth_of_pockets_and_holes() -> None:
+def test_rows_have_width_depth_and_azimuth_of_pockets_and_holes():
     # A disc of 80 mm, 10 high: three pockets of 60 degrees, 3 deep, two notches of 8 mm, four holes, a slot.
     pockets = [
         turned(sector(12.0, 20.0, pi / 3.0, 7.0, 10.0), azimuth) for azimuth in (pi / 6.0, 5.0 * pi / 6.0, -pi / 2.0)
@@ -63,7 +63,7 @@ def test_rows_have_width_depth_and_azimuth_of_pockets_and_holes() -> None:
     ))  # fmt: skip
 
 
-def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
+def test_rows_of_walls_end_where_they_are_no_part_of_a_vane():
     # A pocket of 60 degrees from x on, 3 deep; a hole through the wall at its end makes two walls of that.
     pocket = turned(sector(12.0, 30.0, pi / 3.0, 7.0, 10.0), pi / 6.0)
     x, y = 20.0 * cos(pi / 3.0), 20.0 * sin(pi / 3.0)
@@ -102,7 +102,7 @@ def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("mode", "changes"), DESIGNS)
-def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Mapping[str, float | str]) -> None:
+def test_every_upright_face_of_every_part_has_a_dimension(mode, changes):
     design = design_of("dimensioned", changes, mode)
     dims = dimensions(design)
     parts = {kind: drawn_part(dims, kind) for kind in MODULES[mode].drawn(dims)}
@@ -223,7 +223,7 @@ def no_number_lies_on_a_section_s_mark(kind: str, document: Drawing) -> None:
     [("paper", "link"), ("paper", "heater"), ("tiles", "heater"), ("blocks", "pcl_block"),
      ("bearings", "adjuster")],  # whose two sections are taken near each other
 )  # fmt: skip
-def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:
+def test_no_number_lies_where_a_section_is_marked(case, kind):
     mode, changes = CASES[case]
     design = design_of("marked", changes, mode)
     sheet = sheet_of(design, kind, drawn_part(dimensions(design), kind))
@@ -235,7 +235,7 @@ def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:
 
 
 @pytest.mark.gate
-def test_a_housing_with_vanes_is_cut_through_the_middle_of_a_vane() -> None:
+def test_a_housing_with_vanes_is_cut_through_the_middle_of_a_vane():
     design = design_of("vanes", BEARING_BLOCKS, "compression")
     dims = dimensions(design)
     solid = drawn_part(dims, "housing")
@@ -259,7 +259,7 @@ def area(corners: Sequence[Sequence[float]]) -> float:
     return abs(0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
 
-def test_one_height_reads_alike_wherever_it_stands() -> None:
+def test_one_height_reads_alike_wherever_it_stands():
     # A half is rounded up, and what two faces make of 23.155 differs by less than a nanometre.
     assert {figure(23.155), figure(23.155 - 1e-9), figure(23.155 + 1e-9)} == {"23.16"}
     assert figure(-0.001) == "0"
@@ -275,7 +275,7 @@ def test_one_height_reads_alike_wherever_it_stands() -> None:
     assert {height for pair in heights for height in pair} - {fillet} <= dimensioned
 
 
-def test_hidden_lines_are_dashed_along_circles_and_corners() -> None:
+def test_hidden_lines_are_dashed_along_circles_and_corners():
     design = design_of("hidden", BEARINGS)
     solid = drawn_part(dimensions(design), "housing")
     document = ezdxf.read(io.StringIO(sheet_of(design, "housing", solid).dxf().decode()))
@@ -285,7 +285,7 @@ def test_hidden_lines_are_dashed_along_circles_and_corners() -> None:
     assert all(line.dxf.flags & 128 for line in hidden if line.dxftype() == "LWPOLYLINE")
 
 
-def test_threads_are_drawn_by_iso_6410_and_placed_by_half_their_play() -> None:
+def test_threads_are_drawn_by_iso_6410_and_placed_by_half_their_play():
     design = design_of("threads", BEARING_BLOCKS, "compression")
     dims = dimensions(design)
     solid = drawn_part(dims, "rotor")

@@ -3,7 +3,6 @@
 import io
 import zipfile
 from math import cos, pi, tau
-from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import cadquery as cq
@@ -45,7 +44,7 @@ def cup() -> cq.Solid:
     return body.fuse(cq.Solid.makeCylinder(2, 5, cq.Vector(0, 0, 2))).Solids()[0]
 
 
-def test_upright_cylinders_are_read_off_a_solid_and_its_mirror() -> None:
+def test_upright_cylinders_are_read_off_a_solid_and_its_mirror():
     cylinders = [(face.radius, face.x, face.bottom, face.top, face.concave) for face in upright_cylinders(bracket())]
     assert cylinders == [(2, 30, 11, 15, True), (3, 10, 5, 15, True), (4, 20, 15, 21, False)]
     assert all(face.is_round and not face.is_central for face in upright_cylinders(bracket()))
@@ -58,7 +57,7 @@ def test_upright_cylinders_are_read_off_a_solid_and_its_mirror() -> None:
     assert not arc.is_round
 
 
-def test_holes_are_empty_also_beside_faces_that_would_cut_them() -> None:
+def test_holes_are_empty_also_beside_faces_that_would_cut_them():
     assert [hole.radius for hole in holes(bracket())] == [2, 3]
     assert holes(cup()) == []
     # A slot's walls and floor, a pin's round face and a level edge all end before the hole.
@@ -88,7 +87,7 @@ BARS = {
 
 
 @pytest.mark.parametrize("name", BARS)
-def test_what_stands_in_a_hole_is_found_whatever_its_faces(name: str) -> None:
+def test_what_stands_in_a_hole_is_found_whatever_its_faces(name):
     inside, empty = BARS[name]
     part = bored(*inside) if inside else bored(cq.Solid.makeBox(1, 1, 1, cq.Vector(0, 0, 10)))
     plug = cq.Solid.makeCylinder(7.99, 10, cq.Vector(20, 15, 0))
@@ -96,7 +95,7 @@ def test_what_stands_in_a_hole_is_found_whatever_its_faces(name: str) -> None:
     assert any(hole.radius == 8 and (hole.bottom, hole.top) == (0, 10) for hole in holes(part)) == empty
 
 
-def test_holes_are_wider_and_parts_lie_on_their_side_in_print() -> None:
+def test_holes_are_wider_and_parts_lie_on_their_side_in_print():
     part = bracket()
     printed = print_files.as_printed(part, UP, 0.3)
     less = pi * ((3.15**2 - 3.0**2) * 10 + (2.15**2 - 2.0**2) * 4)
@@ -114,7 +113,7 @@ def test_holes_are_wider_and_parts_lie_on_their_side_in_print() -> None:
     assert not over.isInside(cq.Vector(5, -15, 1))
 
 
-def test_every_kind_says_how_it_is_come_by() -> None:
+def test_every_kind_says_how_it_is_come_by():
     cases = (
         ("all", BEARINGS | DRIVEN),
         ("blocks", SPRUNG_BLOCKS, "compression"),
@@ -126,7 +125,7 @@ def test_every_kind_says_how_it_is_come_by() -> None:
     assert all(making.why for making in PRODUCTION.values())
 
 
-def test_the_mesh_error_is_known_on_any_surface() -> None:
+def test_the_mesh_error_is_known_on_any_surface():
     part = cq.Solid.makeCylinder(20, 5)
     body, measured = print_files.printed_mesh("disc", part)
     rim = body.vertices[np.abs(np.hypot(*body.vertices[:, :2].T) - 20.0) < 1e-6]
@@ -149,7 +148,7 @@ def test_the_mesh_error_is_known_on_any_surface() -> None:
     assert print_files._from_surface(face, points) == pytest.approx(by_hand)
 
 
-def test_print_files_have_unit_name_material_and_the_part() -> None:
+def test_print_files_have_unit_name_material_and_the_part():
     body, _ = print_files.printed_mesh("bracket", bracket())
     data = print_files.threemf_bytes(body, PRODUCT)
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -173,7 +172,7 @@ def test_print_files_have_unit_name_material_and_the_part() -> None:
     assert read.volume == pytest.approx(bracket().Volume(), rel=2e-3)
 
 
-def test_a_step_part_says_its_volume_area_and_centroid_or_is_refused(tmp_path: Path) -> None:
+def test_a_step_part_says_its_volume_area_and_centroid_or_is_refused(tmp_path):
     # A block of 10 x 20 x 30 mm with a hole of 6 mm at (5, 5).
     part = cq.Solid.makeBox(10, 20, 30).cut(cq.Solid.makeCylinder(3, 30, cq.Vector(5, 5, 0))).Solids()[0]
     write_part(tmp_path / "part.step", part, PRODUCT)
@@ -197,7 +196,7 @@ def cut_in_half() -> cq.Solid:
     return whole.intersect(cq.Solid.makeBox(10, 20, 10, cq.Vector(-10, -10, -1))).Solids()[0]
 
 
-def test_the_tip_of_a_drilled_hole_does_not_open_the_mesh() -> None:
+def test_the_tip_of_a_drilled_hole_does_not_open_the_mesh():
     """Check a cone apart from its plate's axis, which has a triangle of no size at its tip."""
     tip = cq.Solid.makeCone(1.25, 0.0, 0.75, cq.Vector(4.907, -4.856, 2.0), cq.Vector(0, 0, -1))
     drilled = cq.Workplane().box(20.0, 20.0, 8.0).val().cut(
@@ -210,7 +209,7 @@ def test_the_tip_of_a_drilled_hole_does_not_open_the_mesh() -> None:
 
 
 @pytest.mark.parametrize(("mode", "changes"), [("shear", {}), ("compression", BLOCKS)])
-def test_its_overhangs_are_those_that_the_print_text_tells(mode: str, changes: dict[str, float]) -> None:
+def test_its_overhangs_are_those_that_the_print_text_tells(mode, changes):
     dims = dimensions(design_of("printed", changes, mode))
     mesh, levels = solid_mesh(drawn_part(dims, "rotor")), supported_levels("rotor", dims)
     bed = (dims.bed_length, dims.bed_width, dims.bed_height)
@@ -230,9 +229,7 @@ def test_its_overhangs_are_those_that_the_print_text_tells(mode: str, changes: d
 
 
 @pytest.mark.parametrize(("worst", "meshed"), [(CHORD, True), (0.0, False)])
-def test_a_face_left_out_is_meshed_at_a_finer_chord(
-    worst: float, meshed: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_face_left_out_is_meshed_at_a_finer_chord(worst, meshed, monkeypatch):
     kernel, box = meshing.BRepMesh_IncrementalMesh, cq.Solid.makeBox(3.0, 2.0, 1.0)
 
     def mesh_below_worst(shape: object, chord: float, *settings: object) -> None:
@@ -248,7 +245,7 @@ def test_a_face_left_out_is_meshed_at_a_finer_chord(
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_parts_on_a_bed_lie_apart_and_within_it(seed: int) -> None:
+def test_parts_on_a_bed_lie_apart_and_within_it(seed):
     draw = np.random.default_rng(seed)
     bed, gap = (220.0, 180.0), print_files.GAP
     discs = [(float(radius), 0.0) for radius in draw.uniform(2.0, 80.0, draw.integers(1, 9))]
@@ -276,14 +273,14 @@ def test_parts_on_a_bed_lie_apart_and_within_it(seed: int) -> None:
     assert {number for number, _, _ in placed} == set(range(1 + max(number for number, _, _ in placed)))
 
 
-def test_round_parts_fill_the_corners_of_one_bed() -> None:
+def test_round_parts_fill_the_corners_of_one_bed():
     around = np.linspace(0.0, tau, 90, endpoint=False)
     discs = [radius * np.stack((np.cos(around), np.sin(around)), axis=1) for radius in (75.0, 41.0)]
     spots = print_files.lay_out(discs, (220.0, 220.0))
     assert [spot and spot.bed for spot in spots] == [0, 0]
 
 
-def test_a_plate_has_every_copy_in_its_place_and_its_settings() -> None:
+def test_a_plate_has_every_copy_in_its_place_and_its_settings():
     dims = dimensions(design_of("plate", {}))
     body, _ = print_files.printed_mesh("bracket", print_files.as_printed(bracket(), UP, 0.0))
     temperatures = {"nozzle_temperature": "240", "bed_temperature": "85"}

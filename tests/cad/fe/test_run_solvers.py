@@ -19,7 +19,7 @@ def python_that(tmp_path: Path, does: str) -> str:
     return str(fake)
 
 
-def test_solvers_are_run_on_both_meshes_or_refused(tmp_path: Path) -> None:
+def test_solvers_are_run_on_both_meshes_or_refused(tmp_path):
     with pytest.raises(InputError, match=r"tvimdesign\[fe\].*--fe-python"):
         run_solvers.require_fe(python_that(tmp_path, "raise SystemExit(1)"))
     with pytest.raises(InputError, match="there is no such program"):
@@ -37,12 +37,12 @@ def test_solvers_are_run_on_both_meshes_or_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("does", ["print('NOT ALL FACES'); import sys", "raise SystemExit('no mesh')"])
-def test_a_solver_that_fails_is_named(tmp_path: Path, does: str) -> None:
+def test_a_solver_that_fails_is_named(tmp_path, does):
     with pytest.raises(SimulationError, match=r"verify: link, (fine|coarse) mesh: (no mesh|NOT ALL FACES)"):
         run_solvers.run_solvers(["link"], tmp_path, tmp_path, python_that(tmp_path, does), lambda _: None)
 
 
-def test_stress_is_read_beside_feet_and_along_fillets_at_each_angle() -> None:
+def test_stress_is_read_beside_feet_and_along_fillets_at_each_angle():
     radius, height = foot_surface.places(10.0, 0.0)
     assert radius == pytest.approx(9.98)
     assert (height[0], height[-1]) == pytest.approx((0.025, 0.975))
@@ -52,7 +52,7 @@ def test_stress_is_read_beside_feet_and_along_fillets_at_each_angle() -> None:
 
 
 @pytest.mark.parametrize("fillet", [0.1, 0.9, 1.5])
-def test_along_a_fillet_it_stays_just_below_the_surface(fillet: float) -> None:
+def test_along_a_fillet_it_stays_just_below_the_surface(fillet):
     radius, height = foot_surface.places(10.0, fillet)
     on_fillet = height < fillet
     centre = np.hypot(radius - 10.0 - fillet, height - fillet)

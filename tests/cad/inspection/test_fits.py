@@ -40,7 +40,7 @@ def placed(design: Design, dims: Dimensions) -> dict[str, cq.Solid]:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_parts_in_pockets_have_the_process_s_clearance_all_round(case: str) -> None:
+def test_parts_in_pockets_have_the_process_s_clearance_all_round(case):
     mode, changes, kinds = CASES[case]
     design = design_of(case, changes, mode)
     dims = dimensions(design)
@@ -51,7 +51,7 @@ def test_parts_in_pockets_have_the_process_s_clearance_all_round(case: str) -> N
         assert checks[0].value == pytest.approx(dims.slip_clearance, abs=1e-6)
 
 
-def test_pads_that_are_wide_or_aside_do_not_go_in(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pads_that_are_wide_or_aside_do_not_go_in(monkeypatch):
     design = design_of("aside", {})
     dims = dimensions(design)
     there = placed(design, dims)
@@ -70,12 +70,12 @@ def test_pads_that_are_wide_or_aside_do_not_go_in(monkeypatch: pytest.MonkeyPatc
     ("rule", "changes"),
     [("pocket_web_margin", {"arc_span": 1.48, "minimum_wall": 3e-3}), ("pad_ledge", {"slip_clearance": 2e-3})],
 )
-def test_pockets_that_leave_too_little_floor_break_a_rule(rule: str, changes: dict[str, float]) -> None:
+def test_pockets_that_leave_too_little_floor_break_a_rule(rule, changes):
     assert rule in broken_rules(design_of("near", changes))
 
 
 @pytest.mark.gate
-def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported() -> None:
+def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported():
     dims = dimensions(design_of("tiles", TILES))
     kinds = ("housing", "heater", "heater_lead", "spreader", "pcl_arc", "thermal_cutout")
     solids = placed_solids(dims, kinds)
@@ -100,12 +100,12 @@ def at(solid: cq.Solid, x: float) -> Instance:
 @pytest.mark.parametrize(
     ("gap", "apart"), [(-1.0, False), (0.0, False), (0.5 * ROOM, False), (1.5 * ROOM, True), (5.0, True)]
 )
-def test_parts_are_apart_if_their_meshes_are_further_than_their_error(gap: float, apart: bool) -> None:
+def test_parts_are_apart_if_their_meshes_are_further_than_their_error(gap, apart):
     placed = {"rotor": at(cylinder(5.0), 0.0), "cover": at(cylinder(5.0), 10.0 + gap)}
     assert PlacedBodies(placed).apart("rotor", "cover") == apart
 
 
-def test_parts_are_apart_by_bores_copies_and_closed_meshes() -> None:
+def test_parts_are_apart_by_bores_copies_and_closed_meshes():
     placed = {"housing": at(cylinder(20.0, 30.0), 0.0), "link_dowel_1": at(cylinder(2.0).translate((0, 0, 10.0)), 0.0)}
     assert not PlacedBodies(placed).apart("housing", "link_dowel_1")
     bored = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
@@ -124,7 +124,7 @@ def test_parts_are_apart_by_bores_copies_and_closed_meshes() -> None:
     assert not bodies.apart("housing", "pcl_arc_2")
 
 
-def test_only_parts_that_may_meet_are_compared_with_the_same_result() -> None:
+def test_only_parts_that_may_meet_are_compared_with_the_same_result():
     ring = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
     solids = {"housing": ring, "link_screw_1": cylinder(2.0, 30.0), "rotor": cylinder(3.5, 30.0)}
     bodies = PlacedBodies({name: at(solid, 0.0) for name, solid in solids.items()})
@@ -141,7 +141,7 @@ def test_only_parts_that_may_meet_are_compared_with_the_same_result() -> None:
 
 
 @pytest.mark.parametrize("cut", [None, 1, 2, 3])
-def test_the_copy_that_cuts_a_part_is_found_among_all(cut: int | None) -> None:
+def test_the_copy_that_cuts_a_part_is_found_among_all(cut):
     solids = {"housing": cylinder(20.0)}
     for number in (1, 2, 3):
         x, y = 25.0 * np.cos(2.0 * number), 25.0 * np.sin(2.0 * number)
@@ -155,7 +155,7 @@ def test_the_copy_that_cuts_a_part_is_found_among_all(cut: int | None) -> None:
         assert check.value == pytest.approx(alone, rel=1e-9)
 
 
-def test_rays_meet_a_box_where_its_faces_are() -> None:
+def test_rays_meet_a_box_where_its_faces_are():
     half = np.array([7.0, 4.0, 2.5])
     triangles = Triangles(solid_mesh(one_solid(cq.Workplane().box(*(2.0 * half)))))
     draw = np.random.default_rng(1)
@@ -170,7 +170,7 @@ def test_rays_meet_a_box_where_its_faces_are() -> None:
 
 
 @pytest.mark.gate
-def test_rays_meet_what_every_triangle_held_against_every_ray_says() -> None:
+def test_rays_meet_what_every_triangle_held_against_every_ray_says():
     work = box(23.0, 11.0, 5.0).faces(">Z").workplane().hole(6.0).edges("|Z").fillet(2.0)
     triangles = Triangles(solid_mesh(one_solid(work)))
     draw = np.random.default_rng(7)
@@ -204,7 +204,7 @@ def _along(origin: Array, way: Array, corners: Array) -> float:
     return float(far) if u >= -1e-7 and v >= -1e-7 and u + v <= 1.0 + 1e-7 else np.inf
 
 
-def test_no_point_of_the_surface_is_further_from_a_sample_than_the_spacing() -> None:
+def test_no_point_of_the_surface_is_further_from_a_sample_than_the_spacing():
     triangles = Triangles(solid_mesh(one_solid(box(23.0, 11.0, 5.0))))
     points = samples(triangles, 1.5)
     assert points.area.sum() == pytest.approx(2.0 * (23.0 * 11.0 + 23.0 * 5.0 + 11.0 * 5.0))

@@ -55,7 +55,7 @@ def place_of(check: SolidCheck) -> Any:
 
 
 @pytest.mark.parametrize(("wall", "level"), [(1.7, "pass"), (1.0, "warning"), (0.6, "failure")])
-def test_a_box_of_known_wall_is_measured(wall: float, level: str) -> None:
+def test_a_box_of_known_wall_is_measured(wall, level):
     hollow = box(30.0, 20.0, 10.0).cut(box(30.0 - 2.0 * wall, 14.0, 7.0).translate((0, 0, 3.0)))
     wall_check = walls(hollow)["wall"]
     assert wall_check.value == pytest.approx(wall, abs=1e-6)
@@ -63,7 +63,7 @@ def test_a_box_of_known_wall_is_measured(wall: float, level: str) -> None:
     assert abs(place_of(wall_check)[0]) == pytest.approx(15.0 - 0.5 * wall, abs=1e-3)
 
 
-def test_walls_are_distinguished_from_edges_and_webs_beside_holes() -> None:
+def test_walls_are_distinguished_from_edges_and_webs_beside_holes():
     # A hole of 6 mm, its axis 3.9 mm inside the edge: 0.9 mm are left.
     web = walls(box(40.0, 20.0, 8.0).cut(cq.Workplane().circle(3.0).extrude(8.0).translate((0, 6.1, 0))))["wall"]
     assert web.value == pytest.approx(0.9, abs=0.05)
@@ -91,13 +91,13 @@ def test_walls_are_distinguished_from_edges_and_webs_beside_holes() -> None:
 
 
 @pytest.mark.parametrize(("width", "level"), [(0.19, "failure"), (0.3, "pass"), (2.0, "pass")])
-def test_a_slot_narrower_than_a_process_makes_is_found(width: float, level: str) -> None:
+def test_a_slot_narrower_than_a_process_makes_is_found(width, level):
     check = slot_check("block", Triangles(solid_mesh(one_solid(box(20, 20, 5).cut(box(width, 12, 9))))), 0.3)
     assert check.value == pytest.approx(width, abs=1e-6)
     assert check.level == level
 
 
-def test_the_wall_beside_a_hole_is_that_of_the_print_file() -> None:
+def test_the_wall_beside_a_hole_is_that_of_the_print_file():
     # A hole of 2.5 mm, 1.26 mm within the rim of a post of 2.51 mm: with 0.3 mm more 1.11 mm are left.
     post = one_solid(cq.Workplane().circle(2.51).extrude(8).cut(cq.Workplane().circle(1.25).extrude(8)))
     thin, nominal = (
@@ -108,7 +108,7 @@ def test_the_wall_beside_a_hole_is_that_of_the_print_file() -> None:
     assert (nominal.level, thin.level) == ("pass", "warning")
 
 
-def test_support_is_planned_where_a_table_s_top_hangs() -> None:
+def test_support_is_planned_where_a_table_s_top_hangs():
     table = box(8.0, 8.0, 12.0).union(box(40.0, 30.0, 3.0).translate((0, 0, 12.0)))
     overhang = printed(table)["overhang"]
     assert overhang.level == "warning"
@@ -127,14 +127,14 @@ def test_support_is_planned_where_a_table_s_top_hangs() -> None:
 
 
 @pytest.mark.parametrize(("lean", "level"), [(43.0, "pass"), (47.0, "warning")])
-def test_a_face_may_lean_as_far_as_the_process_lets_it(lean: float, level: str) -> None:
+def test_a_face_may_lean_as_far_as_the_process_lets_it(lean, level):
     top = 10.0 + 12.0 * sin(radians(lean)) / cos(radians(lean))
     wedge = cq.Workplane("XZ").polyline([(0, 0), (10, 0), (top, 12), (0, 12)]).close().extrude(10.0)
     assert printed(wedge)["overhang"].level == level
 
 
 @pytest.mark.parametrize(("gap", "level"), [(8.0, "pass"), (14.0, "warning")])
-def test_a_gate_is_bridged_up_to_the_span_of_the_process(gap: float, level: str) -> None:
+def test_a_gate_is_bridged_up_to_the_span_of_the_process(gap, level):
     gate = box(gap + 10.0, 12.0, 15.0).cut(box(gap, 12.0, 11.0))
     checks = printed(gate)
     assert checks["overhang"].level == level
@@ -145,7 +145,7 @@ def test_a_gate_is_bridged_up_to_the_span_of_the_process(gap: float, level: str)
 
 @pytest.mark.parametrize("turn", [0.0, 7.0, 31.0])
 @pytest.mark.parametrize(("gap", "level"), [(7.0, "pass"), (8.5, "warning")])
-def test_a_roof_that_ends_askew_in_the_air_is_bridged_along_its_ends(gap: float, level: str, turn: float) -> None:
+def test_a_roof_that_ends_askew_in_the_air_is_bridged_along_its_ends(gap, level, turn):
     # Walls along y carry a roof whose free ends lean by 40 degrees: only a way along these has a wall at both its ends.
     lean = np.tan(radians(40.0))
     roof = [(x, x * lean + y) for x, y in ((-5.0, 0.0), (gap + 5.0, 0.0), (gap + 5.0, 12.0), (-5.0, 12.0))]
@@ -161,7 +161,7 @@ def test_a_roof_that_ends_askew_in_the_air_is_bridged_along_its_ends(gap: float,
 # --- milling ---------------------------------------------------------------------------------------------------------
 
 
-def test_undercuts_side_holes_and_deep_holes_are_found() -> None:
+def test_undercuts_side_holes_and_deep_holes_are_found():
     ring = cq.Workplane().circle(8.0).extrude(4.0).translate((0, 0, 8.0))
     work = box(40.0, 40.0, 20.0).cut(cq.Workplane().circle(6.0).extrude(20.0)).cut(ring)
     check = milled(work)["undercut"]
@@ -179,7 +179,7 @@ def test_undercuts_side_holes_and_deep_holes_are_found() -> None:
     assert place_of(check) == pytest.approx([5.0, 0.0, 25.0])
 
 
-def test_corners_of_a_pocket_are_sharp_or_have_their_radius() -> None:
+def test_corners_of_a_pocket_are_sharp_or_have_their_radius():
     pocket = box(20.0, 12.0, 6.0).translate((0, 0, 4.0))
     sharp = milled(box(40.0, 30.0, 10.0).cut(pocket))
     assert (sharp["sharp corners"].value, sharp["sharp corners"].level) == (4, "warning")
@@ -190,7 +190,7 @@ def test_corners_of_a_pocket_are_sharp_or_have_their_radius() -> None:
 
 
 @pytest.mark.parametrize(("width", "level"), [(2.0, "failure"), (4.0, "pass")])
-def test_a_slot_too_deep_for_its_width_is_found(width: float, level: str) -> None:
+def test_a_slot_too_deep_for_its_width_is_found(width, level):
     pocket = milled(box(40.0, 30.0, 14.0).cut(box(40.0, width, 10.0).translate((0, 0, 4.0))))["pocket"]
     assert pocket.value == pytest.approx(10.0 / width, rel=0.03)
     assert pocket.level == level
@@ -198,7 +198,7 @@ def test_a_slot_too_deep_for_its_width_is_found(width: float, level: str) -> Non
 
 
 @pytest.mark.parametrize("turned_over", [False, True])
-def test_of_several_slots_the_deepest_for_its_width_is_reported(turned_over: bool) -> None:
+def test_of_several_slots_the_deepest_for_its_width_is_reported(turned_over):
     # Deep but wide, narrow but shallow, and between: 10/8, 2/1.5 and 9/3 times as deep as they are wide.
     block = box(60.0, 30.0, 14.0)
     for along, width, depth in ((-20.0, 8.0, 10.0), (0.0, 1.5, 2.0), (20.0, 3.0, 9.0)):
@@ -209,7 +209,7 @@ def test_of_several_slots_the_deepest_for_its_width_is_reported(turned_over: boo
     assert place_of(pocket)[2] == pytest.approx(9.0 if turned_over else 5.0)
 
 
-def test_a_slot_below_counts_beside_a_better_one_above() -> None:
+def test_a_slot_below_counts_beside_a_better_one_above():
     above, below = box(4.0, 30.0, 4.0).translate((-12.0, 0, 10.0)), box(2.0, 30.0, 6.0).translate((12.0, 0, 0))
     pocket = milled(box(50.0, 30.0, 14.0).cut(above).cut(below))["pocket"]
     assert pocket.value == pytest.approx(3.0, rel=0.03)
@@ -230,9 +230,7 @@ def drawn(dims: Dimensions) -> dict[str, cq.Solid]:
 
 
 @pytest.mark.gate
-def test_the_printed_rotor_needs_support_under_its_plate(
-    paper: Design, dims: Dimensions, drawn: dict[str, cq.Solid]
-) -> None:
+def test_the_printed_rotor_needs_support_under_its_plate(paper, dims, drawn):
     checks = of(inspect.part_checks(paper, dims, "rotor", drawn["rotor"]))
     assert {name for name, check in checks.items() if check.level != "pass"} == set()  # it is planned, and said
     # It lies on the core's upper end: the plate's upper face hangs, but for the core and four pins.
@@ -242,7 +240,7 @@ def test_the_printed_rotor_needs_support_under_its_plate(
 
 
 @pytest.mark.slow
-def test_walls_below_milled_pads_are_thick_enough_by_the_rule() -> None:
+def test_walls_below_milled_pads_are_thick_enough_by_the_rule():
     for offset, thick_enough in ((0.02, False), (-0.4, True)):
         sizes = {"corner_radius": 0.8e-3, "running_clearance": 1e-3, "slot_corner_offset": offset * 1e-3}
         milled = design_of("deep slots", {**BEARING_BLOCKS, **sizes}, "compression")
@@ -254,7 +252,7 @@ def test_walls_below_milled_pads_are_thick_enough_by_the_rule() -> None:
             assert checks["wall"].value == pytest.approx(1.5 - 0.8 * (1.0 + 1.5 / 22.5) - offset, abs=0.01)
 
 
-def test_a_rule_that_is_broken_is_a_warning_with_its_reason() -> None:
+def test_a_rule_that_is_broken_is_a_warning_with_its_reason():
     broken = design_of("thin wall", {"wall_thickness": 1.0e-3})
     reported = [check for check in inspect.rule_checks(broken) if check.level != "pass"]
     assert [check.name for check in reported] == ["module: rule housing_wall_margin"]
@@ -262,9 +260,7 @@ def test_a_rule_that_is_broken_is_a_warning_with_its_reason() -> None:
     assert "thinner than the process" in reported[0].text
 
 
-def test_threads_reach_into_the_core_and_coils_clear_their_posts(
-    dims: Dimensions, drawn: dict[str, cq.Solid], paper: Design
-) -> None:
+def test_threads_reach_into_the_core_and_coils_clear_their_posts(dims, drawn, paper):
     by_part = {check.part: check for check in inspect.thread_checks(dims, drawn)}
     # M3 x 12 through 4 mm of link, M4 x 10 through 2.5 mm of retainer.
     assert by_part["link_screw"].value == pytest.approx(8.0 / 3.0)
@@ -281,7 +277,7 @@ def test_threads_reach_into_the_core_and_coils_clear_their_posts(
     assert "failure" in {check.level for check in inspect.coil_checks(dimensions(thick))}
 
 
-def test_small_parts_are_one_solid_and_fit_the_bed() -> None:
+def test_small_parts_are_one_solid_and_fit_the_bed():
     two = cq.Compound.makeCompound([one_solid(box(1, 1, 1)), one_solid(box(1, 1, 1).translate((5, 0, 0)))])
     assert inspect.solid_check("part", two).level == "failure"
     assert bed_check("part", np.array([180.0, 210.0, 20.0]), (220.0, 200.0, 250.0)).level == "pass"
@@ -289,9 +285,7 @@ def test_small_parts_are_one_solid_and_fit_the_bed() -> None:
     assert (check.level, check.value) == ("failure", pytest.approx(-10.0))
 
 
-def test_what_goes_on_too_early_is_in_the_way(
-    dims: Dimensions, drawn: dict[str, cq.Solid], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_goes_on_too_early_is_in_the_way(dims, drawn, monkeypatch):
     # One of each kind: copies go in alike, and take three times as long.
     every = instances(dims, drawn, place(dims, drawn))
     placed = {name: every[name] for name in {kind_of(name): name for name in every}.values()}
@@ -306,9 +300,7 @@ def test_what_goes_on_too_early_is_in_the_way(
     assert place_of(blocked["rotor"])[2] == pytest.approx(dims.link_bottom_level, abs=0.01)
 
 
-def test_a_driver_in_the_way_is_reported_with_its_height_over_the_screw(
-    dims: Dimensions, drawn: dict[str, cq.Solid]
-) -> None:
+def test_a_driver_in_the_way_is_reported_with_its_height_over_the_screw(dims, drawn):
     lid = one_solid(box(200.0, 200.0, 1.0).translate((0, 0, dims.link_bottom_level + 15.0)))
     placed = instances(dims, drawn, place(dims, drawn))
     meshes = {name: order.in_module(part) for name, part in placed.items()} | {"lid": solid_mesh(lid)}
@@ -319,9 +311,7 @@ def test_a_driver_in_the_way_is_reported_with_its_height_over_the_screw(
 
 
 @pytest.mark.parametrize(("bore", "level"), [(1.6, "pass"), (1.3, "failure")])
-def test_a_screw_is_reached_by_its_own_key(
-    dims: Dimensions, drawn: dict[str, cq.Solid], bore: float, level: str
-) -> None:
+def test_a_screw_is_reached_by_its_own_key(dims, drawn, bore, level):
     # The key of an M3 socket head cap screw, ISO 4762, is 2.5 mm across flats: its corners are 1.44 mm from its axis.
     lid = box(200.0, 200.0, 1.0).translate((0, 0, dims.link_bottom_level + 15.0))
     holes = [cq.Workplane(origin=(x, y, 0)).circle(bore).extrude(200.0) for x, y in mounts(dims)]
@@ -336,7 +326,7 @@ def test_a_screw_is_reached_by_its_own_key(
 @pytest.mark.parametrize(
     ("mode", "process"), [("shear", "print_petg"), ("compression", "print_petg"), ("shear", "machine_6061")]
 )
-def test_the_reference_modules_have_nothing_that_cannot_be_made(mode: str, process: str) -> None:
+def test_the_reference_modules_have_nothing_that_cannot_be_made(mode, process):
     overrides = (BLOCKS if mode == "compression" else {}) | {"process": process}
     design = design_of("reference", overrides, mode)
     dims = dimensions(design)
@@ -354,7 +344,7 @@ def test_the_reference_modules_have_nothing_that_cannot_be_made(mode: str, proce
 
 @pytest.mark.gate
 @pytest.mark.parametrize("bearing", ["none", "ball_6803"])
-def test_a_printed_housing_stands_on_support_where_its_note_says(bearing: str) -> None:
+def test_a_printed_housing_stands_on_support_where_its_note_says(bearing):
     # A hub with seats from both ends has a lip between them, whose lower face hangs in the lower seat.
     design = design_of("reference", BLOCKS | {"bearing": bearing, "core_radius": 0.0085}, "compression")
     dims = dimensions(design)

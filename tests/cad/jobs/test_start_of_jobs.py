@@ -34,21 +34,21 @@ print(few, sum(name.startswith("vtkmodules.") for name in sys.modules), vtk.vtkV
 
 
 @pytest.mark.gate
-def test_vtk_is_not_loaded_whole_with_the_kernel_and_can_be_afterwards() -> None:
+def test_vtk_is_not_loaded_whole_with_the_kernel_and_can_be_afterwards():
     counts = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True).stdout
     few, whole, version = (int(word) for word in counts.split())
     assert few < 0.4 * whole
     assert version >= 9
 
 
-def test_a_worker_that_is_never_given_a_job_ends_with_its_owner() -> None:
+def test_a_worker_that_is_never_given_a_job_ends_with_its_owner():
     with PartsProcess() as waiting:
         process = psutil.Process(waiting.process)
         assert process.is_running()
     assert not process.is_running()
 
 
-def test_small_parts_come_first_then_pictures_then_makers_files() -> None:
+def test_small_parts_come_first_then_pictures_then_makers_files():
     plan = build_plan(dimensions(design_of("paper", {})))
     assert plan[0].name == PICTURES
     assert plan[0].turn is Turn.FIRST
@@ -68,7 +68,7 @@ def test_small_parts_come_first_then_pictures_then_makers_files() -> None:
 
 
 @pytest.mark.skipif(not hasattr(os, "getsid"), reason="Windows has no sessions")
-def test_parts_are_made_in_the_run_s_session() -> None:
+def test_parts_are_made_in_the_run_s_session():
     with PartsProcess() as waiting:
         assert os.getsid(waiting.process) == os.getsid(0)
         assert os.getpgid(waiting.process) == waiting.process  # an interrupt at the terminal is the parent's to handle
@@ -77,7 +77,7 @@ def test_parts_are_made_in_the_run_s_session() -> None:
 DENSITY = 1270.0
 
 
-def test_inertias_are_the_textbook_s_and_halves_make_the_whole() -> None:
+def test_inertias_are_the_textbook_s_and_halves_make_the_whole():
     properties = of_solid(cq.Solid.makeBox(30.0, 20.0, 10.0, cq.Vector(5.0, 0.0, 0.0)), DENSITY)
     mass, (a, b, c) = DENSITY * 6e-6, (0.03, 0.02, 0.01)
     assert properties.mass == pytest.approx(mass)

@@ -88,7 +88,7 @@ def text(done: Done, name: str) -> str:
     return (folder / f"{name}.txt").read_text()
 
 
-def test_work_is_done_in_order_and_only_what_changed_again(run: Run) -> None:
+def test_work_is_done_in_order_and_only_what_changed_again(run):
     first = run(STACK, PLATE)
     assert first.reused == []
     assert text(first, "stack") == "4toy"
@@ -109,7 +109,7 @@ def test_work_is_done_in_order_and_only_what_changed_again(run: Run) -> None:
     assert (renamed.reused, text(renamed, "stack")) == (["plate"], "4other")
 
 
-def test_work_that_nothing_needs_is_started_last(tmp_path: Path) -> None:
+def test_work_that_nothing_needs_is_started_last(tmp_path):
     order: list[str] = []
     late = replace(STACK, turn=Turn.LATE)
     subject = TrackedDesign(design_of("toy", {}), TITLES)
@@ -119,9 +119,7 @@ def test_work_that_nothing_needs_is_started_last(tmp_path: Path) -> None:
     assert list(done.results) == ["plate", "stack", "layer"]
 
 
-def test_results_of_other_files_work_or_code_are_not_used(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_results_of_other_files_work_or_code_are_not_used(run, tmp_path, monkeypatch):
     first = run(PLATE)
     (first.results["plate"].folder / "out/plate.txt").write_text("5.000")
     again = run(PLATE)
@@ -170,7 +168,7 @@ if hasattr(os, "getuid") and os.getuid() == 0:  # only root gives files away
 
 
 @pytest.mark.parametrize("name", DAMAGE)
-def test_a_damaged_file_in_the_cache_is_made_again(run: Run, name: str) -> None:
+def test_a_damaged_file_in_the_cache_is_made_again(run, name):
     first = run(PLATE, STACK)
     DAMAGE[name](first.results["plate"].folder)
     again = run(PLATE, STACK)
@@ -180,7 +178,7 @@ def test_a_damaged_file_in_the_cache_is_made_again(run: Run, name: str) -> None:
     assert set(run(PLATE, STACK).reused) == {"plate", "stack"}
 
 
-def test_a_damaged_result_is_reported(tmp_path: Path) -> None:
+def test_a_damaged_result_is_reported(tmp_path):
     subject, store = TrackedDesign(design_of("toy", {}), {}), Cache(tmp_path)
     done = WorkerPool(subject, store, lambda _: None).do([PLATE])
     (done.results["plate"].folder / "trace.json").write_text("{}")
@@ -189,7 +187,7 @@ def test_a_damaged_result_is_reported(tmp_path: Path) -> None:
 
 
 @pytest.mark.gate
-def test_stuck_crashed_and_refused_work_is_named(run: Run, tmp_path: Path) -> None:
+def test_stuck_crashed_and_refused_work_is_named(run, tmp_path):
     stuck = Work(name="bore", do=never_ends)
     needing = Work(name="assembly", do=stack, needs=("bore", "plate"))
     done = run(stuck, needing, PLATE, limit=0.5)
@@ -206,7 +204,7 @@ def test_stuck_crashed_and_refused_work_is_named(run: Run, tmp_path: Path) -> No
     ]
 
 
-def test_a_child_does_several_pieces_and_a_dead_one_is_replaced(tmp_path: Path) -> None:
+def test_a_child_does_several_pieces_and_a_dead_one_is_replaced(tmp_path):
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     plan = [Work(name=name, do=crashes if name == "crash" else by_whom) for name in ("a", "b", "crash", "c", "d")]
     done = WorkerPool(subject, Cache(tmp_path), lambda _: None, workers=1).do(plan)
@@ -218,7 +216,7 @@ def test_a_child_does_several_pieces_and_a_dead_one_is_replaced(tmp_path: Path) 
 
 
 @pytest.mark.gate
-def test_children_that_are_spawned_do_the_same_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_children_that_are_spawned_do_the_same_work(tmp_path, monkeypatch):
     """As on a system where a fork is not safe: they import all anew, and all that they are given is sent to them."""
     pool = of_elsewhere(tmp_path, monkeypatch)
     done = pool.do([PLATE, STACK, Work(name="who", do=by_whom)])
@@ -228,7 +226,7 @@ def test_children_that_are_spawned_do_the_same_work(tmp_path: Path, monkeypatch:
     assert not psutil.pid_exists(int(text(done, "who")))
 
 
-def test_a_plan_of_parts_can_be_sent_to_a_child_that_is_spawned() -> None:
+def test_a_plan_of_parts_can_be_sent_to_a_child_that_is_spawned():
     plan = build_plan(dimensions(design_of("toy", {})))
     again, subject = pickle.loads(pickle.dumps((plan, TrackedDesign(design_of("toy", {}), TITLES))))
     assert [work.name for work in again] == [work.name for work in plan]
@@ -261,7 +259,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.gate
-def test_a_spawned_child_is_gone_with_its_parent_though_it_is_at_work(tmp_path: Path) -> None:
+def test_a_spawned_child_is_gone_with_its_parent_though_it_is_at_work(tmp_path):
     """Linux alone signals a parent's end; here a child watches its parent, as elsewhere."""
     (tmp_path / "spawning.py").write_text(SPAWNING)
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "tests/helpers")])}
@@ -288,7 +286,7 @@ def of_elsewhere(folder: Path, monkeypatch: pytest.MonkeyPatch) -> WorkerPool:
     return pool
 
 
-def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_oldest_results_go_when_there_are_many(run, tmp_path, monkeypatch):
     monkeypatch.setattr("tvimdesign.cad.jobs.cache._MOST", 2)
     for thickness in (4.0e-3, 4.1e-3, 4.2e-3):
         run(PLATE, link_thickness=thickness)
@@ -297,7 +295,7 @@ def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, mon
     assert run(PLATE, link_thickness=4.0e-3).reused == []
 
 
-def test_a_thicker_layer_leaves_the_pins_as_they_were(run: Run) -> None:
+def test_a_thicker_layer_leaves_the_pins_as_they_were(run):
     # A part without a drawing: the kernel's threads, which other tests may have started, do not survive a fork.
     pins = next(work for work in build_plan(dimensions(design_of("toy", {}))) if work.name == "link_dowel")
     layer = Work(name="layer", do=thickness)
@@ -323,7 +321,7 @@ sys.exit(job.main(sys.argv[1:]))
 
 
 @pytest.mark.slow
-def test_a_stuck_part_is_named_and_the_others_are_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stuck_part_is_named_and_the_others_are_made(tmp_path, monkeypatch):
     (tmp_path / "stuck_job.py").write_text(STUCK.format(kind="retainer"))
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     write_design(whole(design_of("paper", {})), tmp_path / "design.json")
@@ -336,9 +334,7 @@ def test_a_stuck_part_is_named_and_the_others_are_made(tmp_path: Path, monkeypat
 
 
 @pytest.mark.slow
-def test_a_second_making_takes_over_everything_and_gives_the_same_files(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_second_making_takes_over_everything_and_gives_the_same_files(tmp_path, monkeypatch):
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "kept"))
     write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     first = make_cad(tmp_path / "design.json", tmp_path / "cad")
@@ -350,7 +346,7 @@ def test_a_second_making_takes_over_everything_and_gives_the_same_files(
     assert {name: (tmp_path / "cad" / name).read_bytes() for name in second.files} == made
 
 
-def test_files_are_handed_out_while_the_next_piece_of_work_is_done(tmp_path: Path) -> None:
+def test_files_are_handed_out_while_the_next_piece_of_work_is_done(tmp_path):
     messages: list[str] = []
 
     def made(result: Result) -> None:
@@ -365,7 +361,7 @@ def test_files_are_handed_out_while_the_next_piece_of_work_is_done(tmp_path: Pat
     assert messages == ["made plate", "made layer"]
 
 
-def test_children_collect_garbage_though_who_forks_them_does_not(run: Run) -> None:
+def test_children_collect_garbage_though_who_forks_them_does_not(run):
     gc.disable()
     try:
         assert text(run(Work(name="collects", do=collects)), "collects") == "True"

@@ -67,13 +67,11 @@ def failed(parts: dict[str, cq.Solid], among: str) -> set[str]:
         (30.0, 6.0, None), (30.0, -2.0, None), (30.0, 10.3, None), (30.0, 10.5, "housing"), (12.0, -2.0, "housing"),
     ],
 )  # fmt: skip
-def test_vanes_blocks_and_pads_stand_where_the_drawing_in_words_says(
-    at_rest: dict[str, cq.Solid], degrees: float, level: float, expected: str | None
-) -> None:
+def test_vanes_blocks_and_pads_stand_where_the_drawing_in_words_says(at_rest, degrees, level, expected):
     assert holders(at_rest, at(18.5, degrees, level)) == ([expected] if expected else [])
 
 
-def test_blocks_are_squeezed_into_the_room_of_the_quantity(at_rest: dict[str, cq.Solid], blocks: Design) -> None:
+def test_blocks_are_squeezed_into_the_room_of_the_quantity(at_rest, blocks):
     housing = at_rest["housing"]
     # Half of 11 mm of width: from 15.75 to 21.25 mm.
     inside = [housing.isInside(at(radius, 30.0, 5.0)) for radius in (13.1, 15.6, 15.9, 21.1, 21.4, 23.9)]
@@ -87,9 +85,7 @@ def test_blocks_are_squeezed_into_the_room_of_the_quantity(at_rest: dict[str, cq
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(
-    blocks: Design, at_rest: dict[str, cq.Solid], side: float
-) -> None:
+def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(blocks, at_rest, side):
     angle = side * 0.104
     parts = build(blocks, angle)
     ahead, behind = ("pcl_block_1", "pcl_block_2") if side > 0.0 else ("pcl_block_2", "pcl_block_1")
@@ -106,7 +102,7 @@ def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(
 
 
 @pytest.mark.gate
-def test_blocks_that_do_not_fit_are_found_and_named(at_rest: dict[str, cq.Solid], blocks: Design) -> None:
+def test_blocks_that_do_not_fit_are_found_and_named(at_rest, blocks):
     moved = at_rest | {"rotor": turned(at_rest["rotor"], 0.01)}
     assert {f"rotor | pcl_block_{index} here" for index in range(1, 12, 2)} <= failed(moved, "rotor pcl_block")
     moved = build(blocks, 0.05)
@@ -123,7 +119,7 @@ def test_blocks_that_do_not_fit_are_found_and_named(at_rest: dict[str, cq.Solid]
 
 
 @pytest.mark.slow
-def test_a_housing_vane_in_a_pad_is_found(at_rest: dict[str, cq.Solid]) -> None:
+def test_a_housing_vane_in_a_pad_is_found(at_rest):
     moved = at_rest | {"housing": turned(at_rest["housing"], 0.01)}
     assert {f"housing | heater_{index} here" for index in range(1, 12, 2)} <= failed(moved, "housing heater")
 
@@ -137,13 +133,13 @@ def test_a_housing_vane_in_a_pad_is_found(at_rest: dict[str, cq.Solid]) -> None:
         ("block_angle", float("nan"), "pcl_block: block_angle is nan"),
     ],
 )
-def test_what_cannot_be_drawn_names_the_part(blocks: Design, row: str, value: float, words: str) -> None:
+def test_what_cannot_be_drawn_names_the_part(blocks, row, value, words):
     design = blocks.model_copy(update={"values": blocks.values | {row: value}})
     with pytest.raises(GeometryError, match=words):
         build(design)
 
 
-def test_corners_of_slots_and_pockets_have_room_for_cutters_and_pads(at_rest: dict[str, cq.Solid]) -> None:
+def test_corners_of_slots_and_pockets_have_room_for_cutters_and_pads(at_rest):
     width = POCKET_WIDTH * 1.5
     pocket = rounded(block((0.0, 10.0), width, 0.0, 4.0), 1.5)
     assert pocket.isValid()
@@ -162,7 +158,7 @@ def test_corners_of_slots_and_pockets_have_room_for_cutters_and_pads(at_rest: di
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
-def test_a_random_module_that_keeps_the_rules_passes_every_check(seed: int) -> None:
+def test_a_random_module_that_keeps_the_rules_passes_every_check(seed):
     design = random_blocks(seed)
     dims = dimensions(design)
     drawn = drawn_parts(dims)
@@ -204,14 +200,14 @@ def tiled(name: str) -> Tiled:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("name", ["over windows", "in vanes", TWO])
-def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(name: str) -> None:
+def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(name):
     design, _, placed = tiled(name)
     counts = TILED[name][2]
     assert {kind: sum(kind_of(part) == kind for part in placed) for kind in counts} == counts
     assert_sound(design, placed, [f"{kind}_volume" for kind in counts])
 
 
-def test_tiles_stand_over_windows_with_their_plates_on_ledges() -> None:
+def test_tiles_stand_over_windows_with_their_plates_on_ledges():
     _, dims, placed = tiled("over windows")
     for name in (name for name in placed if kind_of(name) == "heater"):
         tile, box = placed[name], placed[name].BoundingBox()
@@ -239,7 +235,7 @@ def test_tiles_stand_over_windows_with_their_plates_on_ledges() -> None:
 
 
 @pytest.mark.gate
-def test_bent_leads_go_down_through_their_slots_in_drafts_too() -> None:
+def test_bent_leads_go_down_through_their_slots_in_drafts_too():
     _, dims, placed = tiled("over windows")
     leads = [solid for name, solid in placed.items() if kind_of(name) == "heater_lead"]
     assert len(leads) == 12
@@ -257,7 +253,7 @@ def test_bent_leads_go_down_through_their_slots_in_drafts_too() -> None:
 
 
 @in_vanes
-def test_tiles_touch_spreaders_and_seats_over_their_ways_out(name: str) -> None:
+def test_tiles_touch_spreaders_and_seats_over_their_ways_out(name):
     design, dims, placed = tiled(name)
     tiles = [(part, solid) for part, solid in placed.items() if kind_of(part) == "heater"]
 
@@ -292,7 +288,7 @@ def behind(tile: cq.Solid, housing: cq.Solid, depth: float = 0.01) -> float:
     ("mode", "changes"),
     [("shear", TILES | {"arc_span": 1.4}), ("compression", VANE_TILE_ROWS | {"pcl_outer_radius": 38e-3})],
 )
-def test_tiles_that_overlap_are_found_by_rule_and_solid(mode: str, changes: Mapping[str, float | str]) -> None:
+def test_tiles_that_overlap_are_found_by_rule_and_solid(mode, changes):
     crowded = design_of("crowded", changes, mode)
     assert "tile_side_margin" in broken_rules(crowded)
     polymer = "pcl_arc" if mode == "shear" else "pcl_block"
@@ -300,7 +296,7 @@ def test_tiles_that_overlap_are_found_by_rule_and_solid(mode: str, changes: Mapp
     assert any("heater_1 and heater_2" in c.text for c in interference_checks(placed, "here") if not c.ok)
 
 
-def test_adhesive_and_a_thermistor_for_each_spreader_are_in_the_list() -> None:
+def test_adhesive_and_a_thermistor_for_each_spreader_are_in_the_list():
     listed = {item.kind: item for item in beside(tiled("over windows").design, {})}
     assert listed["thermistor"].quantity == 3
     assert "120 °C" in listed["thermistor"].title
@@ -318,14 +314,14 @@ def test_adhesive_and_a_thermistor_for_each_spreader_are_in_the_list() -> None:
         ("compression", "vanes_parallel", "vanes in parallel"),
     ],
 )
-def test_the_supply_is_for_the_pads_as_they_are_wired(mode: str, wiring: str, message: str) -> None:
+def test_the_supply_is_for_the_pads_as_they_are_wired(mode, wiring, message):
     design = design_of("wired", {"shear": TILES, "compression": VANE_TILES}[mode] | {"heater_wiring": wiring}, mode)
     design.values.update(peak_voltage=9.0, peak_current=2.0)
     assert message in next(item.title for item in beside(design, {}) if item.kind == "supply")
 
 
 @in_vanes
-def test_modules_spreaders_adhesive_and_wires_are_in_the_list(name: str) -> None:
+def test_modules_spreaders_adhesive_and_wires_are_in_the_list(name):
     design, _, placed = tiled(name)
     counted = {item.kind: item.quantity for item in bill(design, {}, placed)}
     assert counted["heater"] == round(design.values["heater_count"])

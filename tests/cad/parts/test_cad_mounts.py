@@ -3,7 +3,6 @@
 Liners, cut-outs and thermistors as solids: in their recesses, as large as the model says, in no one's way.
 """
 
-from collections.abc import Mapping
 from math import atan2, hypot, pi, sin, sqrt
 from typing import Any
 
@@ -38,7 +37,7 @@ from tvimdesign.study.design import Design
 
 
 @pytest.mark.parametrize("process", ["print_petg", "machine_6061"])
-def test_the_spokes_of_the_motor_s_hub_have_no_sharp_corner(process: str) -> None:
+def test_the_spokes_of_the_motor_s_hub_have_no_sharp_corner(process):
     design = design_of("driven", DRIVEN | {"process": process, "corner_radius": 1e-3})
     dims = dimensions(design)
     hub = drawn_part(dims, "motor_hub")
@@ -50,7 +49,7 @@ def test_the_spokes_of_the_motor_s_hub_have_no_sharp_corner(process: str) -> Non
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", ["driven", "driven blocks"])
-def test_a_motor_goes_together_in_order_and_its_screws_hold(case: str) -> None:
+def test_a_motor_goes_together_in_order_and_its_screws_hold(case):
     mode, overrides = CASES[case]
     design = design_of(case, overrides, mode)
     dims = dimensions(design)
@@ -65,7 +64,7 @@ def test_a_motor_goes_together_in_order_and_its_screws_hold(case: str) -> None:
 
 
 @pytest.mark.slow
-def test_a_rotor_that_does_not_clear_its_stator_is_found() -> None:
+def test_a_rotor_that_does_not_clear_its_stator_is_found():
     design = design_of("driven", DRIVEN)
     wide = design.model_copy(update={"values": design.values | {"motor_rotor_radius": 25.0e-3}})
     failed = [check.name for check in interference_checks(build(wide), "at rest") if not check.ok]
@@ -74,7 +73,7 @@ def test_a_rotor_that_does_not_clear_its_stator_is_found() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", ["driven", "driven blocks"])
-def test_what_the_motor_turns_has_the_inertia_of_its_solids(case: str) -> None:
+def test_what_the_motor_turns_has_the_inertia_of_its_solids(case):
     mode, overrides = CASES[case]
     design = design_of(case, overrides, mode)
     stands = {*TURNING, "motor_stator", "motor_housing", "encoder_board"}
@@ -89,7 +88,7 @@ def test_what_the_motor_turns_has_the_inertia_of_its_solids(case: str) -> None:
 @pytest.mark.parametrize(
     "case", ["wrist", *(pytest.param(case, marks=pytest.mark.gate) for case in ("odd blocks", "bearings among blocks"))]
 )
-def test_the_rotor_meets_its_stops_at_their_angle(case: str) -> None:
+def test_the_rotor_meets_its_stops_at_their_angle(case):
     mode, overrides = CASES[case]
     design = design_of(case, overrides, mode)
     assert not [name for name in broken_rules(design) if name.startswith("stop_")]
@@ -107,7 +106,7 @@ def test_the_rotor_meets_its_stops_at_their_angle(case: str) -> None:
 
 
 @pytest.mark.parametrize("case", ["wrist", pytest.param("odd blocks", marks=pytest.mark.gate)])
-def test_a_fork_holds_the_rotor_at_rest(case: str) -> None:
+def test_a_fork_holds_the_rotor_at_rest(case):
     mode, overrides = CASES[case]
     dims = dimensions(design_of(case, overrides, mode))
     solids = {kind: drawn_part(dims, kind) for kind in ("housing", "rotor")}
@@ -116,7 +115,7 @@ def test_a_fork_holds_the_rotor_at_rest(case: str) -> None:
     assert [check.text for check in setting_checks(dims, solids) if not check.ok] == []
 
 
-def test_a_leg_lies_on_its_pin_at_either_stop() -> None:
+def test_a_leg_lies_on_its_pin_at_either_stop():
     mode, overrides = CASES["wrist"]
     dims = dimensions(design_of("wrist", overrides, mode))
     rotor = drawn_part(dims, "rotor")
@@ -133,14 +132,14 @@ def coil(**changes: float) -> Coil:
 
 @settings(max_examples=12, deadline=None)
 @given(index=st.floats(4.0, 16.0), turns=st.floats(2.0, 12.0), leg_azimuth=st.floats(-pi, pi))
-def test_any_coil_is_one_solid_with_the_volume_of_its_wire(index: float, turns: float, leg_azimuth: float) -> None:
+def test_any_coil_is_one_solid_with_the_volume_of_its_wire(index, turns, leg_azimuth):
     shape = coil(diameter=2.0 * index, turns=turns, leg_azimuth=leg_azimuth)
     solid = spring_solid(shape)
     assert solid.isValid()
     assert solid.Volume() == pytest.approx(0.25 * pi * 4.0 * shape.wire_length, rel=1e-4)
 
 
-def test_free_spring_is_the_wire_of_the_model_and_reaches_its_pin(design: Design) -> None:
+def test_free_spring_is_the_wire_of_the_model_and_reaches_its_pin(design):
     shape = free_coil(dimensions(design))
     assert shape.wire_length == pytest.approx(1e3 * design.values["wire_length"], rel=1e-12)
     assert shape.start_level == pytest.approx(1e3 * design.values["coil_start_level"], rel=1e-12)
@@ -151,7 +150,7 @@ def test_free_spring_is_the_wire_of_the_model_and_reaches_its_pin(design: Design
         build(design)
 
 
-def test_winding_keeps_the_wire_and_the_tang(design: Design) -> None:
+def test_winding_keeps_the_wire_and_the_tang(design):
     dims = dimensions(design)
     wire = dims.coil_count * hypot(pi * dims.coil_diameter, dims.coil_pitch)
     installed = installed_coil(dims)
@@ -164,7 +163,7 @@ def test_winding_keeps_the_wire_and_the_tang(design: Design) -> None:
     assert installed.end_level == pytest.approx(1e3 * design.values["coil_end_level"], abs=1e-3)
 
 
-def test_leg_lies_against_its_pin_on_the_winding_side(design: Design) -> None:
+def test_leg_lies_against_its_pin_on_the_winding_side(design):
     dims = dimensions(design)
     for angle in (-dims.stroke, 0.0, dims.stroke):
         shape = installed_coil(dims, angle)
@@ -184,16 +183,16 @@ def _legs_touch_their_pins(design: Design) -> None:
 
 
 @pytest.mark.gate
-def test_solid_leg_touches_the_pin(paper: Design) -> None:
+def test_solid_leg_touches_the_pin(paper):
     _legs_touch_their_pins(paper)
 
 
 @pytest.mark.slow
-def test_solid_leg_of_every_case_touches_the_pin(design: Design) -> None:
+def test_solid_leg_of_every_case_touches_the_pin(design):
     _legs_touch_their_pins(design)
 
 
-def test_mesh_is_the_solid() -> None:
+def test_mesh_is_the_solid():
     shape = coil(turns=4.6)
     mesh = spring_mesh(shape)
     body = trimesh.Trimesh(mesh.vertices, mesh.faces)
@@ -209,7 +208,7 @@ def test_mesh_is_the_solid() -> None:
     ("changes", "words"),
     [({"diameter": 1.5}, "coil diameter"), ({"pitch": 1.9}, "gap between coils"), ({"leg_length": 0.0}, "leg_length")],
 )
-def test_a_wire_that_cannot_be_bent_is_an_error(changes: dict[str, float], words: str) -> None:
+def test_a_wire_that_cannot_be_bent_is_an_error(changes, words):
     with pytest.raises(GeometryError, match=words):
         spring_solid(coil(**changes))
 
@@ -229,7 +228,7 @@ def pin_on_plate(plate: float) -> cq.Solid:
 
 @pytest.mark.parametrize("plate", [7.5, 30.0])
 @pytest.mark.parametrize("turn", [0.0, 17.0, 211.3])
-def test_a_fillet_within_the_rest_is_left_out(plate: float, turn: float, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_fillet_within_the_rest_is_left_out(plate, turn, monkeypatch):
     solid = pin_on_plate(plate).rotate(cq.Vector(), cq.Vector(0.2, 0.1, 1.0), turn)
     expected = sides(solid.BoundingBox())
     assert "TORUS" in [face.geomType() for face in solid.Faces()]
@@ -237,7 +236,7 @@ def test_a_fillet_within_the_rest_is_left_out(plate: float, turn: float, monkeyp
     assert sides(tight_box(solid)) == expected
 
 
-def test_a_tight_box_counts_what_is_outermost() -> None:
+def test_a_tight_box_counts_what_is_outermost():
     foot = cq.Workplane("XZ").moveTo(1.0, 0.0).lineTo(3.0, 0.0).radiusArc((1.5, 1.5), 1.5).lineTo(1.0, 1.5).close()
     solid = foot.revolve(360.0, (0.0, 0.0), (0.0, 1.0)).solids().val()
     assert sides(tight_box(solid)) == sides(solid.BoundingBox())
@@ -274,9 +273,7 @@ def _wider(design: Design) -> float:
 
 
 @pytest.mark.parametrize(("mode", "changes"), LINED)
-def test_liners_lie_in_the_rotor_a_film_from_its_recess_and_turn_with_it(
-    mode: str, changes: dict[str, float | str]
-) -> None:
+def test_liners_lie_in_the_rotor_a_film_from_its_recess_and_turn_with_it(mode, changes):
     design = design_of("lined", changes, mode)
     for angle in (0.0, 0.5 * design.values["stroke"]):
         placed = placed_of(design, angle)
@@ -315,9 +312,7 @@ def _polar(solid: cq.Solid) -> float:
         pytest.param("compression", {}, "floor_thickness", 4.2, id="below a slot", marks=pytest.mark.slow),
     ],
 )
-def test_the_cut_out_lies_across_the_first_heater_in_no_part_s_way(
-    mode: str, changes: dict[str, float | str], level: str, diameter: float
-) -> None:
+def test_the_cut_out_lies_across_the_first_heater_in_no_part_s_way(mode, changes, level, diameter):
     design = design_of("guarded", changes, mode)
     placed = placed_of(design)
     body = placed["thermal_cutout"]
@@ -346,7 +341,7 @@ def standing(design: Design) -> dict[str, cq.Solid]:
 
 
 @pytest.mark.parametrize(("changes", "touched", "count"), [(BEAD, "heater_1", 1), (TILES | BEAD, "spreader_1", 3)])
-def test_it_touches_what_it_measures_and_cuts_nothing(changes: dict[str, float], touched: str, count: int) -> None:
+def test_it_touches_what_it_measures_and_cuts_nothing(changes, touched, count):
     design = design_of("seat", changes)
     placed = standing(design)
     assert sum(name.startswith("thermistor") for name in placed) == count
@@ -356,7 +351,7 @@ def test_it_touches_what_it_measures_and_cuts_nothing(changes: dict[str, float],
 
 
 @pytest.mark.parametrize("changes", [BEAD, TILES | BEAD])
-def test_its_wires_go_straight_down_through_the_floor(changes: dict[str, float]) -> None:
+def test_its_wires_go_straight_down_through_the_floor(changes):
     design = design_of("wires", changes)
     placed, dims = standing(design), dimensions(design)
     box = placed["thermistor_1"].BoundingBox()
@@ -367,7 +362,7 @@ def test_its_wires_go_straight_down_through_the_floor(changes: dict[str, float])
     assert below.intersect(placed["housing"]).Volume() == pytest.approx(0.0, abs=1e-6)
 
 
-def test_a_seat_that_breaks_into_the_window_is_found_by_rule_and_by_volume() -> None:
+def test_a_seat_that_breaks_into_the_window_is_found_by_rule_and_by_volume():
     design = design_of("large", {"thermistor_diameter": 3e-3})
     assert broken_rules(design) == ["thermistor_window_gap"]
     checks = {check.name: check.ok for check in size_checks(design, standing(design))}
@@ -378,7 +373,7 @@ BEAD_BY_BLOCK = {"thermistor_diameter": 0.8e-3, "thermistor_length": 2.5e-3}
 
 
 @pytest.mark.parametrize(("changes", "touched"), [(BLOCKS, "heater_1"), (VANE_TILES, "spreader_1")])
-def test_it_touches_what_heats_the_block_and_cuts_nothing(changes: Mapping[str, float | str], touched: str) -> None:
+def test_it_touches_what_heats_the_block_and_cuts_nothing(changes, touched):
     design = design_of("bead", {**changes, **BEAD_BY_BLOCK}, "compression")
     placed, dims = standing(design), dimensions(design)
     bead = placed["thermistor_1"]
@@ -398,7 +393,7 @@ def test_it_touches_what_heats_the_block_and_cuts_nothing(changes: Mapping[str, 
         ("thermistor_hole_gap", {"placement_radius": 31e-3, "vane_count": 3}),
     ],
 )
-def test_a_bead_without_room_breaks_a_rule(rule: str, changes: dict[str, float]) -> None:
+def test_a_bead_without_room_breaks_a_rule(rule, changes):
     assert rule in broken_rules(design_of("tight", {**BLOCKS, **BEAD_BY_BLOCK, **changes}, "compression"))
     bare = {name: value for name, value in changes.items() if "thermistor" not in name}
     assert rule not in broken_rules(design_of("none", {**BLOCKS, **bare}, "compression"))

@@ -32,7 +32,7 @@ from tvimdesign.cad.parts.common_parts import link_dowels
 from tvimdesign.study.design import Design
 
 
-def test_the_cases_keep_the_rules_in_valid_solids(design: Design) -> None:
+def test_the_cases_keep_the_rules_in_valid_solids(design):
     assert broken_rules(design) == []
     parts = build(design)
     assert {kind_of(name) for name in parts} == set(MODULES[design.mode].kinds(dimensions(design)))
@@ -63,7 +63,7 @@ WITHIN = {"spring_right_volume": 1e-5, "spring_left_volume": 1e-5, "module_mass"
 
 @pytest.mark.gate
 @pytest.mark.parametrize("name", SIZED)
-def test_volumes_and_inertias_are_those_of_the_kernel(name: str) -> None:
+def test_volumes_and_inertias_are_those_of_the_kernel(name):
     mode, changes = SIZED[name]
     design = design_of(name, changes, mode)
     for check in size_checks(design, build(design)):
@@ -71,7 +71,7 @@ def test_volumes_and_inertias_are_those_of_the_kernel(name: str) -> None:
 
 
 @pytest.mark.slow
-def test_every_check_holds_at_rest_and_through_the_stroke(design: Design) -> None:
+def test_every_check_holds_at_rest_and_through_the_stroke(design):
     dims = dimensions(design)
     steps: list[str] = []
     checks = all_checks(design, drawn_parts(dims), steps.append)
@@ -90,7 +90,7 @@ def test_every_check_holds_at_rest_and_through_the_stroke(design: Design) -> Non
 
 
 @pytest.mark.parametrize("row", ["housing_volume", "rotor_inertia", "spring_volume", "structure_density"])
-def test_a_wrong_model_is_found(paper: Design, row: str) -> None:
+def test_a_wrong_model_is_found(paper, row):
     wrong = paper.model_copy(update={"values": paper.values | {row: 1.0002 * paper.values[row]}})
     assert not all(check.ok for check in size_checks(wrong, build(paper)))
 
@@ -101,7 +101,7 @@ def with_rotor(first: str, other: str) -> bool:
 
 
 @pytest.mark.gate
-def test_legs_pins_and_cores_in_the_way_are_found(paper: Design) -> None:
+def test_legs_pins_and_cores_in_the_way_are_found(paper):
     parts = build(paper)
     ahead = build(paper, -0.02)["rotor"]  # the rotor winds the right-hand springs, which stay behind
     checks = [check for check in interference_checks(parts | {"rotor": ahead}, "here", with_rotor) if not check.ok]
@@ -122,7 +122,7 @@ def test_legs_pins_and_cores_in_the_way_are_found(paper: Design) -> None:
         ("rotor_radius", float("nan"), "rotor: rotor_radius is nan"),
     ],
 )
-def test_what_cannot_be_drawn_names_the_part(paper: Design, row: str, value: float, words: str) -> None:
+def test_what_cannot_be_drawn_names_the_part(paper, row, value, words):
     design = paper.model_copy(update={"values": paper.values | {row: value}})
     with pytest.raises(GeometryError, match=words):
         build(design)
@@ -143,14 +143,14 @@ def test_what_cannot_be_drawn_names_the_part(paper: Design, row: str, value: flo
          "pcl_thickness": 1.74894889e-3, "preload_angle": 0.18294328, "spring_pairs": 1, "arc_count": 3},
     ],
 )  # fmt: skip
-def test_meshes_close_where_rounding_splits_their_vertices(overrides: dict[str, float]) -> None:
+def test_meshes_close_where_rounding_splits_their_vertices(overrides):
     dims = dimensions(design_of("split", overrides))
     for name, solid in drawn_parts(dims).items():
         assert closed(name, solid_mesh(solid)).is_watertight
 
 
 @pytest.mark.parametrize(("process", "radius"), [("print_petg", 0.2), ("machine_6061", 1.5)])
-def test_pockets_and_windows_have_the_corners_the_process_leaves(process: str, radius: float) -> None:
+def test_pockets_and_windows_have_the_corners_the_process_leaves(process, radius):
     design = design_of("corners", {"process": process})
     housing = build(design)["housing"]
     corners = [face for face in housing.Faces() if face.geomType() == "CYLINDER" and face.Area() < 12.0]
@@ -160,7 +160,7 @@ def test_pockets_and_windows_have_the_corners_the_process_leaves(process: str, r
     assert not [check for check in size_checks(design, build(design)) if not check.ok]
 
 
-def test_parts_that_cut_each_other_are_reported_with_volume_and_place() -> None:
+def test_parts_that_cut_each_other_are_reported_with_volume_and_place():
     block, other = cq.Solid.makeBox(10, 10, 10), cq.Solid.makeBox(10, 10, 10, cq.Vector(8, 6, -4))
     cut, _ = interference_checks({"housing": block, "rotor": other}, "here")
     assert not cut.ok
@@ -174,7 +174,7 @@ def cones(solid: cq.Solid) -> list[cq.Face]:
 
 
 @pytest.mark.parametrize("process", ["print_petg", "machine_6061"])
-def test_a_milled_core_has_drill_points_below_its_blind_holes(process: str) -> None:
+def test_a_milled_core_has_drill_points_below_its_blind_holes(process):
     dims = dimensions(design_of("points", {"process": process, "corner_radius": 0.5e-3}))
     points = cones(drawn_part(dims, "rotor"))
     if process == "print_petg":
@@ -193,7 +193,7 @@ def test_a_milled_core_has_drill_points_below_its_blind_holes(process: str) -> N
 
 @pytest.mark.gate
 @pytest.mark.parametrize("changes", [BEARING_BLOCKS, DRIVEN_BLOCKS], ids=["bearings", "driven"])
-def test_volumes_and_inertias_of_milled_parts_count_their_points(changes: dict[str, float | str]) -> None:
+def test_volumes_and_inertias_of_milled_parts_count_their_points(changes):
     design = design_of("milled", changes, "compression")
     dims = dimensions(design)
     drawn = drawn_parts(dims)
@@ -207,7 +207,7 @@ def test_volumes_and_inertias_of_milled_parts_count_their_points(changes: dict[s
     assert [check.text for check in size_checks(design, place(dims, drawn)) if not check.ok] == []
 
 
-def test_the_scale_has_dots_every_thirty_degrees_and_a_mark() -> None:
+def test_the_scale_has_dots_every_thirty_degrees_and_a_mark():
     dims = dimensions(design_of("scale", BEARINGS))
     is_dot = 0.5 * dims.scale_dot_diameter
     dots = [hole for hole in holes(drawn_part(dims, "adjuster")) if hole.radius == pytest.approx(is_dot)]
@@ -222,7 +222,7 @@ def test_the_scale_has_dots_every_thirty_degrees_and_a_mark() -> None:
         assert (degrees(atan2(y, x) - azimuth) + 180.0) % 360.0 - 180.0 > 0.0
 
 
-def test_dots_of_a_scale_leave_no_thin_wall() -> None:
+def test_dots_of_a_scale_leave_no_thin_wall():
     changes = {"preload_adjuster": "rotary", "coil_diameter": 6.1e-3, "wire_diameter": 1.1e-3}
     design = design_of("small scale", changes | {"adjuster_screw": "iso_4762_m2", "adjuster_screw_length": 6e-3})
     dims = dimensions(design)
@@ -253,7 +253,7 @@ def jig(name: str) -> tuple[Dimensions, str, dict[str, cq.Solid]]:
 
 
 @pytest.mark.parametrize("name", CAST)
-def test_the_jig_s_gap_and_room_are_the_part_s(name: str) -> None:
+def test_the_jig_s_gap_and_room_are_the_part_s(name):
     dims, kind, solids = jig(name)
     checks = {check.name: check for check in casting_checks(dims, kind, solids)}
     assert [check.text for check in checks.values() if not check.ok] == []
@@ -269,7 +269,7 @@ def test_the_jig_s_gap_and_room_are_the_part_s(name: str) -> None:
     assert any(room == pytest.approx(solids[kind].Volume(), rel=1e-6) for room in rooms), rooms
 
 
-def test_lids_and_dams_that_do_not_fit_fail_their_checks() -> None:
+def test_lids_and_dams_that_do_not_fit_fail_their_checks():
     dims, kind, solids = jig("keyed arc")
     solids["casting_lid"] = solids["casting_lid"].translate(cq.Vector(0, 0, 0.05)).Solids()[0]
     failed = [check.name for check in casting_checks(dims, kind, solids) if not check.ok]
@@ -306,9 +306,7 @@ def placed(dims: Dimensions) -> dict[str, cq.Solid]:
     return place(dims, drawn_parts(dims))
 
 
-def test_pins_fill_their_holes_have_their_size_and_go_in_last(
-    design: Design, placed: dict[str, cq.Solid], dims: Dimensions
-) -> None:
+def test_pins_fill_their_holes_have_their_size_and_go_in_last(design, placed, dims):
     checks = {check.name: check for check in size_checks(design, placed)}
     wanted = ("link_dowel_volume", "rotor_volume", "link_volume", "rotor_inertia", "parts_inertia", "module_mass")
     assert {name: checks[name].ok for name in wanted} == dict.fromkeys(wanted, True)
@@ -330,7 +328,7 @@ def test_pins_fill_their_holes_have_their_size_and_go_in_last(
     assert order.index("link") < order.index("link_screw_1") < order.index("link_dowel_1")
 
 
-def test_pins_stand_between_the_screws_and_turn_with_the_link(dims: Dimensions) -> None:
+def test_pins_stand_between_the_screws_and_turn_with_the_link(dims):
     dowels = {"link_dowel": drawn_parts(dims)["link_dowel"]}
     still, turned = (fasteners.stand(dims, dowels, angle) for angle in (0.0, 0.1))
     for name, shape in still.items():
@@ -341,9 +339,7 @@ def test_pins_stand_between_the_screws_and_turn_with_the_link(dims: Dimensions) 
         assert (np.arctan2(b.y, b.x) - np.arctan2(a.y, a.x)) % (2.0 * np.pi) == pytest.approx(0.1)
 
 
-def test_prints_and_drawings_leave_holes_to_be_reamed(
-    dims: Dimensions, placed: dict[str, cq.Solid], design: Design
-) -> None:
+def test_prints_and_drawings_leave_holes_to_be_reamed(dims, placed, design):
     for kind in ("rotor", "link"):
         reamed = link_dowels(dims)
         lying = as_printed(placed[kind], PRODUCTION[kind], 0.3, reamed)
@@ -362,7 +358,7 @@ def test_prints_and_drawings_leave_holes_to_be_reamed(
     assert not any("bonding" in note for note in drawing_requirements("housing", dims, loose).notes)
 
 
-def test_the_bill_has_the_pins_and_the_adhesive(design: Design, dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
+def test_the_bill_has_the_pins_and_the_adhesive(design, dims, placed):
     items = bill(design, {"tang_adhesive": "An epoxy"}, placed)
     extra = beside(design, {"tang_adhesive": "An epoxy"})
     pins = next(item for item in items if item.kind == "link_dowel")
@@ -373,7 +369,7 @@ def test_the_bill_has_the_pins_and_the_adhesive(design: Design, dims: Dimensions
     assert b"tang_adhesive" in bill_csv([*items, *extra])
 
 
-def test_screws_alone_and_loose_tangs_have_none_of_it() -> None:
+def test_screws_alone_and_loose_tangs_have_none_of_it():
     design = design_of("loose", {"link_fit": "clearance", "tang_hold": "hole"})
     dims = dimensions(design)
     assert "link_dowel" not in drawn_parts(dims)

@@ -45,7 +45,7 @@ def drawn(dims: Dimensions) -> dict[str, cq.Solid]:
     return {kind: drawn_part(dims, kind) for kind in kinds}
 
 
-def test_the_cover_keeps_the_least_wall_between_its_widened_holes() -> None:
+def test_the_cover_keeps_the_least_wall_between_its_widened_holes():
     dims = dimensions(design_of("screwed", {"cover": "plate"}))
     printed = with_wider_holes(drawn_part(dims, "cover"), dims.hole_compensation)
     ahead = [hole for hole in holes(printed) if hole.x > 1.0 and abs(hole.x - hole.y) < 1.0]
@@ -65,9 +65,7 @@ def shared(placed: Mapping[str, cq.Shape], *kinds: str) -> dict[str, float]:
     return {check.name: check.value for check in interference_checks(solids, "here", wanted) if not check.ok}
 
 
-def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
-    design: Design, dims: Dimensions, drawn: dict[str, cq.Solid]
-) -> None:
+def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(design, dims, drawn):
     assert broken_rules(design) == []
     placed = {**fittings.stand(dims, drawn, 0.0), **fasteners.stand(dims, drawn, 0.0)}
     assert sum(name.startswith("cover_insert") for name in placed) == 4
@@ -79,7 +77,7 @@ def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
     assert max(abs(check.value) for check in sizes.values()) < 1e-9
 
 
-def test_a_cover_has_its_holes_and_is_found_where_it_is_too_tight(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
+def test_a_cover_has_its_holes_and_is_found_where_it_is_too_tight(dims, drawn):
     numbers = {"count": 3.0, "radius": 0.0, "circle_radius": 30.0, "azimuth": 0.1}
     listed = {f"cover_hole_circles.2.{name}": value for name, value in numbers.items()}
     with_none = Dimensions("shear", {**dims.by_name, **listed, "cover_hole_circles.length": 3.0})
@@ -96,7 +94,7 @@ def test_a_cover_has_its_holes_and_is_found_where_it_is_too_tight(dims: Dimensio
         assert list(shared(plate, "cover")) == ["cover | rotor here"]
 
 
-def test_keys_turn_with_the_rotor_and_would_be_cut_if_they_stood(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
+def test_keys_turn_with_the_rotor_and_would_be_cut_if_they_stood(dims, drawn):
     angle = dims.stroke
     rotor = turned(drawn["rotor"], angle)
     placed = {**shear_parts.stand(dims, drawn, angle), "rotor": rotor}
@@ -107,7 +105,7 @@ def test_keys_turn_with_the_rotor_and_would_be_cut_if_they_stood(dims: Dimension
     assert cut == pytest.approx(3 * 0.25 * pi * 2.5**2 * 2.8, rel=1e-3)
 
 
-def test_a_screw_that_is_too_short_for_its_insert_is_found(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
+def test_a_screw_that_is_too_short_for_its_insert_is_found(dims, drawn):
     assert {check.part: check.level for check in thread_checks(dims, drawn)} == {
         "link_screw": "pass", "retainer_screw": "pass", "cover_screw": "pass",
     }  # fmt: skip
@@ -118,7 +116,7 @@ def test_a_screw_that_is_too_short_for_its_insert_is_found(dims: Dimensions, dra
     assert bite.limit == pytest.approx(2.0)
 
 
-def test_a_cutter_comes_into_every_corner_of_a_milled_housing_with_a_cover() -> None:
+def test_a_cutter_comes_into_every_corner_of_a_milled_housing_with_a_cover():
     design = design_of("milled", {"cover": "plate", "process": "machine_6061", "corner_radius": 1.0 * MM})
     dims = dimensions(design)
     assert broken_rules(design) == []
@@ -153,7 +151,7 @@ def sprung(request: pytest.FixtureRequest) -> Sprung:
     return Sprung(request.param, design, dims, drawn, place(dims, drawn))
 
 
-def test_parts_around_a_wave_spring_fit_their_quantities(sprung: Sprung) -> None:
+def test_parts_around_a_wave_spring_fit_their_quantities(sprung):
     case, design, dims, drawn, parts = sprung
     assert broken_rules(design) == []
     for kind in ("housing", "rotor", "preload_spring"):
@@ -176,11 +174,11 @@ def test_parts_around_a_wave_spring_fit_their_quantities(sprung: Sprung) -> None
 
 
 @pytest.mark.slow
-def test_every_check_holds_through_the_stroke(sprung: Sprung) -> None:
+def test_every_check_holds_through_the_stroke(sprung):
     assert [check.text for check in all_checks(sprung.design, sprung.drawn) if not check.ok] == []
 
 
-def test_parts_stand_frozen_with_room_to_rise_and_come_in_once(sprung: Sprung) -> None:
+def test_parts_stand_frozen_with_room_to_rise_and_come_in_once(sprung):
     case, design, dims, _, parts = sprung
     growth = (1145.0 / 1070.0 - 1.0) * dims.pcl_thickness if design.mode == "shear" else 0.0
     if case == "sprung bearings":
@@ -196,7 +194,7 @@ def test_parts_stand_frozen_with_room_to_rise_and_come_in_once(sprung: Sprung) -
     assert order.index("preload_spring") < order.index(seat) < order.index(above)
 
 
-def test_lips_end_above_the_floor_and_wrong_springs_are_refused() -> None:
+def test_lips_end_above_the_floor_and_wrong_springs_are_refused():
     dims, bare = (dimensions(design_of("lips", {"melt_lip": word})) for word in ("rings", "none"))
     lips = drawn_part(dims, "rotor").Volume() - drawn_part(bare, "rotor").Volume()
     inner = dims.pcl_inner_radius**2 - (dims.pcl_inner_radius - dims.rotor_rim) ** 2

@@ -1,7 +1,6 @@
 """Pictures: parts stand in their places, the section's cut, and a field in colours."""
 
 from math import cos, pi, radians, sin
-from pathlib import Path
 
 import matplotlib.image
 import numpy as np
@@ -27,7 +26,7 @@ def quarter_turn(x: float) -> Array:
     return np.array([[0.0, -1.0, 0.0, x], [1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 2.0], [0.0, 0.0, 0.0, 1.0]])
 
 
-def test_copies_of_a_part_share_their_mappers() -> None:
+def test_copies_of_a_part_share_their_mappers():
     mesh = block()
     first, second = (actors(mesh, quarter_turn(x), GREEN) for x in (0.0, 50.0))
     for actor, other in zip(first, second, strict=True):
@@ -37,9 +36,7 @@ def test_copies_of_a_part_share_their_mappers() -> None:
 
 
 @pytest.mark.parametrize(("inside_out", "seen"), [(False, True), (True, False)])
-def test_a_picture_has_its_size_and_faces_are_seen_from_outside_alone(
-    tmp_path: Path, inside_out: bool, seen: bool
-) -> None:
+def test_a_picture_has_its_size_and_faces_are_seen_from_outside_alone(tmp_path, inside_out, seen):
     corners = np.array([(-4.0, 0.0, -2.0), (4.0, 0.0, -2.0), (4.0, 0.0, 2.0), (-4.0, 0.0, 2.0)])
     faces = np.array([(0, 1, 2), (0, 2, 3)])  # towards a camera that looks along y
     square = Instance(Mesh(corners, faces[:, ::-1] if inside_out else faces), np.eye(4))
@@ -73,9 +70,7 @@ def _upright(azimuth: float, radius: float = 30.0) -> Instance:
         ((0.0, 60.0), (30.0, 200.0), (60.0, 200.0)),
     ],
 )
-def test_the_wedge_shows_a_cut_spring_and_cut_polymer(
-    springs: tuple[float, ...], polymer: tuple[float, ...], wedge: tuple[float, float]
-) -> None:
+def test_the_wedge_shows_a_cut_spring_and_cut_polymer(springs, polymer, wedge):
     placed = {f"spring_right_{i}": _upright(at) for i, at in enumerate(springs)}
     placed |= {f"pcl_arc_{i}": _upright(at) for i, at in enumerate(polymer)}
     first, last = wedge_of(placed)
@@ -83,7 +78,7 @@ def test_the_wedge_shows_a_cut_spring_and_cut_polymer(
     assert np.exp(1j * np.array([first, last])) == pytest.approx(np.exp(1j * np.radians(wedge)), abs=1e-6)
 
 
-def test_springs_are_halved_whole_or_gone_by_their_place() -> None:
+def test_springs_are_halved_whole_or_gone_by_their_place():
     first, last = 0.0, radians(135.0)
     cut = vtk_to_numpy(_spring_outside(_upright(0.0), first, last).GetPoints().GetData())
     assert cut[:, 1].max() == pytest.approx(0.0, abs=2e-3)
@@ -92,7 +87,7 @@ def test_springs_are_halved_whole_or_gone_by_their_place() -> None:
     assert _spring_outside(_upright(70.0), first, last).GetNumberOfPolys() == 0
 
 
-def test_the_picture_has_both_ends_of_the_scale_on_the_body(tmp_path: Path) -> None:
+def test_the_picture_has_both_ends_of_the_scale_on_the_body(tmp_path):
     grid = np.stack(np.meshgrid(np.linspace(0, 40, 41), np.linspace(0, 20, 41), indexing="ij"), axis=-1).reshape(-1, 2)
     points = np.column_stack([grid, np.zeros(len(grid))])
     index = np.arange(41 * 41).reshape(41, 41)

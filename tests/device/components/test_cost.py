@@ -15,7 +15,7 @@ from tvimdesign.device import table_for
 RIGID = {"peltier_module": "cp30138", "process": "print_peek", "bearing": "ball_6803"}
 
 
-def test_the_cost_is_that_of_all_pieces_and_of_the_material_by_its_mass() -> None:
+def test_the_cost_is_that_of_all_pieces_and_of_the_material_by_its_mass():
     wanted = "cost material_cost unpriced_count housing_mass rotor_mass link_mass retainer_mass pocket_count"
     values = values_of(wanted, heater_price="18 USD", pcl_price="50 USD/kg", **RIGID)
     count = values_of("heater_count pcl_mass spring_count", **RIGID)
@@ -31,7 +31,7 @@ def test_the_cost_is_that_of_all_pieces_and_of_the_material_by_its_mass() -> Non
     }
 
 
-def test_a_record_costs_what_the_list_of_parts_is_ordered_for() -> None:
+def test_a_record_costs_what_the_list_of_parts_is_ordered_for():
     price = Catalog().record("screws", "iso_7380_m3").entry("price")
     assert price.value == pytest.approx(math.sqrt(0.0650 * 0.0791))
     assert "0.065 to 0.0791 USD a piece, 2024-09-16 to 2025-06" in price.source
@@ -39,7 +39,7 @@ def test_a_record_costs_what_the_list_of_parts_is_ordered_for() -> None:
     assert not Catalog().record("screws", "iso_4762_m5").has("price")
 
 
-def test_its_derivatives_are_exact() -> None:
+def test_its_derivatives_are_exact():
     table, inputs = table_for("shear"), inputs_of(pcl_price="50 USD/kg", **RIGID)
     symbol = casadi.SX.sym("x")
     cost = table.evaluate({**inputs, "pcl_thickness": symbol}, ["cost"])["cost"]
@@ -50,7 +50,7 @@ def test_its_derivatives_are_exact() -> None:
     assert float(slope(at)) > 0.0
 
 
-def test_a_price_is_in_one_currency() -> None:
+def test_a_price_is_in_one_currency():
     assert parse_quantity("60 USD", "USD") == 60.0
     assert format_quantity(0.04, "USD") == "0.04 USD"
     with pytest.raises(UnitError, match="a price such as 25 USD"):

@@ -53,7 +53,7 @@ def apparent(joint: dict[str, Any], point: str) -> complex:
 
 
 @pytest.mark.parametrize("point", ["cold", "hot"])
-def test_six_of_twelve_blocks_push_each_with_its_pressure_at_every_radius(joint: dict[str, Any], point: str) -> None:
+def test_six_of_twelve_blocks_push_each_with_its_pressure_at_every_radius(joint, point):
     # A sector of the angle a is strained by theta/a at every radius: torque = E theta/a times the integral of r h dr.
     angle = 5e-3 / 33e-3
     arm, _ = quad(lambda r: r * 10e-3, 26e-3, 40e-3)
@@ -63,7 +63,7 @@ def test_six_of_twelve_blocks_push_each_with_its_pressure_at_every_radius(joint:
 
 
 @pytest.mark.parametrize("point", ["cold", "hot"])
-def test_joint_is_the_springs_parallel_to_blocks_and_structure_in_series(joint: dict[str, Any], point: str) -> None:
+def test_joint_is_the_springs_parallel_to_blocks_and_structure_in_series(joint, point):
     springs = TABLE.evaluate(joint, ["spring_stiffness"])["spring_stiffness"]
     omega = 2.0 * np.pi * HERTZ
     blocks = complex(joint[f"pcl_stiffness@{point}"], omega * joint[f"pcl_damping@{point}"])
@@ -77,7 +77,7 @@ def test_joint_is_the_springs_parallel_to_blocks_and_structure_in_series(joint: 
     assert again == pytest.approx(star, rel=1e-9)
 
 
-def test_a_molten_film_softens_the_joint_as_a_block_of_its_own_depth_would(squeezed: dict[str, Any]) -> None:
+def test_a_molten_film_softens_the_joint_as_a_block_of_its_own_depth_would(squeezed):
     storage, loss = np.full(12, 1e15), np.zeros(12)
     storage[:3], loss[:3] = 2e4, 3e4  # a quarter has melted, the rest is rigid
     names = ["impedance_now", "spring_stiffness"]
@@ -92,7 +92,7 @@ def test_a_molten_film_softens_the_joint_as_a_block_of_its_own_depth_would(squee
     assert values["impedance_now"] == pytest.approx(abs(star), rel=1e-6)
 
 
-def test_structure_and_strain_of_blocks_are_by_hand(joint: dict[str, Any]) -> None:
+def test_structure_and_strain_of_blocks_are_by_hand(joint):
     mean = 33e-3
     parts = ["core_stiffness", "plate_stiffness", "floor_stiffness", "rotor_vane_stiffness", "housing_vane_stiffness"]
     pads = 1.0 / (6 * TABLE.evaluate(joint, ["pad_press_stiffness"])["pad_press_stiffness"] * mean**2)
@@ -101,7 +101,7 @@ def test_structure_and_strain_of_blocks_are_by_hand(joint: dict[str, Any]) -> No
     assert joint["block_strain"] == pytest.approx(0.104 * 33.0 / 5.0, rel=1e-9)
 
 
-def test_a_slender_block_has_three_times_the_shear_modulus(squeezed: dict[str, Any]) -> None:
+def test_a_slender_block_has_three_times_the_shear_modulus(squeezed):
     ideal = {
         **squeezed, "pcl_poissons_ratio": 0.5 - 1e-9, "block_height": 1e-6, "structure_youngs_modulus": 1e20,
         "peltier_shear_modulus": 1e20, "preload_angle": 0.15,
@@ -113,7 +113,7 @@ def test_a_slender_block_has_three_times_the_shear_modulus(squeezed: dict[str, A
     assert values["joint_stiffness@hot"] - values["spring_stiffness"] == pytest.approx(blocks, rel=1e-4)
 
 
-def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
+def test_joint_holds_what_its_weakest_part_holds(joint):
     # 16 MPa on six faces of 14 x 10 mm at 33 mm.
     assert joint["block_holding_torque"] == pytest.approx(6 * 16e6 * 140e-6 * 33e-3, rel=1e-9)
     parts = [joint[f"{part}_holding_torque"] for part in ("block", "rotor_vane", "housing_vane", "core", "link")]
@@ -132,7 +132,7 @@ def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
         assert bending**2 + 3.0 * shear**2 == pytest.approx((31e6) ** 2, rel=1e-9), part
 
 
-def test_each_gap_of_the_chamber_is_what_its_drawing_gives(squeezed: dict[str, Any]) -> None:
+def test_each_gap_of_the_chamber_is_what_its_drawing_gives(squeezed):
     # In mm: six vanes of 5 and twelve blocks of 7 on 33, from 26 to 40, pads of 1.5, slots of 7 from 29.5 to 36.5.
     mm = 1e-3
     housing = np.pi / 3.0 - (2 * 7.0 + 5.0) / 33.0
@@ -155,7 +155,7 @@ def test_each_gap_of_the_chamber_is_what_its_drawing_gives(squeezed: dict[str, A
     assert {name: value / mm for name, value in values.items()} == pytest.approx(drawn)
 
 
-def test_blocks_shrink_from_their_vanes_and_creep_at_their_sides() -> None:
+def test_blocks_shrink_from_their_vanes_and_creep_at_their_sides():
     rows = "freezing_gap freezing_travel stop_play axial_play"
     values = values_of(rows, "compression", block_depth="7 mm", axial_preload="wave_21x25")
     assert values["freezing_gap"] == pytest.approx(7e-3 * (1.0 - (1070.0 / 1145.0) ** (1.0 / 3.0)), rel=1e-9)
@@ -188,7 +188,7 @@ def conducting(factor: float) -> dict[str, Any]:
 
 
 @pytest.mark.gate
-def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed: dict[str, Any]) -> None:
+def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed):
     # Half of I^2 R goes to the hot side; 231 kJ/kg take polycaprolactone from 22 to 100 degC, a third of it latent.
     area = 12 * 14e-3 * 3.5e-3
     power = 0.5 * 1.5**2 * 3.0 * area / 1600e-6
@@ -198,9 +198,7 @@ def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed: dict[
 
 @pytest.mark.gate
 @pytest.mark.parametrize(("factor", "current", "low", "high"), [(100.0, 1.5, 1.98, 2.05), (1.0, 40.0, 3.3, 4.0)])
-def test_twice_the_depth_by_flux_and_by_diffusion(
-    factor: float, current: float, low: float, high: float, squeezed: dict[str, Any]
-) -> None:
+def test_twice_the_depth_by_flux_and_by_diffusion(factor, current, low, high, squeezed):
     times = [
         far_face_time(squeezed, block_depth=depth, current=current, **conducting(factor)) for depth in (3e-3, 6e-3)
     ]
@@ -208,7 +206,7 @@ def test_twice_the_depth_by_flux_and_by_diffusion(
 
 
 @pytest.mark.slow
-def test_twice_the_depth_takes_two_to_four_times_as_long(squeezed: dict[str, Any]) -> None:
+def test_twice_the_depth_takes_two_to_four_times_as_long(squeezed):
     ratios = []
     for current in (0.5, 1.5, 4.0, 12.0):
         times = [far_face_time(squeezed, block_depth=depth, current=current) for depth in (3e-3, 6e-3)]
@@ -218,7 +216,7 @@ def test_twice_the_depth_takes_two_to_four_times_as_long(squeezed: dict[str, Any
 
 
 @pytest.mark.gate
-def test_twice_the_depth_of_a_whole_module() -> None:
+def test_twice_the_depth_of_a_whole_module():
     # Pads and vanes of both sides take heat as well, which does not double: at 1.5 A twice takes less than twice as
     # long. The deeper it is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the
     # block is. What the free sides lose grows with the depth and is left out. Five vanes: in a ring of six, blocks of
@@ -244,7 +242,7 @@ def test_twice_the_depth_of_a_whole_module() -> None:
     assert strong[1] < 1.2
 
 
-def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, Any]) -> None:
+def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed):
     values = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
     stack = values["stack"]
     assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
@@ -273,7 +271,7 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
 
 
-def test_floor_below_pads_gives_by_mean_and_cosine(squeezed: dict[str, Any]) -> None:
+def test_floor_below_pads_gives_by_mean_and_cosine(squeezed):
     values = TABLE.evaluate(squeezed, ["stack", "wall_depth"])
     deep, wall, pad, wide = squeezed["floor_thickness"], values["wall_depth"], squeezed["peltier_thickness"], 12 * 14e-3
     links = {(link.first, link.second): link.conductance for link in values["stack"].links}
@@ -286,7 +284,7 @@ def test_floor_below_pads_gives_by_mean_and_cosine(squeezed: dict[str, Any]) -> 
     assert links[upper, lower] == pytest.approx(0.087 * 0.666 * (uneven - even), rel=1e-9)
 
 
-def test_cold_sides_are_open_where_the_slots_are(squeezed: dict[str, Any]) -> None:
+def test_cold_sides_are_open_where_the_slots_are(squeezed):
     stack = TABLE.evaluate(squeezed, ["stack"])["stack"]
     # Twelve pads, 7 of 14 mm wide, from the floor's side to 2 mm below the top of 3.5 mm.
     assert stack.cold_surface.area == pytest.approx(12 * 7e-3 * 1.5e-3, rel=1e-9)

@@ -34,7 +34,7 @@ def values_of(rows: str, of: dict[str, Any] = VANE_TILES, **module: Any) -> dict
         ("slot_opening", VANE_TILES, {"block_depth": 11 * MM}),
     ],
 )
-def test_a_module_without_room_breaks_its_rule(rule: str, of: dict[str, Any], module: dict[str, float]) -> None:
+def test_a_module_without_room_breaks_its_rule(rule, of, module):
     def is_valid(**changes: float) -> bool:
         return bool(values_of(rule, of, **changes)[rule] >= TABLE.output(rule).rules[0].value)
 
@@ -42,7 +42,7 @@ def test_a_module_without_room_breaks_its_rule(rule: str, of: dict[str, Any], mo
     assert not is_valid(**module)
 
 
-def test_they_cover_weigh_and_take_depth_as_the_sheet_says() -> None:
+def test_they_cover_weigh_and_take_depth_as_the_sheet_says():
     rows = "heater_count heater_coverage pcl_area peltier_mass peltier_scale pad_depth spreader_mass module_mass"
     values, record = values_of(rows), Catalog().record("peltiers", "cp30138")
     assert values["heater_count"] == values["peltier_scale"] == 8.0
@@ -58,7 +58,7 @@ def test_they_cover_weigh_and_take_depth_as_the_sheet_says() -> None:
         assert values_of("heater_strings", VANE_TILE_ROWS, heater_wiring=wiring)["heater_strings"] == strings
 
 
-def test_the_stack_has_the_spreader_between_modules_and_blocks() -> None:
+def test_the_stack_has_the_spreader_between_modules_and_blocks():
     stack: heat.Stack = values_of("stack")["stack"]
     values = values_of("spreader_mass spreader_resistance")
     covered = 15 * 15 / (16 * 15.5)
@@ -77,7 +77,7 @@ def link_between(stack: heat.Stack, first: lumps.Place, second: lumps.Place) -> 
     return float(sum(link.conductance for link in stack.links if (link.first, link.second) == (first, second)))
 
 
-def test_spreaders_lose_heat_at_their_edges_and_backs() -> None:
+def test_spreaders_lose_heat_at_their_edges_and_backs():
     # What a spreader of twice the thickness passes more to floor and plate, through the air of 0.3 mm clearances.
     low, two = (values_of("stack ring_places", spreader_thickness=t)["stack"] for t in (1 * MM, 2 * MM))
     floor, above, walls, housing = values_of("ring_places")["ring_places"]
@@ -91,7 +91,7 @@ def test_spreaders_lose_heat_at_their_edges_and_backs() -> None:
     assert link_between(two, ("spreader", 0), housing) > link_between(low, ("spreader", 0), housing)
 
 
-def test_heat_of_closed_modules_is_stored() -> None:
+def test_heat_of_closed_modules_is_stored():
     # First law: along the rates the stored energy grows by the electrical power, whatever the links pass within.
     surfaces = ("rotor_coefficient", "housing_coefficient", "cold_side_coefficient", "surface_emissivity")
     closed = dict.fromkeys(surfaces, 1e-12)
@@ -123,9 +123,7 @@ def in_the_plane(width: float, height: float, row: int, tile: tuple[float, float
 @pytest.mark.parametrize(
     ("row", "width", "height"), [(1, 24 * MM, 15.5 * MM), (1, 16 * MM, 24 * MM), (2, 40 * MM, 20 * MM)]
 )
-def test_spreading_in_two_directions_costs_no_less_than_a_thin_plate_does(
-    row: int, width: float, height: float
-) -> None:
+def test_spreading_in_two_directions_costs_no_less_than_a_thin_plate_does(row, width, height):
     module = {"pcl_outer_radius": 16 * MM + width, "block_height": height, "tiles_per_block": row}
     # What goes around the tiles' corners into the plate's thickness is in the plate's own test: thin, it is little.
     module["spreader_thickness"] = 0.2 * MM
@@ -135,7 +133,7 @@ def test_spreading_in_two_directions_costs_no_less_than_a_thin_plate_does(
 
 
 @pytest.mark.parametrize("of", [VANE_TILES, VANE_TILE_ROWS], ids=["one a block", "two a block"])
-def test_they_bear_what_their_sheet_says_where_they_lie_on_the_vane(of: dict[str, Any]) -> None:
+def test_they_bear_what_their_sheet_says_where_they_lie_on_the_vane(of):
     side, row, height = (15.0, 1, 15.5) if of is VANE_TILES else (11.4, 2, 12.0)
     radius = 24.0 if row == 1 else 28.2
     seat = side * side - 0.5 * side * (side - 2.0)
@@ -150,7 +148,7 @@ def test_they_bear_what_their_sheet_says_where_they_lie_on_the_vane(of: dict[str
     assert weak["holding_torque"] == weak["heater_holding_torque"] == pytest.approx(expected * 0.2 / 1.5, rel=1e-9)
 
 
-def test_tiles_and_spreaders_bear_the_block_in_series() -> None:
+def test_tiles_and_spreaders_bear_the_block_in_series():
     point = {"hold_torque": 2.0}
     values = values_of("heater_pressure@cold block_pressure@cold", **point)
     seat, rise = 225.0 - 7.5 * 13.0, 1.0 + 6.0 * 0.25 / 15.0
@@ -168,7 +166,7 @@ def test_tiles_and_spreaders_bear_the_block_in_series() -> None:
     assert values["vane_webs"] == pytest.approx(along - 2 * values["slot_width"], rel=1e-9)
 
 
-def test_a_pad_is_as_it_was() -> None:
+def test_a_pad_is_as_it_was():
     flat = inputs_of("compression")
     rows = "heater_count heater_coverage spreader_mass pad_depth pad_seat slot_width slot_web heater_holding_torque"
     values = TABLE.evaluate(flat, rows.split())

@@ -69,7 +69,7 @@ def feet(p: dict[str, Any]) -> list[Disc]:
     return around(p["mount_boss_radius"], p["placement_radius"], count, np.pi / count)
 
 
-def test_springs_pins_and_feet_stand_where_they_are_drawn(p: dict[str, Any]) -> None:
+def test_springs_pins_and_feet_stand_where_they_are_drawn(p):
     clear, plate = p["radial_clearance"], [Disc(0j, p["pcl_outer_radius"] + p["rotor_rim"])]
     rotor, neighbour = of(p, "rotor_spring_gap", "spring_spring_gap")
     assert rotor == pytest.approx(apart(springs(p), plate) - clear, abs=1e-12)
@@ -92,7 +92,7 @@ def test_springs_pins_and_feet_stand_where_they_are_drawn(p: dict[str, Any]) -> 
     assert pad == pytest.approx(apart(feet(p), [Disc(0j, p["pcl_outer_radius"])]) - p["radial_clearance"], abs=1e-12)
 
 
-def test_arcs_clear_the_hub_and_leave_webs_and_windows(p: dict[str, Any]) -> None:
+def test_arcs_clear_the_hub_and_leave_webs_and_windows(p):
     hub, web, depth, width = of(p, "hub_arc_gap", "arc_gap", "window_depth", "window_width")
     bore = p["core_radius"] + p["running_clearance"] + p["hub_wall"]
     assert hub == pytest.approx(p["pcl_inner_radius"] - bore - p["radial_clearance"], abs=1e-12)
@@ -103,7 +103,7 @@ def test_arcs_clear_the_hub_and_leave_webs_and_windows(p: dict[str, Any]) -> Non
     assert width + 2 * p["window_ledge"] == pytest.approx(p["arc_span"] * inner, rel=1e-12)
 
 
-def test_posts_fill_nine_tenths_of_the_coil_at_its_tightest(p: dict[str, Any]) -> None:
+def test_posts_fill_nine_tenths_of_the_coil_at_its_tightest(p):
     # D n is kept: with the turns it gains, the coil gets narrower and longer (Shigley, section 10-12).
     turns = (p["preload_angle"] + p["stroke"] + p["stop_margin"]) / (2.0 * np.pi)
     wound = p["coil_diameter"] * p["coil_count"] / (p["coil_count"] + turns)
@@ -117,7 +117,7 @@ def test_posts_fill_nine_tenths_of_the_coil_at_its_tightest(p: dict[str, Any]) -
     assert length == pytest.approx(p["wire_diameter"] * (count + 1.0) + p["coil_gap"] * count, rel=1e-9)
 
 
-def test_screws_in_the_core_keep_apart(p: dict[str, Any]) -> None:
+def test_screws_in_the_core_keep_apart(p):
     heads = around(0.5 * p["link_screw_head"], p["link_bolt_ratio"] * p["core_radius"], 4)
     gap, web, top, deep, below = of(
         p, "link_screw_gap", "core_web", "link_bottom_level", "link_screw_depth", "retainer_screw_depth"
@@ -141,9 +141,7 @@ def test_screws_in_the_core_keep_apart(p: dict[str, Any]) -> None:
         ("softening_margin", "response_time", "softening_time", 4.0),
     ],
 )
-def test_a_margin_is_what_is_left_below_the_limit_and_negative_above_it(
-    margin: str, limit: str, supplied: str, expected: float, inputs: dict[str, Any]
-) -> None:
+def test_a_margin_is_what_is_left_below_the_limit_and_negative_above_it(margin, limit, supplied, expected, inputs):
     known = {**inputs, limit: inputs.get(limit, 30.0)}
     for left in (expected, -expected):
         gap = TABLE.evaluate({**known, supplied: known[limit] - left}, [margin])[margin]
@@ -153,7 +151,7 @@ def test_a_margin_is_what_is_left_below_the_limit_and_negative_above_it(
     assert (rule.sense, rule.value) == (">=", 0.0)
 
 
-def test_energies_and_times_of_a_cycle_add_up(inputs: dict[str, Any]) -> None:
+def test_energies_and_times_of_a_cycle_add_up(inputs):
     known = {**inputs, "response_time": 40.0, "return_time": 25.0, "switch_energy": 300.0, "stiffening_energy": 90.0,
              "stiffening_time": 20.0, "frozen_time": 25.0}  # fmt: skip
     names = ["cycle_time", "cycle_energy", "stiffening_over_freezing"]
@@ -161,9 +159,7 @@ def test_energies_and_times_of_a_cycle_add_up(inputs: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize(("soft", "stiff"), [(10.0, 60.0), (30.0, 20.0)])
-def test_thresholds_stand_apart_by_the_logarithm_of_their_ratio(
-    soft: float, stiff: float, inputs: dict[str, Any]
-) -> None:
+def test_thresholds_stand_apart_by_the_logarithm_of_their_ratio(soft, stiff, inputs):
     known = {
         **inputs, "impedance_targets": "stated", "soft_impedance": soft, "stiff_impedance": stiff,
         "softening_band": 1.2, "stiffening_band": 1.5, "joint_impedance@hot": 8.0, "joint_impedance@cold": 90.0,
@@ -175,7 +171,7 @@ def test_thresholds_stand_apart_by_the_logarithm_of_their_ratio(
     assert np.exp([apart_by, soft_reach, stiff_reach]) == pytest.approx([high / low, low / 8.0, 90.0 / high])
 
 
-def test_a_fillet_stays_below_legs_rim_and_the_other_fillet() -> None:
+def test_a_fillet_stays_below_legs_rim_and_the_other_fillet():
     rows = ["foot_fillet", "coil_end_level", "rotor_top_level", "rotor_radius", "pin_radius"]
     filleted = values_of(rows, largest_foot_fillet=9.0 * MM)
     wire, pin, play = 2.413 * MM, 4.0 * MM, 0.4 * MM
@@ -191,7 +187,7 @@ def test_a_fillet_stays_below_legs_rim_and_the_other_fillet() -> None:
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_the_strength_of_core_and_pins_counts_it(mode: str) -> None:
+def test_the_strength_of_core_and_pins_counts_it(mode):
     rows = ["core_holding_torque", "pin_foot_safety", "foot_fillet"]
     small, large = (values_of(rows, mode, largest_foot_fillet=at * MM, radial_clearance=2.5 * MM) for at in (0.5, 2.0))
     assert large["foot_fillet"] == pytest.approx(2.0 * MM)
@@ -201,7 +197,7 @@ def test_the_strength_of_core_and_pins_counts_it(mode: str) -> None:
 
 
 @drawn(strategies.floats(-5e-3, 5e-3), strategies.floats(-5e-3, 5e-3))
-def test_the_evened_least_is_smooth_and_least_away_from_ties(first: float, other: float) -> None:
+def test_the_evened_least_is_smooth_and_least_away_from_ties(first, other):
     smooth, least = evened_least(first, other), min(first, other)
     assert least - EVENED / 6.0 - 1e-12 <= smooth <= least
     assert smooth == evened_least(other, first)

@@ -40,7 +40,7 @@ def _values(motor: str, more: str = "") -> dict[str, float]:
 
 
 @pytest.mark.gate
-def test_its_torque_is_that_of_an_arm_on_a_spring() -> None:
+def test_its_torque_is_that_of_an_arm_on_a_spring():
     values = _values("frameless_70x10")
     spline = CubicSpline(MOMENTS, ANGLES, bc_type="clamped")
     link = ARM * 0.25 * LENGTH**2 + PAYLOAD * LENGTH**2 + values["parts_inertia"]
@@ -59,7 +59,7 @@ def test_its_torque_is_that_of_an_arm_on_a_spring() -> None:
     assert values["task_speed"] == pytest.approx(np.max(spline(times, 1)), rel=1e-3)
 
 
-def test_its_heat_is_that_of_three_phases() -> None:
+def test_its_heat_is_that_of_three_phases():
     values = _values("frameless_70x10")
     # A star of 0.235 ohm a phase; 0.109 N.m for an ampere of each phase's rms current.
     phase = values["motor_rms_torque@cold"] / 0.109
@@ -67,7 +67,7 @@ def test_its_heat_is_that_of_three_phases() -> None:
     assert values["motor_current@cold"] == pytest.approx(values["motor_torque@cold"] / 0.109)
 
 
-def test_a_sine_adds_its_amplitudes() -> None:
+def test_a_sine_adds_its_amplitudes():
     alone, swinging = _values("frameless_70x10"), _values("frameless_70x10", SINE)
     # A rigid link and all that the motor turns, at 2 Hz.
     link = swinging["task_inertia"] + swinging["driven_inertia"]
@@ -79,7 +79,7 @@ def test_a_sine_adds_its_amplitudes() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize(("motor", "bears"), [("frameless_50x08", False), ("frameless_85x13", True)])
-def test_a_small_motor_does_not_bear_the_task(motor: str, *, bears: bool) -> None:
+def test_a_small_motor_does_not_bear_the_task(motor, *, bears):
     values = _values(motor, SINE.replace("0.1 rad", "1 rad"))
     margins = [values[name] for name in ("motor_peak_margin", "motor_heat_margin")]
     assert all(margin >= 0.0 for margin in margins) == bears
@@ -88,7 +88,7 @@ def test_a_small_motor_does_not_bear_the_task(motor: str, *, bears: bool) -> Non
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("payload", "chosen"), [("200 g", "frameless_70x10"), ("1 kg", "frameless_85x13")])
-def test_the_motor_is_chosen_with_the_module(payload: str, chosen: str) -> None:
+def test_the_motor_is_chosen_with_the_module(payload, chosen):
     text = study_path("driven_joint").read_text(encoding="utf-8")
     text = re.sub(r"(?m)^  motor: .*\n|^  motor_torque_margin: .*\n|^robust: .*\n", "", text)
     motors = "  motor: {choose: [frameless_50x08, frameless_70x10, frameless_85x13]}\n"

@@ -18,7 +18,7 @@ ENCODER_RULES = {"encoder_ledge_margin", "encoder_floor_margin"}
 DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
 
 
-def test_the_motor_stands_below_the_feet_and_the_envelope_has_it() -> None:
+def test_the_motor_stands_below_the_feet_and_the_envelope_has_it():
     rows = "drive_height motor_plate_level stator_top_level stator_bottom_level motor_bottom_level envelope_height"
     bare, driven = values_of("envelope_height envelope_diameter"), values_of(rows, **DRIVEN)
     # A floor of 4 mm, feet of 6, a disc of 6, 1 mm of air, a stator of 22.6 and a base of 8 mm.
@@ -32,7 +32,7 @@ def test_the_motor_stands_below_the_feet_and_the_envelope_has_it() -> None:
     assert values_of("envelope_diameter", **DRIVEN)["envelope_diameter"] == bare["envelope_diameter"]
 
 
-def test_parts_have_their_seats_and_the_magnet_its_gap() -> None:
+def test_parts_have_their_seats_and_the_magnet_its_gap():
     rows = "stator_seat_radius motor_disc_radius motor_seat_radius motor_journal_radius"
     printed, milled = values_of(rows, **DRIVEN), values_of(rows, **DRIVEN | {"process": "machine_6061"})
     # 69 mm stator, 42 mm rotor bore, bearing of 15 and 24 mm.
@@ -51,7 +51,7 @@ def test_parts_have_their_seats_and_the_magnet_its_gap() -> None:
     assert small["motor_sink_radius"] == pytest.approx((3.0 + 0.2) * MM)  # now the magnet of 6 mm is the wider
 
 
-def test_the_drive_is_in_the_mass_and_inertia_of_the_module() -> None:
+def test_the_drive_is_in_the_mass_and_inertia_of_the_module():
     rows = "module_mass drive_mass parts_inertia drive_inertia motor_hub_inertia structure_stiffness"
     bare, driven = values_of(rows), values_of(rows, **DRIVEN)
     assert bare["drive_mass"] == bare["drive_inertia"] == 0.0
@@ -68,7 +68,7 @@ def test_the_drive_is_in_the_mass_and_inertia_of_the_module() -> None:
     assert values_of("driven_inertia") == {"driven_inertia": 0.0}
 
 
-def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one() -> None:
+def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one():
     values = values_of("drive_mass drive_inertia motor_hub_volume motor_hub_inertia motor_housing_volume", **DRIVEN)
 
     def tube(inner: float, outer: float, length: float) -> np.ndarray:
@@ -102,7 +102,7 @@ def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one() -> None:
     assert values["drive_inertia"] * 1e9 - hub == pytest.approx(21e3 + turning)
 
 
-def test_the_motor_turns_cover_and_adjusters_as_well() -> None:
+def test_the_motor_turns_cover_and_adjusters_as_well():
     rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass cutout_mass adjusters_mass "
     radii = "housing_inner_radius housing_outer_radius"
     values = values_of(rows + radii, **DRIVEN | {"cover": "plate", "preload_adjuster": "rotary"})
@@ -117,7 +117,7 @@ def test_the_motor_turns_cover_and_adjusters_as_well() -> None:
     assert values["driven_inertia"] == pytest.approx(whole)
 
 
-def test_torque_and_tilt_are_borne_by_motor_and_bearings() -> None:
+def test_torque_and_tilt_are_borne_by_motor_and_bearings():
     rows = "motor_torque_margin spring_stiffness"
     values = values_of(rows, **DRIVEN)
     assert values["motor_torque_margin"] == pytest.approx(0.7 - 0.104 * values["spring_stiffness"])
@@ -133,7 +133,7 @@ def test_torque_and_tilt_are_borne_by_motor_and_bearings() -> None:
     assert values["motor_bearing_margin"] == pytest.approx(1260.0 - values["motor_bearing_load"])
 
 
-def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives() -> None:
+def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives():
     # In mm: a disc of 20.8 with corners of 0.2, printed walls of 1.2, 0.4 to turn in, M3 in plastic (5.25 of thread).
     drawn = {
         "motor_foot_gap": 57.0 - 20.8 - 0.2, "motor_spoke_gap": 21.0 * np.sqrt(0.5) - 3.5 - 0.2,

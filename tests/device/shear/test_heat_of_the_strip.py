@@ -35,13 +35,13 @@ def rows(name: str = "results") -> list[dict[str, str]]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper_shear", "paper_compression", "wrist_compression", "wrist_joint"])
-def test_times_are_those_of_the_plane(name: str) -> None:
+def test_times_are_those_of_the_plane(name):
     for time, pair in compared(model_of(study_path(name))).items():
         assert pair.product == pytest.approx(pair.plane, rel=THREE_PERCENT), time
 
 
 @pytest.mark.parametrize("name", ["paper_reconstructed", "paper_compression", "elbow_machined"])
-def test_the_table_has_the_times_of_today_s_product(name: str) -> None:
+def test_the_table_has_the_times_of_today_s_product(name):
     ours = product_times(model_of(study_path(name)))
     ours_before = {
         row["time"]: float(row["product [s]"]) for row in rows() if (row["study"], row["design"]) == (name, "start")
@@ -53,7 +53,7 @@ KELVINS = {"elbow_machined": 3.0}
 """Its layer is cooled at edges where its spreader is colder than its mean; others are within 2 K."""
 
 
-def test_every_study_is_on_the_page_of_the_plane_within_two_kelvins() -> None:
+def test_every_study_is_on_the_page_of_the_plane_within_two_kelvins():
     wanted = {(name, "start") for name in studies()}
     wanted |= {(name, "optimum") for name, path in studies().items() if read_study(path).vary}
     assert {(row["study"], row["design"]) for row in rows()} == wanted
@@ -76,7 +76,7 @@ def beyond(name: str) -> list[dict[str, str]]:
         ("validation/fe_structure/studies/rigid_modules_compression", "ring_width", 1e-9),
     ],
 )
-def test_rigid_modules_are_drawn_as_large_as_they_are(study: str, length: str, within: float) -> None:
+def test_rigid_modules_are_drawn_as_large_as_they_are(study, length, within):
     model = model_of(ROOT / f"{study}.yaml")
     plane, known = plane_of(model), inputs_of(model)
     sizes = model.table.evaluate(known, ["pcl_area", length, "spreader_volume", "heater_count"])
@@ -89,7 +89,7 @@ def test_rigid_modules_are_drawn_as_large_as_they_are(study: str, length: str, w
 
 
 @pytest.mark.slow
-def test_a_fresh_design_of_each_mode_is_compared_again() -> None:
+def test_a_fresh_design_of_each_mode_is_compared_again():
     for study in ("wrist_joint", "wrist_compression"):
         for name, model in designs(study, 1):
             recorded = {row["time"]: row for row in rows("fresh") if (row["study"], row["design"]) == (study, name)}
@@ -101,7 +101,7 @@ def test_a_fresh_design_of_each_mode_is_compared_again() -> None:
 
 
 @pytest.mark.parametrize("block_height", [0.0071, 0.0083, 0.0097, 0.0113])
-def test_pads_between_vanes_are_drawn_as_high_as_their_blocks(block_height: float) -> None:
+def test_pads_between_vanes_are_drawn_as_high_as_their_blocks(block_height):
     plane = plane_of(model_of(study_path("wrist_compression"), block_height=block_height))
     assert np.min(plane.volume) > 0.0
     assert "beside tiles" not in plane.material
@@ -125,7 +125,7 @@ def with_cold_area(side: floor_heat.ColdSide, area: float) -> Module:
 
 
 @pytest.mark.parametrize("ledges", [0.2, 0.4, 0.7])
-def test_heat_goes_to_the_ledges_as_along_a_fin(ledges: float) -> None:
+def test_heat_goes_to_the_ledges_as_along_a_fin(ledges):
     """Compare with a fin heated evenly that gives its heat evenly over its first share s.
 
     Its mean is warmer by (1 - s)^2/3 of its heat over its conductance along (Carslaw and Jaeger, ch. IV).
@@ -136,7 +136,7 @@ def test_heat_goes_to_the_ledges_as_along_a_fin(ledges: float) -> None:
     assert share == pytest.approx((1.0 - ledges) ** 2 / 3.0 / along, rel=0.02)
 
 
-def test_sinks_and_poor_legs_leave_a_fin_s_way() -> None:
+def test_sinks_and_poor_legs_leave_a_fin_s_way():
     side = slab(up=1.5)
     to_ledges = floor_heat.cold_to_ledges(with_cold_area(side, 0.7 * AREA))
     assert floor_heat.cold_to_sink(with_cold_area(side, 0.3 * AREA)) == pytest.approx(to_ledges)
@@ -150,7 +150,7 @@ def test_sinks_and_poor_legs_leave_a_fin_s_way() -> None:
 ROWS = "ledge_tension freezing_traction pcl_area"
 
 
-def test_the_pull_of_the_layer_comes_to_the_ledges() -> None:
+def test_the_pull_of_the_layer_comes_to_the_ledges():
     # Four arcs of 0.3 to ...: the ledge is 2 mm wide around each, its corners left out of the count.
     free = all_of(ROWS, axial_preload="wave_21x25")
     inputs = default_inputs()
@@ -166,7 +166,7 @@ def test_the_pull_of_the_layer_comes_to_the_ledges() -> None:
     assert held["ledge_tension"] <= held["pcl_bond_strength"] * share * 1.01
 
 
-def test_the_bill_has_adhesive_or_grease_for_pads() -> None:
+def test_the_bill_has_adhesive_or_grease_for_pads():
     def kinds(mode: str, changes: dict[str, Any]) -> list[str]:
         return [item.kind for item in beside(design_of("held", changes, mode), {})]
 

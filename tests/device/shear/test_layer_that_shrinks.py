@@ -28,7 +28,7 @@ def advised(row: str, value: float) -> bool:
     return value >= rule.value if rule.sense == ">=" else value <= rule.value
 
 
-def test_layers_shrink_and_leave_play_where_nothing_holds_the_rotor() -> None:
+def test_layers_shrink_and_leave_play_where_nothing_holds_the_rotor():
     values = values_of("freezing_shrinkage freezing_travel", key_count=0)
     # 1040 to 1100 of 1145 kg/m3: 4 to 9 %.
     assert 0.04 < values["freezing_shrinkage"] < 0.092
@@ -48,7 +48,7 @@ def test_layers_shrink_and_leave_play_where_nothing_holds_the_rotor() -> None:
         assert advised("layer_play", clamped["layer_play"])
 
 
-def test_a_held_layer_pulls_on_its_bond_and_one_that_is_followed_does_not() -> None:
+def test_a_held_layer_pulls_on_its_bond_and_one_that_is_followed_does_not():
     rows = "freezing_traction freezing_safety"
     printed, milled = (values_of(rows, process=word, key_count=0) for word in ("print_petg", "machine_6061"))
     # By hand: layer 411 MPa, nu 0.45 -> 1559 MPa over 1 mm; pad 300 MPa over 1.5 mm; k in series. Plates of 4 mm.
@@ -68,7 +68,7 @@ def test_a_held_layer_pulls_on_its_bond_and_one_that_is_followed_does_not() -> N
     assert advised("freezing_safety", followed["freezing_safety"])
 
 
-def test_a_layer_that_shrinks_pulls_until_it_yields_or_has_no_spring() -> None:
+def test_a_layer_that_shrinks_pulls_until_it_yields_or_has_no_spring():
     thick = {"rotor_thickness": "20 mm", "floor_thickness": "20 mm", "peltier_shear_modulus": "1 GPa"}
     stiff = values_of("freezing_traction", process="machine_7075", **thick)
     assert stiff["freezing_traction"] == pytest.approx(16e6)
@@ -79,7 +79,7 @@ def test_a_layer_that_shrinks_pulls_until_it_yields_or_has_no_spring() -> None:
     assert values["melt_lip_hub_gap"] == pytest.approx((26.0 - 1.5 - 13.4 - 0.4) * 1e-3)
 
 
-def test_the_spring_holds_some_times_the_weight_and_rubs_little() -> None:
+def test_the_spring_holds_some_times_the_weight_and_rubs_little():
     rows = ("preload_rate frozen_preload molten_preload stop_force_margin turning_mass preload_friction_torque "
             "spring_stiffness preload_spring_mass preload_spring_stress stop_play")  # fmt: skip
     values = values_of(rows, axial_preload="wave_21x25", key_count=0)
@@ -95,7 +95,7 @@ def test_the_spring_holds_some_times_the_weight_and_rubs_little() -> None:
     assert values["preload_spring_stress"] < 0.5 * 1500e6  # of spring-steel strip
 
 
-def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge() -> None:
+def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge():
     rows = "layer_wedge hub_radius"
     bare = values_of(rows, pcl_thickness="0.6 mm")
     # A plate that leans until the retainer, 0.4 mm below the hub, meets it: 15 mrad, at 40 mm from the axis.
@@ -108,7 +108,7 @@ def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge() -> None:
     assert borne["layer_wedge"] == pytest.approx(40.0 * 2.0 * (2 * 0.0015 + 0.5 * 0.018) / spread / 0.6, rel=0.01)
 
 
-def test_melt_creeps_by_its_viscosity_along_arcs_and_out_of_edges() -> None:
+def test_melt_creeps_by_its_viscosity_along_arcs_and_out_of_edges():
     values = values_of("melt_creep pcl_viscosity@hot", melt_lip="rings")
     # As between flat faces, by hand: h^2 rho g/(12 eta), 1.07 mm high, an hour.
     speed = 1.0701e-3**2 * 1070.0 * G / (12.0 * values["pcl_viscosity@hot"])
@@ -131,7 +131,7 @@ def test_melt_creeps_by_its_viscosity_along_arcs_and_out_of_edges() -> None:
     assert wide["melt_loss"] == pytest.approx(3600.0 * slow / 18e-3, rel=1e-3)
 
 
-def test_the_viscosity_is_that_of_the_record_at_its_temperature() -> None:
+def test_the_viscosity_is_that_of_the_record_at_its_temperature():
     # By the record's law at its reference, 100 degC: of 80 kg/mol from 171 Pa s at 35.5, as the molar mass to the 3.94.
     viscosity = 171.0 * (80.0 / 35.5) ** 3.94
     assert values_of("pcl_viscosity@hot")["pcl_viscosity@hot"] == pytest.approx(viscosity, rel=2e-3)
@@ -145,7 +145,7 @@ def test_the_viscosity_is_that_of_the_record_at_its_temperature() -> None:
     assert TABLE.evaluate(known, ["pcl_viscosity@hot"])["pcl_viscosity@hot"] == pytest.approx(colder, rel=2e-3)
 
 
-def test_a_rotor_that_hangs_on_the_melt_draws_it_thicker_in_minutes() -> None:
+def test_a_rotor_that_hangs_on_the_melt_draws_it_thicker_in_minutes():
     values = values_of("layer_drawing_time turning_mass pcl_viscosity@hot")
     length = 4.0 * radians(48.962) * 33e-3
     force = G * values["turning_mass"]
@@ -157,7 +157,7 @@ def test_a_rotor_that_hangs_on_the_melt_draws_it_thicker_in_minutes() -> None:
     assert 60.0 < values["layer_drawing_time"] < 600.0
 
 
-def test_a_derated_bond_loses_by_cycles_and_temperature() -> None:
+def test_a_derated_bond_loses_by_cycles_and_temperature():
     names = "bond_derating bond_strength layer_holding_torque layer_edge_safety freezing_safety"
     # ln E falls by 0.45 ln(1 + exp((T - 42)/5)) from 23 degC on; the cold point is at 30 degC.
     warm = ((1.0 + exp(-19.0 / 5.0)) / (1.0 + exp(-12.0 / 5.0))) ** 0.45
@@ -187,7 +187,7 @@ def evaluated(*names: str, **module: Any) -> dict[str, Any]:
     return all_of(names, **{**milled, **module})
 
 
-def test_a_metal_lip_takes_what_a_cold_wall_takes() -> None:
+def test_a_metal_lip_takes_what_a_cold_wall_takes():
     values = evaluated("cold_end", hot_contact=1e9, rotor_contact=1e9)
     conductivity = 0.5 * (values["pcl_conductivity_solid"] + values["pcl_conductivity_melt"])
     # Slices that fall evenly from a kelvin to none are half a kelvin above it; a cold wall takes 2/pi ln cot(pi f/4).
@@ -207,7 +207,7 @@ def at_the_edge(excess: float) -> Callable[[Place], float]:
     return lambda place: excess if place[0] == "hot" else 0.0
 
 
-def test_temperature_of_metal_and_plastic_lips() -> None:
+def test_temperature_of_metal_and_plastic_lips():
     metal, plastic = (
         warm_lip(evaluated("lip", structure_conductivity=k)["lip"], np.full(CELLS, 0.5), at_the_edge(1.0), alike)
         for k in (167.0, 0.2)
@@ -227,7 +227,7 @@ def test_temperature_of_metal_and_plastic_lips() -> None:
         ("elbow_printed", (86.13, 68.08, 52.67, 39.53, 36.08, 30.76, 23.90, 46.71, 32.62, 24.34), 2.945),
     ],
 )
-def test_a_plastic_lip_takes_what_the_plane_says(study: str, warm: tuple[float, ...], given_heat: float) -> None:
+def test_a_plastic_lip_takes_what_the_plane_says(study, warm, given_heat):
     inputs = given(read_study(study_path(study)))
     values = TABLE.evaluate(inputs, ["lip", "edge_length", "pcl_melting"])
     names = [("spreader", 0), ("layer", 0), ("face", 0), ("plate", 0), *(("beside", i) for i in range(3)),
@@ -248,7 +248,7 @@ def test_a_plastic_lip_takes_what_the_plane_says(study: str, warm: tuple[float, 
     assert taken / values["edge_length"] == pytest.approx(given_heat, rel=0.12)
 
 
-def test_a_lip_gives_what_it_takes_and_less_from_the_melt() -> None:
+def test_a_lip_gives_what_it_takes_and_less_from_the_melt():
     values = evaluated("lip", structure_conductivity=0.2)
     at = {("spreader", 0): 90.0, ("face", 0): 60.0, ("plate", 0): 55.0, ("around", 7): 50.0, ("around", 1): 40.0,
           ("around", 2): 30.0, ("beside", 0): 45.0, ("beside", 1): 35.0, ("beside", 2): 25.0}  # fmt: skip
@@ -263,7 +263,7 @@ def test_a_lip_gives_what_it_takes_and_less_from_the_melt() -> None:
     assert np.sum(molten.from_layer) / np.sum(frozen.from_layer) == pytest.approx(0.9 / 1.1, rel=0.01)
 
 
-def test_lips_stand_over_the_floor_and_stiffen_the_plate_s_heat() -> None:
+def test_lips_stand_over_the_floor_and_stiffen_the_plate_s_heat():
     names = ("rotor_beside", "melt_lip_moments", "beside_area")
     lips, bare = (evaluated(*names, melt_lip=kind) for kind in ("rings", "none"))
     more = sum(a.capacity - b.capacity for a, b in zip(lips["rotor_beside"], bare["rotor_beside"], strict=True))
@@ -285,14 +285,14 @@ def test_lips_stand_over_the_floor_and_stiffen_the_plate_s_heat() -> None:
 
 
 @pytest.mark.parametrize("thickness", [0.05, 0.3, 0.4, 0.45])
-def test_a_lip_that_has_no_room_has_finite_numbers_and_a_rule_that_says_so(thickness: float) -> None:
+def test_a_lip_that_has_no_room_has_finite_numbers_and_a_rule_that_says_so(thickness):
     values = evaluated("cold_end", "melt_lip_margin", pcl_thickness=thickness * MM, running_clearance=0.4 * MM)
     assert values["melt_lip_margin"] < 0.0
     assert all(np.isfinite(value) for value in values["cold_end"])
     assert values["cold_end"].near > 0.0
 
 
-def test_a_stack_s_layer_gives_to_its_lip_as_its_phase_conducts() -> None:
+def test_a_stack_s_layer_gives_to_its_lip_as_its_phase_conducts():
     values = evaluated("stack")
     stack = values["stack"]
     for celsius, phase in ((90.0, "melt"), (40.0, "solid")):

@@ -20,7 +20,7 @@ TILES = {
 
 
 @pytest.mark.parametrize(("process", "strength"), [("machine_6061", 24e6), ("print_petg", 6e6)])
-def test_a_seat_bears_what_its_adhesive_does_on_metal_or_plastic(process: str, strength: float) -> None:
+def test_a_seat_bears_what_its_adhesive_does_on_metal_or_plastic(process, strength):
     names = "outer_seat_holding_torque inner_seat_holding_torque seat_path pcl_outer_radius"
     values = values_of(names, **TILES, process=process)
     # T = tau 2 pi s r^2 t of the share that the rim takes, by `holding_safety` of 1.25.
@@ -30,7 +30,7 @@ def test_a_seat_bears_what_its_adhesive_does_on_metal_or_plastic(process: str, s
     assert values["inner_seat_holding_torque"] > values["outer_seat_holding_torque"]
 
 
-def test_thin_spreaders_and_pads_limit_what_the_joint_holds() -> None:
+def test_thin_spreaders_and_pads_limit_what_the_joint_holds():
     thin = values_of("holding_torque outer_seat_holding_torque", **TILES, spreader_thickness=0.2 * MM)
     assert thin["holding_torque"] == thin["outer_seat_holding_torque"]
     assert TABLE.output("holding_torque").least_of.count("outer_seat_holding_torque") == 1
@@ -40,7 +40,7 @@ def test_thin_spreaders_and_pads_limit_what_the_joint_holds() -> None:
     assert values_of("holding_torque", heater_shear_limit=0.0)["holding_torque"] == 0.0
 
 
-def test_a_spreader_leaks_heat_and_bends_as_a_strip() -> None:
+def test_a_spreader_leaks_heat_and_bends_as_a_strip():
     # k/g t L of the rims, slots of air at the ends, in series with the way along the spreader.
     known = inputs_of(**TILES)
     values = TABLE.evaluate(known, ["pad_edge", "heater_along"])
@@ -57,7 +57,7 @@ def test_a_spreader_leaks_heat_and_bends_as_a_strip() -> None:
 GAPS = ["thermistor_window_gap", "thermistor_arc_gap"]
 
 
-def test_the_floor_lacks_the_half_beside_the_pad_and_all_of_it_below() -> None:
+def test_the_floor_lacks_the_half_beside_the_pad_and_all_of_it_below():
     names = [
         "housing_volume",
         "housing_inertia",
@@ -78,7 +78,7 @@ def test_the_floor_lacks_the_half_beside_the_pad_and_all_of_it_below() -> None:
     assert without["housing_inertia"] - has["housing_inertia"] == pytest.approx(taken, rel=1e-3)
 
 
-def test_webs_and_tiles_beside_a_thermistor() -> None:
+def test_webs_and_tiles_beside_a_thermistor():
     tight = inputs_of(window_ledge=0.5 * MM, arc_span=1.57, minimum_wall=3.0 * MM)
     assert all(TABLE.evaluate(tight, GAPS)[name] >= 0.0 for name in GAPS)
     known = inputs_of(thermistor_diameter=1.0 * MM, window_ledge=2.2 * MM)
@@ -112,7 +112,7 @@ def rim_of(values: dict[str, Any]) -> float:
     return sum(float(link.conductance) for link in links) / values["edge_length"]
 
 
-def test_a_liner_in_metal_gives_by_film_and_cold_wall() -> None:
+def test_a_liner_in_metal_gives_by_film_and_cold_wall():
     thin = {"liner_film": 0.02 * MM, "hot_contact": 1e9, "rotor_contact": 1e9}
     values = evaluated("side_links", "edge_length", "liner_to_wall", "liner_sheet", "pcl_area", **thin)
     k = 0.5 * (values["pcl_conductivity_solid"] + values["pcl_conductivity_melt"])
@@ -128,7 +128,7 @@ def test_a_liner_in_metal_gives_by_film_and_cold_wall() -> None:
     assert rim_of(values) == pytest.approx(1.0 / (1.0 / values["liner_to_wall"] + 1.0 / around), rel=0.01)
 
 
-def test_liners_keep_heat_and_lips_take_less_below_them() -> None:
+def test_liners_keep_heat_and_lips_take_less_below_them():
     names = ("side_links", "edge_length")
     bare, filmed, plastic = (
         rim_of(evaluated(*names, **more)) for more in ({}, {"liner_film": 0.5 * MM}, {"structure_conductivity": 0.2})

@@ -51,7 +51,7 @@ def apart(first: np.ndarray, other: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("tiles", [1.0, 2.0, 3.0])
-def test_margins_are_the_gaps_of_the_rectangles_beyond_the_clearance(tiles: float) -> None:
+def test_margins_are_the_gaps_of_the_rectangles_beyond_the_clearance(tiles):
     known = inputs_of(**TILES | {"tiles_per_arc": tiles, "arc_span": 0.9 * tiles})
     values = TABLE.evaluate(known, ["tile_pitch", "tile_radius", "tile_radial_margin", "tile_side_margin"])
     drawn = [corners(values, known, index) for index in range(int(tiles))]
@@ -79,12 +79,12 @@ def test_margins_are_the_gaps_of_the_rectangles_beyond_the_clearance(tiles: floa
         ("floor_web_margin", {"spreader_thickness": 2.5 * MM}),
     ],
 )
-def test_a_module_without_room_breaks_its_rule(rule: str, module: dict[str, float]) -> None:
+def test_a_module_without_room_breaks_its_rule(rule, module):
     assert values_of(rule)[rule] >= 0.0
     assert values_of(rule, **module)[rule] < 0.0
 
 
-def test_they_cover_weigh_and_cost_height_as_the_sheet_says() -> None:
+def test_they_cover_weigh_and_cost_height_as_the_sheet_says():
     rows = "heater_count heater_coverage pcl_area peltier_mass pad_depth spreader_mass spreader_volume peltier_scale"
     values = values_of(rows)
     record = Catalog().record("peltiers", "ma10_063_05_1")
@@ -97,7 +97,7 @@ def test_they_cover_weigh_and_cost_height_as_the_sheet_says() -> None:
 
 
 @pytest.mark.parametrize(("wiring", "strings"), [("series", 1), ("arcs_parallel", 3), ("all_parallel", 6)])
-def test_as_wired_they_are_six_modules_that_share_current_and_voltage(wiring: str, strings: int) -> None:
+def test_as_wired_they_are_six_modules_that_share_current_and_voltage(wiring, strings):
     # Heats, voltage and power of six modules one by one, against the one the stack is given.
     values = values_of("pads heater_strings", heater_wiring=wiring)
     record = Catalog().record("peltiers", "ma10_063_05_1")
@@ -112,7 +112,7 @@ def test_as_wired_they_are_six_modules_that_share_current_and_voltage(wiring: st
     assert peltier.voltage(values["pads"], current, hot, cold) == pytest.approx(in_series)
 
 
-def test_the_stack_has_the_spreader_between_modules_and_layer() -> None:
+def test_the_stack_has_the_spreader_between_modules_and_layer():
     stack: heat.Stack = values_of("stack")["stack"]
     values = values_of("pcl_area spreader_mass peltier_mass spreader_resistance")
     # 1/h + t/k + 1/(f h_m) + the fin's, by hand
@@ -126,7 +126,7 @@ def test_the_stack_has_the_spreader_between_modules_and_layer() -> None:
 
 
 @pytest.mark.parametrize("study", ["elbow_printed", "ankle"])
-def test_spreading_below_random_arcs_is_that_of_a_thin_plate(study: str) -> None:
+def test_spreading_below_random_arcs_is_that_of_a_thin_plate(study):
     read = read_study(study_path(study))
     for design in Draws(read, FRESH_SEED).keeping_rules(8, Tally()):
         # What goes around the tiles' corners into the plate's thickness has a test of its own: thin, it is little.
@@ -145,7 +145,7 @@ def foil(resistance: float = 5.0) -> Record:
     return Record("peltiers", "foil", "A foil heater", entries, {}, known.words)
 
 
-def test_foils_and_shared_currents_go_through_the_same_equations() -> None:
+def test_foils_and_shared_currents_go_through_the_same_equations():
     known = {**inputs_of(**TILES), "peltier_module": foil(), "peltier_seebeck": 0.0, "peltier_resistance": 5.0}
     pads = TABLE.evaluate(known, ["pads"])["pads"]
     both = [heat_of(pads, current, 350.0, 350.0) for current in (1.0, -1.0) for heat_of in (peltier.hot_side_heat,)]
@@ -157,7 +157,7 @@ def test_foils_and_shared_currents_go_through_the_same_equations() -> None:
     assert values["cooling_current_margin"] == pytest.approx(8.6 - 2.0)
 
 
-def test_modules_are_not_cut_and_sheets_are_as_they_were() -> None:
+def test_modules_are_not_cut_and_sheets_are_as_they_were():
     with pytest.raises(InputError, match="ma10_063_05_1 is rigid"):
         values_of("module_mass", heater_form="flexible")
     # The cut pad has no spreader, no tiles and no holes, and its numbers are those of the area it has.
@@ -169,7 +169,7 @@ def test_modules_are_not_cut_and_sheets_are_as_they_were() -> None:
     assert soft == stiff
 
 
-def test_spreaders_face_ledges_and_meet_walls_at_edges() -> None:
+def test_spreaders_face_ledges_and_meet_walls_at_edges():
     rows = "stack pcl_area heated_area cold_area edge_length floor_web beside_area"
     known = inputs_of(**TILES | {"tiles_per_arc": 1.0, "arc_span": 1.36})
     values = TABLE.evaluate(known, rows.split())
@@ -194,7 +194,7 @@ def test_spreaders_face_ledges_and_meet_walls_at_edges() -> None:
 RULES = ("key_margin", "key_depth_margin", "key_width_margin", "key_pitch_margin")
 
 
-def test_keys_hold_by_their_section_with_a_safety() -> None:
+def test_keys_hold_by_their_section_with_a_safety():
     values = of_default("key_holding_torque key_depth", key_count=3, key_diameter=2.5 * MM)
     yielding = Catalog().record("polymers", "pcl_80k").value("tensile_yield")
     # Twelve of 2.5 mm on a radius of 33 mm.
@@ -213,7 +213,7 @@ def test_keys_hold_by_their_section_with_a_safety() -> None:
     assert values["bond_traction@cold"] == pytest.approx(at_rim)
 
 
-def test_no_keys_weigh_hold_and_forbid_nothing() -> None:
+def test_no_keys_weigh_hold_and_forbid_nothing():
     rows = "pcl_volume pcl_area key_depth key_holding_torque rotor_volume rotor_inertia " + " ".join(RULES)
     # Arcs no key would fit in, and a plate as thin as can be printed.
     none = of_default(rows, key_count=0, key_diameter=8 * MM, rotor_thickness=1.2 * MM)
@@ -228,7 +228,7 @@ def test_no_keys_weigh_hold_and_forbid_nothing() -> None:
     assert full["rotor_inertia"] - keyed["rotor_inertia"] == pytest.approx(about_axis, rel=1e-9)
 
 
-def test_each_margin_of_the_keys_is_what_its_drawing_gives() -> None:
+def test_each_margin_of_the_keys_is_what_its_drawing_gives():
     # In mm: three keys of 2.5 on 33 in each arc from 26 to 40, walls of 1.2 and pins of 2.0 as printed, and holes
     # that are printed 0.3 wider.
     span = 0.854548

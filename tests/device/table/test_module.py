@@ -14,8 +14,6 @@ from hypothesis import strategies as st
 
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
 from tvimdesign.device.table.module import Module, names_read
-from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 NAME = "x"
 
@@ -33,7 +31,7 @@ def everywhere(m: Module) -> Any:
     return {name: sorted(name, key=lambda m: m.of_another) for name in m.table("names")}
 
 
-def test_reads_in_branches_nested_functions_and_helpers_are_seen() -> None:
+def test_reads_in_branches_nested_functions_and_helpers_are_seen():
     assert set(names_read(everywhere)) == {
         "first", "last", "from_helper", "record", "in_text", "second", "in_list", "over", "when", "in_lambda", "table",
     }  # fmt: skip
@@ -62,19 +60,19 @@ def renamed(m: Module) -> Any:
         renamed,
     ],
 )
-def test_other_uses_of_the_module_are_refused(function: Callable[[Module], Any]) -> None:
+def test_other_uses_of_the_module_are_refused(function):
     with pytest.raises(ValueError, match=r"may only read attributes of 'm'|must not assign to 'm'"):
         names_read(function)
 
 
 @pytest.mark.parametrize("function", [lambda: 1, lambda m, n: m.x + n, lambda *m: m, lambda m, *, n: m.x + n])
-def test_only_the_module_is_a_parameter(function: Callable[..., Any]) -> None:
+def test_only_the_module_is_a_parameter(function):
     with pytest.raises(ValueError, match="must have one parameter, the module"):
         names_read(function)
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_source_says_the_same_as_the_bytecode(mode: str) -> None:
+def test_source_says_the_same_as_the_bytecode(mode):
     for row in table_for(mode).outputs:
         (m,) = inspect.signature(row.function).parameters
         called = {row.function}
@@ -98,7 +96,7 @@ STEEL = Choice(name="steel", description="", group="")
 DENSITY = Input(name="density", unit="kg/m^3", description="", group="", record=("steel", "density"))
 
 
-def test_a_table_is_built_of_what_is_read() -> None:
+def test_a_table_is_built_of_what_is_read():
     table = Table((WIDTH, DEPTH, STEEL, DENSITY, output("mass", lambda m: m.width**3 * m.density)))
     assert table.evaluate({"width": 2.0, "density": 3.0}, ["mass"]) == {"mass": 24.0}
 
@@ -115,7 +113,7 @@ def test_a_table_is_built_of_what_is_read() -> None:
         ([output("a", lambda m: max(m) + 1)], "the function of the quantity 'a' may only read attributes of 'm'"),
     ],
 )
-def test_a_wrong_table_is_refused_by_name(quantities: list[Any], message: str) -> None:
+def test_a_wrong_table_is_refused_by_name(quantities, message):
     with pytest.raises(ValueError, match=re.escape(message)):
         Table(tuple(quantities))
 
@@ -144,9 +142,7 @@ FALLS = [
 )
 @settings(max_examples=15, deadline=None)
 @given(factor=st.floats(1.005, 1.25), seed=st.integers(0, 2**20))
-def test_result_follows_its_input(
-    source: str, result: str, sign: float, factor: float, seed: int, inputs: dict[str, Any]
-) -> None:
+def test_result_follows_its_input(source, result, sign, factor, seed, inputs):
     random = np.random.default_rng(seed)
     # Not the geometry's own module but one near it; what does not depend on the source stays out of the way.
     module = {row.name: inputs[row.name] * random.uniform(0.92, 1.08) for row in TABLE.inputs if row.variable}
@@ -177,9 +173,7 @@ def _changed(name: str, value: float, factor: float) -> float:
     ),
     shares=st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 1.0)).filter(lambda pair: abs(pair[0] - pair[1]) > 0.05),
 )
-def test_response_time_follows_its_input(
-    change: tuple[str, float, float], shares: tuple[float, float], unity: DeviceFunctions, simulator: Simulator
-) -> None:
+def test_response_time_follows_its_input(change, shares, unity, simulator):
     name, lowest, sign = change
     span = 15.0 if name.endswith("temperature") else 0.6 * lowest
     times = []

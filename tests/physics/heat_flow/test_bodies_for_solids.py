@@ -10,7 +10,7 @@ from tvimdesign.physics.polymers import polymer
 
 
 @pytest.mark.parametrize("over", [0.01, 0.03, 0.1, 0.3, 1.0, 3.0])
-def test_three_bodies_take_the_heat_of_a_strip(over: float) -> None:
+def test_three_bodies_take_the_heat_of_a_strip(over):
     # Carslaw and Jaeger, ch. III: a slab, one face at the rate of one, the other insulated; all of it of one.
     bodies = lumps.strip_bodies(1.0, 1.0, 1.0, lumps.NOWHERE)
     size = len(bodies)
@@ -30,14 +30,14 @@ def test_three_bodies_take_the_heat_of_a_strip(over: float) -> None:
     assert taken == pytest.approx(series, rel=0.008)
 
 
-def test_a_strip_conducts_across_its_whole_width_as_it_is_long() -> None:
+def test_a_strip_conducts_across_its_whole_width_as_it_is_long():
     ways = sum(1.0 / body.conductance for body in lumps.strip_bodies(2.0, 3.0, 5.0, lumps.NOWHERE))
     assert ways + lumps.BEYOND / 5.0 == pytest.approx(1.0 / 5.0, rel=1e-12)
     assert sum(lumps.STRIP) == pytest.approx(1.0, rel=1e-12)
 
 
 @pytest.mark.parametrize("slenderness", [0.05, 0.7, 1.5, 4.0])
-def test_the_way_in_a_fin_is_that_of_its_cells(slenderness: float) -> None:
+def test_the_way_in_a_fin_is_that_of_its_cells(slenderness):
     cells = 2000
     step = 1.0 / cells
     heated = np.full(cells, slenderness**2 * step**2)
@@ -49,7 +49,7 @@ def test_the_way_in_a_fin_is_that_of_its_cells(slenderness: float) -> None:
     assert np.mean(profile) / flux == pytest.approx(shape_factors.way_in_fin(slenderness), rel=1e-4)
 
 
-def test_an_evenly_heated_slab_gives_by_a_parabola() -> None:
+def test_an_evenly_heated_slab_gives_by_a_parabola():
     # k A/H = 0.4 W/K; 3 W made evenly; 0.7 and 0.2 W/K on from its faces, to 30 and 10 degC; solved by its cells.
     across, ways, ends, cells, made = 0.4, (0.7, 0.2), (30.0, 10.0), 1000, 3.0
     between = across * cells
@@ -67,7 +67,7 @@ def test_an_evenly_heated_slab_gives_by_a_parabola() -> None:
     assert second * (mean - ends[1]) + straight * (ends[0] - ends[1]) == pytest.approx(made - given, rel=1e-5)
 
 
-def test_a_face_before_its_body_loses_what_comes_to_it() -> None:
+def test_a_face_before_its_body_loses_what_comes_to_it():
     body, air, behind = 380.0, 295.0, 6e-3
 
     def lost(face: float) -> float:
@@ -91,7 +91,7 @@ def stack(resistance: float) -> heat.Stack:
     )  # fmt: skip
 
 
-def test_all_that_the_terminals_give_is_stored_where_nothing_is_lost() -> None:
+def test_all_that_the_terminals_give_is_stored_where_nothing_is_lost():
     losing = stack(1.5)._replace(plate_surface=lumps.Surface(1e-3, 1e-9))
     state = heat.initial_state(losing, CELLS, 310.0)
     state = state + 0.05 * np.sin(np.arange(len(state)))
@@ -105,7 +105,7 @@ def test_all_that_the_terminals_give_is_stored_where_nothing_is_lost() -> None:
     assert stored == pytest.approx(power, rel=1e-6)
 
 
-def test_a_layer_heated_by_current_is_heated_evenly_for_either_sign() -> None:
+def test_a_layer_heated_by_current_is_heated_evenly_for_either_sign():
     state = heat.initial_state(stack(0.0), CELLS, 310.0)
     more = heat.rates(state, stack(1.5), CURRENT) - heat.rates(state, stack(0.0), CURRENT)
     each = CURRENT**2 * 1.5 / (1145.0 * 1e-3 * 1e-3) / heat.ENTHALPY_SCALE
@@ -116,7 +116,7 @@ def test_a_layer_heated_by_current_is_heated_evenly_for_either_sign() -> None:
     assert heat.voltage(heat.profile(state, stack(1.5)), stack(1.5), -CURRENT) == pytest.approx(-4.0)
 
 
-def test_electrodes_of_a_comb_by_hand() -> None:
+def test_electrodes_of_a_comb_by_hand():
     # 2 ln 2/pi = 0.441271 of the depth for a foot much wider than the depth.
     assert shape_factors.electrode_foot(8e-3, 1e-3) == pytest.approx(0.441271e-3, rel=1e-5)
     feet = [shape_factors.electrode_foot(width, 1e-3) for width in (0.1e-3, 0.25e-3, 0.5e-3, 1e-3, 2e-3)]
@@ -145,7 +145,7 @@ def above_vanes(fed: str, depths: ring_sheet.Depths, sheet: float) -> float:
 
 
 @pytest.mark.parametrize(("fed", "within"), [("blocks", 1e-4), ("pads", 0.05)])
-def test_heat_along_the_ring_is_that_of_an_evenly_fed_rod(fed: str, within: float) -> None:
+def test_heat_along_the_ring_is_that_of_an_evenly_fed_rod(fed, within):
     # Heat that comes evenly into one stretch of an insulated rod and leaves evenly from the vanes', in 3,000 volumes.
     depths, sheet, count = ring_sheet.Depths(blocks=6e-3, pads=3e-3, vanes=2e-3, walls=5e-3), 0.2 * 4e-3, 1000
     stretches = np.repeat(["vanes", "blocks", "pads"], count)

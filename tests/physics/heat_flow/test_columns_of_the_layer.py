@@ -20,7 +20,7 @@ def layer_that_loses(flux: Array, width: float, across: int) -> Array:
 
 
 @pytest.mark.parametrize("width", [0.7, 1.5, 5.0])
-def test_a_layer_is_below_its_mean_as_in_two_dimensions(width: float) -> None:
+def test_a_layer_is_below_its_mean_as_in_two_dimensions(width):
     across, deep = 300, 60
     heights = (np.arange(deep) + 0.5) / deep
     waves = np.pi * np.arange(1, columns.SINES + 1)
@@ -34,7 +34,7 @@ def test_a_layer_is_below_its_mean_as_in_two_dimensions(width: float) -> None:
             assert ours == pytest.approx(below[column], abs=0.01)
 
 
-def test_evenly_falling_heat_cools_the_mean_as_the_end_does() -> None:
+def test_evenly_falling_heat_cools_the_mean_as_the_end_does():
     across, deep, width = 200, 200, 1.2
     heights = (np.arange(deep) + 0.5) / deep
     flux = 1.0 / np.tan(0.5 * np.pi * heights)
@@ -46,7 +46,7 @@ def test_evenly_falling_heat_cools_the_mean_as_the_end_does() -> None:
 
 
 @pytest.mark.parametrize("slenderness", [0.04, 0.5, 1.9, 4.0])
-def test_a_sheet_is_below_its_mean_as_a_fin_whose_edge_is_cooled(slenderness: float) -> None:
+def test_a_sheet_is_below_its_mean_as_a_fin_whose_edge_is_cooled(slenderness):
     # t'' = x^2 (t - 1) over the half width, nothing passes its middle, the edge is at 0.
     solved = solve_bvp(
         lambda _, t: np.array([t[1], slenderness**2 * (t[0] - 1.0)]),
@@ -65,7 +65,7 @@ def test_a_sheet_is_below_its_mean_as_a_fin_whose_edge_is_cooled(slenderness: fl
 
 
 @pytest.mark.parametrize("them", [columns.EVEN, columns.DENSE])
-def test_columns_have_no_mean_of_their_own(them: columns.Columns) -> None:
+def test_columns_have_no_mean_of_their_own(them):
     heights = np.array([0.2, 0.5, 0.8])
     for shape in (columns.fed_evenly, lambda place: columns.in_sheet(place, 1.5)):
         assert np.dot(them.shares, [shape(place) for place in them.places]) == pytest.approx(0.0, abs=1e-3)
@@ -77,7 +77,7 @@ def test_columns_have_no_mean_of_their_own(them: columns.Columns) -> None:
     assert np.all(np.diff(beside, axis=0) < 0.0)
 
 
-def test_what_leaves_below_a_wall_cools_the_end_and_moves_no_mean() -> None:
+def test_what_leaves_below_a_wall_cools_the_end_and_moves_no_mean():
     heights = (np.arange(12) + 0.5) / 12
     _, cooled = columns.wall_profile(columns.wall_places(heights, 3.0, 0.01, 0.98, 0.1))
     falls = np.array(columns.below_wall(cooled))
@@ -90,7 +90,7 @@ def test_what_leaves_below_a_wall_cools_the_end_and_moves_no_mean() -> None:
 
 @pytest.mark.parametrize("onward", [0.005, 0.02, 0.08, 0.5])
 @pytest.mark.parametrize("coefficient", [3.0, 10.0, 25.0])
-def test_a_strip_that_goes_on_at_its_end_takes_the_heat_of_a_fin(onward: float, coefficient: float) -> None:
+def test_a_strip_that_goes_on_at_its_end_takes_the_heat_of_a_fin(onward, coefficient):
     # A fin of 10 mm that gives heat to the air and at its end onwards, both at 0; its edge at 1.
     sheet, width = 5e-4, 10e-3
     steep = np.sqrt(coefficient / sheet)
@@ -108,7 +108,7 @@ def test_a_strip_that_goes_on_at_its_end_takes_the_heat_of_a_fin(onward: float, 
     assert taken == pytest.approx(exact, rel=0.007)
 
 
-def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat() -> None:
+def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat():
     cells = np.array([350.0, 340.0, 330.0, 320.0])
     places = {"hot": [360.0], "around": [310.0]}
     link = lumps.Link(("hot", 0), ("around", 0), 0.2)
@@ -120,7 +120,7 @@ def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat() -> Non
 
 
 @pytest.mark.parametrize("slenderness", [0.8, 2.0, 6.0])
-def test_a_row_is_below_the_mean_by_what_conduction_in_two_dimensions_says(slenderness: float) -> None:
+def test_a_row_is_below_the_mean_by_what_conduction_in_two_dimensions_says(slenderness):
     # Half the height and the conductivity are one; both ends are held, the faces lose 1.5 and 0.6.
     deep, high, lost = 120, 120, (1.5, 0.6)
     source = np.zeros((deep, high))
@@ -135,7 +135,7 @@ def test_a_row_is_below_the_mean_by_what_conduction_in_two_dimensions_says(slend
 
 
 @pytest.mark.parametrize("slenderness", [0.1, 0.4, 1.5])
-def test_uneven_heat_passes_an_edge_as_in_two_dimensions(slenderness: float) -> None:
+def test_uneven_heat_passes_an_edge_as_in_two_dimensions(slenderness):
     # Height and conductivity one; the edge is held at a cosine over the height, whose end nothing passes.
     along, high = 400, 80
     edge = np.cos(np.pi * (np.arange(high) + 0.5) / high)
@@ -147,7 +147,7 @@ def test_uneven_heat_passes_an_edge_as_in_two_dimensions(slenderness: float) -> 
     assert passed == pytest.approx(edge / way, abs=0.01 / way)
 
 
-def test_a_layer_gives_each_place_of_what_falls_before_it_its_own_heat() -> None:
+def test_a_layer_gives_each_place_of_what_falls_before_it_its_own_heat():
     # A face at 40 K that is 6 K warmer at the layer's near end than at its far one: 42, 40, 38 K before three cells.
     cells = np.array([90.0, 70.0, 50.0])
     slope = Slope(((("around", 1), 0.25), (("around", 3), 0.75)), ("around", 2), 0.5)
@@ -158,7 +158,7 @@ def test_a_layer_gives_each_place_of_what_falls_before_it_its_own_heat() -> None
 
 
 @pytest.mark.parametrize(("cells", "slot"), [(48, 4), (48, 12)])
-def test_the_end_of_a_gap_gives_as_in_two_dimensions(cells: int, slot: int) -> None:
+def test_the_end_of_a_gap_gives_as_in_two_dimensions(cells, slot):
     # A gap of `cells` over its height; left of it a wall at 1 that falls to 0 from the slot's mouth to the upper wall,
     # below it a floor at 0, which a slot keeps apart from that wall.
     long, deep = 3 * cells, 3 * slot
@@ -179,7 +179,7 @@ def test_the_end_of_a_gap_gives_as_in_two_dimensions(cells: int, slot: int) -> N
 
 
 @pytest.mark.parametrize("slenderness", [0.3, 0.6, 1.0, 1.7])
-def test_a_ledge_conducts_as_two_dimensions_say(slenderness: float) -> None:
+def test_a_ledge_conducts_as_two_dimensions_say(slenderness):
     # A slab of 30 cells, heated evenly over its upper face up to `wide` from its free end; a long way on it is cold.
     high, wide = 30, round(30 * slenderness)
     inside = np.zeros((wide + 3 * high + 1, high), dtype=bool)
@@ -196,7 +196,7 @@ def test_a_ledge_conducts_as_two_dimensions_say(slenderness: float) -> None:
 
 
 @pytest.mark.parametrize("share", [0.4, 0.7, 0.9, 1.0])
-def test_a_partly_heated_slab_resists_as_conduction_says(share: float) -> None:
+def test_a_partly_heated_slab_resists_as_conduction_says(share):
     high, deep = 60, 90
     inside = np.zeros((deep + 2, high + 2), dtype=bool)
     inside[1:-1, 1:-1] = True
@@ -212,7 +212,7 @@ def test_a_partly_heated_slab_resists_as_conduction_says(share: float) -> None:
 
 
 @pytest.mark.parametrize("share", [0.25, 0.7])
-def test_a_step_in_a_sheet_resists_what_conduction_in_two_dimensions_says(share: float) -> None:
+def test_a_step_in_a_sheet_resists_what_conduction_in_two_dimensions_says(share):
     deep, long = 40, 100
     low = round(share * deep)
     inside = np.zeros((2 * long + 2, deep + 2), dtype=bool)
@@ -225,7 +225,7 @@ def test_a_step_in_a_sheet_resists_what_conduction_in_two_dimensions_says(share:
 
 
 @pytest.mark.parametrize(("plate", "lip", "wide"), [(20, 8, 26), (40, 6, 15), (30, 6, 12)])
-def test_heat_from_a_lip_s_side_spreads_as_in_two_dimensions(plate: int, lip: int, wide: int) -> None:
+def test_heat_from_a_lip_s_side_spreads_as_in_two_dimensions(plate, lip, wide):
     # The lip's side is heated evenly; plate above the layer to the left, plate beside it to the right, both ends at 0.
     long = 3 * plate
     inside = np.zeros((2 * long + 2, plate + lip + 2), dtype=bool)
@@ -258,9 +258,9 @@ def in_two_dimensions(slenderness: float, across: int = 60) -> float:
 
 
 @pytest.mark.parametrize("slenderness", [0.7, 1.3, 2.0, 4.0])
-def test_faces_are_as_far_from_the_mean_as_in_two_dimensions(slenderness: float) -> None:
+def test_faces_are_as_far_from_the_mean_as_in_two_dimensions(slenderness):
     assert shape_factors.way_to_faces(slenderness) == pytest.approx(in_two_dimensions(slenderness), rel=0.01)
 
 
-def test_a_long_bar_has_its_mean_a_third_from_the_middle() -> None:
+def test_a_long_bar_has_its_mean_a_third_from_the_middle():
     assert shape_factors.way_to_faces(1e4) == pytest.approx(1.0 / 3.0, rel=1e-3)

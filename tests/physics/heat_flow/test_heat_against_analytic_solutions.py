@@ -40,7 +40,7 @@ def flux_slab(make: Make, run: Run, cells: int, fourier: list[float]) -> tuple[A
     return near / (2000.0 * 1e-3 / 0.2), far / (2000.0 * 1e-3 / 0.2)
 
 
-def test_constant_flux_heats_both_faces_as_tabulated(bare_stack: Make, integrate: Run) -> None:
+def test_constant_flux_heats_both_faces_as_tabulated(bare_stack, integrate):
     front, back = np.array([0.25231, 0.35683, 0.83188, 1.33332]), np.array([0.00027, 0.00789, 0.33479, 0.83333])
     near, far = flux_slab(bare_stack, integrate, CELLS, [0.05, 0.1, 0.5, 1.0])
     assert near == pytest.approx(front, rel=HALF_PERCENT)
@@ -48,7 +48,7 @@ def test_constant_flux_heats_both_faces_as_tabulated(bare_stack: Make, integrate
 
 
 @pytest.mark.parametrize("biot", [0.5, 2.0, 10.0])
-def test_slab_with_convection_warms_through_as_the_series_says(biot: float, bare_stack: Make, integrate: Run) -> None:
+def test_slab_with_convection_warms_through_as_the_series_says(biot, bare_stack, integrate):
     # The insulated face of a slab of L with convection on the other is the mid-plane of one of 2 L.
     fourier = np.array([0.1, 0.2, 0.5, 1.0, 2.0])
     stack = bare_stack(hot_capacity=1e12, hot_contact=biot * 0.2 / 1e-3)
@@ -106,7 +106,7 @@ def front_over_exact(
 
 @pytest.mark.gate
 @pytest.mark.parametrize("stefan", [0.5, *(pytest.param(number, marks=pytest.mark.slow) for number in (0.1, 1.0, 2.0))])
-def test_front_of_one_phase_advances_as_stefan_found(stefan: float, bare_stack: Make, integrate: Run) -> None:
+def test_front_of_one_phase_advances_as_stefan_found(stefan, bare_stack, integrate):
     speed = brentq(lambda x: np.sqrt(np.pi) * x * np.exp(x**2) * erf(x) - stefan, 1e-3, 3.0)
     stack = bare_stack(hot_capacity=1e12, melting=ALL_BUT_ISOTHERMAL)
     ratios = {}
@@ -142,9 +142,7 @@ def neumann(solid: float, melt: float, far: float, face: float) -> float:
         (0.2, 0.8, 310.0, 370.0), (0.2, 12.4, 310.0, 370.0), (0.8, 0.2, 326.0, 370.0),
     ],
 )  # fmt: skip
-def test_front_between_two_phases_advances_as_neumann_found(
-    solid: float, melt: float, far: float, face: float, bare_stack: Make, integrate: Run
-) -> None:
+def test_front_between_two_phases_advances_as_neumann_found(solid, melt, far, face, bare_stack, integrate):
     # Solid below its melting point, in a layer four times as deep that the heat does not get through; cells as deep
     # as the default in a millimetre. Its first cells warm up in one piece, which puts the front behind while it is some
     # cells deep, with phases that conduct alike as well.
@@ -159,7 +157,7 @@ def test_front_between_two_phases_advances_as_neumann_found(
     assert ratio.time == pytest.approx(1.0, abs=2.0 * HALF_PERCENT)
 
 
-def test_two_bodies_that_touch_meet_by_their_effusivities(bare_stack: Make, integrate: Run) -> None:
+def test_two_bodies_that_touch_meet_by_their_effusivities(bare_stack, integrate):
     # Aluminium at 100 degC on polycaprolactone at 22 degC. Once the heat is some cells deep, and not yet through.
     stack = bare_stack(
         conductivity_solid=0.225, conductivity_melt=0.225, hot_contact=1e-12, plate_contact=1e12, plate_thickness=60e-3,
@@ -180,7 +178,7 @@ def flux_slab_series(fourier: float, depth: float) -> float:
     return float(fourier + (3.0 * depth**2 - 1.0) / 6.0 - 2.0 / np.pi**2 * np.sum(terms))
 
 
-def test_error_falls_with_the_square_of_the_cell(bare_stack: Make, integrate: Run) -> None:
+def test_error_falls_with_the_square_of_the_cell(bare_stack, integrate):
     exact = np.array([flux_slab_series(0.2, 1.0), flux_slab_series(0.2, 0.0)])
     errors = []
     for cells in (8, 16, 32):
@@ -190,7 +188,7 @@ def test_error_falls_with_the_square_of_the_cell(bare_stack: Make, integrate: Ru
     assert orders == pytest.approx(2.0, abs=0.15)
 
 
-def test_part_molten_layer_conducts_between_solid_and_melt(bare_stack: Make) -> None:
+def test_part_molten_layer_conducts_between_solid_and_melt(bare_stack):
     stack = bare_stack(melting=polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0), conductivity_melt=0.1)
     for celsius, conductivity in ((22.0, 0.2), (57.5, 0.15), (100.0, 0.1)):
         state = heat.initial_state(stack, 2, 273.15 + celsius)
@@ -200,14 +198,14 @@ def test_part_molten_layer_conducts_between_solid_and_melt(bare_stack: Make) -> 
         assert seen.through_layer[1] == pytest.approx(conductivity * 1e-3 * gradient, rel=2e-3)
 
 
-def test_a_switched_off_stack_at_ambient_temperature_stays_as_it_is(bare_stack: Make) -> None:
+def test_a_switched_off_stack_at_ambient_temperature_stays_as_it_is(bare_stack):
     warm = lumps.Surface(1e-3, 10.0, 0.9)
     stack = bare_stack(hot_contact=1e4, plate_contact=1e4, plate_surface=warm, cold_surface=warm)
     state = heat.initial_state(stack, 10, COLD)
     assert np.max(np.abs(heat.rates(state, stack, 0.0))) < 1e-12
 
 
-def test_a_wall_at_rest_has_the_drops_of_its_resistances(bare_stack: Make, integrate: Run) -> None:
+def test_a_wall_at_rest_has_the_drops_of_its_resistances(bare_stack, integrate):
     # 2 W (half of I^2 R) through 1000 mm^2: a drop is the flux over k/L, or over the coefficient of a joint or surface.
     stack = bare_stack(
         hot_contact=4000.0, plate_contact=500.0, plate_conductivity=0.8, plate_thickness=3e-3, plate_cells=3,

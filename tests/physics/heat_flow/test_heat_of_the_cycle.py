@@ -1,6 +1,5 @@
 """Heating and freezing again: first law with a sink and radiation, the handover, and cooling against solved cases."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -77,7 +76,7 @@ def heated() -> tuple[Array, float, float]:
 
 
 @pytest.mark.gate
-def test_heat_is_kept_to_a_millionth_from_heating_to_freezing(heated: tuple[Array, float, float]) -> None:
+def test_heat_is_kept_to_a_millionth_from_heating_to_freezing(heated):
     melting, freezing = cycle_stack(), cycle_stack(freezing=FREEZING)
     state, supplied, lost = heated
     molten = heat.profile(state, melting).fractions
@@ -91,7 +90,7 @@ def test_heat_is_kept_to_a_millionth_from_heating_to_freezing(heated: tuple[Arra
 
 
 @pytest.mark.gate
-def test_no_heat_is_lost_where_freezing_takes_over(heated: tuple[Array, float, float]) -> None:
+def test_no_heat_is_lost_where_freezing_takes_over(heated):
     melting, freezing = cycle_stack(), cycle_stack(freezing=FREEZING)
     state = heated[0]
     taken_over = heat.with_history(state, freezing)
@@ -104,7 +103,7 @@ def test_no_heat_is_lost_where_freezing_takes_over(heated: tuple[Array, float, f
     assert (after.hot, after.cold) == (before.hot, before.cold)
 
 
-def test_surfaces_and_gaps_radiate_and_conduct() -> None:
+def test_surfaces_and_gaps_radiate_and_conduct():
     # 0.01 m^2 of emissivity 0.9 at 80 degC: 5.670374e-8 * 0.009 * (353.15^4 - 295.15^4) = 4.0648 W, by hand.
     assert lumps.surface_heat(lumps.Surface(0.01, 0.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648, rel=2e-5)
     assert lumps.surface_heat(lumps.Surface(0.01, 10.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648 + 5.8, rel=2e-5)
@@ -121,7 +120,7 @@ def test_surfaces_and_gaps_radiate_and_conduct() -> None:
     assert behind == pytest.approx(1.0 / (1.0 / (0.28 + radiated) + 1.0 / 0.5), rel=1e-12)
 
 
-def test_links_heat_what_they_touch(bare_stack: Callable[..., heat.Stack]) -> None:
+def test_links_heat_what_they_touch(bare_stack):
     # All at ambient but pads at 60, layer at 40 and strip at 80 degC: what the floor gets, by hand.
     floor = lumps.Body(15.0, lumps.NOWHERE)
     links = (*EDGES, lumps.Link(("layer", 0), ("around", 0), 0.01), GAP)
@@ -132,7 +131,7 @@ def test_links_heat_what_they_touch(bare_stack: Callable[..., heat.Stack]) -> No
     assert heat.rates(state, stack, 0.0)[-1] == pytest.approx(gained / 15.0 / 100.0, rel=1e-6)
 
 
-def test_uneven_plates_give_by_their_own_conductance() -> None:
+def test_uneven_plates_give_by_their_own_conductance():
     # Cells at 50, 40 and 30 degC beside a strip at 40 degC: the mean gives nothing, 0.1 W/K/3 times 10 K leave the
     # first cell and come into the last.
     even = cycle_stack(uneven_conductance=0.0, links=())
@@ -146,7 +145,7 @@ def test_uneven_plates_give_by_their_own_conductance() -> None:
     assert np.delete(change, [6, 7, 8]) == pytest.approx(0.0, abs=1e-15)
 
 
-def test_a_radiating_plate_cools_as_its_face_at_the_surface_does() -> None:
+def test_a_radiating_plate_cools_as_its_face_at_the_surface_does():
     # The model radiates at the temperature of the outermost cell; the face's own, from its balance, is what is right.
     stack = cycle_stack(plate_cells=8)
     state = heat.initial_state(stack, 4, 273.15 + 45.0)
@@ -157,9 +156,7 @@ def test_a_radiating_plate_cools_as_its_face_at_the_surface_does() -> None:
     assert heat.profile(state, stack).through_plate[-1] == pytest.approx(AREA * flux(5.0, 0.9, face), rel=2e-3)
 
 
-def test_cold_side_and_sink_warm_as_two_lumps_do(
-    bare_stack: Callable[..., heat.Stack], integrate: Callable[..., Any]
-) -> None:
+def test_cold_side_and_sink_warm_as_two_lumps_do(bare_stack, integrate):
     # At 2 A half of I^2 R = 4 W warms the cold side: C1 T1' = 2 - G (T1 - T2), C2 T2' = G (T1 - T2) - h A (T2 - Ta).
     sink = lumps.Lump(0.5, 30.0, lumps.Surface(15e-3, 10.0))
     stack = bare_stack(cold_capacity=4.0, cold_surface=lumps.Surface(1.0, 1e3), hot_capacity=1e9, sink=sink)
@@ -173,9 +170,7 @@ def test_cold_side_and_sink_warm_as_two_lumps_do(
 
 
 @pytest.mark.parametrize("current", [0.3, 0.8, 1.6])
-def test_reversed_current_cools_to_the_balance_of_the_peltier_equations(
-    bare_stack: Callable[..., heat.Stack], integrate: Callable[..., Any], current: float
-) -> None:
+def test_reversed_current_cools_to_the_balance_of_the_peltier_equations(bare_stack, integrate, current):
     # Layer and hot side are insulated, Q_h = 0; the cold side gives -Q_c = h A (T_c - T_a): two linear equations.
     seebeck, ohms, leak, loss = 0.025, 3.0, 0.12, 0.3
     stack = bare_stack(

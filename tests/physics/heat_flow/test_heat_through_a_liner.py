@@ -29,9 +29,7 @@ def lined(make: Make, sheet: tuple[float, float, float], **kwargs: Any) -> heat.
 
 
 @pytest.mark.parametrize("thickness", [0.5e-3, 1e-3, 2e-3])
-def test_heating_through_a_liner_follows_a_wall_of_three_sheets(
-    bare_stack: Make, integrate: Run, thickness: float
-) -> None:
+def test_heating_through_a_liner_follows_a_wall_of_three_sheets(bare_stack, integrate, thickness):
     sheet, plate = (thickness, 0.29, 1300.0 * 1200.0), (3e-3, 167.0, 2700.0 * 896.0)
     stack = lined(
         bare_stack, sheet, hot_contact=1e7, plate_contact=1e7, plate_conductivity=plate[1],
@@ -74,7 +72,7 @@ def wall(
     return list(far), list(behind)
 
 
-def test_what_heats_the_stack_is_stored_in_it(bare_stack: Make) -> None:
+def test_what_heats_the_stack_is_stored_in_it(bare_stack):
     stack = lined(bare_stack, (1e-3, 0.29, 1.56e6), hot_contact=4000.0, plate_contact=500.0,
                   hot_capacity=50.0, cold_capacity=50.0)  # fmt: skip
     state = heat.initial_state(stack, 5, COLD) + np.linspace(0.5, 0.0, 2 + 5 + stack.plate_cells + 3)
@@ -84,7 +82,7 @@ def test_what_heats_the_stack_is_stored_in_it(bare_stack: Make) -> None:
     assert change / 2e-3 == pytest.approx(-given, abs=1e-6 * abs(heat.profile(state, stack).through_layer[0]))
 
 
-def test_what_a_liner_gives_sideways_leaves_its_cells_as_each_is_warm(bare_stack: Make) -> None:
+def test_what_a_liner_gives_sideways_leaves_its_cells_as_each_is_warm(bare_stack):
     side = lumps.Link(("liner", 0), ("ambient", 0), 0.3)
     stack = lined(bare_stack, (1e-3, 0.29, 1.56e6))
     state = heat.initial_state(stack, 5, COLD)
@@ -96,7 +94,7 @@ def test_what_a_liner_gives_sideways_leaves_its_cells_as_each_is_warm(bare_stack
     assert less[:-3] == pytest.approx(0.0, abs=1e-12)
 
 
-def test_a_spreader_stores_what_comes_from_the_pads_less_what_it_gives_on(bare_stack: Make) -> None:
+def test_a_spreader_stores_what_comes_from_the_pads_less_what_it_gives_on(bare_stack):
     away, body = lumps.Link(("spreader", 0), ("ambient", 0), 0.5), lumps.Lump(50.0, 8.0, lumps.NOWHERE)
     stack = bare_stack(hot_contact=1.0 / (0.02 * AREA), spreader=body, links=(away,))
     state = heat.initial_state(stack, 5, COLD)
@@ -154,9 +152,7 @@ def balanced(stack: BehindPolymer) -> Any:
 
 @pytest.mark.parametrize("uneven", [None, 0.3])
 @pytest.mark.parametrize("conductivity", [0.24, 167.0])
-def test_plate_rim_and_core_have_the_temperatures_of_a_steady_balance(
-    conductivity: float, uneven: float | None
-) -> None:
+def test_plate_rim_and_core_have_the_temperatures_of_a_steady_balance(conductivity, uneven):
     stack = behind(conductivity)
     if uneven is not None:
         stack = stack._replace(uneven_conductance=uneven * stack.beside[0].conductance)
@@ -168,7 +164,7 @@ def test_plate_rim_and_core_have_the_temperatures_of_a_steady_balance(
 
 
 @pytest.mark.parametrize("conductivity", [0.24, 167.0])
-def test_a_liner_keeps_all_behind_it_cooler_as_a_steady_balance_says(conductivity: float) -> None:
+def test_a_liner_keeps_all_behind_it_cooler_as_a_steady_balance_says(conductivity):
     stack = behind(conductivity)._replace(liner=Liner(1e-3 / 0.29 / 1.5e-3, 1e-4 / 0.2 / 1.5e-3, 2.3))
     held = held_plate(stack, PLATE_POLYMER)
     plate, lumps = balanced(stack)
@@ -177,7 +173,7 @@ def test_a_liner_keeps_all_behind_it_cooler_as_a_steady_balance_says(conductivit
     assert held.plate[0] < held_plate(behind(conductivity), PLATE_POLYMER).plate[0] - 2.0
 
 
-def test_plastic_cools_down_on_the_way_and_nothing_does_at_ambient() -> None:
+def test_plastic_cools_down_on_the_way_and_nothing_does_at_ambient():
     plastic, metal = held_plate(behind(0.24), PLATE_POLYMER), held_plate(behind(167.0), PLATE_POLYMER)
     assert plastic.plate[0] - plastic.plate[-1] > 10.0
     assert metal.plate[0] - metal.beside[1] < 15.0

@@ -26,7 +26,7 @@ modules = st.builds(
 
 
 @pytest.mark.parametrize("name", SHEETS)
-def test_the_module_reaches_its_rated_difference_at_its_rated_current(name: str) -> None:
+def test_the_module_reaches_its_rated_difference_at_its_rated_current(name):
     # At I_max, dT_max and the sheet's T_h no heat is drawn, and no other current draws any.
     current, voltage, difference, hot = SHEETS[name][0]
     module = textbook.from_data_sheet(current, voltage, difference, hot)
@@ -38,33 +38,27 @@ def test_the_module_reaches_its_rated_difference_at_its_rated_current(name: str)
 
 
 @pytest.mark.parametrize(("name", "watts", "within"), [("qc_17", 3.2, 0.1), ("pc_072", 85.1, 0.1)])
-def test_rated_cooling_follows_from_the_other_ratings(name: str, watts: float, within: float) -> None:
+def test_rated_cooling_follows_from_the_other_ratings(name, watts, within):
     # Q_max of the sheet, at T_c = T_h, which S, R and K do not use.
     sheet = SHEETS[name][0]
     assert peltier.max_cooling_power(textbook.from_data_sheet(*sheet), sheet[3]) == pytest.approx(watts, rel=within)
 
 
 @given(module=modules, cold=kelvins)
-def test_max_cooling_is_the_most_any_current_draws_without_a_difference(
-    module: peltier.PeltierModule, cold: float
-) -> None:
+def test_max_cooling_is_the_most_any_current_draws_without_a_difference(module, cold):
     best = minimize_scalar(lambda i: -peltier.cold_side_heat(module, i, cold, cold), bracket=(0.0, 1.0))
     assert peltier.max_cooling_power(module, cold) == pytest.approx(-best.fun, rel=1e-6)
 
 
 @given(module=modules, current=st.floats(-5.0, 5.0), hot=kelvins, cold=kelvins)
-def test_electrical_power_is_the_difference_of_the_heats(
-    module: peltier.PeltierModule, current: float, hot: float, cold: float
-) -> None:
+def test_electrical_power_is_the_difference_of_the_heats(module, current, hot, cold):
     heat = peltier.hot_side_heat(module, current, hot, cold) - peltier.cold_side_heat(module, current, hot, cold)
     power = peltier.voltage(module, current, hot, cold) * current
     assert heat == pytest.approx(power, rel=1e-9, abs=1e-9)
 
 
 @given(module=modules, hot=st.floats(300.0, 400.0), difference=st.floats(1.0, 30.0))
-def test_best_coefficient_of_performance_is_the_textbooks(
-    module: peltier.PeltierModule, hot: float, difference: float
-) -> None:
+def test_best_coefficient_of_performance_is_the_textbooks(module, hot, difference):
     # Rowe (ed.), CRC Handbook of Thermoelectrics: T_c/(T_h - T_c) (m - T_h/T_c)/(m + 1), m = sqrt(1 + Z T_mean),
     # at the current S dT/(R (m - 1)).
     cold = hot - difference
@@ -76,7 +70,7 @@ def test_best_coefficient_of_performance_is_the_textbooks(
     assert performance == pytest.approx(cold / difference * (m - hot / cold) / (m + 1.0), rel=1e-6, abs=1e-6)
 
 
-def test_heat_goes_with_the_current_and_back_without() -> None:
+def test_heat_goes_with_the_current_and_back_without():
     module = peltier.PeltierModule(0.05, 2.0, 0.5)
     assert peltier.hot_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 + 1.0)
     assert peltier.cold_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 - 1.0)
@@ -90,9 +84,7 @@ def test_heat_goes_with_the_current_and_back_without() -> None:
 
 
 @given(kelvins, kelvins, st.floats(0.0, 5.0), st.floats(0.1, 100.0), st.floats(0.01, 2.0))
-def test_a_foil_heats_whichever_way_its_current_flows(
-    hot: float, cold: float, current: float, resistance: float, conductance: float
-) -> None:
+def test_a_foil_heats_whichever_way_its_current_flows(hot, cold, current, resistance, conductance):
     foil = peltier.PeltierModule(0.0, resistance, conductance)
     both = [peltier.hot_side_heat(foil, sign * current, hot, cold) for sign in (1.0, -1.0)]
     assert both[0] == both[1]
@@ -100,7 +92,7 @@ def test_a_foil_heats_whichever_way_its_current_flows(
     assert given_off == pytest.approx(current**2 * resistance, rel=1e-9, abs=1e-9)
 
 
-def test_an_insulated_foil_is_hotter_by_half_its_way() -> None:
+def test_an_insulated_foil_is_hotter_by_half_its_way():
     # A wire in the middle of 1.6 mm of silicone, 8 kW/m2 all to one side: q t/(2 k) = 91 K over the half it passes.
     flux, thickness, conductivity, area = 8e3, 1.6e-3, 0.07, 1.6e-3
     foil = peltier.PeltierModule(0.0, 45.0, conductivity * area / thickness)
@@ -109,7 +101,7 @@ def test_an_insulated_foil_is_hotter_by_half_its_way() -> None:
     assert outer - 350.0 == pytest.approx(0.5 * flux * thickness / conductivity, rel=1e-9)
 
 
-def test_evenly_heated_legs_follow_the_heat_equation() -> None:
+def test_evenly_heated_legs_follow_the_heat_equation():
     # k A T'' = -I^2 R/L between two ends, solved by finite differences; 2 A through 3 ohm, 0.5 W/K from end to end.
     hot, cold, count = 390.0, 310.0, 400
     step = 1.0 / count
@@ -126,7 +118,7 @@ def test_evenly_heated_legs_follow_the_heat_equation() -> None:
 
 
 @pytest.mark.parametrize("conductance", [20.0, 200.0])
-def test_spreading_is_what_a_fins_efficiency_leaves_out(conductance: float) -> None:
+def test_spreading_is_what_a_fins_efficiency_leaves_out(conductance):
     # Half of a plate is fed, half is a fin of 2 mm that gives heat to a layer: tanh(m w)/(m w) (Incropera, ch. 3).
     k, thickness, width = 167.0, 1e-3, 2e-3
     mw = width * np.sqrt(conductance / (k * thickness))
@@ -151,7 +143,7 @@ def in_two_dimensions(fed: float, beside: float, thickness: float, k: float, acr
 
 
 @pytest.mark.parametrize("beside", [8e-3, 4e-3, 2e-3])
-def test_a_plate_in_two_dimensions_falls_as_far(beside: float) -> None:
+def test_a_plate_in_two_dimensions_falls_as_far(beside):
     # What the plate adds across its thickness, t/k, is counted apart (`contact_resistance`).
     fed, thickness, k = 4e-3, 0.8e-3, 167.0
     resistance = peltier.spreading_resistance(fed + beside, fed, 1.0, k, thickness)
@@ -159,7 +151,7 @@ def test_a_plate_in_two_dimensions_falls_as_far(beside: float) -> None:
     assert resistance + through == pytest.approx(in_two_dimensions(fed, beside, thickness, k), rel=0.05)
 
 
-def test_a_plate_that_is_fed_evenly_spreads_nothing() -> None:
+def test_a_plate_that_is_fed_evenly_spreads_nothing():
     assert peltier.spreading_resistance(1e-3, 1e-3, 0.1, 167.0, 1e-3) == 0.0
 
 
@@ -202,7 +194,7 @@ def stored_energy(stack: heat.Stack, seconds: float, steps: int = 800) -> float:
 
 
 @pytest.mark.parametrize(("over", "within"), [(0.1, 0.09), (0.3, 0.04), (1.0, 1e-3)])
-def test_legs_keep_the_heat_of_a_slab_that_is_heated_evenly(over: float, within: float) -> None:
+def test_legs_keep_the_heat_of_a_slab_that_is_heated_evenly(over, within):
     seconds = over * CAPACITY / SLAB.conductance
     whole = CAPACITY * POWER / (12.0 * SLAB.conductance)
     assert stored_energy(between(), seconds) == pytest.approx(CAPACITY * mean_above(seconds), abs=within * whole)
@@ -214,7 +206,7 @@ def state_of(cold: float, hot: float, middle: float) -> np.ndarray:
     return state
 
 
-def test_settled_legs_give_half_of_the_current_s_heat_to_either_side() -> None:
+def test_settled_legs_give_half_of_the_current_s_heat_to_either_side():
     middle = peltier.settled_middle(SLAB, CURRENT, 350.0, 310.0)
     state, joined = state_of(310.0, 350.0, middle), between(1e6)
     rates = 100.0 * heat.rates(state, joined, CURRENT)
@@ -224,7 +216,7 @@ def test_settled_legs_give_half_of_the_current_s_heat_to_either_side() -> None:
     assert rates[:2] * sides == pytest.approx([0.5 * POWER + through, 0.5 * POWER - through], rel=1e-9)
 
 
-def test_legs_between_sides_that_warm_up_take_what_the_heat_equation_says() -> None:
+def test_legs_between_sides_that_warm_up_take_what_the_heat_equation_says():
     # T = a t x/L + a C/(6 K) (x^3/L^3 - x/L): the warm side gives K a t + C a/3 to the slab, the other takes
     # K a t - C a/6 from it.
     rate, seconds = 0.5, 100.0
@@ -237,7 +229,7 @@ def test_legs_between_sides_that_warm_up_take_what_the_heat_equation_says() -> N
     assert sides == pytest.approx([through + CAPACITY * rate / 3.0, through - CAPACITY * rate / 6.0], rel=1e-9)
 
 
-def test_what_the_legs_lose_evenly_comes_from_either_end_and_the_middle() -> None:
+def test_what_the_legs_lose_evenly_comes_from_either_end_and_the_middle():
     link = lumps.Link(("legs", 0), ("around", 0), 0.3)
     body = lumps.Body(FIXED, lumps.NOWHERE)
     lossy, tight = (between(50.0)._replace(around=(body,), links=links) for links in ((link,), ()))
@@ -249,7 +241,7 @@ def test_what_the_legs_lose_evenly_comes_from_either_end_and_the_middle() -> Non
     assert less[[0, 1, -1]] == pytest.approx([lost / 6.0 / sides, lost / 6.0 / sides, lost / CAPACITY], rel=1e-9)
 
 
-def test_heat_that_the_current_makes_is_stored() -> None:
+def test_heat_that_the_current_makes_is_stored():
     stack = between(5.0)
     state = state_of(320.0, 380.0, 360.0)
     rates, step = heat.rates(state, stack, CURRENT), 1e-3
@@ -257,7 +249,7 @@ def test_heat_that_the_current_makes_is_stored() -> None:
     assert (ends[1] - ends[0]) / (2.0 * step) == pytest.approx(POWER, rel=1e-6)
 
 
-def test_halves_of_the_legs_are_as_warm_as_their_parabola() -> None:
+def test_halves_of_the_legs_are_as_warm_as_their_parabola():
     hot, middle, cold = 380.0, 352.0, 300.0
     way = (np.arange(4000) + 0.5) / 4000
     parabola = hot + way * (4.0 * middle - 3.0 * hot - cold) + way**2 * (2.0 * hot + 2.0 * cold - 4.0 * middle)

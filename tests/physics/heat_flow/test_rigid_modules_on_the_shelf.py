@@ -41,7 +41,7 @@ def largest_difference(module: peltier.PeltierModule, hot: float) -> float:
     return float(hot - optimum.fun)
 
 
-def test_a_fifth_of_the_values_of_sheets_are_assumed() -> None:
+def test_a_fifth_of_the_values_of_sheets_are_assumed():
     assert len(RIGID) >= 32
     without_sheet = {"qc_17", "flexible_1600", "polyimide_foil_12v", "polyimide_foil_24v", "comb_electrodes"}
     with_sheet = [CATALOG.record("peltiers", n) for n in CATALOG.names("peltiers") if n not in without_sheet]
@@ -57,7 +57,7 @@ def test_a_fifth_of_the_values_of_sheets_are_assumed() -> None:
         assert of.count("assumed") <= 0.32 * len(of), record.name
 
 
-def test_of_what_a_shipped_study_takes_at_most_a_fifth_is_assumed() -> None:
+def test_of_what_a_shipped_study_takes_at_most_a_fifth_is_assumed():
     names = {str(read_study(path).module.get("peltier_module")) for path in STUDIES} & set(RIGID)
     assert "ma10_063_05_1" in names
     for name in names:
@@ -65,7 +65,7 @@ def test_of_what_a_shipped_study_takes_at_most_a_fifth_is_assumed() -> None:
         assert statuses.count("assumed") <= 0.2 * len(statuses), name
 
 
-def test_constants_follow_from_the_ratings() -> None:
+def test_constants_follow_from_the_ratings():
     def check(name: str) -> None:
         record = CATALOG.record("peltiers", name)
         expected = textbook.from_data_sheet(*(record.value(field) for field in RATINGS))
@@ -74,7 +74,7 @@ def test_constants_follow_from_the_ratings() -> None:
     of_every(RIGID, check)
 
 
-def test_resistance_is_that_of_the_bridge_within_a_tenth() -> None:
+def test_resistance_is_that_of_the_bridge_within_a_tenth():
     def check(name: str) -> None:
         record = CATALOG.record("peltiers", name)
         assert record.value("resistance") == pytest.approx(record.value("ac_resistance"), rel=0.1)
@@ -91,7 +91,7 @@ CONTRADICT = {
 """Modules whose sheets say less cooling than their other ratings make: their records say so."""
 
 
-def test_cooling_power_is_that_of_the_sheet_within_a_tenth() -> None:
+def test_cooling_power_is_that_of_the_sheet_within_a_tenth():
     def check(name: str) -> None:
         record = CATALOG.record("peltiers", name)
         power = peltier.max_cooling_power(module_of(record), record.value("hot_side_temperature"))
@@ -120,12 +120,12 @@ def test_cooling_power_is_that_of_the_sheet_within_a_tenth() -> None:
         ("tec1_12715", 323.15, 79.0),
     ],
 )
-def test_a_warmer_hot_side_raises_the_difference_as_the_sheet_says(name: str, hot: float, difference: float) -> None:
+def test_a_warmer_hot_side_raises_the_difference_as_the_sheet_says(name, hot, difference):
     module = module_of(CATALOG.record("peltiers", name))
     assert largest_difference(module, hot) == pytest.approx(difference, abs=4.0)
 
 
-def test_the_second_rating_agrees_with_the_first() -> None:
+def test_the_second_rating_agrees_with_the_first():
     def check(name: str) -> None:
         value = CATALOG.record("peltiers", name).value
         module, warm = module_of(CATALOG.record("peltiers", name)), value("warm_side_temperature")
@@ -140,7 +140,7 @@ def test_the_second_rating_agrees_with_the_first() -> None:
     of_every(twice, check)
 
 
-def test_a_plate_is_as_large_as_its_sides_say() -> None:
+def test_a_plate_is_as_large_as_its_sides_say():
     def check(name: str) -> None:
         value, entries = CATALOG.record("peltiers", name).value, CATALOG.record("peltiers", name).entries
         # A hot side with a porch for the wires is longer than the cold side; one record has its hot side's area.
@@ -200,7 +200,7 @@ def face_times(stack: heat.Stack, current: float = 1.5, cells: int = 12) -> tupl
     return float(solved.t_events[0][0]), float(solved.t_events[1][0])
 
 
-def test_stored_energy_is_mass_times_specific_heat_times_warming() -> None:
+def test_stored_energy_is_mass_times_specific_heat_times_warming():
     stack = stack_of(FLEXIBLE, 2.5, cold_capacity=4.0)
     layer = 1145.0 * AREA * 1e-3 * (231.65e3)  # 22 to 100 degC: 51.8 + 106.375 + 73.5 kJ/kg
     others = (4.0 + 2.5 + 1270.0 * 1200.0 * AREA * 4e-3) * 78.0
@@ -219,9 +219,7 @@ def test_stored_energy_is_mass_times_specific_heat_times_warming() -> None:
     ],
     ids=["1 mm", "2 mm", "1 mm under 2 mm of aluminium", "four QC-17", "12706"],
 )
-def test_response_times_come_near_an_independent_calculation(
-    module: peltier.PeltierModule, side_capacity: float, changes: dict[str, Any], near: float, far: float
-) -> None:
+def test_response_times_come_near_an_independent_calculation(module, side_capacity, changes, near, far):
     # Another model of these stacks, cold side in free air (15 W/m^2 K), PETG behind the layer. It is met where the PETG
     # stores no heat and takes 3 W/m^2 K, and a side of the pads holds 2.9 J/K, which that model left out. The
     # 3.9 and 8.6 J/K are 930 and 820 J/kg K in half of the rigid modules' 8.4 and 21 g, near alumina's 880.
@@ -248,15 +246,13 @@ def power_for_70_seconds(thickness: float, behind: str) -> float:
 @pytest.mark.parametrize(
     ("thickness", "behind", "watts"), [(1e-3, "insulated", 5.9), (2e-3, "insulated", 13.0), (1e-3, "aluminium", 15.9)]
 )
-def test_power_for_70_seconds_is_about_that_of_an_independent_calculation(
-    thickness: float, behind: str, watts: float
-) -> None:
+def test_power_for_70_seconds_is_about_that_of_an_independent_calculation(thickness, behind, watts):
     # The properties of that calculation are within the published ranges but assumed: its heat is 5 % less than that
     # of the middle of the ranges. Its aluminium is 2 mm thick.
     assert power_for_70_seconds(thickness, behind) == pytest.approx(watts, rel=0.07)
 
 
 @pytest.mark.parametrize(("thickness", "thicker"), [(1e-3, 1.95e-3), (2e-3, 3.63e-3)])
-def test_twice_the_time_takes_nearly_twice_the_layer(thickness: float, thicker: float) -> None:
+def test_twice_the_time_takes_nearly_twice_the_layer(thickness, thicker):
     # The paper's 140 s against 70 s, by the same independent calculation: a question of depth alone.
     assert far_time(power_for_70_seconds(thickness, "insulated"), thicker) == pytest.approx(140.0, rel=0.02)

@@ -43,7 +43,7 @@ def heights() -> NDArray[np.float64]:
 
 
 @pytest.mark.parametrize("free", [0.1, 0.25, 0.5])
-def test_the_wall_takes_what_conduction_in_two_dimensions_says(free: float) -> None:
+def test_the_wall_takes_what_conduction_in_two_dimensions_says(free):
     rises, ours = walled_layer(free), layer_end.walled_end(free)
     assert ours.near == pytest.approx(np.sum(2.0 * (1.0 - rises[:, 0])) - LONG, rel=0.02)
     into = 2.0 * rises[0, heights() > free]
@@ -56,14 +56,14 @@ def test_the_wall_takes_what_conduction_in_two_dimensions_says(free: float) -> N
 
 
 @pytest.mark.parametrize(("free", "contact"), [(0.1, 0.02), (0.2, 0.02), (0.1, 0.04)])
-def test_contacts_are_more_free_height_as_in_two_dimensions(free: float, contact: float) -> None:
+def test_contacts_are_more_free_height_as_in_two_dimensions(free, contact):
     into = walled_layer(free, contact)[0, heights() > free] / (0.5 + contact * ACROSS)
     ours = layer_end.walled_end((free + 2.0 * AT_CORNER * contact) / (1.0 + 2.0 * contact))
     assert ours.wall == pytest.approx(np.sum(into), rel=0.025)
 
 
 @pytest.mark.parametrize(("free", "layer"), [(0.1, 0.4), (0.2, 0.5), (0.15, 0.25)])
-def test_layer_and_sheet_give_the_wall_as_in_two_dimensions(free: float, layer: float) -> None:
+def test_layer_and_sheet_give_the_wall_as_in_two_dimensions(free, layer):
     rises, ours = walled_layer(free), layer_end.sheeted_end(free, layer)
     own, above = heights() < layer, heights() > layer
     assert ours.wall == pytest.approx(np.sum(2.0 * rises[0, own & (heights() > free)]), rel=0.03)
@@ -75,14 +75,14 @@ def test_layer_and_sheet_give_the_wall_as_in_two_dimensions(free: float, layer: 
 
 
 @pytest.mark.parametrize("layer", [0.25, 0.5])
-def test_a_sheet_alone_gives_the_wall_as_in_two_dimensions(layer: float) -> None:
+def test_a_sheet_alone_gives_the_wall_as_in_two_dimensions(layer):
     rises, ours = walled_layer(layer), layer_end.sheet_end(layer)
     assert ours.rim == pytest.approx(np.sum(2.0 * rises[0, heights() > layer]), rel=0.015)
     missed = (1.0 - heights() - rises)[:, heights() > layer] / ACROSS**2
     assert ours.sheet_colder == pytest.approx(np.sum(missed) / (1.0 - layer), rel=0.08)
 
 
-def test_a_layer_below_a_sheet_is_as_cold_in_the_mean() -> None:
+def test_a_layer_below_a_sheet_is_as_cold_in_the_mean():
     layer = 0.4
     ours = layer_end.sheeted_end(0.1, layer)
     height = (np.arange(4000) + 0.5) / 4000
@@ -93,7 +93,7 @@ def test_a_layer_below_a_sheet_is_as_cold_in_the_mean() -> None:
     assert by_slices + from_sheet == pytest.approx(ours.colder * (2.0 - layer), rel=1e-3)
 
 
-def test_heat_from_the_free_end_cools_as_in_two_dimensions() -> None:
+def test_heat_from_the_free_end_cools_as_in_two_dimensions():
     free = 0.15
     rises = -walled_layer(free, lost=1.0)
     # What leaves rises with the height, as in sin a near the corner; the near face gives half of it.
@@ -134,9 +134,7 @@ def melting(cells: Array, pads: float) -> Any:
 
 
 @given(case=lips())
-def test_temperatures_that_leave_no_residual_are_those_of_the_closed_form(
-    case: tuple[layer_end.Lip, Array, dict[Place, float]],
-) -> None:
+def test_temperatures_that_leave_no_residual_are_those_of_the_closed_form(case):
     lip, cells, places = case
     conducting = melting(cells, places["spreader", 0])
     closed = layer_end.warm_lip(lip, cells, places.__getitem__, conducting)
@@ -166,9 +164,7 @@ def _through_arms(lip: layer_end.Lip, warm: Any, places: dict[Place, float]) -> 
 
 
 @given(case=lips(), off=st.tuples(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0)))
-def test_residuals_say_how_far_given_temperatures_are_off(
-    case: tuple[layer_end.Lip, Array, dict[Place, float]], off: tuple[float, float]
-) -> None:
+def test_residuals_say_how_far_given_temperatures_are_off(case, off):
     lip, cells, places = case
     alike = layer_end.warm_lip(lip, cells, places.__getitem__, lambda _: (np.ones(len(cells)), 1.0)).temperature
     closed = layer_end.warm_lip(lip, cells, places.__getitem__, melting(cells, places["spreader", 0])).temperature
@@ -197,7 +193,7 @@ def passed(conductivities: Conductivities, low: float, high: float) -> float:
 
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
 @pytest.mark.parametrize(("place", "wall"), [(365.0, 305.0), (350.0, 318.0), (330.0, 300.0)])
-def test_two_conductivities_share_the_potential(share: float, place: float, wall: float) -> None:
+def test_two_conductivities_share_the_potential(share, place, wall):
     both = Conductivities(0.20, 0.16)  # about PCL's
     whole = passed(both, wall, place)
     exact = brentq(lambda middle: passed(both, wall, middle) - share * whole, wall, place)
@@ -218,7 +214,7 @@ def framed(shape: tuple[int, int], inside: float = np.nan) -> tuple[NDArray[np.b
 
 
 @pytest.mark.parametrize("width", [0.5, 1.0, 2.0])
-def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width: float) -> None:
+def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width):
     slot, gap = 4 / N, 4
     # The ceiling, at one, ends before the wall; above the slot its own edge is as warm as it is. The tile's side falls
     # evenly; floor and wall are at nothing.
@@ -239,7 +235,7 @@ def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width:
 
 
 @pytest.mark.parametrize("slot", [0.25, 0.5, 1.0, 1.75])
-def test_a_clearance_gives_lip_and_floor_as_in_two_dimensions(slot: float) -> None:
+def test_a_clearance_gives_lip_and_floor_as_in_two_dimensions(slot):
     n = 24
     gap, deep, long = int(slot * n), 4 * int(max(slot, 1.0) * n), 5 * n
     inside, fixed = framed((gap + long, deep + n), 0.0)
@@ -267,7 +263,7 @@ def heated_strip(sources: Array) -> Array:
 
 
 @pytest.mark.parametrize("slenderness", [0.5, 0.8, 2.0])
-def test_a_ledge_s_lower_face_is_colder_as_in_two_dimensions(slenderness: float) -> None:
+def test_a_ledge_s_lower_face_is_colder_as_in_two_dimensions(slenderness):
     wide = int(slenderness * N)
     sources = np.zeros((wide + 3 * N, N))
     sources[:wide, -1] = 1.0 / wide
@@ -279,7 +275,7 @@ def test_a_ledge_s_lower_face_is_colder_as_in_two_dimensions(slenderness: float)
 
 
 @pytest.mark.parametrize(("begin", "width"), [(0.0, 0.3), (0.3, 0.7)])
-def test_a_lip_s_lower_face_is_warmer_as_in_two_dimensions(begin: float, width: float) -> None:
+def test_a_lip_s_lower_face_is_warmer_as_in_two_dimensions(begin, width):
     share = 1.0 / 3.0
     sources = np.zeros((3 * N, N))
     sources[0, : N // 3] = 3.0 / N

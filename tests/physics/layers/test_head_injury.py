@@ -28,17 +28,17 @@ def _exact(pulse: float) -> float:
 
 @pytest.mark.parametrize(("steps", "error"), [(16, 0.02), (72, 0.02), (500, 0.002)])
 @pytest.mark.parametrize("pulse", [0.004, 0.015, 0.04])
-def test_head_injury_is_the_worst_window_of_a_half_sine(pulse: float, steps: int, error: float) -> None:
+def test_head_injury_is_the_worst_window_of_a_half_sine(pulse, steps, error):
     step = pulse / steps
     forces = [PEAK * np.sin(np.pi * i / steps) for i in range(1, steps + 1)] + [0.0] * steps
     assert head_injury(forces, MASS, step) == pytest.approx(_exact(pulse), rel=error)
 
 
-def test_head_injury_of_a_constant_push_lasts_15_ms() -> None:
+def test_head_injury_of_a_constant_push_lasts_15_ms():
     step, multiple = 0.0005, 50.0
     forces = [multiple * MASS * GRAVITY] * 60  # 30 ms
     assert head_injury(forces, MASS, step) == pytest.approx(0.015 * multiple**2.5, rel=1e-9)
 
 
-def test_nothing_is_hurt_without_a_force() -> None:
+def test_nothing_is_hurt_without_a_force():
     assert head_injury([0.0] * 5, MASS, 1e-3) == 0.0

@@ -14,34 +14,34 @@ SPAN, INNER, OUTER = 4.0 * 0.8546, 26e-3, 40e-3
 moduli = st.tuples(st.floats(1e2, 1e9), st.floats(1e2, 1e9))
 
 
-def test_two_slices_in_series_as_worked_by_hand() -> None:
+def test_two_slices_in_series_as_worked_by_hand():
     # G1 = 3 + 4i, G2 = 1: the mean of 1/G is ((3 - 4i)/25 + 1)/2 = 0.56 - 0.08i; its inverse 1.75 + 0.25i.
     assert layer.series_modulus(np.array([3.0, 1.0]), np.array([4.0, 0.0])) == pytest.approx((1.75, 0.25), rel=1e-12)
 
 
 @given(slices=st.lists(moduli, min_size=1, max_size=8))
-def test_slices_in_series_add_their_complex_compliances(slices: list[tuple[float, float]]) -> None:
+def test_slices_in_series_add_their_complex_compliances(slices):
     expected = 1.0 / np.mean([1.0 / complex(*pair) for pair in slices])
     storage, loss = layer.series_modulus(*np.array(slices).T)
     assert complex(storage, loss) == pytest.approx(expected, rel=1e-9)
 
 
 @given(branch=moduli, support=st.floats(1e2, 1e9))
-def test_a_branch_behind_a_support_is_the_complex_series(branch: tuple[float, float], support: float) -> None:
+def test_a_branch_behind_a_support_is_the_complex_series(branch, support):
     star = complex(*branch)
     expected = star * support / (star + support)
     assert complex(*layer.series_stiffness(*branch, support)) == pytest.approx(expected, rel=1e-9)
 
 
 @given(slices=st.lists(moduli, min_size=2, max_size=8))
-def test_no_slice_in_series_can_make_the_layer_more_than_its_share_softer(slices: list[tuple[float, float]]) -> None:
+def test_no_slice_in_series_can_make_the_layer_more_than_its_share_softer(slices):
     # The magnitudes: n |G|_min >= |G| since no compliance is negative, and all lie in one quadrant.
     magnitude = abs(complex(*layer.series_modulus(*np.array(slices).T)))
     softest = min(abs(complex(*pair)) for pair in slices)
     assert softest * (1.0 - 1e-9) <= magnitude <= len(slices) * softest * (1.0 + 1e-9)
 
 
-def test_strain_and_torque_of_a_layer_by_hand() -> None:
+def test_strain_and_torque_of_a_layer_by_hand():
     assert layer.shear_strain(50e-3, 0.104, 1e-3) == pytest.approx(5.2, rel=1e-12)
     limit = 2e6
     expected, _ = quad(lambda r: (limit * r / OUTER) * r * SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
@@ -58,7 +58,7 @@ WITHIN = 4e-4
 
 
 @pytest.mark.parametrize("time", [1e-3, 0.3, 4.0, 100.0])
-def test_one_mode_beside_springs_creeps_as_zeners_solid(time: float) -> None:
+def test_one_mode_beside_springs_creeps_as_zeners_solid(time):
     # Findley, ch. 5: springs K_s beside k with a dashpot, retarded with tau (K_s + k)/K_s; the structure rigid.
     k, tau = 300.0, 0.1
     fading = np.exp(-time / (tau * (SPRINGS + k) / SPRINGS))
@@ -87,13 +87,13 @@ def by_radau(modes: Modes, time: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize("time", [1e-3, 0.1, 1.0, 10.0, 1000.0])
 @pytest.mark.parametrize("spectrum", SPECTRA)
-def test_angle_and_set_are_those_of_radau(spectrum: str, time: float) -> None:
+def test_angle_and_set_are_those_of_radau(spectrum, time):
     modes = SPECTRA[spectrum]
     angle, free = by_radau(modes, time)
     assert lasting_load.held(LOAD, time, SPRINGS, STRUCTURE, modes) == pytest.approx((angle, free), rel=WITHIN)
 
 
-def test_a_load_is_shared_by_stiffness_and_sets_as_far_as_spectra_relax() -> None:
+def test_a_load_is_shared_by_stiffness_and_sets_as_far_as_spectra_relax():
     # 450 behind 919 is 302.1 N*m/rad, beside 5.61.
     borne = lasting_load.first_torque(LOAD, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
     assert borne == pytest.approx(0.583 * 302.09 / 307.70, rel=1e-4)
@@ -108,7 +108,7 @@ def test_a_load_is_shared_by_stiffness_and_sets_as_far_as_spectra_relax() -> Non
 
 
 @given(st.floats(-3.0, 5.0), st.floats(0.1, 3.0))
-def test_longer_holds_creep_further_and_never_beyond_the_springs(time: float, more: float) -> None:
+def test_longer_holds_creep_further_and_never_beyond_the_springs(time, more):
     for modes in SPECTRA.values():
         shorter, longer = (lasting_load.held(LOAD, 10.0**t, SPRINGS, STRUCTURE, modes) for t in (time, time + more))
         assert 0.0 <= shorter.set_angle <= longer.set_angle * (1.0 + WITHIN)

@@ -21,7 +21,7 @@ with (ROOT / "validation/fe_structure/windows.csv").open(newline="") as file:
 
 
 @pytest.mark.parametrize("reach", [0.1, 1.0, 4.0])
-def test_the_edge_of_a_lap_of_like_sheets_bears_what_volkersen_says(reach: float) -> None:
+def test_the_edge_of_a_lap_of_like_sheets_bears_what_volkersen_says(reach):
     layer, width = 5e10, 0.012  # Pa/m, m
     sheet = 0.5 * reach**2 / (layer * width**2)
     # Volkersen 1938, sheets alike: highest over mean stress (p/2) coth(p/2).
@@ -30,7 +30,7 @@ def test_the_edge_of_a_lap_of_like_sheets_bears_what_volkersen_says(reach: float
 
 
 @pytest.mark.parametrize(("first", "second"), [(3e-7, 8e-7), (8e-7, 3e-7)])
-def test_the_edge_of_unlike_sheets_solves_its_equation(first: float, second: float) -> None:
+def test_the_edge_of_unlike_sheets_solves_its_equation(first, second):
     layer, width = 5e10, 0.012
 
     def slopes(_: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -45,7 +45,7 @@ def test_the_edge_of_unlike_sheets_solves_its_equation(first: float, second: flo
 
 
 @pytest.mark.parametrize("half", [0.2e-3, 1e-3, 5e-3])
-def test_what_is_borne_over_a_window_agrees_with_its_equation_solved(half: float) -> None:
+def test_what_is_borne_over_a_window_agrees_with_its_equation_solved(half):
     layer, sheet = 1.2e11, 1.0 / (0.1e9 * 1.5e-3)
 
     def slopes(_: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -85,14 +85,14 @@ def lost_width(window: float, fine: int) -> float:
 
 
 @pytest.mark.parametrize("half", [0.5, 1.0, 2.0, 3.5])
-def test_a_pad_beside_a_window_is_held_as_a_harmonic_function_has_it(half: float) -> None:
+def test_a_pad_beside_a_window_is_held_as_a_harmonic_function_has_it(half):
     # The mesh holds up to the last free point, so that its window is half a step narrower: errors fall with the step.
     coarse, fine = (lost_width(half, count) for count in (20, 40))
     share = 1.0 - (2.0 * fine - coarse) / half
     assert shear_lag.held_over_window(1.0, half) == pytest.approx(share, abs=0.004)
 
 
-def test_windows_beside_their_limits() -> None:
+def test_windows_beside_their_limits():
     # The fringe of a strip line of no thickness, 2 ln 2/pi of the distance from its plane to the wall beside it.
     assert 10.0 * shear_lag.held_over_window(1.0, 10.0) == pytest.approx(0.4413, abs=1e-4)
     assert shear_lag.held_over_window(1.0, 0.0) == pytest.approx(1.0, abs=1e-5)
@@ -101,7 +101,7 @@ def test_windows_beside_their_limits() -> None:
 
 
 @pytest.mark.parametrize("row", WINDOWS, ids=lambda row: "-".join(list(row.values())[:3]))
-def test_an_end_of_a_window_is_held_as_strips_in_plane_strain_are(row: dict[str, str]) -> None:
+def test_an_end_of_a_window_is_held_as_strips_in_plane_strain_are(row):
     half, poisson, held = (float(row[name]) for name in ("half_window", "poissons_ratio", "held"))
     fringe = shear_lag.end_fringe(1.0, 2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson)))
     # Of a thickness; one that keeps its volume leans on more of a ledge that is three thicknesses long.
@@ -130,7 +130,7 @@ def traction(held: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 @pytest.mark.parametrize("held", [0.1, 0.44, 1.0, 3.0])
-def test_the_rim_is_that_of_finite_differences(held: float) -> None:
+def test_the_rim_is_that_of_finite_differences(held):
     places, tau = traction(held)
     for reach in (0.25, 0.5, 1.0):
         near = tau[places < reach].mean()
@@ -138,7 +138,7 @@ def test_the_rim_is_that_of_finite_differences(held: float) -> None:
     assert shear_lag.rim_width(held) == pytest.approx((tau - 1.0).sum() / FINE, rel=0.02)
 
 
-def test_at_the_wall_itself_the_sheet_gives_nothing() -> None:
+def test_at_the_wall_itself_the_sheet_gives_nothing():
     for held in (0.2, 1.0):
         assert shear_lag.rim_rise(held, 1e-4) == pytest.approx(1.0 + held, rel=0.02)
         assert shear_lag.rim_rise(held, 100.0) == pytest.approx(1.0 + shear_lag.rim_width(held) / 100.0)
@@ -179,9 +179,7 @@ def agrees(lap: shear_lag.AnnularLap, by_numbers: tuple[float, float, float, flo
 @pytest.mark.parametrize("outer_share", [0.0, 0.16, 0.5, 0.9])
 @pytest.mark.parametrize("reach", [0.5, 1.5, 3.4, 5.0])
 @pytest.mark.parametrize("inner", [15e-3, 21e-3])
-def test_edges_and_sheet_of_a_lap_in_the_round_are_as_its_equation_says(
-    outer_share: float, reach: float, inner: float
-) -> None:
+def test_edges_and_sheet_of_a_lap_in_the_round_are_as_its_equation_says(outer_share, reach, inner):
     outer = 27.5e-3
     lag = reach / (outer - inner)
     lap = shear_lag.annular_lap(lag**2, 1.0 - outer_share, outer_share, (inner, outer))
@@ -189,14 +187,14 @@ def test_edges_and_sheet_of_a_lap_in_the_round_are_as_its_equation_says(
 
 
 @pytest.mark.parametrize("inward", [0.1, 0.5])
-def test_a_lower_sheet_that_hands_torque_on_inward_keeps_less(inward: float) -> None:
+def test_a_lower_sheet_that_hands_torque_on_inward_keeps_less(inward):
     # F'' - 3 F'/r = k (a_below (F - b) - a_above (1 - F)), by numbers: b leaves the lower sheet at the inner edge.
     radii, layer, upper, lower = (15e-3, 27.5e-3), 2.1e11, 1e-8, 7e-8
     lap = shear_lag.annular_lap(layer, upper, lower, radii, inward)
     agrees(lap, solved(np.array([[layer * (upper + lower)]]), np.array([layer * (upper + inward * lower)]), lap))
 
 
-def test_limits_of_an_annular_lap() -> None:
+def test_limits_of_an_annular_lap():
     lap = shear_lag.annular_lap(1e10, 1e-12, 2e-12, (15e-3, 27.5e-3))
     assert shear_lag.edge_rises(lap) == pytest.approx((15.0 / 27.5, 1.0), rel=1e-4)
     # Volkersen's lap joint, of whose load the lower sheet bears 0.7 in the middle.
@@ -218,7 +216,7 @@ def seat(floor: float = 0.85e9) -> plates.Seat:
     return plates.Seat(0.5e-3, 0.9e-3, constriction(0.9 / 6.5), 0.72e9, floor)
 
 
-def test_in_a_stiff_floor_adhesive_is_sheared_as_the_radius() -> None:
+def test_in_a_stiff_floor_adhesive_is_sheared_as_the_radius():
     # Volkersen's layer without stretch: tau = G theta r/g on the areas 2 pi s r t, so T = G theta t s (a^3 + b^3)/g.
     path = plates.path(seat(1e16), AROUND, RADII, 0.0)
     turned = 0.5e-3 / (0.72e9 * 0.9e-3 * AROUND * (RADII[0] ** 3 + RADII[1] ** 3))
@@ -229,7 +227,7 @@ def test_in_a_stiff_floor_adhesive_is_sheared_as_the_radius() -> None:
 
 
 @pytest.mark.parametrize("between", [0.0, 1e-5, 1e-3])
-def test_both_rims_together_bear_the_torque(between: float) -> None:
+def test_both_rims_together_bear_the_torque(between):
     path = plates.path(seat(), AROUND, RADII, between)
     areas = [AROUND * radius * 0.9e-3 for radius in RADII]
     borne = path.inner_traction * areas[0] * RADII[0] + path.outer_traction * areas[1] * RADII[1]
@@ -237,7 +235,7 @@ def test_both_rims_together_bear_the_torque(between: float) -> None:
     assert path.inward == pytest.approx(path.inner_traction * areas[0] * RADII[0], rel=1e-12)
 
 
-def test_the_torque_takes_the_ways_that_give_least() -> None:
+def test_the_torque_takes_the_ways_that_give_least():
     # Castigliano: of all shares the one that is taken stores the least energy.
     between, bonded = 2e-5, seat()
     path = plates.path(bonded, AROUND, RADII, between)

@@ -46,7 +46,7 @@ def largest_turn(arm: float, leaning: bool) -> float:
     return max(-1e-3 * optimum.fun for optimum in optima if np.all(clear(optimum.x) > -1e-6))
 
 
-def test_loose_springs_turn_as_far_as_rigid_ones_can() -> None:
+def test_loose_springs_turn_as_far_as_rigid_ones_can():
     bound = float(contacts.spring_play(TANG, LENGTH, LEVER, POST, LEVELS, ARM))
     turn = largest_turn(ARM, leaning=True)
     assert turn <= bound * (1.0 + 1e-6)
@@ -83,7 +83,7 @@ def slid(p: float, r: float, offset: float, diameter: float) -> float:
 
 
 @pytest.mark.parametrize("ratio", [0.4, 0.5, 0.65])
-def test_a_leg_slides_on_its_pin_as_two_turning_bodies(ratio: float) -> None:
+def test_a_leg_slides_on_its_pin_as_two_turning_bodies(ratio):
     r, offset, diameter = 57e-3, 15.4e-3, 4e-3
     p = ratio * r
     slip = float(pin_slip(p, r, offset, diameter))
@@ -96,7 +96,7 @@ def test_a_leg_slides_on_its_pin_as_two_turning_bodies(ratio: float) -> None:
     assert slip == pytest.approx(from_rotor + ratio_of_leg * from_coil, rel=1e-12)
 
 
-def test_friction_of_screws_rings_and_pegs_and_a_loose_shaft() -> None:
+def test_friction_of_screws_rings_and_pegs_and_a_loose_shaft():
     # Four M3 on 4.9 mm: 1.5 N.m in plastic, 4 in aluminium, by a reading from outside.
     for stress, torque in ((55e6, 1.5), (150e6, 4.0)):
         assert contacts.bolted_torque(0.2, contacts.tightened_force(stress, 3e-3), 4, 4.9e-3) == pytest.approx(
@@ -122,7 +122,7 @@ def test_friction_of_screws_rings_and_pegs_and_a_loose_shaft() -> None:
     assert fasteners.peg_twist_torque(24e6, 1.8e-3, 3.5e-3) == pytest.approx(np.sum(pieces), rel=1e-12)
 
 
-def test_damping_loses_in_a_cycle_what_constant_friction_does() -> None:
+def test_damping_loses_in_a_cycle_what_constant_friction_does():
     omega, amplitude, torque = 2.0 * np.pi, 0.104, 0.05
     damping = contacts.equivalent_damping(torque, omega, amplitude)
     viscous, _ = quad(lambda t: damping * (omega * amplitude * np.cos(omega * t)) ** 2, 0.0, 1.0)
@@ -133,7 +133,7 @@ def test_damping_loses_in_a_cycle_what_constant_friction_does() -> None:
 
 
 @pytest.mark.parametrize("degrees", [0.0, 20.0, 60.0, 90.0])
-def test_friction_that_grows_with_the_load_over_a_cycle(degrees: float) -> None:
+def test_friction_that_grows_with_the_load_over_a_cycle(degrees):
     # K* of 7 N m/rad at that phase, friction a fifth of the load, 3 Hz, 0.1 rad: W by quadrature, b = W/(pi w a^2).
     delta, omega, reach, share, size = np.radians(degrees), 6.0 * np.pi, 0.1, 0.2, 7.0
     phase = np.linspace(0.0, 2.0 * np.pi, 200_001)
@@ -144,7 +144,7 @@ def test_friction_that_grows_with_the_load_over_a_cycle(degrees: float) -> None:
 
 
 @pytest.mark.parametrize(("diameter", "pitch"), [(2.0, 0.4), (3.0, 0.5), (4.0, 0.7), (5.0, 0.8)])
-def test_a_nut_factor_of_a_fifth_is_a_friction_of_fifteen_hundredths(diameter: float, pitch: float) -> None:
+def test_a_nut_factor_of_a_fifth_is_a_friction_of_fifteen_hundredths(diameter, pitch):
     # Shigley, 10th ed., eq. 8-26: thread of 60 degrees on its pitch diameter, and a head that bears at 1.25 d.
     friction, flank = 0.15, 1.0 / np.cos(np.radians(30.0))
     at = diameter - 0.6495 * pitch  # ISO 724
@@ -154,7 +154,7 @@ def test_a_nut_factor_of_a_fifth_is_a_friction_of_fifteen_hundredths(diameter: f
     assert contacts.tightening_torque(1.0, 1e-3 * diameter, 0.2) == pytest.approx(1e-3 * by_parts, rel=0.03)
 
 
-def test_a_wire_wears_a_groove_across_its_pin() -> None:
+def test_a_wire_wears_a_groove_across_its_pin():
     # Archard: 1e-7 mm3/(N m), 20 N over 2 km wear off 0.004 mm3.
     volume = contacts.worn_volume(1e-7 * 1e-9, 20.0, 2000.0)
     assert volume == pytest.approx(0.004e-9)
@@ -173,7 +173,7 @@ angles = st.floats(-1.0, 1.0)
 states = st.lists(angles, min_size=3, max_size=3)
 
 
-def test_modes_and_springs_of_a_layer_by_hand() -> None:
+def test_modes_and_springs_of_a_layer_by_hand():
     # 82513.7 Pa * 1.797e-6 m^4/1 mm = 148.28 N*m/rad, the melt's longest mode in the paper's layer.
     (time, stiffness), *_ = motion.layer_modes([(2.068841e-2, 82513.7)], 1.797e-6, 1e-3)
     assert time == 2.068841e-2
@@ -192,16 +192,14 @@ def test_modes_and_springs_of_a_layer_by_hand() -> None:
 
 
 @given(angles, states)
-def test_structure_and_modes_carry_one_torque(angle: float, internal: list[float]) -> None:
+def test_structure_and_modes_carry_one_torque(angle, internal):
     phi = motion.layer_angle(angle, internal, JOINT, MODES)
     carried = sum(k * (phi - q) for (_, k), q in zip(MODES, internal, strict=True))
     assert motion.branch_torque(angle, internal, JOINT, MODES) == pytest.approx(carried, rel=1e-9, abs=1e-9)
 
 
 @given(angles, st.floats(-100.0, 100.0), states, st.floats(-5.0, 5.0))
-def test_energy_grows_by_the_work_done_less_the_heat_made(
-    angle: float, speed: float, internal: list[float], torque: float
-) -> None:
+def test_energy_grows_by_the_work_done_less_the_heat_made(angle, speed, internal, torque):
     state = np.array([angle, speed, *internal])
     rate = np.array(motion.rates(angle, speed, internal, torque, JOINT, MODES))
     # Complex step: the derivative along the motion to machine precision.
@@ -224,13 +222,13 @@ PAIRS: dict[str, tuple[Callable[[float], float], Callable[[float], float]]] = {
 
 @pytest.mark.parametrize("name", PAIRS)
 @pytest.mark.parametrize("time", [0.03, 0.4, 2.0])
-def test_what_fades_or_creeps_comes_back_to_the_stated_accuracy(name: str, time: float) -> None:
+def test_what_fades_or_creeps_comes_back_to_the_stated_accuracy(name, time):
     transform, expected = PAIRS[name]
     (inverse,) = motion.inverse(lambda s: (transform(s),), time)
     assert inverse == pytest.approx(expected(time), rel=4e-4)
 
 
-def test_the_weights_are_those_that_stehfest_printed() -> None:
+def test_the_weights_are_those_that_stehfest_printed():
     # Communications of the ACM 13 (1970) 47: those of ten terms.
     printed = [1 / 12, -385 / 12, 1279, -46871 / 3, 505465 / 6, -473915 / 2, 1127735 / 3, -1020215 / 3, 328125 / 2,
                -65625 / 2]  # fmt: skip
@@ -243,7 +241,7 @@ ALL = [Touching(a, b) for a in (0.0, 1.0) for b in (0.0, 1.0)]
 blocks_states = st.lists(angles, min_size=5, max_size=5)
 
 
-def test_face_of_a_block_stands_where_its_modes_balance() -> None:
+def test_face_of_a_block_stands_where_its_modes_balance():
     # Means weighted with the stiffness: 13.5/450 and 20/140.
     internal = [0.01, 0.04, 0.1, 0.2, 0.0]
     first, second = one_sided.divided(internal, BLOCKS)
@@ -253,7 +251,7 @@ def test_face_of_a_block_stands_where_its_modes_balance() -> None:
     assert one_sided.gap([-0.2] * 5, BLOCKS) == 0.0
 
 
-def test_blocks_pull_where_the_link_is_ahead_towards_the_other_side() -> None:
+def test_blocks_pull_where_the_link_is_ahead_towards_the_other_side():
     internal = [0.01, 0.04, 0.1, 0.2, 0.0]
     for ahead in (-1e-3, 1e-3):
         assert one_sided.pulls(0.03 + ahead, internal, BLOCKS)[0] == pytest.approx(450.0 * ahead)
@@ -266,7 +264,7 @@ def test_blocks_pull_where_the_link_is_ahead_towards_the_other_side() -> None:
 
 
 @given(blocks_states)
-def test_nothing_jumps_where_a_block_is_left(internal: list[float]) -> None:
+def test_nothing_jumps_where_a_block_is_left(internal):
     angle = one_sided.surface_angle(internal[:2], BLOCKS.first)
     left, met = (
         [
@@ -280,9 +278,7 @@ def test_nothing_jumps_where_a_block_is_left(internal: list[float]) -> None:
 
 @pytest.mark.parametrize("touching", ALL)
 @given(angle=angles, speed=st.floats(-100.0, 100.0), internal=blocks_states)
-def test_energy_falls_by_the_heat_of_the_dashpots(
-    touching: Touching, angle: float, speed: float, internal: list[float]
-) -> None:
+def test_energy_falls_by_the_heat_of_the_dashpots(touching, angle, speed, internal):
     state = np.array([angle, speed, *internal])
     rate = np.array(one_sided.rates(angle, speed, internal, touching, JOINT, BLOCKS))
     moved = state + 1e-30j * rate

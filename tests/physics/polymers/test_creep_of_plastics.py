@@ -9,7 +9,7 @@ from scipy.integrate import quad, solve_ivp
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.polymers import plastics, transitions
-from tvimdesign.physics.polymers.viscoelasticity import Body, KelvinVoigt, Maxwell, StandardLinearSolid
+from tvimdesign.physics.polymers.viscoelasticity import KelvinVoigt, Maxwell, StandardLinearSolid
 
 HOURS = 3600.0
 FE = yaml.safe_load((Path(__file__).parents[3] / "validation/fe_spring_holds/results.yaml").read_text())
@@ -20,7 +20,7 @@ def law(material: str) -> plastics.Creep:
     return plastics.Creep(*(record.value(name) for name in ("creep_share", "creep_exponent", "creep_energy")))
 
 
-def test_creep_and_ageing_are_those_of_the_sheets() -> None:
+def test_creep_and_ageing_are_those_of_the_sheets():
     # Makrolon 2405, ISO 899-1: 2200 MPa after 1 h and 1900 MPa after 1000 h; tensile modulus 2400 MPa.
     for hours, sheet in ((1.0, 2200.0), (1000.0, 1900.0)):
         assert 2400.0 / (1.0 + plastics.growth(hours * HOURS, law("polycarbonate"))) == pytest.approx(sheet, rel=2e-3)
@@ -30,7 +30,7 @@ def test_creep_and_ageing_are_those_of_the_sheets() -> None:
 
 
 @pytest.mark.parametrize("give", [0.02, 0.1])
-def test_preload_that_is_left_is_that_of_volterras_equation(give: float) -> None:
+def test_preload_that_is_left_is_that_of_volterras_equation(give):
     # Winding a, spring k, support J(t) = c (1 + m t^n): M/k + J * dM = a, stepped over 4000 moments spaced as the log.
     rate, creep_law = 1.3, law("petg")
     compliance = give / rate
@@ -53,7 +53,7 @@ def test_preload_that_is_left_is_that_of_volterras_equation(give: float) -> None
     assert at_once - quick == pytest.approx(at_once - left, rel=0.02)
 
 
-def test_holes_and_pegs_give_as_rings_and_cantilevers() -> None:
+def test_holes_and_pegs_give_as_rings_and_cantilevers():
     shear, radius, length = 0.76e9, 0.8e-3, 3.5e-3
     # A ring of radius r turns against the next by M/(2 pi r^2 L G) dr/r.
     angle, _ = quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * length * shear), radius, np.inf)
@@ -69,7 +69,7 @@ def test_holes_and_pegs_give_as_rings_and_cantilevers() -> None:
 
 
 @pytest.mark.parametrize("study", FE["pins"])
-def test_pins_and_holes_give_as_fe_of_the_exported_parts_does(study: str) -> None:
+def test_pins_and_holes_give_as_fe_of_the_exported_parts_does(study):
     modulus, poisson = FE["modulus"], FE["poissons_ratio"]  # N/mm^2
     pin, hole = FE["pins"][study], FE["holes"][study]
     peg = plastics.peg_give(modulus, poisson, pin["diameter"], pin["height"])
@@ -83,21 +83,21 @@ BODIES = [Maxwell(3.0, 0.6), StandardLinearSolid(2.0, 3.0, 0.6)]
 
 @pytest.mark.parametrize("body", BODIES, ids=lambda body: type(body).__name__)
 @pytest.mark.parametrize("time", [0.05, 0.7, 4.0])
-def test_creep_and_relaxation_convolve_to_the_time(body: Body, time: float) -> None:
+def test_creep_and_relaxation_convolve_to_the_time(body, time):
     whole, _ = quad(lambda s: body.relaxation(time - s) * body.creep(s), 0.0, time)
     assert whole == pytest.approx(time, rel=1e-8)
 
 
 @pytest.mark.parametrize("body", BODIES, ids=lambda body: type(body).__name__)
 @pytest.mark.parametrize("omega", [0.4, 5.0])
-def test_modulus_is_the_fourier_integral_of_relaxation(body: Body, omega: float) -> None:
+def test_modulus_is_the_fourier_integral_of_relaxation(body, omega):
     relaxed = float(body.relaxation(1e9))
     sine, _ = quad(lambda t: body.relaxation(t) - relaxed, 0.0, np.inf, weight="sin", wvar=omega, limlst=500)
     cosine, _ = quad(lambda t: body.relaxation(t) - relaxed, 0.0, np.inf, weight="cos", wvar=omega, limlst=500)
     assert body.modulus(omega) == pytest.approx(relaxed + omega * (sine + 1j * cosine), rel=1e-6)
 
 
-def test_kelvin_voigt_obeys_its_equation_and_maxwell_forgets_all() -> None:
+def test_kelvin_voigt_obeys_its_equation_and_maxwell_forgets_all():
     # sigma = G gamma + eta gamma'; under a constant stress of one, and in a sine.
     body = KelvinVoigt(4.0, 2.0)
     solved = solve_ivp(lambda _, strain: (1.0 - 4.0 * strain) / 2.0, (0.0, 1.3), [0.0], rtol=1e-10, atol=1e-12)
@@ -134,20 +134,18 @@ def modulus(material: str, celsius: float, at_23: float) -> float:
         ("polycarbonate", 137.0, 2400.0, 225.0, 0.25),
     ],
 )
-def test_plastics_are_as_stiff_as_their_deflection_temperatures_say(
-    material: str, celsius: float, at_23: float, sheet: float, within: float
-) -> None:
+def test_plastics_are_as_stiff_as_their_deflection_temperatures_say(material, celsius, at_23, sheet, within):
     assert modulus(material, celsius, at_23) == pytest.approx(sheet, rel=within)
 
 
-def test_aluminium_is_as_stiff_as_eurocode_9_says() -> None:
+def test_aluminium_is_as_stiff_as_eurocode_9_says():
     for celsius, share in ((50, 0.990), (100, 0.970), (150, 0.930), (200, 0.860), (250, 0.780)):
         stiffness_ratio = modulus("aluminum_6061_t6", celsius, 1.0) / modulus("aluminum_6061_t6", 20, 1.0)
         assert stiffness_ratio == pytest.approx(share, rel=0.01), celsius
 
 
 @pytest.mark.parametrize("material", ["petg", "abs", "polycarbonate", "aluminum_6061_t6", "aluminum_7075_t6"])
-def test_modulus_falls_smoothly_and_never_to_nothing(material: str) -> None:
+def test_modulus_falls_smoothly_and_never_to_nothing(material):
     temperatures = np.linspace(233.15, 523.15, 2901)
     share = plastics.modulus_share(temperatures, warm_law(material))
     assert np.all(np.diff(share) < 0.0)
@@ -156,7 +154,7 @@ def test_modulus_falls_smoothly_and_never_to_nothing(material: str) -> None:
     assert plastics.modulus_share(296.15, warm_law(material)) == 1.0
 
 
-def test_loss_peaks_where_the_plastic_softens_and_is_the_records_far_below() -> None:
+def test_loss_peaks_where_the_plastic_softens_and_is_the_records_far_below():
     softening_law = warm_law("petg")
     temperatures = np.linspace(296.15, 400.0, 2000)
     loss = plastics.loss_factor(temperatures, softening_law)
@@ -165,7 +163,7 @@ def test_loss_peaks_where_the_plastic_softens_and_is_the_records_far_below() -> 
     assert loss[0] == pytest.approx(0.03, rel=1e-3)
 
 
-def test_parts_in_series_are_the_sum_of_their_complex_compliances() -> None:
+def test_parts_in_series_are_the_sum_of_their_complex_compliances():
     parts = [(1e-3, 0.9, 0.03), (2e-4, 0.1, 0.12), (0.0, 1e-3, 0.0), (5e-5, 1.0, 0.0)]
     star = 1.0 / sum(compliance / complex(real, loss) for compliance, real, loss in parts)
     assert plastics.series(parts) == pytest.approx((star.real, star.imag), rel=1e-12)
@@ -203,7 +201,7 @@ def beam(
 
 
 @pytest.mark.parametrize(("thickness", "span"), [(4e-3, 12.6e-3), (2.5e-3, 3.6e-3), (6e-3, 20e-3)])
-def test_the_edge_pulls_as_a_beam_on_springs_does(thickness: float, span: float) -> None:
+def test_the_edge_pulls_as_a_beam_on_springs_does(thickness, span):
     rigidity = transitions.flexural_rigidity(2.1e9, 0.37, thickness)
     shear = transitions.shear_rigidity(0.77e9, thickness)
     foundation, shortened = 1.8e11, 65e-6
@@ -213,7 +211,7 @@ def test_the_edge_pulls_as_a_beam_on_springs_does(thickness: float, span: float)
     assert transitions.edge_traction(shortened, foundation, rigidity, shear, span) == pytest.approx(expected, rel=1e-3)
 
 
-def test_the_edge_of_a_free_rotor_pulls_as_the_force_at_the_hub_asks() -> None:
+def test_the_edge_of_a_free_rotor_pulls_as_the_force_at_the_hub_asks():
     rigidity, foundation, span = transitions.flexural_rigidity(2.1e9, 0.37, 4e-3), 1.8e11, 12.6e-3
     length = 12.0 / transitions.decay_rate(foundation, rigidity)
     expected = beam(foundation, rigidity, 2.6e6, span, length, 0.0, 50.0)
@@ -221,7 +219,7 @@ def test_the_edge_of_a_free_rotor_pulls_as_the_force_at_the_hub_asks() -> None:
     assert traction == pytest.approx(expected, rel=1e-3)
 
 
-def test_arcs_are_long_enough_and_spans_limit_what_gives_way() -> None:
+def test_arcs_are_long_enough_and_spans_limit_what_gives_way():
     # Arcs of 14 mm between plates of 4 mm PETG; the formula's have no end.
     rigidity, foundation = 12.0, 1.77e11
     expected = beam(foundation, rigidity, 2.4e6, 12.6e-3, 14e-3, 65e-6, 0.0)
@@ -230,7 +228,7 @@ def test_arcs_are_long_enough_and_spans_limit_what_gives_way() -> None:
     assert transitions.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 1.0) < 1e-3 * 65e-6 * 1.8e11
 
 
-def test_moduli_and_shares_by_handbook() -> None:
+def test_moduli_and_shares_by_handbook():
     # Steel, handbook: K 160 GPa, G 79.3 GPa, E 207 GPa, nu 0.292 (Shigley, table A-5, for E, G and nu).
     youngs, poisson = 207e9, 0.292
     bulk, shear = youngs / (3.0 * (1.0 - 2.0 * poisson)), youngs / (2.0 * (1.0 + poisson))
@@ -250,9 +248,7 @@ def test_moduli_and_shares_by_handbook() -> None:
         (68.9e9, 0.33, 4e-3, 4.25e6), (68.9e9, 0.33, 2.5e-3, 3.26e6),
     ],
 )  # fmt: skip
-def test_solids_in_finite_elements_pull_no_harder_and_not_much_less(
-    youngs: float, poisson: float, plate: float, solid: float
-) -> None:
+def test_solids_in_finite_elements_pull_no_harder_and_not_much_less(youngs, poisson, plate, solid):
     # `solid`: peak at mid-thickness of a full ring, 26 to 40 mm, 1 mm of PCL on a pad of 1.5 mm and 300 MPa, floor
     # 4 mm, clamped at 13.4 mm; the layer shrinks by 6.55 % of its thickness. Axisymmetric, quadratic quadrilaterals,
     # scikit-fem 12.0.

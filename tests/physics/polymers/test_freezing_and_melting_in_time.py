@@ -45,16 +45,16 @@ def peak(rate: float, kinetics: transitions.Kinetics) -> float:
 
 @pytest.mark.parametrize("grade", GRADES)
 @pytest.mark.parametrize("rate", [1.0, 2.0])
-def test_cooled_at_1_to_2_kelvin_a_minute_it_freezes_at_35_to_45_degrees(grade: str, rate: float) -> None:
+def test_cooled_at_1_to_2_kelvin_a_minute_it_freezes_at_35_to_45_degrees(grade, rate):
     assert 35.0 <= peak(rate, kinetics_of(grade)) <= 45.0
 
 
 @pytest.mark.parametrize("grade", GRADES)
-def test_half_freezes_in_1_to_3_minutes_at_40_degrees(grade: str) -> None:
+def test_half_freezes_in_1_to_3_minutes_at_40_degrees(grade):
     assert 60.0 <= textbook.half_time(CELSIUS + 40.0, kinetics_of(grade)) <= 180.0
 
 
-def test_eva_freezes_where_published_peaks_have_it() -> None:
+def test_eva_freezes_where_published_peaks_have_it():
     # BASF, TI/ES 1474 e: 80 to 88 degC at 13 to 15 % vinyl acetate; 2.08 K less for each per cent more.
     record = Catalog().record("polymers", "eva_28")
     assert peak(10.0, kinetics_of("eva_28")) == pytest.approx(84.0 - 14.0 * 2.08, abs=3.0)
@@ -63,7 +63,7 @@ def test_eva_freezes_where_published_peaks_have_it() -> None:
 
 @pytest.mark.parametrize("celsius", [25.0, 32.0, 40.0, 45.0])
 @pytest.mark.parametrize("exponent", [2.5, 3.0])
-def test_avrami_plot_of_a_quenched_melt_is_straight_with_slope_n(celsius: float, exponent: float) -> None:
+def test_avrami_plot_of_a_quenched_melt_is_straight_with_slope_n(celsius, exponent):
     kinetics = PCL._replace(avrami_exponent=exponent)
     half = float(textbook.half_time(CELSIUS + celsius, kinetics))
     times = half * np.array([0.2, 0.4, 0.7, 1.0, 1.3])
@@ -78,7 +78,7 @@ def test_avrami_plot_of_a_quenched_melt_is_straight_with_slope_n(celsius: float,
 
 
 @pytest.mark.parametrize("rate", [1.0, 5.0, 10.0])
-def test_cooling_at_a_constant_rate_is_ozawas_integral_over_temperature(rate: float) -> None:
+def test_cooling_at_a_constant_rate_is_ozawas_integral_over_temperature(rate):
     # Ozawa, Polymer 12 (1971) 150: X = 1 - exp(-(chi(T)/rate^n)), chi^(1/n) = integral of K over temperature. The
     # half-time stands here once more, from the handbook: U 1500 cal/mol, T_inf 30 K below the glass transition.
     def slowness(kelvin: float) -> float:
@@ -95,7 +95,7 @@ def test_cooling_at_a_constant_rate_is_ozawas_integral_over_temperature(rate: fl
         assert fraction[at] == pytest.approx(1.0 - np.exp(-((60.0 * integral / rate) ** 3)), abs=1e-3)
 
 
-def test_freezing_is_fastest_in_between_and_at_slower_cooling_warmer() -> None:
+def test_freezing_is_fastest_in_between_and_at_slower_cooling_warmer():
     kelvin = np.linspace(230.0, 345.0, 400)
     fastest = float(kelvin[np.argmin(textbook.half_time(kelvin, PCL))])
     assert 0.70 < fastest / PCL.equilibrium_melting < 0.92  # as a rule 0.8-0.9 of T_m0
@@ -105,7 +105,7 @@ def test_freezing_is_fastest_in_between_and_at_slower_cooling_warmer() -> None:
 
 
 @given(celsius=st.floats(74.5, 200.0))
-def test_nothing_freezes_above_the_equilibrium_melting_temperature(celsius: float) -> None:
+def test_nothing_freezes_above_the_equilibrium_melting_temperature(celsius):
     assert 0.0 <= transitions.rate_constant(CELSIUS + celsius, PCL) < 1e-30
     assert 1e30 < textbook.half_time(CELSIUS + celsius, PCL) < np.inf
     times = (0.0, 600.0)
@@ -114,20 +114,20 @@ def test_nothing_freezes_above_the_equilibrium_melting_temperature(celsius: floa
 
 
 @pytest.mark.parametrize("begin", [-0.01, 0.0, 0.05])
-def test_a_melt_without_a_crystal_is_no_stuck_point(begin: float) -> None:
+def test_a_melt_without_a_crystal_is_no_stuck_point(begin):
     psi = float(transitions.extended(begin, PCL))
     solved = solve_ivp(lambda _, y: transitions.rate(CELSIUS + 35.0, y, PCL, MELTING), (0.0, 600.0), [psi])
     assert transitions.solid_fraction(solved.y[0, -1], PCL) > 0.99
 
 
 @given(fraction=st.floats(0.01, 0.999))
-def test_psi_of_a_solid_fraction_gives_it_back(fraction: float) -> None:
+def test_psi_of_a_solid_fraction_gives_it_back(fraction):
     psi = transitions.extended(fraction, PCL)
     assert psi == pytest.approx((-np.log(1.0 - fraction)) ** (1.0 / 3.0), rel=5e-3)
     assert transitions.solid_fraction(psi, PCL) == pytest.approx(fraction, abs=1e-4)
 
 
-def test_part_molten_polymer_goes_on_and_its_psi_is_finite() -> None:
+def test_part_molten_polymer_goes_on_and_its_psi_is_finite():
     assert transitions.extended(0.0, PCL) == pytest.approx(0.0, abs=1e-5)
     assert transitions.extended(-0.02, PCL) == pytest.approx(0.0, abs=0.3)
     assert transitions.extended(1.0, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
@@ -139,7 +139,7 @@ def test_part_molten_polymer_goes_on_and_its_psi_is_finite() -> None:
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0])
-def test_heated_solid_melts_half_a_second_behind_equilibrium(speed: float) -> None:
+def test_heated_solid_melts_half_a_second_behind_equilibrium(speed):
     # Equilibrium: straight from all solid at 50 degC to none at 65 degC. The lag is the melting time times the speed.
     start = CELSIUS + 48.0
     times = np.linspace(0.0, 20.0 / speed, 401)
@@ -156,12 +156,12 @@ def test_heated_solid_melts_half_a_second_behind_equilibrium(speed: float) -> No
 
 
 @given(celsius=st.floats(-20.0, 200.0), fraction=st.floats(0.0, 1.0))
-def test_temperature_is_the_enthalpy_solved_for_it(celsius: float, fraction: float) -> None:
+def test_temperature_is_the_enthalpy_solved_for_it(celsius, fraction):
     enthalpy = transitions.enthalpy(CELSIUS + celsius, fraction, MELTING)
     assert transitions.temperature(enthalpy, fraction, MELTING) == pytest.approx(CELSIUS + celsius, abs=1e-9)
 
 
-def test_heats_follow_kirchhoffs_law_and_the_melting_curve() -> None:
+def test_heats_follow_kirchhoffs_law_and_the_melting_curve():
     # 76.75 kJ/kg and half the window's sensible heat difference at 57.5 degC; d L/dT = c_melt - c_solid = 250 J/kg K.
     def latent(celsius: float) -> float:
         return transitions.enthalpy(CELSIUS + celsius, 0.0, MELTING) - transitions.enthalpy(
@@ -175,7 +175,7 @@ def test_heats_follow_kirchhoffs_law_and_the_melting_curve() -> None:
         assert enthalpy == pytest.approx(polymer.enthalpy(CELSIUS + celsius, MELTING), rel=1e-12)
 
 
-def test_symbols_give_numbers_with_finite_derivatives() -> None:
+def test_symbols_give_numbers_with_finite_derivatives():
     kelvin, psi = ca.SX.sym("T"), ca.SX.sym("psi")
     both = ca.vertcat(kelvin, psi)
     value = transitions.rate(kelvin, psi, PCL, MELTING)
@@ -214,13 +214,13 @@ def by_brute_force(strain: float, angular: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize("hertz", [0.1, 1.0, 5.0, 20.0])
 @pytest.mark.parametrize("strain", [0.3, 1.0, 4.13])
-def test_moduli_are_the_first_harmonics_of_wagners_integral(strain: float, hertz: float) -> None:
+def test_moduli_are_the_first_harmonics_of_wagners_integral(strain, hertz):
     angular = 2.0 * np.pi * hertz
     moduli = melt.wagner_moduli(strain, angular, MELT, LIMIT)
     assert moduli == pytest.approx(by_brute_force(strain, angular), rel=2e-3)
 
 
-def test_slow_or_small_motion_is_linear() -> None:
+def test_slow_or_small_motion_is_linear():
     linear = polymer.maxwell_moduli(0.01, MELT)
     assert melt.wagner_moduli(4.0, 0.01, MELT, LIMIT) == pytest.approx(linear, rel=1e-3)
     assert melt.unrelaxed_moduli(4.0, 0.01, MELT, LIMIT)[1] < 0.1 * linear[1]
@@ -229,7 +229,7 @@ def test_slow_or_small_motion_is_linear() -> None:
 
 
 @given(strain=st.floats(0.01, 10.0), hertz=st.floats(0.05, 20.0))
-def test_strain_only_softens_and_never_below_none(strain: float, hertz: float) -> None:
+def test_strain_only_softens_and_never_below_none(strain, hertz):
     angular = 2.0 * np.pi * hertz
     linear = polymer.maxwell_moduli(angular, MELT)
     for modulus, most in zip(melt.wagner_moduli(strain, angular, MELT, LIMIT), linear, strict=True):
@@ -237,12 +237,12 @@ def test_strain_only_softens_and_never_below_none(strain: float, hertz: float) -
 
 
 @pytest.mark.parametrize("strain", [1e-5, 0.3, 3.0])
-def test_softening_is_the_first_harmonic_of_the_strain_law(strain: float) -> None:
+def test_softening_is_the_first_harmonic_of_the_strain_law(strain):
     share, _ = quad(lambda p: damping_function(strain * np.cos(p)) * np.cos(p) ** 2 / np.pi, 0.0, 2.0 * np.pi)
     assert melt.softening(strain, LIMIT) == pytest.approx(1.0 - share, rel=1e-6, abs=1e-12)
 
 
-def test_a_ring_s_torque_and_an_edge_that_gives() -> None:
+def test_a_ring_s_torque_and_an_edge_that_gives():
     inner, rim = 0.6, 4.0
     share, _ = quad(lambda r: damping_function(rim * r) * r**3, inner, 1.0)
     whole, _ = quad(lambda r: r**3, inner, 1.0)
@@ -255,7 +255,7 @@ def test_a_ring_s_torque_and_an_edge_that_gives() -> None:
     assert strain == pytest.approx(0.3416, rel=1e-3)
 
 
-def test_symbols_give_the_numbers_with_finite_derivatives() -> None:
+def test_symbols_give_the_numbers_with_finite_derivatives():
     strain, angular = ca.SX.sym("g"), ca.SX.sym("w")
     storage, loss = melt.wagner_moduli(strain, angular, MELT, LIMIT)
     both = ca.vertcat(storage, loss)
@@ -274,7 +274,7 @@ def profile_mean(gradient: float, gap: float, viscosity: float, cells: int = 400
     return float(np.mean(np.linalg.solve(matrix, np.full(cells, -gradient * step**2 / viscosity))))
 
 
-def test_gaps_pass_flow_as_stokes_says_and_surfaces_hold_what_they_lift() -> None:
+def test_gaps_pass_flow_as_stokes_says_and_surfaces_hold_what_they_lift():
     expected = profile_mean(1.05e4, 1e-3, 2825.0)
     assert melt.gap_speed(1.05e4, 1e-3, 2825.0) == pytest.approx(expected, rel=1e-4)
     length, gap, lip, narrow, viscosity, pressure = 14e-3, 1e-3, 1.5e-3, 0.4e-3, 2825.0, 150.0
@@ -286,7 +286,7 @@ def test_gaps_pass_flow_as_stokes_says_and_surfaces_hold_what_they_lift() -> Non
     assert melt.meniscus_pressure(0.0728, 1e-3) / (998.0 * 9.807) == pytest.approx(14.9e-3, rel=0.005)
 
 
-def test_a_strip_is_squeezed_as_long_as_reynolds_equation_says() -> None:
+def test_a_strip_is_squeezed_as_long_as_reynolds_equation_says():
     force, viscosity, length, width, start, end = 0.5, 2825.0, 0.113, 14e-3, 1.1e-3, 1.0e-3
 
     def closing(_: float, h: np.ndarray) -> list[float]:

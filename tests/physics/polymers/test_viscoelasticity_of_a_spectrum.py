@@ -37,12 +37,12 @@ def inverse_laplace_identity(modes: Modes, s: complex) -> complex:
 
 
 @given(modes=SPECTRA, exponent=st.floats(-10.0, 6.0))
-def test_complex_compliance_is_one_over_the_complex_modulus(modes: Modes, exponent: float) -> None:
+def test_complex_compliance_is_one_over_the_complex_modulus(modes, exponent):
     assert inverse_laplace_identity(modes, 1j * 10.0**exponent) == pytest.approx(1.0, rel=1e-6)
 
 
 @given(modes=SPECTRA)
-def test_times_of_retardation_lie_between_those_of_relaxation(modes: Modes) -> None:
+def test_times_of_retardation_lie_between_those_of_relaxation(modes):
     response = retardation(modes)
     relaxing, retarding = sorted(tau for tau, _ in modes), sorted(lag for lag, _ in response.modes)
     assert len(retarding) == len(relaxing) - 1
@@ -53,7 +53,7 @@ def test_times_of_retardation_lie_between_those_of_relaxation(modes: Modes) -> N
 
 @NAMED
 @pytest.mark.parametrize("time", [1e-3, 0.3, 40.0])
-def test_creep_and_relaxation_convolve_to_the_time(modes: Modes, time: float) -> None:
+def test_creep_and_relaxation_convolve_to_the_time(modes, time):
     # Ferry, ch. 3: int G(t - s) J(s) ds = t.
     response = retardation(modes)
 
@@ -66,7 +66,7 @@ def test_creep_and_relaxation_convolve_to_the_time(modes: Modes, time: float) ->
     assert whole == pytest.approx(time, rel=1e-6)
 
 
-def test_one_mode_creeps_as_textbook_bodies_do() -> None:
+def test_one_mode_creeps_as_textbook_bodies_do():
     # J = 1/G + t/(G tau).
     response = retardation([(2.0, 5.0)])
     assert response.modes == ()
@@ -82,7 +82,7 @@ def test_one_mode_creeps_as_textbook_bodies_do() -> None:
 
 
 @NAMED
-def test_strain_is_what_the_internal_equations_integrate_to(modes: Modes) -> None:
+def test_strain_is_what_the_internal_equations_integrate_to(modes):
     # Modes in parallel: e_m' = gamma' - e_m/tau_m and sum G_m e_m = sigma, sigma constant, then none.
     taus, moduli = np.array(modes).T
 
@@ -102,7 +102,7 @@ def test_strain_is_what_the_internal_equations_integrate_to(modes: Modes) -> Non
 
 
 @NAMED
-def test_storage_and_loss_obey_kramers_and_kronig(modes: Modes) -> None:
+def test_storage_and_loss_obey_kramers_and_kronig(modes):
     # G''(w) = -(2 w/pi) P int (G'(x) - G'(w))/(x^2 - w^2) dx (Tschoegl);
     # in ln x, the pole taken out by symmetry.
     for omega in (0.5, 20.0):
@@ -119,7 +119,7 @@ def test_storage_and_loss_obey_kramers_and_kronig(modes: Modes) -> None:
 
 
 @NAMED
-def test_start_up_adds_the_relaxation_modulus_up_and_ends_at_the_viscosity(modes: Modes) -> None:
+def test_start_up_adds_the_relaxation_modulus_up_and_ends_at_the_viscosity(modes):
     for time in (1e-3, 0.2):
         edges = [0.0, *(time * 10.0**-k for k in range(6, -1, -1))]
         summed = sum(quad(relaxation_modulus, a, b, args=(modes,), epsabs=0.0)[0] for a, b in pairwise(edges))
@@ -129,7 +129,7 @@ def test_start_up_adds_the_relaxation_modulus_up_and_ends_at_the_viscosity(modes
     assert end == pytest.approx(sum(tau * g for tau, g in modes), rel=1e-9)
 
 
-def test_a_slow_melt_flows_with_its_viscosity_and_keeps_a_tiny_stress() -> None:
+def test_a_slow_melt_flows_with_its_viscosity_and_keeps_a_tiny_stress():
     viscosity = viscoelasticity.zero_shear_viscosity(MELT)
     assert viscoelasticity.complex_viscosity(1e-3, MELT) == pytest.approx(viscosity, rel=1e-6)
     assert retardation(MELT).viscosity == pytest.approx(viscosity, rel=1e-12)
@@ -154,12 +154,12 @@ def pla() -> transitions.Glass:
     ("above", "decades"),
     [(10.0, -2.8312), (20.0, -4.8715), (40.0, -7.6157)],  # 17.44 dT/(51.6 + dT) by hand
 )
-def test_above_the_transition_times_shift_by_wlf(above: float, decades: float) -> None:
+def test_above_the_transition_times_shift_by_wlf(above, decades):
     shifted = np.log10(transitions.shift(TRANSITION.temperature + above, TRANSITION))
     assert shifted == pytest.approx(decades, abs=0.01)
 
 
-def test_below_the_transition_times_shift_by_arrhenius_round_the_corner() -> None:
+def test_below_the_transition_times_shift_by_arrhenius_round_the_corner():
     # 300 kJ/mol, 60 and 20 degC: 300000/8.314463 (1/293.15 - 1/333.15)/ln 10 = 6.4182 decades, by hand.
     assert np.log10(transitions.shift(CELSIUS + 20.0, TRANSITION)) == pytest.approx(6.4182, abs=0.01)
     around = np.log10(transitions.shift(TRANSITION.temperature + np.linspace(-3.0, 3.0, 241), TRANSITION))
@@ -168,7 +168,7 @@ def test_below_the_transition_times_shift_by_arrhenius_round_the_corner() -> Non
     assert abs(around[120]) < 0.5 * 0.34
 
 
-def test_a_glass_has_its_reference_modulus_whatever_is_frozen() -> None:
+def test_a_glass_has_its_reference_modulus_whatever_is_frozen():
     glass = pla()
     at = polymer.maxwell_moduli(PINNED_FREQUENCY, glass.at(glass.reference_temperature))
     assert at[0] == pytest.approx(1e9, rel=1e-12)
@@ -177,7 +177,7 @@ def test_a_glass_has_its_reference_modulus_whatever_is_frozen() -> None:
     assert polymer.spectrum(CELSIUS + 60.0, 0.0, pla()) == polymer.spectrum(CELSIUS + 60.0, 1.0, pla())
 
 
-def test_slower_at_a_warmer_place_is_the_same() -> None:
+def test_slower_at_a_warmer_place_is_the_same():
     """Time-temperature superposition: a faster test stands for a colder one."""
     glass = pla()
     colder, warmer = CELSIUS + 65.0, CELSIUS + 70.0
@@ -191,13 +191,13 @@ MODES = [(1e-2, 4e7), (1.0, 3e7), (1e2, 3e7), (1e6, 5e7)]
 TAU_0 = 0.6e6
 
 
-def test_small_strains_relax_as_in_the_linear_spectrum() -> None:
+def test_small_strains_relax_as_in_the_linear_spectrum():
     time = np.geomspace(1e-3, 1e3, 31)
     stress = viscoelasticity.stress_of_a_ramp(time, 1e-5, 0.1, MODES, TAU_0)
     assert stress == pytest.approx(viscoelasticity.ramped_stress(time, 1e-5, 0.1, MODES), rel=1e-4)
 
 
-def test_one_mode_relaxes_as_guiu_and_pratt_integrated_it() -> None:
+def test_one_mode_relaxes_as_guiu_and_pratt_integrated_it():
     # d tau/dt = -(tau_0/t_1) sinh(tau/tau_0): tanh(tau/2 tau_0) = tanh(tau_s/2 tau_0) exp(-t/t_1).
     # Source: Guiu and Pratt, Phys. Stat. Sol. 6 (1964) 111 (stress relaxation by an activated flow).
     relaxation_time, modulus, rise = 1e6, 1e8, 1e-6
@@ -211,7 +211,7 @@ def test_one_mode_relaxes_as_guiu_and_pratt_integrated_it() -> None:
 
 
 @pytest.mark.parametrize("rate", [1e-3, 1.0])
-def test_a_constant_rate_comes_to_its_yield_stress(rate: float) -> None:
+def test_a_constant_rate_comes_to_its_yield_stress(rate):
     end = 3.0 / rate
     stress = viscoelasticity.stress_of_a_ramp(np.array([end]), 3.0, end, MODES, TAU_0)
     assert stress[0] == pytest.approx(viscoelasticity.yield_stress(rate, TAU_0, MODES), rel=1e-4)
@@ -220,7 +220,7 @@ def test_a_constant_rate_comes_to_its_yield_stress(rate: float) -> None:
     assert faster - stress[0] == pytest.approx(TAU_0 * math.log(10.0), rel=1e-3)
 
 
-def test_the_activation_stress_gives_back_the_strength_it_is_for() -> None:
+def test_the_activation_stress_gives_back_the_strength_it_is_for():
     tau_0 = viscoelasticity.activation_stress(9.2e6, MODES)
     assert viscoelasticity.yield_stress(viscoelasticity.SHEET_RATE, tau_0, MODES) == pytest.approx(9.2e6)
     with pytest.raises(ValueError, match="below its yield strength"):

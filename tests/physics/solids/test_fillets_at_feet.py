@@ -19,14 +19,14 @@ UNEVEN = 1.03
 
 
 @pytest.mark.parametrize(("radius", "fillet"), [(6.0, 1.5), (8.0, 1.5), (8.0, 2.0), (10.0, 2.0), (12.0, 1.5)])
-def test_the_mean_in_torsion_is_a_little_below_the_peak_of_petersons_chart(radius: float, fillet: float) -> None:
+def test_the_mean_in_torsion_is_a_little_below_the_peak_of_petersons_chart(radius, fillet):
     """Kts = 0.863 (q/d)^-0.239 for a shoulder of twice the diameter; the model on a plate as thin as rotors have."""
     none = structure.Bores(0.0, 0.0, 1.0)
     rise = structure.foot_rise_on_plate(radius * MM, radius * MM, 3.0 * MM, none, fillet=fillet * MM)
     assert 0.88 < rise / UNEVEN / (0.863 * (0.5 * fillet / radius) ** -0.239) < 1.0
 
 
-def test_a_small_fillet_counts_as_a_sharp_foot_and_a_larger_one_as_less() -> None:
+def test_a_small_fillet_counts_as_a_sharp_foot_and_a_larger_one_as_less():
     of = [structure.filleted_foot(fillet * MM) for fillet in (0.0, 0.5, 1.0, 1.5, 2.0)]
     assert of[0] == 1.0
     assert of[1] > 0.999
@@ -34,7 +34,7 @@ def test_a_small_fillet_counts_as_a_sharp_foot_and_a_larger_one_as_less() -> Non
 
 
 @pytest.mark.parametrize(("share", "chart"), [(0.05, 2.38), (0.1, 1.89), (0.2, 1.50), (0.3, 1.31)])
-def test_the_bent_pin_has_the_factor_of_petersons_chart(share: float, chart: float) -> None:
+def test_the_bent_pin_has_the_factor_of_petersons_chart(share, chart):
     """Read off Peterson's Stress Concentration Factors, chart 3.11, D/d = 3 to 6."""
     assert structure.bent_at_fillet(4.0 * MM, share * 4.0 * MM) == pytest.approx(chart, rel=0.05)
 
@@ -49,7 +49,7 @@ each = pytest.mark.parametrize(
 
 
 @each
-def test_a_fillet_changes_core_and_plate_as_in_fe(row: dict[str, float]) -> None:
+def test_a_fillet_changes_core_and_plate_as_in_fe(row):
     none, modulus = structure.Bores(0.0, 0.0, 1.0), 1e9
     radius, plate, fillet = (row[name] * MM for name in ("radius", "plate", "fillet"))
     per_length = 1.0 / structure.shaft_stiffness(modulus, radius, 1.0)
@@ -65,7 +65,7 @@ def test_a_fillet_changes_core_and_plate_as_in_fe(row: dict[str, float]) -> None
 
 
 @each
-def test_a_fillet_lowers_the_stress_at_the_foot_as_finite_elements_say(row: dict[str, float]) -> None:
+def test_a_fillet_lowers_the_stress_at_the_foot_as_finite_elements_say(row):
     assert structure.filleted_foot(row["fillet"] * MM) == pytest.approx(row["foot"], abs=0.042)
 
 
@@ -80,9 +80,7 @@ TABLE = [
 
 
 @pytest.mark.parametrize(("diameter", "pitch", "friction", "force", "torque", "head"), TABLE)
-def test_the_force_that_uses_nine_tenths_of_the_yield(
-    diameter: float, pitch: float, friction: float, force: float, torque: float, head: float
-) -> None:
+def test_the_force_that_uses_nine_tenths_of_the_yield(diameter, pitch, friction, force, torque, head):
     d, p, F = 1e-3 * diameter, 1e-3 * pitch, 1e3 * force
     twist = fasteners.twist_stress(fasteners.thread_torque(F, d, p, friction), d, p)
     # The tables take the section as yielding all over: its torque is 4/3 of the elastic one.
@@ -94,11 +92,11 @@ def test_the_force_that_uses_nine_tenths_of_the_yield(
 
 
 @pytest.mark.parametrize(("diameter", "pitch", "area"), [(3.0, 0.5, 5.03), (4.0, 0.7, 8.78), (5.0, 0.8, 14.2)])
-def test_stress_area_of_iso_898(diameter: float, pitch: float, area: float) -> None:
+def test_stress_area_of_iso_898(diameter, pitch, area):
     assert fasteners.stress_area(1e-3 * diameter, 1e-3 * pitch) == pytest.approx(1e-6 * area, rel=3e-3)
 
 
-def test_pegs_bear_what_the_textbook_says() -> None:
+def test_pegs_bear_what_the_textbook_says():
     # Area 314.16 mm^2, 100 MPa: 31.4 kN; on 15 mm of plate at 240 MPa: 72 kN.
     assert shear_force(100e6, 20e-3) == pytest.approx(31.416e3, rel=1e-4)
     assert bearing_force(240e6, 20e-3, 15e-3) == pytest.approx(72e3)
@@ -111,7 +109,7 @@ YOUNGS, SHEAR, WIDTH, THICKNESS, HEIGHT = 2.1e9, 0.76e9, 11e-3, 4e-3, 12e-3
 
 
 @pytest.mark.parametrize(("height", "free"), [(4e-3, 0.0), (12e-3, 0.0), (40e-3, 0.0), (5e-3, 1e-3), (2e-3, 6e-3)])
-def test_mean_deflection_is_that_of_a_beam_with_shear(height: float, free: float) -> None:
+def test_mean_deflection_is_that_of_a_beam_with_shear(height, free):
     load = 1000.0  # N/m, even, beyond what is free at the root
     inertia, area = WIDTH * THICKNESS**3 / 12.0, WIDTH * THICKNESS
 
@@ -131,7 +129,7 @@ def test_mean_deflection_is_that_of_a_beam_with_shear(height: float, free: float
 
 
 @pytest.mark.parametrize("thickness", [0.5e-3, 1.5e-3, 6e-3])
-def test_a_plate_let_into_a_sector_covers_what_points_count(thickness: float) -> None:
+def test_a_plate_let_into_a_sector_covers_what_points_count(thickness):
     inner, outer = 13e-3, 24e-3
     x, y = np.meshgrid((np.arange(3000) + 0.5) * outer / 3000, (np.arange(600) + 0.5) * thickness / 600, indexing="ij")
     r = np.hypot(x, y)
@@ -139,7 +137,7 @@ def test_a_plate_let_into_a_sector_covers_what_points_count(thickness: float) ->
     assert radial_strip(thickness, inner, outer) == pytest.approx(counted, rel=1e-3)
 
 
-def test_a_root_s_moment_turns_the_plate_as_a_beam() -> None:
+def test_a_root_s_moment_turns_the_plate_as_a_beam():
     # Slope and no deflection at the middle of each vane, the ends of the beam joined: slope-deflection equations with
     # rigid ends e = x L, 4 E I/L (1 + 3 x + 3 x^2) and 2 E I/L (1 + 6 x + 6 x^2).
     count, radius, height, thickness = 6, 18.5e-3, 4e-3, 4e-3
@@ -160,7 +158,7 @@ def test_a_root_s_moment_turns_the_plate_as_a_beam() -> None:
     assert rooted.aside == 0.0
 
 
-def test_a_rim_beyond_the_vane_bends_with_its_strips() -> None:
+def test_a_rim_beyond_the_vane_bends_with_its_strips():
     # As wide again as the vane, half the turn; pushed aside, the rim is no help.
     def on(rim: float) -> vane.Vane:
         footing = vane.Footing(4e-3, 8e-3, 0.0, 1.0, 2.0, rim)
@@ -174,7 +172,7 @@ def between(modulus: float) -> vane.BlockBetween:
     return vane.BlockBetween((modulus, modulus), (4e-3, 1e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
 
 
-def test_two_vanes_under_a_block_stand_where_their_energy_and_its_is_least() -> None:
+def test_two_vanes_under_a_block_stand_where_their_energy_and_its_is_least():
     # Angles of both vanes by a search for the least of strain energy less the work of a force between them. The block
     # goes with the vanes' faces, which lie half a thickness beside the lines that turn.
     lower, other, block = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(8e-7, 0.0, 6e-3), between(140e6)
@@ -196,7 +194,7 @@ def test_two_vanes_under_a_block_stand_where_their_energy_and_its_is_least() -> 
     assert vane.compliance(other, lower, block) == pytest.approx(optimum[1] * arm / 10.0, rel=1e-5)
 
 
-def test_soft_blocks_leave_vanes_alone_and_stiff_ones_hold_them() -> None:
+def test_soft_blocks_leave_vanes_alone_and_stiff_ones_hold_them():
     first, other = vane.Vane(3e-7, 1e-8, 4e-3), vane.Vane(8e-7, 0.0, 6e-3)
     assert vane.compliance(first, other, between(1e-3)) == pytest.approx(first.leaning + first.aside, rel=1e-9)
     soft = vane.BlockBetween((140e6, 1e-3), (4e-3, 1e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)

@@ -21,7 +21,7 @@ def by_strips(height: Callable[[float], float], start: float, end: float) -> sha
 
 
 @pytest.mark.parametrize("corner", [0.0, 1.5e-3])
-def test_rectangle_off_the_axis_is_its_strips(corner: float) -> None:
+def test_rectangle_off_the_axis_is_its_strips(corner):
     radial, along, distance = 10e-3, 20e-3, 33e-3
 
     def height(x: float) -> float:
@@ -34,7 +34,7 @@ def test_rectangle_off_the_axis_is_its_strips(corner: float) -> None:
     assert section.polar == pytest.approx(strips.polar, rel=1e-3 if corner else 1e-8)  # fillets count at the corners
 
 
-def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
+def test_notch_takes_a_straight_opening_from_one_side_of_a_ring():
     half_width, inner, outer = 6e-3, 71e-3, 74e-3
     expected = integrate(lambda y: np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), -half_width, half_width)
     assert shapes.notch(half_width, inner, outer).area == pytest.approx(expected, rel=1e-9)
@@ -46,7 +46,7 @@ def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
 
 @pytest.mark.parametrize("offset", [0.0, 1.5e-3])
 @pytest.mark.parametrize("radius", [0.2e-3, 1.5e-3])
-def test_fillets_take_from_a_sector_what_is_beyond_their_arcs(radius: float, offset: float) -> None:
+def test_fillets_take_from_a_sector_what_is_beyond_their_arcs(radius, offset):
     inner, outer = 12e-3, 24e-3
 
     def touching(circle: float, middle: float) -> tuple[float, tuple[float, float]]:
@@ -73,7 +73,7 @@ def test_fillets_take_from_a_sector_what_is_beyond_their_arcs(radius: float, off
 
 
 @pytest.mark.parametrize("depth", [2.1e-3, 2.6e-3, 3.4e-3])
-def test_beyond_a_depth_fillets_take_what_is_further_from_the_radial_lines(depth: float) -> None:
+def test_beyond_a_depth_fillets_take_what_is_further_from_the_radial_lines(depth):
     inner, outer, offset, radius = 19e-3, 26e-3, 1.03e-3, 1.5e-3
     beside = offset + radius
 
@@ -94,7 +94,7 @@ def test_beyond_a_depth_fillets_take_what_is_further_from_the_radial_lines(depth
     assert shapes.corners_beyond(radius, inner, outer, offset, offset) == pytest.approx(whole, rel=1e-9)
 
 
-def test_small_corners_and_trapezoids() -> None:
+def test_small_corners_and_trapezoids():
     # A fillet takes (1 - pi/4) r^2 from a right angle; sides that point to the axis meet every circle at one.
     assert shapes.corners(0.02e-3, 26e-3, 40e-3) == pytest.approx((4.0 - np.pi) * 0.02e-3**2, rel=1e-3)
     span, inset = np.radians(40.0), 3e-3
@@ -104,7 +104,7 @@ def test_small_corners_and_trapezoids() -> None:
 
 
 @pytest.mark.parametrize("corner", [0.0, 1.5e-3])
-def test_what_lies_between_two_planes_of_a_vane_is_its_strips(corner: float) -> None:
+def test_what_lies_between_two_planes_of_a_vane_is_its_strips(corner):
     # From 20 to 28 mm along the middle of a vane of 40 degrees, 3 mm within its sides, corners rounded.
     span, inset, near, far = np.radians(40.0), 3e-3, 20e-3, 28e-3
     tangent, cosine = np.tan(0.5 * span), np.cos(0.5 * span)

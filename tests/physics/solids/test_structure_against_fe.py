@@ -95,7 +95,7 @@ def beyond(names: Iterable[str], **why: str) -> list[Any]:
 
 
 @pytest.mark.parametrize("name", [*BORED, *BLOCKS])
-def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
+def test_the_core_s_foot_is_stressed_as_in_fe(name):
     # The highest mean over a millimetre along the core's surface, above a sharp corner the first; per newton metre.
     radius, rise = quantities(name, "core_radius", "core_foot_rise")
     mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), radius, rise)
@@ -105,12 +105,12 @@ def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", JOINTS)
-def test_the_core_with_its_empty_holes_is_as_stiff_as_in_fe(name: str) -> None:
+def test_the_core_with_its_empty_holes_is_as_stiff_as_in_fe(name):
     assert quantity(name, "core_stiffness") == pytest.approx(JOINTS[name]["found"]["core"], rel=0.07)
 
 
 @pytest.mark.parametrize("name", JOINTS)
-def test_the_core_yields_where_fe_has_its_highest_stress(name: str) -> None:
+def test_the_core_yields_where_fe_has_its_highest_stress(name):
     # Beside a hole, or where FE looked there at its foot, a mean over the first millimetre above the sharp corner.
     fe = JOINTS[name]["found"]
     beside, foot = fe["core_mises"], fe.get("foot_highest", 0.0)
@@ -125,7 +125,7 @@ def test_the_core_yields_where_fe_has_its_highest_stress(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", beyond(SHEAR, compare_shear="floor 10 % too stiff; its hub within 1 %"))
-def test_plate_floor_and_pads_are_as_stiff_as_in_fe(name: str) -> None:
+def test_plate_floor_and_pads_are_as_stiff_as_in_fe(name):
     fe = SHIPPED[name]["found"]
     plate, floor, pads = quantities(name, "plate_stiffness", "floor_stiffness", "pad_compliance")
     assert plate == pytest.approx(fe["plate"], rel=0.06)
@@ -140,20 +140,20 @@ def highest_traction(name: str) -> float:
 
 
 @pytest.mark.parametrize("name", SHEAR)
-def test_the_layer_s_edge_bears_what_it_does_in_fe(name: str) -> None:
+def test_the_layer_s_edge_bears_what_it_does_in_fe(name):
     # Highest over two millimetres of edge, a mean over one thickness in from it and over its height.
     assert highest_traction(name) == pytest.approx(SHIPPED[name]["found"]["edge_highest"], rel=0.08)
 
 
 @pytest.mark.parametrize("name", SPREAD)
-def test_seats_of_spreaders_and_the_floor_around_them_are_as_in_fe(name: str) -> None:
+def test_seats_of_spreaders_and_the_floor_around_them_are_as_in_fe(name):
     path, floor = quantities(name, "seat_path", "floor_stiffness")
     assert path.outer_traction * 1e-6 == pytest.approx(SHIPPED[name]["found"]["seat_outer"], rel=0.15)
     assert floor == pytest.approx(SHIPPED[name]["found"]["housing"], rel=0.10)
 
 
 @pytest.mark.parametrize("name", beyond(SPREAD, elbow_machined="6 % too soft: a spreader also turns in its plane"))
-def test_the_plate_over_a_spreader_is_as_stiff_as_in_fe(name: str) -> None:
+def test_the_plate_over_a_spreader_is_as_stiff_as_in_fe(name):
     assert quantity(name, "plate_stiffness") == pytest.approx(SHIPPED[name]["found"]["plate"], rel=0.04)
 
 
@@ -165,7 +165,7 @@ def test_the_plate_over_a_spreader_is_as_stiff_as_in_fe(name: str) -> None:
         elbow_machined="18 % too little over two millimetres, 2 % along the whole outer rim: likewise",
     ),
 )
-def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -> None:
+def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name):
     fe_rows = SHIPPED[name]["found"]
     assert highest_traction(name) == pytest.approx(fe_rows["edge_highest"], rel=0.08)
     if "liner_shear_modulus" not in SHIPPED[name]:  # beside walls the inner rim takes more than the form gives it
@@ -181,7 +181,7 @@ def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -
         **{"wrist_compression_7_23, drawn": "rotor vanes and plate 30 % too soft under blocks of 15 mm"},
     ),
 )
-def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
+def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name):
     # A vane that leans shears its block, and FE shares that out otherwise; the whole joint is closer (below).
     fe, rows = SHIPPED[name]["found"], ("plate_stiffness", "rotor_vane_stiffness", "floor_stiffness")
     plate, rotor, floor, housing = quantities(name, *rows, "housing_vane_stiffness")
@@ -202,7 +202,7 @@ def of_drawn(name: str) -> dict[str, float]:
     return {**ratios, "hub": hub / fe["hub"], "foot of the core": mises / fe["foot_highest"]}
 
 
-def test_drawn_modules_are_as_stiff_as_in_fe_within_what_is_stated() -> None:
+def test_drawn_modules_are_as_stiff_as_in_fe_within_what_is_stated():
     # As in validation/fe_structure/README.md.
     stated = {
         "hub": (0.98, 1.03), "core": (0.98, 1.04), "plate": (0.93, 1.01), "floor": (0.92, 1.2),
@@ -218,7 +218,7 @@ def test_drawn_modules_are_as_stiff_as_in_fe_within_what_is_stated() -> None:
 BY_FE = list(csv.DictReader((FOLDER / "fe_structure/fresh.csv").read_text().splitlines()))
 
 
-def test_random_modules_are_as_stiff_as_in_fe_within_a_tenth() -> None:
+def test_random_modules_are_as_stiff_as_in_fe_within_a_tenth():
     ratios = {
         name: np.array([float(row["ratio"]) for row in BY_FE if row["quantity"] == name]) for name in ("hub", "link")
     }
@@ -237,7 +237,7 @@ def fresh_designs(study: str) -> dict[str, Design]:
 
 
 @pytest.mark.gate
-def test_proportions_that_fe_solved_are_stated() -> None:
+def test_proportions_that_fe_solved_are_stated():
     stated = yaml.safe_load((ROOT / "tvimdesign/device/core/impedance/fe_range.yaml").read_text())
     sizes = [case["mm"] for case in SHIPPED.values()]
     sizes += [design.values for study in FRESH_BY_FE for design in fresh_designs(study).values()]
@@ -248,7 +248,7 @@ def test_proportions_that_fe_solved_are_stated() -> None:
         assert (low, high) == pytest.approx((min(ratios), max(ratios)), rel=5e-3), name
 
 
-def test_beyond_proportions_that_fe_solved_the_range_of_stiffness_widens() -> None:
+def test_beyond_proportions_that_fe_solved_the_range_of_stiffness_widens():
     name = "ankle, shipped"
     known, table = module(name), table_for("shear")
 
@@ -262,7 +262,7 @@ def test_beyond_proportions_that_fe_solved_the_range_of_stiffness_widens() -> No
 
 
 @pytest.mark.parametrize("study", ["wrist_joint", "wrist_compression"])
-def test_their_model_is_that_of_today(study: str) -> None:
+def test_their_model_is_that_of_today(study):
     known = {
         (row["draw"], row["quantity"]): float(row["model"]) for row in BY_FE if row["study"] == study and row["model"]
     }
@@ -283,7 +283,7 @@ def test_their_model_is_that_of_today(study: str) -> None:
         ("compare_compression, shipped", 27.9),
     ],
 )
-def test_a_block_s_force_leans_out_of_its_vane_as_in_fe(name: str, angle: float) -> None:
+def test_a_block_s_force_leans_out_of_its_vane_as_in_fe(name, angle):
     # FE of the force on the face between block and vane, validation/fe_structure/lean_out.py.
     assert np.degrees(quantity(name, "block_lean_out")) == pytest.approx(angle, rel=0.04)
 
@@ -299,7 +299,7 @@ def fillet_beside(name: str) -> float:
 
 
 @pytest.mark.parametrize("name", IN_SHEAR)
-def test_all_around_a_core_the_plate_is_stressed_as_in_fe(name: str) -> None:
+def test_all_around_a_core_the_plate_is_stressed_as_in_fe(name):
     mm = PLATES[name]["mm"]
     size = mm["rotor_thickness"] * MM, mm["core_radius"] * MM, MM
     mean = structure.mises(plates.shear_beside_core(1.0, *size)) * fillet_beside(name) * 1e-6
@@ -310,7 +310,7 @@ def test_all_around_a_core_the_plate_is_stressed_as_in_fe(name: str) -> None:
 
 
 @pytest.mark.parametrize("fillet", [0.5, 1.0])
-def test_a_fillet_bears_what_stands_on_the_plate_there(fillet: float) -> None:
+def test_a_fillet_bears_what_stands_on_the_plate_there(fillet):
     # A plate that is thick against the fillet: the fillet's section (1 - pi/4) q^2 makes it thicker by its mean height.
     share = plates.thicker_by_fillet(50.0, fillet, 1.0)
     assert share == pytest.approx(1.0 - (1.0 - 0.25 * np.pi) * fillet**2 / 50.0, rel=2e-4)
@@ -321,7 +321,7 @@ LINKS = yaml.safe_load((ROOT / "validation/fe_link/results.yaml").read_text())
 
 
 @pytest.mark.parametrize("name", LINKS)
-def test_the_link_bends_as_in_fe(name: str) -> None:
+def test_the_link_bends_as_in_fe(name):
     case = LINKS[name]
     mm = {length: value * 1e-3 for length, value in case["mm"].items()}
     youngs = case["youngs_modulus"] * 1e9

@@ -16,7 +16,7 @@ INERTIA = 4.156e-4  # kg*m^2, Exley et al., table I (there as kg/mm^2)
 STIFFNESS = 5.61  # N*m/rad, four springs of 1.4023
 
 
-def test_springs_ring_and_rings_bearings_and_ledges_share_by_hand() -> None:
+def test_springs_ring_and_rings_bearings_and_ledges_share_by_hand():
     # sqrt(5.61/4.156e-4)/(2 pi) = 116.2/6.2832.
     assert motion.natural_frequency(STIFFNESS, INERTIA) == pytest.approx(18.5, rel=5e-3)
     # 2 sqrt(5.61 * 4.156e-4) = 0.0966 N*m*s/rad.
@@ -38,7 +38,7 @@ def test_springs_ring_and_rings_bearings_and_ledges_share_by_hand() -> None:
     assert structure.hole_weakening(0.1, 5.0, 3, 10.0) == pytest.approx(3 * 2.0 * own, rel=1e-12)
 
 
-def test_shafts_have_the_handbooks_stiffness_and_strength() -> None:
+def test_shafts_have_the_handbooks_stiffness_and_strength():
     # 6061-T6: E 68.9 GPa, nu 0.33, G 26 GPa (MIL-HDBK-5: 3.8e6 psi = 26.2 GPa).
     assert structure.shear_modulus(68.9e9, 0.33) == pytest.approx(26e9, rel=0.01)
     modulus, radius, length = 0.76e9, 10e-3, 9e-3
@@ -54,7 +54,7 @@ def test_shafts_have_the_handbooks_stiffness_and_strength() -> None:
     assert np.sqrt(1.5 * np.sum(tensor**2)) == pytest.approx(47.5e6, rel=1e-12)
 
 
-def test_a_foot_moves_as_timoshenkos_beam_built_in_below_a_thick_floor() -> None:
+def test_a_foot_moves_as_timoshenkos_beam_built_in_below_a_thick_floor():
     # Steel pin of 10 mm, 300 mm long, both ends built in: 12 E I/h^3 = 4.494e4 N/m; the shear adds under 1 %.
     stiffness = structure.foot_stiffness(206e9, 79e9, 5e-3, 0.0, 300e-3)
     assert stiffness == pytest.approx(12.0 * 206e9 * 4.9087e-10 / 27e-3, rel=0.01)
@@ -63,7 +63,7 @@ def test_a_foot_moves_as_timoshenkos_beam_built_in_below_a_thick_floor() -> None
     assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1e-6) == pytest.approx(4.0, rel=1e-3)
 
 
-def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> None:
+def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane():
     # Flamant, along the edge: u = 2 F ln(l/r)/(pi E h) but for what does not grow with l. The closed form is 14 %
     # stiffer at nu 0.3, and half as stiff as what a force within a sheet meets, (3 - nu)(1 + nu) F ln(l/r)/(4 pi E h).
     youngs, nu, h, spot, reach = 2.1e9, 0.3, 4e-3, 3.5e-3, 30e-3
@@ -73,7 +73,7 @@ def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> Non
     assert stiffness == pytest.approx(0.5 * whole, rel=1e-9)
 
 
-def test_pushed_bars_and_driven_plates_keep_their_shares() -> None:
+def test_pushed_bars_and_driven_plates_keep_their_shares():
     # Energy of N = q x from -L/2 to L/2, twice over the moment squared: by quadrature, of three bars at 15 mm.
     length, section, youngs, count, radius = 22e-3, 4e-6, 2.1e9, 3, 15e-3
     push = 1.0 / (count * radius * length)
@@ -118,7 +118,7 @@ def stepped_bar(plate: float, reach: float, fine: int) -> float:
 
 
 @pytest.mark.parametrize("plate", [0.3, 0.4, 0.5, 0.8])
-def test_a_torque_enters_a_plate_as_it_does_in_a_stepped_bar(plate: float) -> None:
+def test_a_torque_enters_a_plate_as_it_does_in_a_stepped_bar(plate):
     coarse, fine = (stepped_bar(plate, 2.0, count) for count in (30, 60))
     entry = 2.0 * fine - coarse
     stiffness = structure.plate_stiffness(1.0, plate, 1.0, 2.0)
@@ -126,7 +126,7 @@ def test_a_torque_enters_a_plate_as_it_does_in_a_stepped_bar(plate: float) -> No
     assert stiffness == pytest.approx(4.0 * np.pi * plate / (1.0 + entry - 0.25), rel=0.015)
 
 
-def test_a_ring_that_a_layer_relieves_evenly_gives_as_its_energy_says() -> None:
+def test_a_ring_that_a_layer_relieves_evenly_gives_as_its_energy_says():
     inner, outer = 15.0, 27.5
 
     def left(radius: float) -> float:
@@ -152,7 +152,7 @@ def sideways(between: vane.BlockBetween, spread: float = 1.0) -> wedge.Sideways:
 
 
 @pytest.mark.parametrize("ratio", [1.0, 1.2, 1.5, 3.0, 10.0])
-def test_a_rectangular_bar_twists_as_saint_venant_s_series_says(ratio: float) -> None:
+def test_a_rectangular_bar_twists_as_saint_venant_s_series_says(ratio):
     # Timoshenko and Goodier, art. 109: J = a b^3/3 (1 - 192 b/(pi^5 a) sum tanh(k pi a/(2 b))/k^5), k odd.
     k = np.arange(1, 60, 2)
     series = ratio / 3.0 * (1.0 - 192.0 / np.pi**5 / ratio * np.sum(np.tanh(0.5 * k * np.pi * ratio) / k**5))
@@ -160,7 +160,7 @@ def test_a_rectangular_bar_twists_as_saint_venant_s_series_says(ratio: float) ->
     assert wedge.torsion_constant(1.0, ratio) == wedge.torsion_constant(ratio, 1.0)
 
 
-def test_plates_and_vanes_bend_as_strips_do() -> None:
+def test_plates_and_vanes_bend_as_strips_do():
     # No vane of its own: the work of the moments on the slopes that 12 m/(E h^3) adds up to from the core outwards.
     between, arm = block(1e6), 0.4e-3 + 0.5 * HEIGHT
     slope = quad(lambda r: 12.0 * 3.0 * arm / (2.0 * np.pi * r) / (YOUNGS * 3e-3**3), 6.6e-3, RADIUS)[0]
@@ -172,7 +172,7 @@ def test_plates_and_vanes_bend_as_strips_do() -> None:
 
 
 @pytest.mark.parametrize("pad", [1e5, 1e6, 1e8, 1e12])
-def test_a_force_leans_out_where_its_energy_is_least(pad: float) -> None:
+def test_a_force_leans_out_where_its_energy_is_least(pad):
     between = block(pad)
     side, half, span = sideways(between), 0.5 * THICKNESS / RADIUS, 7.8e-3 / RADIUS
 
@@ -184,7 +184,7 @@ def test_a_force_leans_out_where_its_energy_is_least(pad: float) -> None:
     assert wedge.lean_out(between, side, THICKNESS, RADIUS) == pytest.approx(least, abs=1e-6)
 
 
-def test_what_is_softest_has_the_force_across_itself() -> None:
+def test_what_is_softest_has_the_force_across_itself():
     half, span = 0.5 * THICKNESS / RADIUS, 7.8e-3 / RADIUS
 
     def leans(between: vane.BlockBetween, along: float) -> float:
@@ -196,7 +196,7 @@ def test_what_is_softest_has_the_force_across_itself() -> None:
 
 
 @pytest.mark.parametrize("angle", [0.1, 0.7])
-def test_the_parts_of_a_force_do_their_own_work(angle: float) -> None:
+def test_the_parts_of_a_force_do_their_own_work(angle):
     # Vane's middle on the x axis. The force stands across the radius at the angle, a radius from the axis.
     at = RADIUS * np.array([np.cos(angle), np.sin(angle)])
     force = np.array([-np.sin(angle), np.cos(angle)])
@@ -208,7 +208,7 @@ def test_the_parts_of_a_force_do_their_own_work(angle: float) -> None:
     assert wedge.compliance(across, side, angle, RADIUS) == pytest.approx(work, rel=1e-12)
 
 
-def test_a_cupped_plate_stresses_the_core_s_foot_besides() -> None:
+def test_a_cupped_plate_stresses_the_core_s_foot_besides():
     # One newton metre: 6 m/h^2 of a plate, m the three moments on the core's circle; the core's own by Mises.
     angle, arm, core = 0.7, 3.6e-3, 6.6e-3
     moments = 3.0 * arm * np.sin(angle) / (3.0 * RADIUS)
@@ -217,7 +217,7 @@ def test_a_cupped_plate_stresses_the_core_s_foot_besides() -> None:
     assert wedge.foot_bending(angle, arm, core, PLATE) == pytest.approx(bending / plain, rel=1e-12)
 
 
-def test_vanes_yield_where_mises_says_in_bending_or_shear() -> None:
+def test_vanes_yield_where_mises_says_in_bending_or_shear():
     strength, arm = 31e6, 80e-3
     # Stress at the surface of a cantilever: F a (t/2)/I.
     bending = strength * (WIDTH * THICKNESS**3 / 12.0) / (arm * 0.5 * THICKNESS)
@@ -232,13 +232,13 @@ def test_vanes_yield_where_mises_says_in_bending_or_shear() -> None:
 
 
 @pytest.mark.parametrize(("ratio", "factor"), [(1.0, 0.208), (1.5, 0.231), (2.0, 0.246), (3.0, 0.267), (10.0, 0.313)])
-def test_a_twisted_bar_is_stressed_as_timoshenko_s_table_says(ratio: float, factor: float) -> None:
+def test_a_twisted_bar_is_stressed_as_timoshenko_s_table_says(ratio, factor):
     # Strength of Materials, part II, 3rd ed., ch. 8: tau = M/(alpha b c^2), c the shorter side.
     assert 1.0 / wedge.stress_of_twist(ratio, 1.0) == pytest.approx(factor * ratio, rel=5e-3)
     assert wedge.stress_of_twist(1.0, ratio) == wedge.stress_of_twist(ratio, 1.0)
 
 
-def test_a_force_that_leans_out_bends_both_ways_and_twists() -> None:
+def test_a_force_that_leans_out_bends_both_ways_and_twists():
     # FE of the force on a rotor's vane of `wrist_compression`: 0.76 across, 0.63 along, 3.1 mm of moment.
     arm, angle = 3.57e-3, np.radians(39.6)
     force = wedge.force_at_yield(31e6, (WIDTH, THICKNESS), arm, angle, RADIUS)

@@ -38,18 +38,14 @@ def constructed_direction(pin: float, placement: float, azimuth: float, offset: 
 
 
 @given(**lengths)
-def test_direction_is_that_of_the_line_constructed_with_vectors(
-    pin: float, placement: float, azimuth: float, share: float, hand: float
-) -> None:
+def test_direction_is_that_of_the_line_constructed_with_vectors(pin, placement, azimuth, share, hand):
     offset = share * (placement - pin)
     expected = constructed_direction(pin, placement, azimuth, offset, hand)
     assert spring.leg_direction(pin, placement, azimuth, offset, hand) == pytest.approx(expected, abs=1e-9)
 
 
 @given(**lengths)
-def test_ratio_is_the_derivative_of_the_direction(
-    pin: float, placement: float, azimuth: float, share: float, hand: float
-) -> None:
+def test_ratio_is_the_derivative_of_the_direction(pin, placement, azimuth, share, hand):
     offset = share * (placement - pin)
     # The complex step cannot pass atan2; a five-point stencil is good to 1e-9 here.
     slope = five_points(lambda f: spring.leg_direction(pin, placement, f, offset, hand), azimuth)
@@ -57,9 +53,7 @@ def test_ratio_is_the_derivative_of_the_direction(
 
 
 @given(**lengths)
-def test_curvature_is_the_derivative_of_the_ratio(
-    pin: float, placement: float, azimuth: float, share: float, hand: float
-) -> None:
+def test_curvature_is_the_derivative_of_the_ratio(pin, placement, azimuth, share, hand):
     offset = share * (placement - pin)
     step = 1e-30
     slope = spring.leg_ratio(pin, placement, azimuth + 1j * step, offset, hand).imag / step
@@ -67,9 +61,7 @@ def test_curvature_is_the_derivative_of_the_ratio(
 
 
 @given(**lengths)
-def test_the_left_hand_spring_is_the_mirror_image(
-    pin: float, placement: float, azimuth: float, share: float, hand: float
-) -> None:
+def test_the_left_hand_spring_is_the_mirror_image(pin, placement, azimuth, share, hand):
     offset = share * (placement - pin)
     left = spring.leg_direction(pin, placement, azimuth, offset, -hand)
     right = spring.leg_direction(pin, placement, -azimuth, offset, hand)
@@ -77,7 +69,7 @@ def test_the_left_hand_spring_is_the_mirror_image(
 
 
 @pytest.mark.parametrize(("pin", "expected"), [(28.5e-3, 5.61), (38e-3, 22.4)])
-def test_four_springs_of_the_paper_make_its_output_stiffness(pin: float, expected: float) -> None:
+def test_four_springs_of_the_paper_make_its_output_stiffness(pin, expected):
     # Exley et al.: K_s = N k (dalpha/dtheta)^2 with N = 4, k = 1.4023 N*m/rad; springs at 57 mm, radial pins.
     ratio = spring.leg_ratio(pin, 57e-3, 0.0, 0.0)
     curvature = spring.leg_curvature(pin, 57e-3, 0.0, 0.0)
@@ -85,9 +77,7 @@ def test_four_springs_of_the_paper_make_its_output_stiffness(pin: float, expecte
 
 
 @given(pin=lengths["pin"], placement=lengths["placement"], share=lengths["share"], preload=st.floats(0.0, 1.0))
-def test_output_stiffness_is_the_curvature_of_the_springs_energy(
-    pin: float, placement: float, share: float, preload: float
-) -> None:
+def test_output_stiffness_is_the_curvature_of_the_springs_energy(pin, placement, share, preload):
     # Two right- and two left-hand springs; each stores k (a_pre + w)^2/2, w from the line constructed with vectors.
     # A right-hand coil winds up where its leg turns counterclockwise, a left-hand one clockwise.
     offset, rate = share * (placement - pin), 1.4
@@ -109,7 +99,7 @@ def test_output_stiffness_is_the_curvature_of_the_springs_energy(
     assert stiffness == pytest.approx(expected, abs=1e-4 * scale)
 
 
-def test_torque_of_one_spring_is_that_of_its_force_on_the_pin() -> None:
+def test_torque_of_one_spring_is_that_of_its_force_on_the_pin():
     # Statics: the spring's moment M is a force M/L across the leg, L = sqrt(s^2 - e^2) from the coil to the pin.
     pin, placement, offset, azimuth, moment = 28.5e-3, 57e-3, 15.4e-3, 0.08, 0.3
     direction = constructed_direction(pin, placement, azimuth, offset, 1.0)
@@ -140,7 +130,7 @@ def drawn(case: dict[str, float]) -> DrawnSpring:
 
 
 @pytest.mark.parametrize("name", SPRINGS)
-def test_the_rate_is_that_of_fe(name: str) -> None:
+def test_the_rate_is_that_of_fe(name):
     case, shape = SPRINGS[name], drawn(SPRINGS[name])
     coils = drawn_coils(shape, POISSON)
     rate = spring.rate(case["modulus"] * 1e9, shape.wire_diameter, shape.coil_diameter, coils)
@@ -151,7 +141,7 @@ def test_the_rate_is_that_of_fe(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", SPRINGS)
-def test_the_highest_stress_is_that_of_fe(name: str) -> None:
+def test_the_highest_stress_is_that_of_fe(name):
     case, shape = SPRINGS[name], drawn(SPRINGS[name])
     straight = spring.bending_stress(1.0, shape.wire_diameter, 1.0) * 1e-6
     factor = spring.inner_fibre_factor(shape.coil_diameter / shape.wire_diameter)
@@ -186,7 +176,7 @@ def along_the_wire(shape: DrawnSpring, poisson: float) -> float:
 
 
 @pytest.mark.parametrize("name", SPRINGS)
-def test_the_closed_form_is_the_energy_along_the_wire(name: str) -> None:
+def test_the_closed_form_is_the_energy_along_the_wire(name):
     # What the closed form leaves out: the slope of the wire, and the bend's own way.
     shape = drawn(SPRINGS[name])
     assert bending_length(shape, POISSON) == pytest.approx(along_the_wire(shape, POISSON), rel=0.02)

@@ -20,7 +20,7 @@ WIRE = 0.072 * INCH
 COIL = (19.0 / 32.0 - 0.072) * INCH
 
 
-def test_a_spring_is_that_of_shigleys_example_10_8() -> None:
+def test_a_spring_is_that_of_shigleys_example_10_8():
     assert spring.active_coils(4.25, COIL, 2.0 * INCH) == pytest.approx(4.6567, rel=1e-4)
     rate = spring.rate(28_500 * KPSI, WIRE, COIL, spring.active_coils(4.25, COIL, 2.0 * INCH), "smi")
     assert rate * TURN / POUND_FORCE_INCH == pytest.approx(29.2, rel=HALF_PERCENT)
@@ -43,13 +43,11 @@ def test_a_spring_is_that_of_shigleys_example_10_8() -> None:
         (210e9, 2.413e-3, 24.4094e-3, 3.25, "bending", 12.41 * POUND_FORCE_INCH),
     ],
 )
-def test_rate_agrees_with_published_springs(
-    modulus: float, wire: float, coil: float, count: float, model: spring.RateModel, expected: float
-) -> None:
+def test_rate_agrees_with_published_springs(modulus, wire, coil, count, model, expected):
     assert spring.rate(modulus, wire, coil, count, model) == pytest.approx(expected, rel=HALF_PERCENT)
 
 
-def test_rate_and_stress_are_those_of_the_straightened_wire() -> None:
+def test_rate_and_stress_are_those_of_the_straightened_wire():
     # Castigliano: a wire of the length pi D n turns by M L/(E I) under a constant moment, I = pi d^4/64.
     wire, coil, count, modulus = 1.7e-3, 15e-3, 6.2, 200e9
     straight = modulus * np.pi * wire**4 / 64.0 / (np.pi * coil * count)
@@ -66,9 +64,7 @@ def test_rate_and_stress_are_those_of_the_straightened_wire() -> None:
     index=st.floats(4.0, 20.0),
     modulus=st.floats(180e9, 215e9),
 )
-def test_mass_follows_from_rate_and_wire_whatever_the_coil_diameter(
-    rate: float, wire: float, index: float, modulus: float
-) -> None:
+def test_mass_follows_from_rate_and_wire_whatever_the_coil_diameter(rate, wire, index, modulus):
     # The wire's length E I/k holds no D: m = rho pi^2 E d^6/(256 k).
     coil = index * wire
     count = spring.rate(modulus, wire, coil, 1.0) / rate
@@ -78,7 +74,7 @@ def test_mass_follows_from_rate_and_wire_whatever_the_coil_diameter(
 
 
 @pytest.mark.parametrize("index", [4.0, 6.0, 8.0, 10.0, 12.0, 20.0])
-def test_stress_factors_are_those_of_a_curved_bar(index: float) -> None:
+def test_stress_factors_are_those_of_a_curved_bar(index):
     # Winkler-Bach, lengths in wire diameters: r_n = r^2/(2 (R - sqrt(R^2 - r^2))), sigma_i = M c_i/(A e r_i).
     mean, radius = 0.5 * index, 0.5
     neutral = radius**2 / (2.0 * (mean - np.sqrt(mean**2 - radius**2)))
@@ -109,14 +105,14 @@ def test_stress_factors_are_those_of_a_curved_bar(index: float) -> None:
         ("patented_wire_sh", 8.0e-3, (2220 - 820 * np.log10(8.0)) * 1e6),
     ],
 )
-def test_wire_strength_agrees_with_the_handbook(record: str, diameter: float, expected: float) -> None:
+def test_wire_strength_agrees_with_the_handbook(record, diameter, expected):
     rows = Catalog().record("spring_materials", record).table("strength")
     strength = spring.tensile_strength(diameter, [(row["coefficient"], row["exponent"]) for row in rows])
     assert strength == pytest.approx(expected, rel=8e-3)
 
 
 @given(tensile=st.floats(1e9, 2.5e9), ratio=st.floats(0.3, 0.6))
-def test_endurance_limit_lies_on_the_gerber_line(tensile: float, ratio: float) -> None:
+def test_endurance_limit_lies_on_the_gerber_line(tensile, ratio):
     # S_r is a stress from zero: amplitude and mean are both S_r/2, and the part just fails.
     half = 0.5 * ratio * tensile
     endurance = spring.endurance_strength(tensile, ratio)
@@ -126,7 +122,7 @@ def test_endurance_limit_lies_on_the_gerber_line(tensile: float, ratio: float) -
 @given(
     amplitude=st.floats(1e6, 1e9), mean=st.floats(0.0, 1e9), endurance=st.floats(2e8, 8e8), tensile=st.floats(1e9, 3e9)
 )
-def test_gerber_safety_solves_gerbers_equation(amplitude: float, mean: float, endurance: float, tensile: float) -> None:
+def test_gerber_safety_solves_gerbers_equation(amplitude, mean, endurance, tensile):
     def beyond(factor: float) -> float:
         return factor * amplitude / endurance + (factor * mean / tensile) ** 2 - 1.0
 
@@ -134,7 +130,7 @@ def test_gerber_safety_solves_gerbers_equation(amplitude: float, mean: float, en
     assert spring.gerber_safety(amplitude, mean, endurance, tensile) == pytest.approx(root, rel=1e-9)
 
 
-def test_a_spring_wound_up_keeps_its_wire_and_grows_by_it() -> None:
+def test_a_spring_wound_up_keeps_its_wire_and_grows_by_it():
     # pi D n is the length of the wire; a turn of winding adds a turn of coil.
     coil, count, angle = 24e-3, 3.25, 1.2
     wound = spring.loaded_coil_diameter(coil, count, angle)
@@ -146,13 +142,13 @@ def test_a_spring_wound_up_keeps_its_wire_and_grows_by_it() -> None:
 
 
 @pytest.mark.parametrize(("grade_factor", "millimetres"), [(0.63, 0.3309), (1.6, 0.8404)])
-def test_diameter_of_the_papers_spring_varies_as_din_2194_says(grade_factor: float, millimetres: float) -> None:
+def test_diameter_of_the_papers_spring_varies_as_din_2194_says(grade_factor, millimetres):
     tolerance = spring.diameter_tolerance(2.413e-3, 24.4094e-3, grade_factor)
     assert tolerance == pytest.approx(millimetres * 1e-3, rel=HALF_PERCENT)
 
 
 @pytest.mark.parametrize("wire", [1e-3, 1.5e-3, 2e-3])
-def test_a_coil_is_wound_on_the_mandrel_of_a_published_chart(wire: float) -> None:
+def test_a_coil_is_wound_on_the_mandrel_of_a_published_chart(wire):
     # Chart of D_w/D over the index for music wire, read as a straight line: metalworkingfun.com, thread 1441, post 50.
     strength = 2211e6 / (1e3 * wire) ** 0.145  # ASTM A228
     for index in (5.0, 8.0, 11.0, 15.0):
@@ -160,7 +156,7 @@ def test_a_coil_is_wound_on_the_mandrel_of_a_published_chart(wire: float) -> Non
         assert wound / (index * wire) == pytest.approx(0.980364 - 0.012436 * index, rel=0.02)
 
 
-def test_a_wound_coil_springs_back_as_a_section_that_yields_in_slices() -> None:
+def test_a_wound_coil_springs_back_as_a_section_that_yields_in_slices():
     # An ideally plastic round wire bent on the mandrel and let go, its moment summed over slices of its section.
     wire, wound, stress, modulus = 2e-3, 12e-3, 1.9e9, 203e9
     height = (np.arange(200_000) + 0.5) / 200_000 * 0.5 * wire
@@ -175,7 +171,7 @@ SIZES = (21e-3, 25e-3, 0.2e-3, 3)
 YOUNGS = 206e9
 
 
-def test_a_wave_spring_is_beams_and_its_factor_is_the_makers() -> None:
+def test_a_wave_spring_is_beams_and_its_factor_is_the_makers():
     inner, outer, thickness, waves = SIZES
     wave, force, section = np.pi * 0.5 * (inner + outer) / waves, 5.0, 0.5 * (outer - inner) * thickness**2 / 6.0
     # Clamped, loaded in the middle: F L/8 (Shigley, table A-9, 14), each wave bears its share of the force.

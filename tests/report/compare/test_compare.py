@@ -33,7 +33,7 @@ def pair(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
-def test_folder_and_ratios_are_those_of_the_written_designs(pair: Path) -> None:
+def test_folder_and_ratios_are_those_of_the_written_designs(pair):
     names = {path.relative_to(pair).as_posix() for path in pair.rglob("*") if path.is_file()}
     each = {
         f"{mode}/{file}" for mode in ("shear", "compression") for file in ("drawn.json", "optimised.json", "study.yaml")
@@ -59,7 +59,7 @@ def test_folder_and_ratios_are_those_of_the_written_designs(pair: Path) -> None:
 
 
 @pytest.mark.slow
-def test_studies_minimise_over_the_mean_of_the_drawn_modules(pair: Path) -> None:
+def test_studies_minimise_over_the_mean_of_the_drawn_modules(pair):
     drawn, optimised = (
         [json.loads((pair / f"{mode}/{which}.json").read_text()) for mode in ("shear", "compression")]
         for which in ("drawn", "optimised")
@@ -74,7 +74,7 @@ def test_studies_minimise_over_the_mean_of_the_drawn_modules(pair: Path) -> None
 
 
 @pytest.mark.slow
-def test_contact_and_warnings_are_reported(pair: Path) -> None:
+def test_contact_and_warnings_are_reported(pair):
     reported = _report(pair)
     rows = {row["name"]: row for row in reported["comparisons"]["optimised"]}
     lost = rows["contact_lost@hot"]
@@ -89,7 +89,7 @@ def test_contact_and_warnings_are_reported(pair: Path) -> None:
 
 
 @pytest.mark.slow
-def test_leads_follow_from_the_fronts_and_the_tables_agree(pair: Path) -> None:
+def test_leads_follow_from_the_fronts_and_the_tables_agree(pair):
     reported = _report(pair)
     fronts = [front for front in reported["fronts"]["fronts"] if front["second"] == "module_mass"]
     lightest = {front["study"]: min(p["values"]["module_mass"] for p in front["points"]) for front in fronts}
@@ -117,7 +117,7 @@ def test_leads_follow_from_the_fronts_and_the_tables_agree(pair: Path) -> None:
 
 
 @pytest.mark.slow
-def test_renamed_copy_is_equal(tvimdesign: Command, tmp_path: Path) -> None:
+def test_renamed_copy_is_equal(tvimdesign, tmp_path):
     paths = written(tmp_path, one=SHEAR, copy=SHEAR)
     done = tvimdesign("compare", *paths, "--points", 2, "--no-plots", "--json", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
@@ -133,7 +133,7 @@ def test_renamed_copy_is_equal(tvimdesign: Command, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_study_without_a_design_leaves_the_other(tvimdesign: Command, tmp_path: Path) -> None:
+def test_study_without_a_design_leaves_the_other(tvimdesign, tmp_path):
     limits = '  holding_torque: ">= 5 N.m"', '  holding_torque: ">= 5 N.m"\n  response_time: "<= 120 s"'
     paths = written(tmp_path, fast=SHEAR.replace(*limits), slow=COMPRESSION.replace(*limits))
     done = tvimdesign("compare", *paths, "--points", 2, "--json", "--out", tmp_path / "out")
@@ -150,7 +150,7 @@ def test_study_without_a_design_leaves_the_other(tvimdesign: Command, tmp_path: 
 
 
 @pytest.mark.slow
-def test_process_that_dies_leaves_the_other(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_process_that_dies_leaves_the_other(tmp_path, monkeypatch):
     evaluated = SHEAR[: SHEAR.index("vary:")] + SHEAR[SHEAR.index("operating_points:") :]
     (path,) = written(tmp_path, there=evaluated)
     out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
@@ -176,9 +176,7 @@ def test_process_that_dies_leaves_the_other(tmp_path: Path, monkeypatch: pytest.
 
 
 @pytest.mark.gate
-def test_finished_runs_are_compared_without_computing(
-    tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_finished_runs_are_compared_without_computing(tvimdesign, tmp_path, monkeypatch):
     """Two runs of modules that differ in wire and current; nothing is simulated for their comparison."""
     fixed = COARSE[: COARSE.index("vary:")] + COARSE[COARSE.index("operating_points:") :]
     for name, wire, current in (("thin", 2.4, 1.5), ("thick", 2.8, 1.4)):
@@ -211,7 +209,7 @@ def test_finished_runs_are_compared_without_computing(
         (["nothing.json", "."], "no such file"),
     ],
 )
-def test_refused_paths(tvimdesign: Command, tmp_path: Path, names: list[str], words: str) -> None:
+def test_refused_paths(tvimdesign, tmp_path, names, words):
     written(tmp_path, one=SHEAR)
     done = tvimdesign("compare", *(tmp_path / name for name in names), "--out", tmp_path / "out")
     assert done.returncode == 2
@@ -219,7 +217,7 @@ def test_refused_paths(tvimdesign: Command, tmp_path: Path, names: list[str], wo
     assert not (tmp_path / "out").exists()
 
 
-def test_problems_of_all_studies_are_listed_at_once(tvimdesign: Command, tmp_path: Path) -> None:
+def test_problems_of_all_studies_are_listed_at_once(tvimdesign, tmp_path):
     wrong = COMPRESSION.replace("require:", 'require:\n  layer_strain: "<= 3"')
     worse = SHEAR.replace("coil", "coyl").replace("pcl_thickness", "pcl_thikness")
     paths = written(tmp_path, a=worse, b=wrong)

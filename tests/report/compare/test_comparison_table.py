@@ -28,7 +28,7 @@ def row(
 
 
 @pytest.mark.parametrize(("better", "verdict"), [("less", "worse"), ("more", "better"), (None, "")])
-def test_twice_as_much_is_what_the_row_says(better: Literal["less", "more"] | None, verdict: str) -> None:
+def test_twice_as_much_is_what_the_row_says(better, verdict):
     mass = row(70.0, 140.0, better)
     assert mass.ratio("b") == pytest.approx(2.0)
     assert mass.verdict("b") == verdict
@@ -38,7 +38,7 @@ SIZES = st.floats(1e-3, 1e3)
 
 
 @given(SIZES, SIZES, st.sampled_from(["less", "more"]))
-def test_swapping_two_studies_inverts_ratio_and_verdict(a: float, b: float, better: Literal["less", "more"]) -> None:
+def test_swapping_two_studies_inverts_ratio_and_verdict(a, b, better):
     straight, other = row(a, b, better), row(b, a, better)
     ratio, turned = straight.ratio("b"), other.ratio("b")
     assert ratio * turned == pytest.approx(1.0)
@@ -46,7 +46,7 @@ def test_swapping_two_studies_inverts_ratio_and_verdict(a: float, b: float, bett
     assert other.verdict("b") == opposite[straight.verdict("b")]
 
 
-def test_what_hardly_differs_never_happens_or_is_open_has_its_own_verdict() -> None:
+def test_what_hardly_differs_never_happens_or_is_open_has_its_own_verdict():
     assert row(100.0, 100.0 * (1.0 + 0.9 * ALIKE)).verdict("b") == "same"
     assert row(100.0, 100.0 * (1.0 + 1.1 * ALIKE)).verdict("b") == "worse"
     endless = row(70.0, math.inf)
@@ -63,7 +63,7 @@ def test_what_hardly_differs_never_happens_or_is_open_has_its_own_verdict() -> N
     assert row(70.0, 140.0, ends={"a": (60.0, 130.0)}).verdict("b") == "worse"
 
 
-def test_sentence_and_csv_of_a_comparison() -> None:
+def test_sentence_and_csv_of_a_comparison():
     rows = [row(70.0, 140.0), row(0.1, 0.092, unit="g", name="module_mass"), row(1.0, 1.0, unit="mm", name="size")]
     text = against("b", "a", rows, ["response_time", "module_mass", "size"])
     assert text == (
@@ -76,14 +76,14 @@ def test_sentence_and_csv_of_a_comparison() -> None:
     ]
 
 
-def test_outputs_that_do_not_differ_beyond_rounding_are_counted() -> None:
+def test_outputs_that_do_not_differ_beyond_rounding_are_counted():
     alike = [row(0.0, 0.0, name="sag"), row(70.0, 70.001, name="cycle_time"), row(math.inf, math.inf, name="hold")]
     table = side_by_side("As drawn", [*alike, row(70.0, 70.1), row(0.0, 1.0, name="backlash")])
     assert [cells[0].text for cells in table.rows] == ["response_time", "backlash"]
     assert table.note == "3 more are equal."
 
 
-def test_every_direction_belongs_to_an_output() -> None:
+def test_every_direction_belongs_to_an_output():
     outputs = {row.name for mode in MODES for row in table_for(mode).outputs}
     assert directions().keys() <= outputs
     mass = table_for("compression").quantity("module_mass")
@@ -114,7 +114,7 @@ def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
 
 
 @pytest.mark.slow
-def test_drawn_modules_are_compared_where_one_has_no_optimum(outcome: Outcome) -> None:
+def test_drawn_modules_are_compared_where_one_has_no_optimum(outcome):
     assert "optimised" in outcome.answers["s"]
     assert "optimised" not in outcome.answers["c"]
     assert outcome.which == "drawn"
@@ -126,7 +126,7 @@ def test_drawn_modules_are_compared_where_one_has_no_optimum(outcome: Outcome) -
 
 
 @pytest.mark.gate
-def test_warnings_are_of_the_same_designs(outcome: Outcome) -> None:
+def test_warnings_are_of_the_same_designs(outcome):
     text = " ".join(summary_text(outcome).split())
     for name in ("s", "c"):
         drawn: dict[str, Any] = outcome.answers[name]["drawn"]

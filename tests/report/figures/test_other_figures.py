@@ -25,7 +25,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from PIL import Image
 from small_sweeps import SMALL
-from support import Command, study_path
+from support import study_path
 
 import tvimdesign as tvim
 from tests.helpers.figures import faults, signed
@@ -65,14 +65,12 @@ def shown(resolved: ResolvedModule) -> Callable[[str], dict[str, Any]]:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("test", TESTS)
-def test_an_editor_finds_no_fault_with_a_virtual_test(test: str, shown: Callable[[str], dict[str, Any]]) -> None:
+def test_an_editor_finds_no_fault_with_a_virtual_test(test, shown):
     assert faults(signed(trial_figure(shown(test)))) == []
 
 
 @pytest.mark.parametrize("test", ["release", "sine"])
-def test_torque_over_angle_is_in_newton_metres_and_angle_over_time_no_blob(
-    test: str, shown: Callable[[str], dict[str, Any]]
-) -> None:
+def test_torque_over_angle_is_in_newton_metres_and_angle_over_time_no_blob(test, shown):
     panels = shown(test)["panels"]
     loops = [panel for panel in panels if panel["x_label"] == "Angle (rad)"]
     assert len(loops) == 3
@@ -89,13 +87,13 @@ LABELS = ["Response time (s)", "Module mass (g)", "Envelope volume (cm³)"]
 
 
 @pytest.mark.parametrize("outputs", [2, 3])
-def test_an_editor_finds_no_fault_with_a_front(outputs: int) -> None:
+def test_an_editor_finds_no_fault_with_a_front(outputs):
     points = [[100.0 + i, 110.0 - i, 240.0 - 3.0 * i][:outputs] for i in range(8)]
     data = {"labels": LABELS[:outputs], "points": points, "optimum": points[4], "knee": 6}
     assert faults(signed(design_figures.front(data))) == []
 
 
-def test_an_editor_finds_no_fault_with_other_figures() -> None:
+def test_an_editor_finds_no_fault_with_other_figures():
     def line(label: str, by: float) -> dict[str, Any]:
         return {"label": label, "x": [60.0 * by, 70.0 * by], "y": [80.0, 60.0], "optimum": [[65.0 * by], [65.0]]}
 
@@ -123,7 +121,7 @@ def sheet_of(picture: str = "", rows: int = 10, warnings: int = 3) -> dict[str, 
     }  # fmt: skip
 
 
-def test_a_long_label_of_a_fact_stays_in_its_column() -> None:
+def test_a_long_label_of_a_fact_stays_in_its_column():
     sheet = sheet_of()
     sheet["facts"] = [("Active constraints with margins", "step from floor to hub >= 0 mm")] * 3
     texts = {text.get_text(): text.get_window_extent() for text in summary(sheet).texts}
@@ -132,7 +130,7 @@ def test_a_long_label_of_a_fact_stays_in_its_column() -> None:
 
 
 @pytest.mark.parametrize("rows", [0, 10, 60])
-def test_it_is_one_sheet_of_a4(tmp_path: Path, rows: int) -> None:
+def test_it_is_one_sheet_of_a4(tmp_path, rows):
     Image.new("RGB", (1800, 800), "grey").save(tmp_path / "preview.png")
     figure = summary(sheet_of(str(tmp_path / "preview.png"), rows))
     pdf = theme.as_file(figure, "pdf")
@@ -179,12 +177,12 @@ def figure_of(figure: str, data: dict[str, Any]) -> Figure:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_an_editor_finds_no_fault(name: str, result: StudyResult) -> None:
+def test_an_editor_finds_no_fault(name, result):
     (drawing,) = [candidate for candidate in drawings(result, table_for(result.design.mode)) if candidate.file == name]
     assert faults(signed(figure_of(drawing.figure, drawing.data))) == []
 
 
-def test_files_have_their_pixels(data: dict[str, Any]) -> None:
+def test_files_have_their_pixels(data):
     figure = figure_of("design_figures.torque", data["torque"])
     picture = Image.open(io.BytesIO(theme.png(figure)))
     assert picture.size == (2130, 780)  # 7.1 by 2.6 inches of 300 dots
@@ -193,7 +191,7 @@ def test_files_have_their_pixels(data: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("result", ["optimised"], indirect=True)
-def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, Any]) -> None:
+def test_vector_files_are_what_they_say_and_the_same_each_time(data):
     pdf, svg = ([theme.as_file(signed(figure_of("design_figures.torque", data["torque"])), ending) for _ in range(2)]
                 for ending in ("pdf", "svg"))  # fmt: skip
     assert pdf[0] == pdf[1]
@@ -211,7 +209,7 @@ def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, A
     assert not list(root.iter("{http://www.w3.org/2000/svg}image"))
 
 
-def test_curves_and_loops_are_those_of_the_table(result: StudyResult, data: dict[str, Any]) -> None:
+def test_curves_and_loops_are_those_of_the_table(result, data):
     for phase, curves in result.histories.items():
         point = "hot" if phase == "softening" else "cold"
         turning = 2.0 * np.pi * result.design.value(f"frequency@{point}")
@@ -249,7 +247,7 @@ def luminance(colour: str) -> float:
     return 0.299 * red + 0.587 * green + 0.114 * blue
 
 
-def test_colours_are_okabe_and_ito_s_and_like_greys_have_other_lines() -> None:
+def test_colours_are_okabe_and_ito_s_and_like_greys_have_other_lines():
     assert {*theme.COLOURS, theme.BROKEN} <= OKABE_ITO
     assert theme.BROKEN not in theme.COLOURS
     for first, other in pairwise((*theme.COLOURS, theme.COLOURS[0])):
@@ -261,7 +259,7 @@ def test_colours_are_okabe_and_ito_s_and_like_greys_have_other_lines() -> None:
 
 
 @given(low=st.floats(1e-12, 1e9), decades=st.floats(1e-3, 12.0))
-def test_logarithmic_axes_have_at_least_two_ticks(low: float, decades: float) -> None:
+def test_logarithmic_axes_have_at_least_two_ticks(low, decades):
     axes = theme.place(theme.new_figure(3.0), 1.0, 1.0, 2.0, 1.0)
     axes.set_yscale("log")
     axes.set_ylim(low, low * 10.0**decades)
@@ -272,14 +270,14 @@ def test_logarithmic_axes_have_at_least_two_ticks(low: float, decades: float) ->
     assert len({theme.plain(tick) for tick in inside}) >= 2
 
 
-def test_ticks_are_plain_and_names_are_words_with_units() -> None:
+def test_ticks_are_plain_and_names_are_words_with_units():
     assert [theme.plain(value) for value in (0.0, 0.5, 200.0, 1e6, 2e-7)] == ["0", "0.5", "200", "10⁶", "2·10⁻⁷"]
     assert name_in_words("joint_damping@hot") == "joint damping, hot"
     assert axis_label("pcl_thickness", "mm") == "PCL thickness (mm)"
     assert axis_label("impedance_range", "1") == "Impedance range (–)"
 
 
-def test_swings_are_lines_or_the_band_that_holds_them() -> None:
+def test_swings_are_lines_or_the_band_that_holds_them():
     x = np.linspace(0.0, 1.0, 500)
     parts = drawn(x, np.cos(8.0 * np.pi * x))
     assert len(parts.lines) == 1
@@ -302,7 +300,7 @@ def test_swings_are_lines_or_the_band_that_holds_them() -> None:
     assert parts.lines[1][0][-1] == x[-1]
 
 
-def test_fonts_in_a_pdf_have_the_letters_and_nothing_that_lays_out_text() -> None:
+def test_fonts_in_a_pdf_have_the_letters_and_nothing_that_lays_out_text():
     usual = subset.Options
     axes = theme.place(theme.new_figure(3.0), 1.0, 1.0, 2.0, 1.0)
     axes.set_xlabel("torque")
@@ -349,9 +347,7 @@ def _draws_by(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.gate] if name in {"run", "sweep"} else []) for name in COMMANDS]
 )
-def test_plots_that_take_too_long_cost_no_number(
-    name: str, tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_plots_that_take_too_long_cost_no_number(name, tvimdesign, tmp_path, monkeypatch):
     (tmp_path / "arm.yaml").write_text(STUDY)
     (tmp_path / "grid.yaml").write_text(SMALL)
     (tmp_path / "weights.csv").write_text(WEIGHTS)
@@ -371,9 +367,7 @@ def test_plots_that_take_too_long_cost_no_number(
         assert manifest["status"] == "partly done"
 
 
-def test_a_drawing_process_that_fails_says_why(
-    tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_drawing_process_that_fails_says_why(tvimdesign, tmp_path, monkeypatch):
     (tmp_path / "weights.csv").write_text(WEIGHTS)
     _draws_by(FAILS, tmp_path, monkeypatch)
     words, _ = COMMANDS["fit"]
@@ -384,7 +378,7 @@ def test_a_drawing_process_that_fails_says_why(
 
 
 @pytest.mark.gate
-def test_a_result_that_is_saved_without_plots_warns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_result_that_is_saved_without_plots_warns(tmp_path, monkeypatch):
     _draws_by(BURNS, tmp_path, monkeypatch)
     result = tvim.example("paper_reconstructed").evaluate(progress=False)
     with pytest.warns(UserWarning, match=r"0\.2 s of processor time.*save again with overwrite=True"):

@@ -11,7 +11,6 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
-from pathlib import Path
 
 import psutil
 import pytest
@@ -30,7 +29,7 @@ from tvimdesign.report.sweep_study import joined
 from tvimdesign.sweep.shards import SHARDS
 
 
-def test_a_folder_another_run_is_writing_is_refused(tmp_path: Path) -> None:
+def test_a_folder_another_run_is_writing_is_refused(tmp_path):
     with ResultsFolder(tmp_path) as folder:
         for flags in ((False, False), (True, False), (False, True)):
             with pytest.raises(FolderInUseError, match=rf"another run \(process {os.getpid()}\)"):
@@ -38,7 +37,7 @@ def test_a_folder_another_run_is_writing_is_refused(tmp_path: Path) -> None:
         folder.finish("optimal", {}, {})
 
 
-def test_a_run_on_another_host_is_not_taken_for_dead(tmp_path: Path) -> None:
+def test_a_run_on_another_host_is_not_taken_for_dead(tmp_path):
     killed(tmp_path)
     claim = json.loads((tmp_path / UNFINISHED / RUN).read_text())
     assert claim["host"] == platform.node()
@@ -48,9 +47,7 @@ def test_a_run_on_another_host_is_not_taken_for_dead(tmp_path: Path) -> None:
         ResultsFolder(tmp_path, overwrite=True)
 
 
-def test_without_locks_the_process_that_a_claim_names_is_looked_up(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_locks_the_process_that_a_claim_names_is_looked_up(tmp_path, monkeypatch):
     monkeypatch.setattr("tvimdesign.base.claim._locked", lambda *_, **__: None)
     with ResultsFolder(tmp_path) as folder, pytest.raises(FolderInUseError):
         ResultsFolder(folder.out)
@@ -79,7 +76,7 @@ _CLAIMS = (
 )
 
 
-def test_of_two_processes_one_claims_a_folder(tmp_path: Path) -> None:
+def test_of_two_processes_one_claims_a_folder(tmp_path):
     outs = [str(tmp_path / str(number)) for number in range(100)]
     pair = [
         subprocess.Popen(
@@ -98,7 +95,7 @@ def test_of_two_processes_one_claims_a_folder(tmp_path: Path) -> None:
     assert answers == [["ready", "ready"], *[["claimed", "refused"]] * len(outs)]
 
 
-def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path: Path) -> None:
+def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path):
     with joined(tmp_path) as first, joined(tmp_path) as second:
         assert first == second
         (first / "shards").mkdir()
@@ -117,7 +114,7 @@ def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path: Path) -> None:
     assert texts(tmp_path) == {"shards/00001.jsonl": "cells"}
 
 
-def test_time_left_is_the_mean_of_the_steps_of_a_series() -> None:
+def test_time_left_is_the_mean_of_the_steps_of_a_series():
     left = RemainingTime()
     left.heard("start 1 of 4", 10.0)
     assert left.left(12.0) is None
@@ -152,9 +149,7 @@ def read_on(capsys: pytest.CaptureFixture[str], lines: list[str]) -> list[str]:
 
 
 @pytest.mark.gate
-def test_plain_lines_come_every_few_seconds(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_plain_lines_come_every_few_seconds(capsys, monkeypatch):
     monkeypatch.setattr(terminal, "PLAIN_EVERY", 1.2)
     with terminal.progress_output() as say:
         for i in range(10):
@@ -168,9 +163,7 @@ def test_plain_lines_come_every_few_seconds(
     assert re.fullmatch(r"\.\.\. still start 10 of 40 · █{4}░{16} 22% · \d+ s(, about .* left)?", lines[2])
 
 
-def test_what_goes_on_is_shown_again_without_its_figures(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_goes_on_is_shown_again_without_its_figures(capsys, monkeypatch):
     monkeypatch.setattr(terminal, "PLAIN_EVERY", 0.0)
     with terminal.progress_output() as say:
         for _ in range(3):
@@ -181,7 +174,7 @@ def test_what_goes_on_is_shown_again_without_its_figures(
 
 
 @pytest.mark.gate
-def test_silence_never_lasts_three_seconds(capsys: pytest.CaptureFixture[str]) -> None:
+def test_silence_never_lasts_three_seconds(capsys):
     lines, times = list[str](), [time.monotonic()]
     with terminal.progress_output() as say:
         say("searching")
@@ -194,7 +187,7 @@ def test_silence_never_lasts_three_seconds(capsys: pytest.CaptureFixture[str]) -
 
 
 @pytest.mark.parametrize("error", [SystemError, RuntimeError, InputError])
-def test_what_a_library_raises_after_an_interrupt_is_the_interrupt(error: type[Exception]) -> None:
+def test_what_a_library_raises_after_an_interrupt_is_the_interrupt(error):
     def fail(*, interrupted: bool) -> None:
         with terminal.progress_output():
             if interrupted:
@@ -218,7 +211,7 @@ def shown(what: object) -> str:
 
 
 @pytest.mark.parametrize("text", TEXTS)
-def test_a_user_s_text_is_shown_as_it_stands(text: str) -> None:
+def test_a_user_s_text_is_shown_as_it_stands(text):
     assert text in shown(f"Results are in [bold]{escape(text)}[/bold]")
     assert text in shown(f"Results are in {text}")
     table = Table()

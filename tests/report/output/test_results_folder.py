@@ -19,7 +19,7 @@ from tvimdesign.base.manifest import MANIFEST, read_manifest
 from tvimdesign.base.results_folder import ResultsFolder
 
 
-def test_a_manifest_lists_what_the_run_wrote_and_nothing_else_is_kept(tmp_path: Path) -> None:
+def test_a_manifest_lists_what_the_run_wrote_and_nothing_else_is_kept(tmp_path):
     with ResultsFolder(tmp_path) as folder:
         folder.write("results.csv", "mine")
         (tmp_path / "notes.txt").write_text("yours")
@@ -33,7 +33,7 @@ def test_a_manifest_lists_what_the_run_wrote_and_nothing_else_is_kept(tmp_path: 
     assert texts(tmp_path / "alone") == {"results.csv": "mine"}
 
 
-def test_overwriting_twice_keeps_what_the_user_put_there(tmp_path: Path) -> None:
+def test_overwriting_twice_keeps_what_the_user_put_there(tmp_path):
     finished(tmp_path)
     yours = {"my.yaml": "mode: shear", "notes.txt": "n", "cad/step/mine.step": "s", "plots/.x.part": "p"}
     for name, text in yours.items():
@@ -51,7 +51,7 @@ def test_overwriting_twice_keeps_what_the_user_put_there(tmp_path: Path) -> None
     }
 
 
-def test_a_file_changed_by_hand_is_kept_beside_with_a_word(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_file_changed_by_hand_is_kept_beside_with_a_word(tmp_path, capsys):
     finished(tmp_path)
     (tmp_path / "results.csv").write_text("edited")
     (tmp_path / "plots/heat.png").write_text("edited, too")
@@ -74,7 +74,7 @@ def test_a_file_changed_by_hand_is_kept_beside_with_a_word(tmp_path: Path, capsy
     ],
 )
 @pytest.mark.parametrize("flags", [(False, False), (True, False), (False, True)])
-def test_a_foreign_manifest_does_not_make_a_folder_ours(tmp_path: Path, text: str, flags: tuple[bool, bool]) -> None:
+def test_a_foreign_manifest_does_not_make_a_folder_ours(tmp_path, text, flags):
     yours = {"thesis.tex": "precious", "photos/1.jpg": "x"}
     for name, content in {**yours, MANIFEST: text}.items():
         write_file(tmp_path / name, content)
@@ -91,14 +91,14 @@ def write_file(path: Path, text: str) -> None:
 
 @pytest.mark.parametrize("name", ["thesis.tex", "unfinished/ch1.tex", "unfinished"])
 @pytest.mark.parametrize("flags", [(False, False), (True, False), (False, True)])
-def test_a_folder_with_other_files_is_refused(tmp_path: Path, name: str, flags: tuple[bool, bool]) -> None:
+def test_a_folder_with_other_files_is_refused(tmp_path, name, flags):
     write_file(tmp_path / name, "precious")
     with pytest.raises(InputError):
         ResultsFolder(tmp_path, *flags)
     assert texts(tmp_path) == {name: "precious"}
 
 
-def test_an_edited_manifest_does_not_vouch_for_files(tmp_path: Path) -> None:
+def test_an_edited_manifest_does_not_vouch_for_files(tmp_path):
     finished(tmp_path)
     content = json.loads((tmp_path / MANIFEST).read_text())
     (tmp_path / MANIFEST).write_text(json.dumps({**content, "note": "mine"}))
@@ -109,9 +109,7 @@ def test_an_edited_manifest_does_not_vouch_for_files(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("words", [(), ("overwrite",)])
 @pytest.mark.parametrize("flags", [(True, False), (False, True)])
-def test_after_sigkill_what_the_user_added_is_the_user_s(
-    tmp_path: Path, words: tuple[str, ...], flags: tuple[bool, bool]
-) -> None:
+def test_after_sigkill_what_the_user_added_is_the_user_s(tmp_path, words, flags):
     out = tmp_path / "out"
     if words:
         finished(out)
@@ -127,7 +125,7 @@ def test_after_sigkill_what_the_user_added_is_the_user_s(
     assert texts(out) == {**yours, "results.csv": "new"}
 
 
-def test_files_of_a_killed_run_are_replaced_on_request_alone(tmp_path: Path) -> None:
+def test_files_of_a_killed_run_are_replaced_on_request_alone(tmp_path):
     killed(tmp_path)
     with pytest.raises(InputError, match="holds what an unfinished run has written"):
         ResultsFolder(tmp_path)
@@ -136,7 +134,7 @@ def test_files_of_a_killed_run_are_replaced_on_request_alone(tmp_path: Path) -> 
     assert texts(tmp_path) == {"results.csv": "new"}
 
 
-def test_a_link_is_refused_before_anything_is_removed(tmp_path: Path) -> None:
+def test_a_link_is_refused_before_anything_is_removed(tmp_path):
     out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
     finished(out)
     shutil.move(out / "cad", elsewhere)
@@ -147,7 +145,7 @@ def test_a_link_is_refused_before_anything_is_removed(tmp_path: Path) -> None:
     assert texts(tmp_path) == before
 
 
-def test_a_link_that_comes_while_a_run_is_going_leaves_both_results_whole(tmp_path: Path) -> None:
+def test_a_link_that_comes_while_a_run_is_going_leaves_both_results_whole(tmp_path):
     out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
     elsewhere.mkdir()
     finished(out, {"results.csv": "old"})
@@ -164,7 +162,7 @@ def test_a_link_that_comes_while_a_run_is_going_leaves_both_results_whole(tmp_pa
     assert texts(out) == {"summary.txt": "newer"}
 
 
-def test_a_link_in_place_of_a_file_is_not_followed(tmp_path: Path) -> None:
+def test_a_link_in_place_of_a_file_is_not_followed(tmp_path):
     out, precious = tmp_path / "out", tmp_path / "precious.csv"
     finished(out, {"results.csv": "old"})
     precious.write_text("precious")
@@ -177,7 +175,7 @@ def test_a_link_in_place_of_a_file_is_not_followed(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("error", [ZeroDivisionError, KeyboardInterrupt])
-def test_a_run_that_fails_leaves_the_earlier_results_whole(tmp_path: Path, error: type[BaseException]) -> None:
+def test_a_run_that_fails_leaves_the_earlier_results_whole(tmp_path, error):
     finished(tmp_path)
     before, manifest = texts(tmp_path), (tmp_path / MANIFEST).read_bytes()
     with suppress(error), ResultsFolder(tmp_path, overwrite=True) as folder:
@@ -191,9 +189,7 @@ def test_a_run_that_fails_leaves_the_earlier_results_whole(tmp_path: Path, error
     assert texts(tmp_path) == {"results.csv": "new"}
 
 
-def test_a_run_that_is_killed_as_its_results_are_put_in_place_is_completed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_that_is_killed_as_its_results_are_put_in_place_is_completed(tmp_path, monkeypatch):
     finished(tmp_path)
     moves = Path.replace
 
@@ -218,7 +214,7 @@ def test_a_run_that_is_killed_as_its_results_are_put_in_place_is_completed(
 
 
 @pytest.mark.parametrize("mask", [0o077, 0o022, 0o002])
-def test_files_respect_the_umask(tmp_path: Path, mask: int) -> None:
+def test_files_respect_the_umask(tmp_path, mask):
     before = os.umask(mask)
     try:
         finished(tmp_path / "out")
@@ -228,9 +224,7 @@ def test_files_respect_the_umask(tmp_path: Path, mask: int) -> None:
     assert modes == {0o666 & ~mask}
 
 
-def test_an_interrupt_while_the_manifest_is_made_is_noted_in_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupt_while_the_manifest_is_made_is_noted_in_it(tmp_path, monkeypatch):
     usual = results_folder.digest_of
 
     def interrupted(_: Path) -> str:
@@ -245,7 +239,7 @@ def test_an_interrupt_while_the_manifest_is_made_is_noted_in_it(
     assert (manifest["status"], list(manifest["files"])) == ("interrupted", ["results.csv"])
 
 
-def test_nothing_after_a_swallowed_interrupt_counts_as_done(tmp_path: Path) -> None:
+def test_nothing_after_a_swallowed_interrupt_counts_as_done(tmp_path):
     with interrupt_handler(), suppress(KeyboardInterrupt), ResultsFolder(tmp_path / "out") as folder:
         with suppress(KeyboardInterrupt):  # as some library does
             os.kill(os.getpid(), signal.SIGTERM)
@@ -253,7 +247,7 @@ def test_nothing_after_a_swallowed_interrupt_counts_as_done(tmp_path: Path) -> N
     assert json.loads((tmp_path / "out" / MANIFEST).read_bytes())["status"] == "interrupted"
 
 
-def test_a_run_that_fails_leaves_a_manifest_that_says_so(tmp_path: Path) -> None:
+def test_a_run_that_fails_leaves_a_manifest_that_says_so(tmp_path):
     with suppress(ZeroDivisionError), ResultsFolder(tmp_path / "out") as folder:
         folder.write("results.csv", "half of it")
         raise ZeroDivisionError
@@ -261,13 +255,13 @@ def test_a_run_that_fails_leaves_a_manifest_that_says_so(tmp_path: Path) -> None
     assert texts(tmp_path / "out") == {"results.csv": "half of it"}
 
 
-def test_a_file_in_the_way_is_named(tmp_path: Path) -> None:
+def test_a_file_in_the_way_is_named(tmp_path):
     (tmp_path / "out").write_text("")
     with pytest.raises(InputError, match="is a file"):
         ResultsFolder(tmp_path / "out")
 
 
-def test_a_write_that_fails_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_write_that_fails_leaves_nothing_behind(tmp_path, monkeypatch):
     with ResultsFolder(tmp_path / "out") as folder:
         monkeypatch.setattr(os, "fsync", lambda _: (_ for _ in ()).throw(OSError("disk full")))
         with pytest.raises(OutputError, match=r"results\.csv: cannot be written: disk full"):

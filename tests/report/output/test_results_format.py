@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-from pathlib import Path
 from typing import Any
 
 import jsonschema
@@ -59,7 +58,7 @@ def _record(name: str) -> dict[str, Any]:
 
 
 @pytest.mark.gate
-def test_the_results_say_their_format_and_are_of_the_schema(reported: dict[str, Any]) -> None:
+def test_the_results_say_their_format_and_are_of_the_schema(reported):
     jsonschema.Draft202012Validator.check_schema(results_schema())
     jsonschema.validate(reported, results_schema())
     assert reported["format"] == FORMAT == 1
@@ -68,7 +67,7 @@ def test_the_results_say_their_format_and_are_of_the_schema(reported: dict[str, 
 
 @pytest.mark.gate
 @pytest.mark.parametrize("wrong", ["format", "values", "unit", "more"])
-def test_the_schema_refuses_what_is_not_of_the_format(reported: dict[str, Any], wrong: str) -> None:
+def test_the_schema_refuses_what_is_not_of_the_format(reported, wrong):
     spoilt = json.loads(json.dumps(reported))
     if wrong == "format":
         spoilt["format"] = 2
@@ -83,14 +82,12 @@ def test_the_schema_refuses_what_is_not_of_the_format(reported: dict[str, Any], 
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_the_si_unit_of_every_unit_is_si(mode: str) -> None:
+def test_the_si_unit_of_every_unit_is_si(mode):
     for unit in {row.unit for row in table_for(mode).quantities if not isinstance(row, Choice)}:
         assert to_si(1.0, si_unit(unit)) == pytest.approx(1.0, rel=1e-12), unit
 
 
-def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(
-    reported: dict[str, Any], result: StudyResult
-) -> None:
+def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(reported, result):
     mass, target = (reported["values"][name] for name in ("module_mass", "target_temperature"))
     assert mass["value"] == pytest.approx(1e3 * result.design.values["module_mass"])
     assert (mass["unit"], mass["si"]["unit"]) == ("g", "kg")
@@ -105,7 +102,7 @@ def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(
     assert reported["values"]["mean_time"]["note"] == ""
 
 
-def test_values_have_status_range_and_source(rows: dict[str, dict[str, str]]) -> None:
+def test_values_have_status_range_and_source(rows):
     # What `based_on` takes from pcl_80k has that record's own words.
     written = {**_record("pcl_80k"), **_record("pcl_50k")}
     for name, field in {"pcl_conductivity_melt": "conductivity_melt", "pcl_melting_start": "melting_start"}.items():
@@ -129,7 +126,7 @@ def test_values_have_status_range_and_source(rows: dict[str, dict[str, str]]) ->
         assert not row["source"].startswith("record: "), name
 
 
-def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path: Path) -> None:
+def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path):
     with ResultsFolder(tmp_path / "out") as folder:
         folder.write("curves.csv", curves_csv({"stiffness": [1.0]}, {"stiffness": "N*m/rad"}, "1"))
         folder.write("summary.txt", "N·m")
@@ -153,7 +150,7 @@ STATED = "impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance
          "|Z| <= 60 N·m/rad at 1 Hz, 1.5 times soft_impedance", "|Z| >= 75 N·m/rad at 1 Hz, 1/4 of stiff_impedance"),
     ],
 )  # fmt: skip
-def test_soft_and_stiff_are_shown_as_impedances(module: str, soft: str, stiff: str) -> None:
+def test_soft_and_stiff_are_shown_as_impedances(module, soft, stiff):
     """By hand: band times 40, and 300 over the band."""
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test")
     answered = answer(study)

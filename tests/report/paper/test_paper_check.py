@@ -56,14 +56,14 @@ MOMENT = 4 * math.radians(48.962) / 4 * (40e-3**4 - 26e-3**4)
         ("case", ["70.0 s in shear", "140.0 s in compression"]),
     ],
 )
-def test_a_row_gives_the_numbers_of_the_paper_s_own_formulas(row: str, numbers: list[str]) -> None:
+def test_a_row_gives_the_numbers_of_the_paper_s_own_formulas(row, numbers):
     text = computed(row)
     for number in numbers:
         assert number in text, text
 
 
 @pytest.mark.parametrize("angle", [0.1, 0.104, 0.2])
-def test_each_of_the_three_angles_has_its_torque_strain_and_ratio(angle: float) -> None:
+def test_each_of_the_three_angles_has_its_torque_strain_and_ratio(angle):
     # A pin at half the radius: the spring turns by atan2(p sin f, r - p cos f); its slope by differences.
     def turned(f: float) -> float:
         return math.atan2(0.5 * math.sin(f), 1.0 - 0.5 * math.cos(f))
@@ -73,7 +73,7 @@ def test_each_of_the_three_angles_has_its_torque_strain_and_ratio(angle: float) 
     assert expected in computed("angles")
 
 
-def test_a_solid_layer_is_stiffer_by_four_orders_and_breaks_in_a_release() -> None:
+def test_a_solid_layer_is_stiffer_by_four_orders_and_breaks_in_a_release():
     stiffness = solid_modulus(30.0) * MOMENT / 1e-3
     text = computed("parallel_springs")
     assert f"{stiffness:.3g} N·m/rad" in text
@@ -85,7 +85,7 @@ def test_a_solid_layer_is_stiffer_by_four_orders_and_breaks_in_a_release() -> No
     assert f"yields at {record('tensile_yield') / math.sqrt(3) / solid_modulus(30.0):.1%}" in text
 
 
-def test_ten_percent_is_a_strain_that_a_solid_and_a_rheometer_do_not_bear() -> None:
+def test_ten_percent_is_a_strain_that_a_solid_and_a_rheometer_do_not_bear():
     stress = 0.1 * solid_modulus(30.0)
     text = computed("strain_as_rate")
     assert float(text.split("30 °C ")[1].split(" MPa")[0]) * 1e6 == pytest.approx(stress, rel=5e-3)
@@ -96,7 +96,7 @@ def test_ten_percent_is_a_strain_that_a_solid_and_a_rheometer_do_not_bear() -> N
     assert f"{0.1 * record('zero_shear_viscosity'):.0f} Pa in the melt" in text
 
 
-def test_what_the_rheometer_cannot_resolve() -> None:
+def test_what_the_rheometer_cannot_resolve():
     # Far below its relaxation rates a melt is Newtonian: |G*| = eta omega.
     torque = math.pi * 12.5e-3**3 / 2 * record("zero_shear_viscosity") * 0.1 * 1e-4
     text = computed("small_strain")
@@ -113,7 +113,7 @@ def test_what_the_rheometer_cannot_resolve() -> None:
     assert f"20 points of one period each {minutes:.1f} min" in computed("sweep_time")
 
 
-def test_a_solid_specimen_is_stiffer_than_any_rheometer_assumed() -> None:
+def test_a_solid_specimen_is_stiffer_than_any_rheometer_assumed():
     specimen = math.pi * 12.5e-3**4 * solid_modulus(30.0) / 2e-3
     text = computed("stiff_specimen")
     assert float(text.split("spring of ")[1].split(" N·m/rad")[0]) == pytest.approx(specimen, rel=5e-3)
@@ -123,7 +123,7 @@ def test_a_solid_specimen_is_stiffer_than_any_rheometer_assumed() -> None:
     assert read[0] == pytest.approx(1 / (1 + specimen / frame.value), abs=1e-3)
 
 
-def test_sixty_degrees_lie_inside_the_melting_range() -> None:
+def test_sixty_degrees_lie_inside_the_melting_range():
     # The enthalpy of a third of the window is left: fraction (end - T)/(end - start) but for the sensible heats.
     start, end = (record(name) - 273.15 for name in ("melting_start", "melting_end"))
     assert start < 60.0 < end
@@ -133,7 +133,7 @@ def test_sixty_degrees_lie_inside_the_melting_range() -> None:
     assert f"{record('equilibrium_melting_temperature') - 273.15:.0f} °C" in text
 
 
-def test_the_housing_is_hotter_than_its_material_may_be() -> None:
+def test_the_housing_is_hotter_than_its_material_may_be():
     text, service = computed("housing"), Catalog().record("structure_materials", "petg").value("service_temperature")
     rotor = published_values()["peak_rotor_temperature"]
     assert f"{service - 273.15:.0f} °C in continuous service" in text
@@ -141,14 +141,14 @@ def test_the_housing_is_hotter_than_its_material_may_be() -> None:
     assert rotor > service + 15.0  # above the glass transition, 75 degC and more
 
 
-def test_one_sensor_measures_a_frozen_and_a_soft_release_badly() -> None:
+def test_one_sensor_measures_a_frozen_and_a_soft_release_badly():
     text, values = computed("torque_sensor"), published_values()
     frozen, springs = 0.1 * values["joint_stiffness@cold"], 0.1 * values["spring_stiffness"]
     assert f"{frozen:.0f} N·m frozen, for {springs:.2f} N·m" in text
     assert f"off by {0.2 * frozen / springs:.0f} % " in text
 
 
-def test_a_module_shrunk_to_a_finger_s_width_loses_the_cube_of_its_torque() -> None:
+def test_a_module_shrunk_to_a_finger_s_width_loses_the_cube_of_its_torque():
     text, values = computed("small_joint"), published_values()
     factor = 0.045 / values["envelope_diameter"]
     assert f"every length times {factor:.2f} makes it 45 mm wide" in text
@@ -158,7 +158,7 @@ def test_a_module_shrunk_to_a_finger_s_width_loses_the_cube_of_its_torque() -> N
     assert "vary by 0.25 mm; violated: cutout ground gap" in text
 
 
-def test_every_claim_has_place_computation_verdict_and_json(capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_claim_has_place_computation_verdict_and_json(capsys):
     rows = findings()
     assert len(rows) == len(claims()["rows"]) == len(claims()["rows"])
     assert all(row.claim and row.where and row.computed and row.verdict for row in rows)
@@ -167,14 +167,14 @@ def test_every_claim_has_place_computation_verdict_and_json(capsys: pytest.Captu
     assert len(json.loads(capsys.readouterr().out)) == len(claims()["rows"])
 
 
-def test_what_is_assumed_of_the_instrument_has_a_range_and_a_reason() -> None:
+def test_what_is_assumed_of_the_instrument_has_a_range_and_a_reason():
     for name in claims()["instrument"]:
         value = paper_case.instrument(name)
         assert value.low < value.value < value.high
         assert value.source.startswith("assumed: ") == (value.status == "assumed")
 
 
-def test_the_numbers_follow_the_stated_inputs(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_numbers_follow_the_stated_inputs(monkeypatch):
     thicker = {**claims(), "numbers": {**claims()["numbers"], "wire_diameter": {"value": 4.826, "unit": "mm"}}}
     monkeypatch.setattr(paper_case, "claims", lambda: thicker)
     rate = float(paper_check.computed("torsion_rate").split("= ")[1].split()[0])
@@ -190,17 +190,17 @@ OF_ONE_MODE = {"coil_diameter", "coil_count", "pcl_inner_radius", "pcl_outer_rad
 """Inputs of both modes that belong to the geometry of one: room for its PCL, and for springs beside that."""
 
 
-def test_the_pair_takes_the_paper_s_times() -> None:
+def test_the_pair_takes_the_paper_s_times():
     assert [times["mean_time"] for times in paper_case.pair_times()] == pytest.approx(STATED, rel=0.01)
 
 
-def test_both_modules_differ_by_geometry_alone() -> None:
+def test_both_modules_differ_by_geometry_alone():
     shear, compression = (given(read_study_text(text)) for text in paper_case.case()["studies"].values())
     different = {name for name in shear.keys() & compression.keys() if shear[name] != compression[name]}
     assert different == OF_ONE_MODE
 
 
-def test_the_ratio_can_turn_round() -> None:
+def test_the_ratio_can_turn_round():
     metal = paper_case.pair_times(structure_material=paper_case.case()["material"])
     # A metal rotor takes the shear layer's heat, and hardly the blocks'.
     assert metal[1]["mean_time"] < metal[0]["mean_time"]

@@ -2,7 +2,6 @@
 
 import ctypes
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,7 +21,7 @@ double impedance(void) { return c.impedance; }
 
 
 @pytest.mark.gate
-def test_it_steps_as_the_simulated_one(mode: str, tmp_path: Path) -> None:
+def test_it_steps_as_the_simulated_one(mode, tmp_path):
     constants = controller_of(module_of(mode))
     assert constants is not None
     for name, text in {**controller_files(constants), "main.c": MAIN}.items():
@@ -46,5 +45,5 @@ def test_it_steps_as_the_simulated_one(mode: str, tmp_path: Path) -> None:
         assert built.impedance() == pytest.approx(running.impedance, rel=1e-9)
 
 
-def test_a_module_that_never_gets_soft_has_none() -> None:
+def test_a_module_that_never_gets_soft_has_none():
     assert controller_files(None) == {}

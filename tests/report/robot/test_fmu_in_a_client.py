@@ -106,7 +106,7 @@ def _cycle(mode: str, fmu: Path) -> tuple[Any, float]:
 _TEMPERATURES = {f"temperature_{place}": place for place in ("near_face", "far_face", "core_and_link", "housing")}
 
 
-def test_temperatures_are_those_of_the_run(mode: str, fmus: Mapping[str, Path]) -> None:
+def test_temperatures_are_those_of_the_run(mode, fmus):
     columns, turned = _cycle(mode, fmus[mode])
     for name, start in (("softening", 0.0), ("stiffening", turned)):
         curves = _run(mode)[2][name]
@@ -139,7 +139,7 @@ def _stiffened(mode: str) -> tuple[float, float]:
     return time, float(np.interp(time, curves["time"], curves["joint_impedance"]))
 
 
-def test_it_softens_and_stiffens_when_the_run_does(mode: str, fmus: Mapping[str, Path]) -> None:
+def test_it_softens_and_stiffens_when_the_run_does(mode, fmus):
     columns, turned = _cycle(mode, fmus[mode])
     for (time, level), start, sense in ((_softened_evenly(_run(mode)[0]), 0.0, -1.0), (_stiffened(mode), turned, 1.0)):
         during = (columns["time"] > start + STEP) & (columns["time"] <= start + 1.05 * time)
@@ -149,7 +149,7 @@ def test_it_softens_and_stiffens_when_the_run_does(mode: str, fmus: Mapping[str,
         assert columns["time"][during][last] + share * STEP - start == pytest.approx(time, rel=SHARE)
 
 
-def test_it_takes_the_energy_of_the_run(mode: str, fmus: Mapping[str, Path]) -> None:
+def test_it_takes_the_energy_of_the_run(mode, fmus):
     columns, _ = _cycle(mode, fmus[mode])
     phases = _run(mode)[2].values()
     expected = sum(curves["electrical_energy"][-1] for curves in phases)
@@ -177,7 +177,7 @@ def _stiffness_and_damping(joint: _Joint, frequency: float, amplitude: float) ->
 
 
 @pytest.mark.parametrize("ambient", [295.15, 343.15, 373.15])
-def test_the_torque_of_a_sine_has_the_joint_s_stiffness_and_damping(fmus: Mapping[str, Path], ambient: float) -> None:
+def test_the_torque_of_a_sine_has_the_joint_s_stiffness_and_damping(fmus, ambient):
     # Of a bonded layer: blocks that only push leave the link for a part of each period.
     with _joint(fmus["shear"], ambient_temperature=ambient) as joint:
         frequency, *expected = (float(value) for value in joint.get("frequency", "joint_stiffness", "joint_damping"))
@@ -185,7 +185,7 @@ def test_the_torque_of_a_sine_has_the_joint_s_stiffness_and_damping(fmus: Mappin
     assert stiffness_and_damping == pytest.approx(tuple(expected), rel=SHARE)
 
 
-def test_what_freezes_turned_stays_turned(fmus: Mapping[str, Path]) -> None:
+def test_what_freezes_turned_stays_turned(fmus):
     model, values, _ = _run("shear")
     heating, cooling = (float(model.start[model.index[name]]) for name in ("current", "cooling_current"))
     springs = float(module_of("shear").quantity("spring_stiffness"))
@@ -211,7 +211,7 @@ def _borne(resolved: ResolvedModule) -> float:
     return min(ANGLE, 0.8 * most / stiffness)
 
 
-def test_a_link_let_go_moves_as_in_the_virtual_test(mode: str, fmus: Mapping[str, Path]) -> None:
+def test_a_link_let_go_moves_as_in_the_virtual_test(mode, fmus):
     resolved = module_of(mode)
     ambient = float(resolved.quantity("ambient_temperature"))  # where all of the structure is as cold as the PCL
     # The virtual test's structure follows its law from 0.1 to 100 Hz: hold and motion are in that band.
@@ -245,7 +245,7 @@ def test_a_link_let_go_moves_as_in_the_virtual_test(mode: str, fmus: Mapping[str
     assert np.max(np.abs(turned - expected[seen])) < 0.01 * expected[0]
 
 
-def test_a_state_that_is_kept_goes_on_as_it_did(fmus: Mapping[str, Path]) -> None:
+def test_a_state_that_is_kept_goes_on_as_it_did(fmus):
     with _joint(fmus["compression"]) as joint:
         joint.heat(1.0, 5.0)
         joint.set(angle=0.02)
@@ -263,7 +263,7 @@ DUTY_STEP = 5.0
 """Communication step of repeated switching [s]."""
 
 
-def test_its_temperatures_after_fifty_cycles_are_those_of_the_duty(mode: str, fmus: Mapping[str, Path]) -> None:
+def test_its_temperatures_after_fifty_cycles_are_those_of_the_duty(mode, fmus):
     resolved = module_of(mode)
     model = resolved.functions
     duty = Duty(model, model.start, {}, soft := 60.0)

@@ -52,7 +52,7 @@ def folder(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tup
 
 
 @pytest.mark.slow
-def test_the_folder_of_a_design_is_loaded_by_its_clients(folder: tuple[Path, dict[str, Any]]) -> None:
+def test_the_folder_of_a_design_is_loaded_by_its_clients(folder):
     place, data = folder
     assert data["time_step"] == pytest.approx(1e-4)
     expected = shipped_answer("paper_reconstructed").design.value("load_inertia")
@@ -73,7 +73,7 @@ def test_the_folder_of_a_design_is_loaded_by_its_clients(folder: tuple[Path, dic
 
 
 @pytest.mark.slow
-def test_the_arm_of_the_page_catches_softly_and_carries_frozen(folder: tuple[Path, dict[str, Any]]) -> None:
+def test_the_arm_of_the_page_catches_softly_and_carries_frozen(folder):
     page = PAGE.read_text()
     block = re.search(r'^```python title="arm.py"\n(.*?)^```', page, re.M | re.S)
     assert block
@@ -94,14 +94,14 @@ def test_the_arm_of_the_page_catches_softly_and_carries_frozen(folder: tuple[Pat
 @pytest.mark.parametrize(
     ("words", "message"), [(["nowhere"], "no such file"), (["studies/finger.yaml"], "tvimdesign run")]
 )
-def test_what_is_no_result_is_refused(tvimdesign: Command, tmp_path: Path, words: list[str], message: str) -> None:
+def test_what_is_no_result_is_refused(tvimdesign, tmp_path, words, message):
     done = tvimdesign("robot", *words, "--out", tmp_path / "robot")
     assert done.returncode == 2
     assert message in done.stderr
 
 
 @pytest.mark.parametrize(("step", "message"), [("-1 ms", "must be above 0"), ("1 kg", "kg"), ("1 s", "at most 0.1 s")])
-def test_a_time_step_that_is_none_is_refused(tvimdesign: Command, tmp_path: Path, step: str, message: str) -> None:
+def test_a_time_step_that_is_none_is_refused(tvimdesign, tmp_path, step, message):
     design = write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     done = tvimdesign("robot", design, "--timestep", step, "--out", tmp_path / "robot")
     assert done.returncode == 2
@@ -110,7 +110,7 @@ def test_a_time_step_that_is_none_is_refused(tvimdesign: Command, tmp_path: Path
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", ["paper", "blocks", "bearings"])
-def test_the_bodies_have_the_table_s_mass_and_inertia(case: str, tmp_path: Path) -> None:
+def test_the_bodies_have_the_table_s_mass_and_inertia(case, tmp_path):
     mode, overrides = CASES[case]
     design = whole(design_of(case, overrides, mode))
     base, moving, report = make_bodies(write_design(design, tmp_path / "design.json"), tmp_path)
@@ -128,7 +128,7 @@ def _refuse(message: str) -> None:
     raise AssertionError(message)
 
 
-def test_a_parser_reads_the_bodies_and_the_joint(mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_parser_reads_the_bodies_and_the_joint(mode, monkeypatch):
     monkeypatch.setattr(xml_reflection.core, "on_error", _refuse)
     model = model_of(mode)
     state = model.states[-1]
@@ -147,7 +147,7 @@ def test_a_parser_reads_the_bodies_and_the_joint(mode: str, monkeypatch: pytest.
     assert joint.dynamics.damping == pytest.approx(float(module_of(mode).quantity(f"joint_damping@{state.point}")))
 
 
-def test_sdf_has_the_bodies_the_stiffness_and_the_damping(mode: str) -> None:
+def test_sdf_has_the_bodies_the_stiffness_and_the_damping(mode):
     model = model_of(mode)
     state = model.states[0]
     read = ElementTree.fromstring(sdf(model, state))
@@ -171,7 +171,7 @@ def test_sdf_has_the_bodies_the_stiffness_and_the_damping(mode: str) -> None:
         assert float(joint.findtext(f"axis/{name}", "")) == pytest.approx(float(module_of(mode).quantity(quantity)))
 
 
-def test_ros2_control_commands_the_impedance_between_the_states(mode: str) -> None:
+def test_ros2_control_commands_the_impedance_between_the_states(mode):
     model = model_of(mode)
     joint = ElementTree.fromstring(ros2_control(model)).find("ros2_control/joint")
     assert joint is not None
@@ -193,7 +193,7 @@ def without_compiler(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written.path
 
 
-def test_the_description_is_without_fault_and_all_sources_are_there(without_compiler: Path) -> None:
+def test_the_description_is_without_fault_and_all_sources_are_there(without_compiler):
     assert validate_fmu(str(without_compiler)) == []
     (build,) = read_model_description(str(without_compiler)).buildConfigurations
     with zipfile.ZipFile(without_compiler) as archive:
@@ -202,7 +202,7 @@ def test_the_description_is_without_fault_and_all_sources_are_there(without_comp
     assert not [name for name in names if name.startswith("binaries")]
 
 
-def test_current_and_angle_go_in_and_torque_and_temperatures_come_out(without_compiler: Path) -> None:
+def test_current_and_angle_go_in_and_torque_and_temperatures_come_out(without_compiler):
     description = read_model_description(str(without_compiler))
     variables = {variable.name: variable for variable in description.modelVariables}
     inputs = {name for name, variable in variables.items() if variable.causality == "input"}
@@ -218,7 +218,7 @@ def test_current_and_angle_go_in_and_torque_and_temperatures_come_out(without_co
     )
 
 
-def test_a_compiler_that_fails_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_compiler_that_fails_is_named(tmp_path, monkeypatch):
     monkeypatch.setenv("CC", f"{sys.executable} -c 'import sys; sys.exit(\"no room\")'")
     with pytest.raises(InputError, match="cannot build the FMU"):
         compiled({"one.c": ""}, ".so", tmp_path)
@@ -235,7 +235,7 @@ time.sleep(600)
 
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="Windows has no process groups, by which these end")
-def test_an_interrupt_ends_the_compiler_s_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupt_ends_the_compiler_s_processes(tmp_path, monkeypatch):
     started = tmp_path / "told"
     (tmp_path / "cc.py").write_text(COMPILER)
     monkeypatch.setenv("CC", f"{sys.executable} {tmp_path / 'cc.py'}")
@@ -264,7 +264,7 @@ compiled({"one.c": ""}, ".so", Path(sys.argv[1]))
 
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="Windows has no process groups, by which these end")
-def test_all_that_a_compiler_started_ends_with_a_command_that_is_killed(tmp_path: Path) -> None:
+def test_all_that_a_compiler_started_ends_with_a_command_that_is_killed(tmp_path):
     started = tmp_path / "told"
     (tmp_path / "cc.py").write_text(COMPILER)
     own = {"CC": f"{sys.executable} {tmp_path / 'cc.py'}", "TOLD": str(started), "PYTHONPATH": str(ROOT)}
@@ -304,9 +304,7 @@ SMALL = 5e-3
         pytest.param("compression", "hot", None, 0.04, ANGLE, marks=pytest.mark.slow),
     ],
 )
-def test_the_link_let_go_moves_as_in_the_virtual_test(
-    mode: str, point: str, step: float | None, seconds: float, angle: float
-) -> None:
+def test_the_link_let_go_moves_as_in_the_virtual_test(mode, point, step, seconds, angle):
     model = model_of(mode, step)
     loaded = _loaded(model, point)
     data = mujoco.MjData(loaded)
@@ -327,7 +325,7 @@ def test_the_link_let_go_moves_as_in_the_virtual_test(
     assert np.max(np.abs(turned - expected[seen])) < SHARE * expected[0]
 
 
-def test_inertia_limits_friction_and_springs_are_the_module_s(mode: str) -> None:
+def test_inertia_limits_friction_and_springs_are_the_module_s(mode):
     loaded = _loaded(model_of(mode), "cold")
     data = mujoco.MjData(loaded)
     mujoco.mj_forward(loaded, data)
@@ -351,7 +349,7 @@ def _stiffness(modes: Modes, omega: np.ndarray) -> np.ndarray:
     return np.sum(stiffnesses * turns / (1.0 + turns), axis=1)
 
 
-def test_elements_come_back_with_the_spring_and_quick_ones_are_damping() -> None:
+def test_elements_come_back_with_the_spring_and_quick_ones_are_damping():
     omega, spring = np.geomspace(1e-3, 1e5, 33), 700.0
     others = without_spring(MODES, spring)
     np.testing.assert_allclose(
@@ -371,7 +369,7 @@ def _state(one_sided: bool) -> JointState:
 
 
 @pytest.mark.parametrize("one_sided", [False, True])
-def test_after_a_hold_the_torque_is_what_has_not_relaxed(one_sided: bool) -> None:
+def test_after_a_hold_the_torque_is_what_has_not_relaxed(one_sided):
     state, angle = _state(one_sided), 0.1
     made = maxwell_hinges(state, len(MODES), step=1e-5)
     angles = held_angles(state, made, angle)
@@ -384,7 +382,7 @@ def test_after_a_hold_the_torque_is_what_has_not_relaxed(one_sided: bool) -> Non
     assert torque == pytest.approx(expected, rel=1e-9)
 
 
-def test_all_states_have_the_same_hinges(mode: str) -> None:
+def test_all_states_have_the_same_hinges(mode):
     model = model_of(mode)
     names = [[hinge.name for hinge in maxwell_hinges(state, model.count, model.step).hinges] for state in model.states]
     assert all(hinges == names[0] for hinges in names)

@@ -97,7 +97,7 @@ SLOW = [pytest.param(path.stem, "cold", 2e-5, marks=pytest.mark.slow) for path i
 
 
 @pytest.mark.parametrize(("name", "point", "step"), [*POINTS, *SLOW])
-def test_sag_is_that_of_mujoco_s_arm(name: str, point: str, step: float) -> None:
+def test_sag_is_that_of_mujoco_s_arm(name, point, step):
     module = _task(name)
     seconds = module.values["pose_time"]
     step = max(step, 2e-6 * seconds)  # it ends slowly
@@ -108,7 +108,7 @@ def test_sag_is_that_of_mujoco_s_arm(name: str, point: str, step: float) -> None
 
 
 @pytest.mark.parametrize(("name", "point", "step"), [*POINTS, *SLOW])
-def test_torque_of_a_sine_and_a_trajectory_is_mujoco_s(name: str, point: str, step: float) -> None:
+def test_torque_of_a_sine_and_a_trajectory_is_mujoco_s(name, point, step):
     module = _task(name)
     values = module.values
     arm = _arm(module, point, step)
@@ -137,7 +137,7 @@ STRUCK = [*POINTS, *(pytest.param("gripper_finger", point, 2e-5, marks=pytest.ma
 
 
 @pytest.mark.parametrize(("name", "point", "step"), STRUCK)
-def test_impact_is_mujoco_s(name: str, point: str, step: float) -> None:
+def test_impact_is_mujoco_s(name, point, step):
     module = _task(name)
     mass, speed, length = (module.values[part] for part in ("impact_mass", "impact_speed", "arm_length"))
     inertia = float(module.quantity("task_inertia")) + mass * length**2
@@ -155,7 +155,7 @@ def test_impact_is_mujoco_s(name: str, point: str, step: float) -> None:
         *(pytest.param("gripper_finger", point, None, marks=pytest.mark.slow) for point in ("cold", "hot")),
     ],
 )
-def test_force_and_injury_of_an_impact_are_mujoco_s(name: str, point: str, mass: float | None) -> None:
+def test_force_and_injury_of_an_impact_are_mujoco_s(name, point, mass):
     module = _task(name)
     module = module if mass is None else replace(module, values={**module.values, "impact_mass": mass})
     length, mass, speed, stiffness = (
@@ -180,7 +180,7 @@ def test_force_and_injury_of_an_impact_are_mujoco_s(name: str, point: str, mass:
 
 
 @pytest.mark.parametrize("point", ["cold", "hot"])
-def test_force_of_an_impact_is_that_of_the_energy(point: str) -> None:
+def test_force_of_an_impact_is_that_of_the_energy(point):
     module = _task("shear")
     length, mass, speed = (module.values[part] for part in ("arm_length", "impact_mass", "impact_speed"))
     # F = v sqrt(mu k) with the reduced mass of body and free arm, which the joint hardly holds.

@@ -88,7 +88,7 @@ widths = pytest.mark.parametrize("width", [80, 100, 140])
 
 @pytest.mark.gate
 @pytest.mark.parametrize("width", [100, 80])
-def test_a_screen_is_that_of_the_snapshot(width: int) -> None:
+def test_a_screen_is_that_of_the_snapshot(width):
     """Numbers follow the model and are masked; UPDATE_SCREENS=1 writes the files anew."""
     path = Path(__file__).with_name(f"screen_{width}.txt")
     lines = (re.sub(r"-?[0-9.]+(e-?[0-9]+)?", "#", line) for line in first_screen(case("paper_shear"), width))
@@ -101,7 +101,7 @@ def test_a_screen_is_that_of_the_snapshot(width: int) -> None:
 @pytest.mark.gate
 @widths
 @each
-def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width: int) -> None:
+def test_a_screen_has_its_facts_in_their_order_within_its_lines(name, width):
     answered = case(name)
     lines = first_screen(answered, width, 12.3)
     assert len(lines) + 1 <= (LINES if width >= 100 else NARROW_LINES)
@@ -142,7 +142,7 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name: str, width
 
 
 @pytest.mark.parametrize("name", ["elbow", "wrist_compression_of_a_long_name"])
-def test_the_last_line_has_the_parts_checks_and_the_tables_where_they_fit(name: str) -> None:
+def test_the_last_line_has_the_parts_checks_and_the_tables_where_they_fit(name):
     (line,) = look_first(f"results/{name}", 100, "all 774 checks passed")
     assert line.startswith(f"Look first: results/{name}/report.html · parts: all 774 checks passed")
     assert line.endswith("tables: summary.txt") == (name == "elbow")
@@ -153,7 +153,7 @@ def test_the_last_line_has_the_parts_checks_and_the_tables_where_they_fit(name: 
     assert max(map(len, (line, first, *more))) <= 100
 
 
-def test_requirements_without_a_line_are_counted_or_named() -> None:
+def test_requirements_without_a_line_are_counted_or_named():
     def row(name: str, least: float, stands: str) -> Requirement:
         return Requirement(name, "<= 70 mm", "70", "", stands, "", least)
 
@@ -183,7 +183,7 @@ def test_requirements_without_a_line_are_counted_or_named() -> None:
 
 
 @pytest.mark.gate
-def test_the_first_line_says_verdict_name_starts_and_seconds() -> None:
+def test_the_first_line_says_verdict_name_starts_and_seconds():
     answered = case("paper_shear")
     solution = answered.result.solution
     same = sum(start.converged and start.objective == pytest.approx(solution.objective, rel=1e-4)
@@ -197,7 +197,7 @@ def test_the_first_line_says_verdict_name_starts_and_seconds() -> None:
 
 
 @pytest.mark.gate
-def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s() -> None:
+def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s():
     answered = case("paper_shear")
     rows = {row.name: row for row in requirements(answered.result, {})}
     values = answered.result.design.values
@@ -218,7 +218,7 @@ def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s() -> None:
 
 
 @pytest.mark.gate
-def test_headlines_and_requirements_have_their_ranges() -> None:
+def test_headlines_and_requirements_have_their_ranges():
     answered = case("paper_shear")
     intervals, text = answered.uncertainty["intervals"], "\n".join(first_screen(answered, 100))
     wanted = {requirement.output for requirement in answered.study.require}
@@ -252,7 +252,7 @@ def test_headlines_and_requirements_have_their_ranges() -> None:
     assert intervals[name.split()[0]]["shares"]
 
 
-def test_a_margin_that_must_not_be_negative_is_at_its_least() -> None:
+def test_a_margin_that_must_not_be_negative_is_at_its_least():
     shown = {
         "hub_step_margin >= 0 mm": "step between floor and end of the hub at its least",
         "peltier_temperature_margin >= 5 K": "heaters' heat margin >= 5 K",
@@ -262,7 +262,7 @@ def test_a_margin_that_must_not_be_negative_is_at_its_least() -> None:
     assert {text: at_its_least(text) for text in shown} == shown
 
 
-def test_a_share_asked_of_each_limit_is_compared_with_the_least() -> None:
+def test_a_share_asked_of_each_limit_is_compared_with_the_least():
     held = {"cover_wall_margin >=": 0.52, "module_mass <=": 0.7, "peak_power <=": 0.8}
     uncertainty = {"held": held, "ranges_hold": {"share": 0.1}, "needs": "bond >= 1 MPa"}
     (fact,) = _model(uncertainty, {"robust": {"plausible": 0.79}})
@@ -277,7 +277,7 @@ TABLES = ("At the operating points", "What the module is", "What depends on assu
 
 
 @pytest.mark.gate
-def test_a_run_prints_the_screen_without_warnings_and_keeps_tables(whole_run: WholeRun) -> None:
+def test_a_run_prints_the_screen_without_warnings_and_keeps_tables(whole_run):
     lines, folder = whole_run.done.stdout.splitlines(), whole_run.folder
     assert len(lines) <= LINES
     assert lines[-1].lstrip().endswith("summary.txt")
@@ -302,7 +302,7 @@ def test_a_run_prints_the_screen_without_warnings_and_keeps_tables(whole_run: Wh
 
 
 @pytest.mark.gate
-def test_every_table_is_printed_where_that_is_asked(tvimdesign: Command, tmp_path: Path) -> None:
+def test_every_table_is_printed_where_that_is_asked(tvimdesign, tmp_path):
     study = study_path("paper_reconstructed")
     full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "out").stdout
     assert all(table in full for table in TABLES[:2])  # the third is of the yield's run
@@ -320,9 +320,7 @@ INFEASIBLE = (
 
 
 @pytest.mark.gate
-def test_a_study_without_a_design_says_so_on_both_outputs(
-    process: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_study_without_a_design_says_so_on_both_outputs(process, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONWARNINGS", "always")
     (tmp_path / "study.yaml").write_text(INFEASIBLE)
     assert process("check", tmp_path / "study.yaml").returncode == 0  # only the search can tell

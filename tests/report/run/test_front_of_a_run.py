@@ -51,7 +51,7 @@ def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
-def test_table_designs_and_figure_of_a_front_agree(run: Path) -> None:
+def test_table_designs_and_figure_of_a_front_agree(run):
     with (run / "front.csv").open(encoding="utf-8-sig") as stream:
         points = list(csv.DictReader(stream))
     assert len(points) == 5
@@ -75,9 +75,7 @@ def test_table_designs_and_figure_of_a_front_agree(run: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(
-    tvimdesign: Command, run: Path, tmp_path: Path
-) -> None:
+def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(tvimdesign, run, tmp_path):
     (study,) = written(tmp_path, study=FRONT_STUDY)
     out = tmp_path / "out"
     process = subprocess.Popen(
@@ -101,7 +99,7 @@ def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(
     assert "nothing to resume" in refused.stderr
 
 
-def test_the_front_of_another_study_is_not_gone_on_with(tvimdesign: Command, tmp_path: Path) -> None:
+def test_the_front_of_another_study_is_not_gone_on_with(tvimdesign, tmp_path):
     (study,) = written(tmp_path, study=FRONT_STUDY)
     out = tmp_path / "out"
     with suppress(KeyboardInterrupt), ResultsFolder(out) as folder:
@@ -112,7 +110,7 @@ def test_the_front_of_another_study_is_not_gone_on_with(tvimdesign: Command, tmp
     assert "another study or version" in done.stderr
 
 
-def test_the_words_say_what_a_hundredth_less_costs_beyond_the_knee() -> None:
+def test_the_words_say_what_a_hundredth_less_costs_beyond_the_knee():
     """Time and mass by hand: from the knee 10 % less time costs 30 % mass, 10 % less mass 50 % time."""
     pairs = [(0.9, 1.3), (1.0, 1.0), (1.5, 0.9)]
     points = tuple(Point("", {"response_time": 100.0 * t, "module_mass": 0.1 * m}, {}) for t, m in pairs)
@@ -123,7 +121,7 @@ def test_the_words_say_what_a_hundredth_less_costs_beyond_the_knee() -> None:
     assert "1 % less module_mass costs 3.8 % response_time (point 3)" in sentence
 
 
-def test_a_front_that_is_no_trade_has_no_knee() -> None:
+def test_a_front_that_is_no_trade_has_no_knee():
     """Find no knee in the same bend as above with a hundredth of the mass. Nobody chooses by 0.4 g."""
     pairs = [(0.9, 1.013), (1.0, 1.01), (1.5, 1.009)]
     points = tuple(Point("", {"response_time": 100.0 * t, "module_mass": 0.1 * m}, {}) for t, m in pairs)
@@ -166,9 +164,7 @@ def _run(path: Path, out: Path, *, as_json: bool = False) -> None:
 
 
 @pytest.mark.gate
-def test_what_check_refuses_ends_a_run_before_its_folder_is_touched(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_check_refuses_ends_a_run_before_its_folder_is_touched(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(answered_study, "answer", lambda *_, **__: pytest.fail("it searched"))
     path, out = tmp_path / "impossible.yaml", tmp_path / "out"
     path.write_text(STUDY)
@@ -183,9 +179,7 @@ def test_what_check_refuses_ends_a_run_before_its_folder_is_touched(
     assert (report["status"], report["reason"]) == ("infeasible", str(checked.value))
 
 
-def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(tmp_path, monkeypatch, capsys):
     path, out = tmp_path / "study.yaml", tmp_path / "out"
     path.write_text(STUDY.replace("<= 120 mm", "<= 300 mm"))
 
@@ -207,7 +201,7 @@ def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(
     assert json.loads(capsys.readouterr().out)["reason"] == "no start keeps it"
 
 
-def test_a_swallowed_interrupt_is_no_conflict(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_swallowed_interrupt_is_no_conflict(tmp_path, monkeypatch):
     path, out = tmp_path / "study.yaml", tmp_path / "out"
     path.write_text(STUDY.replace("<= 120 mm", "<= 300 mm"))
 
@@ -223,7 +217,7 @@ def test_a_swallowed_interrupt_is_no_conflict(tmp_path: Path, monkeypatch: pytes
     assert not (out / "results.json").exists()
 
 
-def test_parts_and_figures_lower_their_priority_only_where_others_wait() -> None:
+def test_parts_and_figures_lower_their_priority_only_where_others_wait():
     with BackgroundPartsJob(), PlotProcess(gives_way=True):
         assert wait_until(lambda: len(_priorities()) == 2)
         behind = _priorities()

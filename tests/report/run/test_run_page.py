@@ -11,7 +11,6 @@ import html5lib
 import pytest
 import sample_pages
 from small_studies import FOUR_SIZES_IN_SHEAR
-from support import Command
 
 from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Folded, Grid
@@ -49,7 +48,7 @@ def answered() -> AnsweredStudy:
 
 
 @pytest.mark.gate
-def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_path: Path) -> None:
+def test_the_first_screen_says_what_the_terminal_says(tvimdesign, tmp_path):
     done = tvimdesign("run", sample_pages.STUDY, "--no-cad", "--no-plots", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert f"{tmp_path / 'out'}/report.html" in done.stdout
@@ -66,7 +65,7 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
 
 
 @pytest.mark.gate
-def test_a_run_shows_its_parts_or_says_how_to_make_them(tmp_path: Path) -> None:
+def test_a_run_shows_its_parts_or_says_how_to_make_them(tmp_path):
     page = tree(sample_pages.run_page(tmp_path / "run", parts=False))
     assert "`" not in words(section(page, "assembly"))
     assert "tvimdesign run paper_reconstructed.yaml --overwrite makes them" in words(section(page, "assembly"))
@@ -76,7 +75,7 @@ def test_a_run_shows_its_parts_or_says_how_to_make_them(tmp_path: Path) -> None:
     assert with_parts.find(".//section[@id='checks']") is not None
 
 
-def test_an_input_is_named_with_the_outputs_it_moves(answered: AnsweredStudy) -> None:
+def test_an_input_is_named_with_the_outputs_it_moves(answered):
     interval: dict[str, Any] = {
         "value": 1.0, "low": 0.5, "high": 2.0, "unit": "s", "to_halve": [],
         "one_at_a_time": {"low": 0.8, "high": 1.5}, "before": None,
@@ -97,7 +96,7 @@ def test_an_input_is_named_with_the_outputs_it_moves(answered: AnsweredStudy) ->
     assert rows[0][5] == "b 60 %, a 30 %"
 
 
-def test_a_page_tells_how_sure_it_is_and_what_a_measurement_bought(answered: AnsweredStudy) -> None:
+def test_a_page_tells_how_sure_it_is_and_what_a_measurement_bought(answered):
     assert "was not computed" in str(assumptions_section(answered).blocks[0])
     assert all("Manufacturing" not in str(block) for block in glance(answered))
     interval = {"value": 100.0, "low": 90.0, "high": 120.0, "unit": "s", "before": {"low": 40.0, "high": 240.0},
@@ -122,7 +121,7 @@ def optimum() -> StudyResult:
     return answer(read_study_text(ACTIVE_STUDY, "a test"))
 
 
-def test_more_stiffness_costs_mass_and_less_power_time(optimum: StudyResult) -> None:
+def test_more_stiffness_costs_mass_and_less_power_time(optimum):
     held = next(held for held in active(optimum) if held.name == "spring_stiffness_full_stroke >=")  # the least
     cost = held.sensitivity["module_mass"]
     assert 0.0 < cost < 1.0
@@ -134,7 +133,7 @@ def test_more_stiffness_costs_mass_and_less_power_time(optimum: StudyResult) -> 
     assert "response_time" in sentence
 
 
-def test_a_step_that_costs_more_than_everything_has_no_room(optimum: StudyResult) -> None:
+def test_a_step_that_costs_more_than_everything_has_no_room(optimum):
     held = replace(active(optimum)[0], shadow_price=2.4e3, sensitivity={})
     steep = replace(optimum, solution=replace(optimum.solution, held=(held,)))
     (sentence,) = sentences(steep)
@@ -143,7 +142,7 @@ def test_a_step_that_costs_more_than_everything_has_no_room(optimum: StudyResult
     assert fact.note == f"no room for {held.step} of the first"
 
 
-def test_each_limit_is_active_touches_or_has_room_in_its_order(optimum: StudyResult) -> None:
+def test_each_limit_is_active_touches_or_has_room_in_its_order(optimum):
     rows = why_rows(optimum, TABLE)
     assert len(rows) == len(optimum.solution.held)
     by_text = {row["limit"]: row for row in rows}
@@ -167,7 +166,7 @@ def test_each_limit_is_active_touches_or_has_room_in_its_order(optimum: StudyRes
         assert float(rows[0][f"sensitivity of {name} [%]"]) == pytest.approx(saving, rel=1e-5, abs=1e-12)
 
 
-def test_a_limit_active_at_its_tolerance_margin_is_so_everywhere(optimum: StudyResult) -> None:
+def test_a_limit_active_at_its_tolerance_margin_is_so_everywhere(optimum):
     costly = {held.text for held in active(optimum)}
     assert "peak_power <= 9 W" in costly
     checks = tuple(replace(each, margin=0.05, worst=0.05) for each in optimum.checks if each.text in costly)

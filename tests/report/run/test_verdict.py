@@ -112,9 +112,7 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip
-def test_each_rule_decides(
-    result: StudyResult, uncertainty: dict[str, Any], warnings: list[RunWarning], text: str
-) -> None:
+def test_each_rule_decides(result, uncertainty, warnings, text):
     assert verdict(result, uncertainty, warnings).text == text
 
 
@@ -129,17 +127,17 @@ def test_each_rule_decides(
         (COOL | {"temperature@cold": 303.15}, (HOT | {"output": "joint_stiffness@cold"},)),
     ],
 )
-def test_a_hot_point_that_is_not_needed_is_no_matter(values: dict[str, float], require: tuple[Any, ...]) -> None:
+def test_a_hot_point_that_is_not_needed_is_no_matter(values, require):
     assert verdict(answer(values, require), SURE, []).kind == "build_one"
 
 
-def test_a_study_with_margins_is_no_nominal_optimum() -> None:
+def test_a_study_with_margins_is_no_nominal_optimum():
     low = SURE | {"parts_yield": {"share": TARGET - 0.05}}
     assert verdict(answer(robust={"share": 0.9}), low, []).kind == "build_one"
     assert verdict(answer(), low, []).kind == "add_margins"
 
 
-def test_a_violation_below_rounding_is_not_shown_as_none() -> None:
+def test_a_violation_below_rounding_is_not_shown_as_none():
     table, gap = (
         table_for("shear"),
         ConstraintCheck("core_web >= 1 mm", "core_web", 0.0, -4e-5, 1e-2, True, False, -4e-5, "rule"),
@@ -161,7 +159,7 @@ def test_a_violation_below_rounding_is_not_shown_as_none() -> None:
         (False, [True, False], 1, "1 of 2 starts converged"),
     ],
 )
-def test_starts_are_counted_in_words(feasible: bool, converged: list[bool], optima: int, words: str) -> None:
+def test_starts_are_counted_in_words(feasible, converged, optima, words):
     free = [SimpleNamespace(converged=each) for each in converged]
     result = answer(feasible=feasible, free_starts=free, distinct_optima=lambda: free[:optima])
     assert starts_in_words(result) == [words]
@@ -190,7 +188,7 @@ def chosen(own: float, robust: dict[str, Any] | None, spring: str = "none") -> s
     return chosen_fact(cast(StudyResult, answer))[0].text
 
 
-def test_a_design_s_own_choices_are_shown_beside_the_ranking() -> None:
+def test_a_design_s_own_choices_are_shown_beside_the_ranking():
     text = chosen(1.0e-3, None)
     assert text == "wire diameter 1 mm · stock spring none · best of 20 combinations"
     robust = {"share": 0.95, "sigma": None}
@@ -206,7 +204,7 @@ def warmed(share: np.ndarray) -> dict[str, list[float]]:
             "cell_2": (20.0 + 76.0 * share).tolist()}  # fmt: skip
 
 
-def test_a_layer_that_stalls_cools_again_or_never_softens() -> None:
+def test_a_layer_that_stalls_cools_again_or_never_softens():
     times = np.linspace(0.0, 1.0, 2001)
     assert time_over_rise(warmed(times), 60.0) == pytest.approx(1.0, rel=1e-6)
     assert time_over_rise(warmed(np.sqrt(times)), 60.0) == pytest.approx(2.0, rel=1e-3)
@@ -225,7 +223,7 @@ def test_a_layer_that_stalls_cools_again_or_never_softens() -> None:
 @pytest.mark.parametrize(
     ("volts", "words"), [(7.151, "7.15 V (7 to 8) from 24"), (22.0, "22 V (7 to 8)"), (24.0, "24 V (7 to 8)")]
 )
-def test_a_heater_that_needs_far_less_than_the_supply_is_stepped_down(volts: float, words: str) -> None:
+def test_a_heater_that_needs_far_less_than_the_supply_is_stepped_down(volts, words):
     limits = [{"output": "peak_voltage", "sense": "<=", "limit": 24.0}]
     values = {"peak_voltage": volts, "stiffening_peak_voltage": 1.0}
     design = Design.model_construct(mode="shear", values=values, study={"require": limits})

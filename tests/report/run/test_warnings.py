@@ -7,7 +7,6 @@ import json
 import re
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -16,7 +15,7 @@ import pytest
 import yaml
 from comparable import COARSE, COMPRESSION, SHEAR
 from stiff_when_warm import LOSSLESS
-from support import Command, study_path
+from support import study_path
 
 from tvimdesign.base.deadline import NEVER
 from tvimdesign.base.errors import TvimError
@@ -50,7 +49,7 @@ PLACES = {"point": "hot", "hot": "80 degC"}
 OTHERS = {kind: entry["mend"] for kind, entry in hints()["others"].items()}
 
 
-def test_every_advice_has_a_cure_and_what_has_no_place_is_counted() -> None:
+def test_every_advice_has_a_cure_and_what_has_no_place_is_counted():
     assert hints()["advice"].keys() == ADVICE.keys()
     assert hints()["ratings"].keys() == RATINGS.keys()
     entries = [entry for kind in ("advice", "ratings") for entry in hints()[kind].values()]
@@ -75,7 +74,7 @@ def test_every_advice_has_a_cure_and_what_has_no_place_is_counted() -> None:
     + [("shear", f"accept: [{', '.join(RATINGS)}]")]
     + [("shear", line) for line in OTHERS.values()],
 )
-def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path: Path, mode: str, line: str) -> None:
+def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path, mode, line):
     entry = yaml.safe_load(filled(line, PLACES))
     assert len(entry) == 1
     assert "<" not in filled(line, PLACES).replace('"<=', "")
@@ -110,7 +109,7 @@ def _proposed() -> dict[str, str]:
         "layer_play",
     ],
 )
-def test_the_line_that_is_proposed_mends(output: str) -> None:
+def test_the_line_that_is_proposed_mends(output):
     line = _proposed()[output]
     assert line.startswith("module: {")
     words = yaml.safe_load(line)["module"]
@@ -120,7 +119,7 @@ def test_the_line_that_is_proposed_mends(output: str) -> None:
 
 
 @pytest.mark.gate
-def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask() -> None:
+def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask():
     proposed = _proposed()
     # Of all wave springs the one that goes around the core of 10 mm and lies on the hub of 13.4.
     assert proposed["layer_play"] == "module: {axial_preload: wave_21x25}"
@@ -132,7 +131,7 @@ def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask() -> Non
 
 
 @pytest.mark.gate
-def test_the_gravest_warning_comes_first() -> None:
+def test_the_gravest_warning_comes_first():
     warnings = warnings_of(_published(), ["a sheet contradicts itself."])
     ranks = [("grave", "serious", "").index(warning.level) for warning in warnings]
     assert ranks == sorted(ranks)
@@ -146,7 +145,7 @@ def test_the_gravest_warning_comes_first() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("extra", ["", "  response_criterion: softening\n  softening_band: 2\n"])
-def test_a_run_has_each_warning_that_compare_has(extra: str) -> None:
+def test_a_run_has_each_warning_that_compare_has(extra):
     published, table = _published(extra), table_for("shear")
     warned = {warning.text: warning for warning in warnings_of(published, [])}
     of_compare = {
@@ -167,7 +166,7 @@ def _warning_texts(text: str, **module: float) -> str:
 
 
 @pytest.mark.slow
-def test_a_run_says_where_the_pcl_loses_contact() -> None:
+def test_a_run_says_where_the_pcl_loses_contact():
     # In a hold of 10 s a printed structure creeps as its loss says: frozen blocks are left as well.
     texts = _warning_texts(COMPRESSION)
     assert "at hot no PCL touches the link for" in texts
@@ -178,7 +177,7 @@ def test_a_run_says_where_the_pcl_loses_contact() -> None:
     assert "no PCL touches the link" not in _warning_texts(SHEAR)
 
 
-def test_a_requirement_is_tried_beside_the_remedies_before_it() -> None:
+def test_a_requirement_is_tried_beside_the_remedies_before_it():
     """Strain of the molten layer is stroke times radius over thickness: least 0.104 * 32 / 2, and 5.9 takes 34 mm."""
     study = read_study_text(COARSE, "a test")
     nominal = answer(drawn(study))
@@ -201,7 +200,7 @@ def test_a_requirement_is_tried_beside_the_remedies_before_it() -> None:
     assert tried('peak_power: "<= 9 W"') == [(False, "")]  # it depends on the switch
 
 
-def test_a_remedy_with_a_unit_is_tried_in_si() -> None:
+def test_a_remedy_with_a_unit_is_tried_in_si():
     changes = _changes({"module": {"target_temperature": "80 degC", "bore_friction": 0.15}}, table_for("shear"))
     assert changes == {"target_temperature": pytest.approx(353.15), "bore_friction": 0.15}
 
@@ -236,7 +235,7 @@ def spread(model: UncertaintyModel, module: ResolvedModule) -> DesignUncertainty
 
 
 @pytest.mark.slow
-def test_the_yield_is_what_tolerate_says(result: StudyResult, module: ResolvedModule, model: UncertaintyModel) -> None:
+def test_the_yield_is_what_tolerate_says(result, module, model):
     data = Uncertainty(STUDY).data(result.design, SAMPLES)
     expected = Tolerancing(module, lambda _: None).analyse(SAMPLES, STUDY.solver.seed)
     assert 0.02 < expected.together.share < 0.98
@@ -248,9 +247,7 @@ def test_the_yield_is_what_tolerate_says(result: StudyResult, module: ResolvedMo
 
 @pytest.mark.gate
 @pytest.mark.parametrize("output", ["holding_torque", "impedance_range"])
-def test_the_assumed_input_shown_moves_its_output_most(
-    module: ResolvedModule, spread: DesignUncertainty, output: str
-) -> None:
+def test_the_assumed_input_shown_moves_its_output_most(module, spread, output):
     def at(name: str, value: float) -> float:
         return float(TABLE.evaluate({**module.values, name: value}, [output])[output])
 
@@ -266,9 +263,7 @@ def test_the_assumed_input_shown_moves_its_output_most(
 
 
 @pytest.mark.gate
-def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(
-    result: StudyResult, module: ResolvedModule, model: UncertaintyModel
-) -> None:
+def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(result, module, model):
     data = Uncertainty(STUDY).data(result.design, 0)
     limit = next(limit for limit in model.limits if limit.name == next(iter(data["held"])))
     main = next(iter(data["intervals"][limit.output]["shares"]))
@@ -284,7 +279,7 @@ def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(
 
 
 @pytest.mark.gate
-def test_limits_on_what_follows_a_profile_are_left_out_and_named(result: StudyResult) -> None:
+def test_limits_on_what_follows_a_profile_are_left_out_and_named(result):
     profiled = STUDY.model_copy(update={"profile": STUDY.profile.model_copy(update={"softening": 2})})
     study = profiled.model_copy(update={"tolerances": standard_tolerances(TABLE)})
     resolved = ResolvedModule(study, resolve_design(result.design).values)
@@ -302,9 +297,7 @@ require: {spring_stiffness: [">= 5.3 N.m/rad", "<= 6 N.m/rad"]}
 
 
 @pytest.mark.gate
-def test_an_uncertainty_that_is_not_computed_is_a_warning(
-    tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_uncertainty_that_is_not_computed_is_a_warning(tvimdesign, tmp_path, monkeypatch):
     def no_start(*_: Any, **__: Any) -> None:
         raise TvimError("no start")
 
@@ -322,7 +315,7 @@ def test_an_uncertainty_that_is_not_computed_is_a_warning(
 
 
 @pytest.mark.gate
-def test_steps_left_out_are_on_the_screen_and_in_the_results(tvimdesign: Command, tmp_path: Path) -> None:
+def test_steps_left_out_are_on_the_screen_and_in_the_results(tvimdesign, tmp_path):
     (tmp_path / "arm.yaml").write_text(ARM)
     done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", "--time-limit", "1 ms", cwd=tmp_path,
                       spread="on")  # fmt: skip

@@ -59,7 +59,7 @@ def drawn(text: str) -> dict[str, Any]:
     return data
 
 
-def test_it_says_what_was_swept_and_how_it_ended(tmp_path: Path) -> None:
+def test_it_says_what_was_swept_and_how_it_ended(tmp_path):
     sweep_plan = plan(GRID)
     text = page(sweep_plan, seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out")
     assert "5 OF 6 CELLS EVALUATED" in text
@@ -73,7 +73,7 @@ def test_it_says_what_was_swept_and_how_it_ended(tmp_path: Path) -> None:
     assert "the figure</a>" not in text  # there is none beside it
 
 
-def test_lines_and_brushes_are_those_of_the_cells(tmp_path: Path) -> None:
+def test_lines_and_brushes_are_those_of_the_cells(tmp_path):
     sweep_plan = plan(GRID)
     data = drawn(page(sweep_plan, seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
     assert list(data) == ["curves"]  # over one number: nothing to brush
@@ -89,7 +89,7 @@ def test_lines_and_brushes_are_those_of_the_cells(tmp_path: Path) -> None:
     assert data["brushed"]["points"][0]["hollow"]
 
 
-def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(cell_table, "MOST_LISTED", 3)
     monkeypatch.setattr(cell_table, "MOST_FAILED", 1)
     sweep_plan = plan(CLOUD)
@@ -112,7 +112,7 @@ def seen_cells(sweep_plan: SweepPlan, masses: list[float | None]) -> CellTable:
     return table
 
 
-def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers() -> None:
+def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers():
     sweep_plan = plan_of_section(over={"pcl_thickness": {**THICKNESS, "count": 3}, "rate_model": ["smi", "bending"]})
     table = seen_cells(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0])
     data = figure_data(sweep_plan, table)
@@ -128,7 +128,7 @@ def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers() -> None:
 
 
 @pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
-def test_a_sample_is_a_cloud_over_two_axes(method: str) -> None:
+def test_a_sample_is_a_cloud_over_two_axes(method):
     sweep_plan = plan_of_section(
         method=method, count=8, over={"pcl_thickness": THICKNESS, "current": {"from": "1 A", "to": "2 A"}}
     )

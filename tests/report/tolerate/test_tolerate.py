@@ -3,7 +3,6 @@
 import csv
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support import Command
@@ -26,7 +25,7 @@ def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tu
 
 
 @pytest.mark.gate
-def test_the_folder_has_tables_in_si_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
+def test_the_folder_has_tables_in_si_and_a_manifest(results):
     folder, reported, _ = results
     expected = {"contributors.csv", "limits.csv", "manifest.json",
                 "outputs.csv", "spread.pdf", "spread.png",
@@ -64,7 +63,7 @@ def test_the_folder_has_tables_in_si_and_a_manifest(results: tuple[Path, dict[st
 
 
 @pytest.mark.gate
-def test_a_design_and_its_tables_are_printed_and_bad_input_is_reported(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_design_and_its_tables_are_printed_and_bad_input_is_reported(tvimdesign, tmp_path):
     (tmp_path / "arm.yaml").write_text(STUDY)
     done = tvimdesign("tolerate", "arm.yaml", "--samples", 300, "--out", "again", cwd=tmp_path)
     assert done.returncode == 0, done.stderr

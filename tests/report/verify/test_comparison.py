@@ -3,12 +3,11 @@
 import csv
 import math
 import sys
-from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
-from support import ROOT, Command, study_path
+from support import ROOT, study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cad.fe import model_comparison as comparison
@@ -40,7 +39,7 @@ def solved(tmp_path: Any, factor: float = 1.0) -> dict[str, Solved]:
     return {name: Solved(values, values, tmp_path / name) for name, values in by_solver.items()}
 
 
-def test_the_rows_are_those_that_the_table_of_fe_has(tmp_path: Any) -> None:
+def test_the_rows_are_those_that_the_table_of_fe_has(tmp_path):
     rows = {row.name: row for row in comparison.compared(MODULE, solved(tmp_path))}
     for name in ("hub", "core", "plate", "floor", "spring_rate"):
         assert rows[name].ratio == pytest.approx(float(FE_ROWS[name]["ratio"]), abs=0.006), name
@@ -51,7 +50,7 @@ def test_the_rows_are_those_that_the_table_of_fe_has(tmp_path: Any) -> None:
     assert {row.mesh_change for row in rows.values()} == {0.0}
 
 
-def test_screws_feet_and_plate_are_by_statics(tmp_path: Any) -> None:
+def test_screws_feet_and_plate_are_by_statics(tmp_path):
     rows = {row.name: row for row in comparison.compared(MODULE, solved(tmp_path))}
     # n mu F r with four screws of 3 mm at 55 MPa, friction 0.2; FE at the radius it found.
     force = 55e6 * math.pi / 4.0 * 0.003**2
@@ -72,7 +71,7 @@ def test_screws_feet_and_plate_are_by_statics(tmp_path: Any) -> None:
     assert rows["plate_stress"].fe == pytest.approx(0.5 * held)
 
 
-def test_vanes_cup_the_plate_they_hang_from() -> None:
+def test_vanes_cup_the_plate_they_hang_from():
     module = resolve_study(read_study(study_path("machined_compression")))
     thick, core, arm, lean = (
         float(value) for value in (module.values["rotor_thickness"], module.values["core_radius"],
@@ -87,7 +86,7 @@ def test_vanes_cup_the_plate_they_hang_from() -> None:
     assert comparison._mean_plate_stress(module, thick, core) == pytest.approx(mean, rel=1e-5)
 
 
-def test_screws_bear_what_friction_leaves(tmp_path: Any) -> None:
+def test_screws_bear_what_friction_leaves(tmp_path):
     by_solver = solved(tmp_path)
     for values in (by_solver["joint"].fine, by_solver["joint"].coarse):
         values["foot_across"] = 9.0
@@ -109,7 +108,7 @@ def test_screws_bear_what_friction_leaves(tmp_path: Any) -> None:
     assert rows["link_pin_shear"].fe == pytest.approx(left / pins / section * 1e-6, rel=1e-6)
 
 
-def test_the_worst_comes_first(tmp_path: Any) -> None:
+def test_the_worst_comes_first(tmp_path):
     rows = comparison.compared(MODULE, solved(tmp_path, factor=3.0))
     assert [abs(math.log(row.ratio)) for row in rows] == sorted((abs(math.log(r.ratio)) for r in rows), reverse=True)
     assert "hub" in verify_report.summary(rows)
@@ -118,7 +117,7 @@ def test_the_worst_comes_first(tmp_path: Any) -> None:
     assert len(table) == 1 + len(rows)
 
 
-def test_rigid_modules_in_a_vane_are_refused_by_name() -> None:
+def test_rigid_modules_in_a_vane_are_refused_by_name():
     for name in ("elbow_printed", "elbow_machined"):  # with a liner
         verify_design.refuse_other_parts(resolve_study(read_study(study_path(name))))
     vanes = ROOT / "validation/fe_structure/studies/rigid_modules_compression.yaml"
@@ -132,7 +131,7 @@ PIXEL = bytes.fromhex(
 )
 
 
-def test_rows_pictures_and_solvers_are_on_the_page_worst_first(tmp_path: Path) -> None:
+def test_rows_pictures_and_solvers_are_on_the_page_worst_first(tmp_path):
     rows = [
         Compared("core", "N*m/rad", "core of the rotor", model=87.0, fe=100.0, coarse=102.0),
         Compared("hub", "N*m/rad", "frozen joint", model=500.0, fe=505.0, coarse=505.0),
@@ -161,7 +160,7 @@ def test_rows_pictures_and_solvers_are_on_the_page_worst_first(tmp_path: Path) -
 STUDY = "mode: shear\n"
 
 
-def test_what_finite_elements_lack_is_reported_before_the_run(tmp_path: Path, tvimdesign: Command) -> None:
+def test_what_finite_elements_lack_is_reported_before_the_run(tmp_path, tvimdesign):
     (tmp_path / "mine.yaml").write_text(STUDY)
     refused = tvimdesign("run", "mine.yaml", "--verify", "--fe-python", str(tmp_path / "none"), cwd=tmp_path)
     assert refused.returncode == 2
@@ -169,7 +168,7 @@ def test_what_finite_elements_lack_is_reported_before_the_run(tmp_path: Path, tv
     assert not (tmp_path / "results").exists()
 
 
-def test_the_run_comes_first_and_its_folder_is_verified(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_the_run_comes_first_and_its_folder_is_verified(monkeypatch, tmp_path):
     done: list[Any] = []
     monkeypatch.setattr("tvimdesign.report.run.run_study.run_study", lambda *_, **__: done.append("run"))
     monkeypatch.setattr("tvimdesign.cad.fe.run_solvers.require_fe", done.append)

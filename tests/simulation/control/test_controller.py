@@ -27,13 +27,13 @@ def _controller(mode: str) -> Controller:
     return controller
 
 
-def test_the_dead_time_of_lags_is_their_sum() -> None:
+def test_the_dead_time_of_lags_is_their_sum():
     curve = reaction_curve(np.zeros((1, 1)), np.array([0.7]), np.array([1.0]), (2.0, 0.3), 0.01, 60.0)
     assert curve.slope == pytest.approx(0.7, rel=1e-6)
     assert curve.dead_time == pytest.approx(2.3 + 0.5 * 0.01, abs=1e-3)
 
 
-def test_the_gains_have_the_margin_of_simc() -> None:
+def test_the_gains_have_the_margin_of_simc():
     # S. Skogestad (note on his paper of 2003): closed as quickly as the delay, the gain margin is about 3.
     gain, integral_time = ReactionCurve(0.5, 2.0).gains()
     assert (gain, integral_time) == pytest.approx((1.0 / (0.5 * 4.0), 16.0))
@@ -45,7 +45,7 @@ def test_the_gains_have_the_margin_of_simc() -> None:
 
 
 @pytest.mark.gate
-def test_the_law_is_a_pi_law_with_an_observer_in_continuous_time() -> None:
+def test_the_law_is_a_pi_law_with_an_observer_in_continuous_time():
     period, lag, heating, leak, delay, balance, most = 0.005, 2.0, 0.5, 0.02, 0.3, 1.0, 3.0
     gain, integral_time = ReactionCurve(heating, lag + delay).gains()
     frozen = (1e-6,) * len(_controller("shear").layer_temperature)
@@ -95,7 +95,7 @@ def test_the_law_is_a_pi_law_with_an_observer_in_continuous_time() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_its_estimate_is_the_impedance_of_the_module(mode: str) -> None:
+def test_its_estimate_is_the_impedance_of_the_module(mode):
     resolved, controller = module_of(mode), _controller(mode)
     model = resolved.functions
     module = ControlledModule(model, model.start)
@@ -108,7 +108,7 @@ def test_its_estimate_is_the_impedance_of_the_module(mode: str) -> None:
     assert np.max(course.near) < controller.hottest + 3.0
 
 
-def test_stiff_cools_as_far_as_the_way_back_does() -> None:
+def test_stiff_cools_as_far_as_the_way_back_does():
     controller = _controller("shear")
     running = RunningController(controller, controller.cooled + 20.0)
     assert running.step(controller.cooled + 20.0, controller.stiff) == -controller.cooling

@@ -61,7 +61,7 @@ def case_of(resolved: ResolvedModule, name: str) -> Case:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("test", TESTS)
-def test_every_test_runs_on_a_compression_module(test: str, trial: Callable[[str], Trial]) -> None:
+def test_every_test_runs_on_a_compression_module(test, trial):
     outcome = trial(test)
     assert outcome.findings
     sheets = {table.name: table for table in outcome.sheets}
@@ -77,9 +77,7 @@ def test_every_test_runs_on_a_compression_module(test: str, trial: Callable[[str
 
 
 @pytest.mark.gate
-def test_energy_never_rises_and_a_lasting_rattle_is_reported(
-    trial: Callable[[str], Trial], resolved: ResolvedModule
-) -> None:
+def test_energy_never_rises_and_a_lasting_rattle_is_reported(trial, resolved):
     release = trial("release")
     for table in release.sheets:
         if not table.name.endswith("_events"):
@@ -98,7 +96,7 @@ def test_energy_never_rises_and_a_lasting_rattle_is_reported(
     )
 
 
-def test_hot_blocks_leave_the_link_to_its_springs(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:
+def test_hot_blocks_leave_the_link_to_its_springs(resolved, trial):
     release, springs = trial("release"), resolved.quantity("spring_stiffness")
     assert value(release, "backlash@hot") == pytest.approx(0.1, rel=1e-6)
     for name in ("release_hot", "release_melting_nominal", "release_melting_high"):
@@ -111,9 +109,7 @@ def test_hot_blocks_leave_the_link_to_its_springs(resolved: ResolvedModule, tria
 
 
 @pytest.mark.parametrize("name", ["cold", "melting_nominal", "melting_high"])
-def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(
-    name: str, resolved: ResolvedModule, trial: Callable[[str], Trial]
-) -> None:
+def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(name, resolved, trial):
     # Unless a block recovers while it is crossed, which takes a millisecond: less than a tenth here.
     course = sheet(trial("release"), f"release_{name}")
     free = course.column("ahead_touches").values + course.column("behind_touches").values == 0.0
@@ -125,7 +121,7 @@ def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(
     assert 0.9 * gap < way <= gap * (1.0 + 1e-9)
 
 
-def test_the_loop_and_contact_lost_are_those_of_the_first_swing(trial: Callable[[str], Trial]) -> None:
+def test_the_loop_and_contact_lost_are_those_of_the_first_swing(trial):
     release = trial("release")
     loops = [panel for panel in release.panels if panel.x_label.startswith("Angle")]
     assert len(loops) == 3
@@ -142,7 +138,7 @@ def test_the_loop_and_contact_lost_are_those_of_the_first_swing(trial: Callable[
     assert value(trial("release"), "contact_lost@melting") == pytest.approx(lost / swing, rel=1e-9)
 
 
-def test_events_are_where_the_columns_change(trial: Callable[[str], Trial]) -> None:
+def test_events_are_where_the_columns_change(trial):
     release = trial("release")
     course, events = sheet(release, "release_cold"), sheet(release, "release_cold_events")
     times = course.column("time").values
@@ -154,7 +150,7 @@ def test_events_are_where_the_columns_change(trial: Callable[[str], Trial]) -> N
         assert np.array_equal(course.column(column).values[changes], touches)
 
 
-def test_rows_say_what_the_release_says(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:
+def test_rows_say_what_the_release_says(resolved, trial):
     seen = contact_seen(resolved)
     for point in POINTS:
         loss = next(finding for finding in trial("release").findings if finding.name == f"contact_lost@{point}")
@@ -166,7 +162,7 @@ def test_rows_say_what_the_release_says(resolved: ResolvedModule, trial: Callabl
 
 
 @pytest.mark.slow
-def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) -> None:
+def test_answer_of_a_study_holds_what_the_swing_shows(resolved):
     result = answer(resolved.study)
     seen, reported = contact_seen(resolved), results(result, resolved.table)["values"]
     for name, (nominal, low, high) in seen.items():
@@ -179,7 +175,7 @@ def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) 
     assert result.intervals["backlash@melting"][1] > 100.0 * result.intervals["backlash@melting"][0] > 0.0
 
 
-def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
+def test_bonded_layer_loses_no_contact_and_has_no_backlash():
     study = read_study(study_path("paper_reconstructed"))
     shear = resolve_study(study)
     assert all(ends == (0.0, 0.0, 0.0) for ends in contact_seen(shear).values())
@@ -190,9 +186,7 @@ def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
     assert not any(table.name.endswith("_events") for table in release.sheets)
 
 
-def test_sine_pushes_molten_blocks_aside_and_keeps_frozen_ones(
-    resolved: ResolvedModule, trial: Callable[[str], Trial]
-) -> None:
+def test_sine_pushes_molten_blocks_aside_and_keeps_frozen_ones(resolved, trial):
     sine, springs = trial("sine"), resolved.quantity("spring_stiffness")
     assert value(sine, "stiffness@hot") == pytest.approx(springs, rel=1e-4)
     assert value(sine, "contact_lost@hot") > 0.95

@@ -41,14 +41,14 @@ def hold_to_rows(resolved: ResolvedModule, points: tuple[str, ...]) -> None:
         assert value(ran, f"frequency_domain_difference@{point}") < 0.01
 
 
-def test_sine_gives_stiffness_and_damping_of_the_operating_points(shear: ResolvedModule) -> None:
+def test_sine_gives_stiffness_and_damping_of_the_operating_points(shear):
     # The frozen joint's damping is its structure's alone: without loss in time it came to a hundredth.
     assert shear.quantity("joint_damping@cold") > 1.0
     hold_to_rows(shear, ("cold", "hot"))
 
 
 @pytest.mark.slow
-def test_sine_of_frozen_blocks_is_that_of_an_independent_integration() -> None:
+def test_sine_of_frozen_blocks_is_that_of_an_independent_integration():
     # A lossy block lags behind the link and is left before the link is back: no row of small motions knows of that.
     resolved = module("paper_compression")
     ran = sine_test.sine(resolved)
@@ -88,7 +88,7 @@ def test_sine_of_frozen_blocks_is_that_of_an_independent_integration() -> None:
     assert value(ran, "damping@cold") == pytest.approx(whole.imag / (2.0 * np.pi * frequency), rel=5e-3)
 
 
-def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear: ResolvedModule) -> None:
+def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear):
     case = next(known for known in cases(shear) if known.point == "cold")
     support = shear.quantity("support@cold")
     spring, elements = spectrum(float(support[0]), float(support[1]), float(shear.quantity("frequency@cold")))
@@ -117,7 +117,7 @@ def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear: R
     assert moved.angle[: len(times)] == pytest.approx(again.y[0], abs=2e-6 * 0.01)
 
 
-def test_frozen_link_rings_down_by_half_its_loss_factor(shear: ResolvedModule) -> None:
+def test_frozen_link_rings_down_by_half_its_loss_factor(shear):
     case = next(known for known in cases(shear) if known.point == "cold")
     moved = link.released(case.plant, 0.01, link.held(case.plant, 0.01, 1e-6), case.friction).motion
     crests = np.flatnonzero((moved.angle[1:-1] > moved.angle[:-2]) & (moved.angle[1:-1] > moved.angle[2:]))[:5] + 1
@@ -157,7 +157,7 @@ def slowness(resolved: ResolvedModule) -> float:
     return float(size / resolved.quantity("spring_stiffness"))
 
 
-def test_hot_link_creeps_back_and_cold_link_rings(resolved: ResolvedModule, release: Trial) -> None:
+def test_hot_link_creeps_back_and_cold_link_rings(resolved, release):
     assert value(release, "ringing_frequency@hot") == 0.0
     # Three time constants of the melt's viscosity over the springs, a little more for the melt's own memory.
     viscosity = resolved.values["pcl_grade"].value("zero_shear_viscosity")
@@ -172,7 +172,7 @@ def test_hot_link_creeps_back_and_cold_link_rings(resolved: ResolvedModule, rele
     assert value(release, "settling_time@cold") == pytest.approx(np.log(20.0) / decay, rel=0.01)
 
 
-def test_release_gives_back_what_holding_put_in_and_makes_no_energy(release: Trial) -> None:
+def test_release_gives_back_what_holding_put_in_and_makes_no_energy(release):
     for sheet in release.sheets:
         energy = sheet.column("stored_energy").values
         assert np.max(np.diff(energy)) <= 1e-9 * energy[0]
@@ -185,9 +185,7 @@ def test_release_gives_back_what_holding_put_in_and_makes_no_energy(release: Tri
     assert loop == pytest.approx(0.0, abs=1e-3 * 28.05e-3)
 
 
-def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(
-    resolved: ResolvedModule, release: Trial
-) -> None:
+def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(resolved, release):
     hot = next(sheet for sheet in release.sheets if sheet.name == "release_hot")
     times, simple = hot.column("time").values, hot.column("angle_kelvin_voigt").values
     stiffness, damping = resolved.quantity("joint_stiffness@hot"), resolved.quantity("joint_damping@hot")
@@ -204,7 +202,7 @@ def test_kelvin_voigt_of_the_hot_link_is_too_stiff_and_comes_back_too_soon(
     assert not any("kelvin" in column.name for sheet in bare.sheets for column in sheet.columns)
 
 
-def test_frozen_joint_slips_at_the_torque_it_bears(resolved: ResolvedModule, release: Trial) -> None:
+def test_frozen_joint_slips_at_the_torque_it_bears(resolved, release):
     bears = float(resolved.quantity("holding_torque"))
     assert value(release, "held_torque@cold") == pytest.approx(bears, rel=1e-9)
     assert any("slips or yields" in note and "cold" in note for note in release.notes)
@@ -219,9 +217,7 @@ def test_frozen_joint_slips_at_the_torque_it_bears(resolved: ResolvedModule, rel
 
 
 @pytest.mark.parametrize("point", POINTS)
-def test_sine_in_time_agrees_with_the_rows_within_one_percent(
-    resolved: ResolvedModule, sine: Trial, point: str
-) -> None:
+def test_sine_in_time_agrees_with_the_rows_within_one_percent(resolved, sine, point):
     worst = next(finding for finding in sine.findings if finding.name == f"frequency_domain_difference@{point}")
     assert max(worst.value, worst.high or 0.0) < 1e-2
     stiffness, damping = resolved.quantity(f"joint_stiffness@{point}"), resolved.quantity(f"joint_damping@{point}")
@@ -232,7 +228,7 @@ def test_sine_in_time_agrees_with_the_rows_within_one_percent(
     assert value(sine, f"cycle_energy@{point}") == pytest.approx(heat, rel=1e-2)
 
 
-def test_interval_holds_what_stands_between_the_histories(resolved: ResolvedModule, release: Trial) -> None:
+def test_interval_holds_what_stands_between_the_histories(resolved, release):
     # Neither the liquid nor the most frozen layer creeps slowest: a layer a quarter of the way between does, by
     # its longest mode's viscosity over the springs, and takes longer than all three that are shown.
     settling = next(finding for finding in release.findings if finding.name == "settling_time@melting")
@@ -244,7 +240,7 @@ def test_interval_holds_what_stands_between_the_histories(resolved: ResolvedModu
     assert settling.high > 10.0 * settling.value
 
 
-def test_study_without_points_is_tested_at_the_papers_three_temperatures() -> None:
+def test_study_without_points_is_tested_at_the_papers_three_temperatures():
     def bench(text: str) -> ResolvedModule:
         return with_paper_points(resolve_study(read_study_text(text, "a test")))
 

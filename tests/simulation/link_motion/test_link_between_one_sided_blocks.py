@@ -99,7 +99,7 @@ def radau(blocks: Blocks, angle: float, hold: float, times: Array) -> tuple[Arra
 @pytest.mark.gate
 @NAMED
 @pytest.mark.parametrize("hold", [0.02, pytest.param(10.0, marks=pytest.mark.slow)])
-def test_release_and_its_events_are_those_of_radau(pair: str, hold: float) -> None:
+def test_release_and_its_events_are_those_of_radau(pair, hold):
     blocks = PAIRS[pair]
     moved = link.released(Plant(JOINT, blocks), 0.1, link.held(Plant(JOINT, blocks), 0.1, hold))
     last = min(moved.events[5].time, 0.05) if len(moved.events) > 5 else 0.05
@@ -112,7 +112,7 @@ def test_release_and_its_events_are_those_of_radau(pair: str, hold: float) -> No
     assert ours == pytest.approx(events[: len(ours)], rel=1e-5, abs=1e-8)
 
 
-def test_relaxed_link_meets_the_other_block_when_its_cosine_says() -> None:
+def test_relaxed_link_meets_the_other_block_when_its_cosine_says():
     # The block ahead stands back out of reach; the one behind stands 0.02 rad behind rest.
     blocks = Blocks([(1e10, 300.0)], [(1e10, 300.0)])
     moved = link.released(Plant(JOINT, blocks), 0.05, np.array([0.06, 0.02]))
@@ -133,7 +133,7 @@ def test_relaxed_link_meets_the_other_block_when_its_cosine_says() -> None:
 
 
 @NAMED
-def test_no_block_ever_pulls(pair: str) -> None:
+def test_no_block_ever_pulls(pair):
     blocks = PAIRS[pair]
     moved = link.released(Plant(JOINT, blocks), 0.1, link.held(Plant(JOINT, blocks), 0.1, 10.0))
     pulls = one_sided.pulls(moved.motion.angle, list(moved.motion.internal), blocks)
@@ -144,7 +144,7 @@ def test_no_block_ever_pulls(pair: str) -> None:
 
 
 @NAMED
-def test_squeezed_blocks_that_keep_contact_are_the_two_sided_link(pair: str) -> None:
+def test_squeezed_blocks_that_keep_contact_are_the_two_sided_link(pair):
     blocks = PAIRS[pair]
     if blocks.first != blocks.second:
         blocks = Blocks(blocks.first, [(tau, k) for tau, k in blocks.first])
@@ -166,7 +166,7 @@ def test_squeezed_blocks_that_keep_contact_are_the_two_sided_link(pair: str) -> 
 @pytest.mark.slow
 @NAMED
 @pytest.mark.parametrize("precompression", [0.0, 0.02, 0.3])
-def test_gap_after_a_hold_is_what_relaxed_less_the_precompression(pair: str, precompression: float) -> None:
+def test_gap_after_a_hold_is_what_relaxed_less_the_precompression(pair, precompression):
     # By hand: the block ahead stands back (0.1 + p) loss - p, the one behind max(p - 0.1, 0) loss - p.
     modes = PAIRS[pair].first
     rigid = JOINT._replace(structure_stiffness=1e14)
@@ -176,7 +176,7 @@ def test_gap_after_a_hold_is_what_relaxed_less_the_precompression(pair: str, pre
     assert one_sided.gap(inner, Blocks(modes, modes)) == pytest.approx(max(expected, 0.0), rel=1e-6, abs=1e-9)
 
 
-def test_elastic_blocks_never_lose_a_link_that_is_swung() -> None:
+def test_elastic_blocks_never_lose_a_link_that_is_swung():
     blocks = Blocks([(1e16, 300.0)], [(1e16, 100.0)])
     moved = link.swung(Plant(JOINT, blocks), 0.1, 3.0, 3, 96)
     assert moved.lost_share(0.0, 1.0) == 0.0
@@ -189,7 +189,7 @@ def test_elastic_blocks_never_lose_a_link_that_is_swung() -> None:
     assert inside == pytest.approx(np.repeat(np.arange(1, 6) / 6.0, 2), abs=1e-9)
 
 
-def test_blocks_grazed_or_left_between_two_samples_are_found() -> None:
+def test_blocks_grazed_or_left_between_two_samples_are_found():
     # Faces 0.0999 rad away on either side, ten samples a period: the crests of 0.1 rad lie between samples.
     blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
     moved = link.swung(Plant(JOINT, blocks), 0.1, 1.0, 1, 10, precompression=-0.0999)
@@ -208,7 +208,7 @@ def test_blocks_grazed_or_left_between_two_samples_are_found() -> None:
     assert moved.lost_share(0.0, 1.0) == 0.0
 
 
-def test_releases_last_one_swing_or_until_their_energy_is_gone() -> None:
+def test_releases_last_one_swing_or_until_their_energy_is_gone():
     blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
     moved = link.released(Plant(JOINT, blocks), 0.1, np.array([0.2, 0.2]))
     assert moved.events == ()
@@ -220,7 +220,7 @@ def test_releases_last_one_swing_or_until_their_energy_is_gone() -> None:
     assert share[-1] <= DEAD**2 < share[-2 * SAMPLES_A_PERIOD]
 
 
-def test_fluid_blocks_are_pushed_aside_once_and_not_touched_again() -> None:
+def test_fluid_blocks_are_pushed_aside_once_and_not_touched_again():
     # A fluid that relaxes at once stays where the first swing has pushed it.
     blocks = Blocks([(1e-7, 300.0)], [(1e-7, 300.0)])
     moved = link.swung(Plant(JOINT, blocks), 0.1, 1.0, 4, 48)
@@ -239,9 +239,7 @@ modes = st.lists(
 @settings(max_examples=40, deadline=None)
 @given(modes, modes, st.floats(1.0, 5.0), st.floats(-4.0, 4.0), st.sampled_from([0.0, 0.01, 0.3]))
 @pytest.mark.slow
-def test_energy_never_rises_once_the_link_is_let_go(
-    first: list[tuple[float, float]], second: list[tuple[float, float]], structure: float, hold: float, squeeze: float
-) -> None:
+def test_energy_never_rises_once_the_link_is_let_go(first, second, structure, hold, squeeze):
     joint = motion.Joint(INERTIA, SPRINGS, 10.0**structure)
     blocks = Blocks(first, second)
     moved = link.released(Plant(joint, blocks), 0.1, link.held(Plant(joint, blocks), 0.1, 10.0**hold, squeeze))
@@ -251,7 +249,7 @@ def test_energy_never_rises_once_the_link_is_let_go(
 
 
 @pytest.mark.parametrize("end", [10.25, 10.255])
-def test_a_curve_that_ends_as_the_link_passes_its_rest_is_unsettled(end: float) -> None:
+def test_a_curve_that_ends_as_the_link_passes_its_rest_is_unsettled(end):
     def swinging(decay: float) -> OneSided:
         times = np.linspace(0.0, end, 4001)
         angle = 0.1 * np.exp(-decay * times) * np.cos(2.0 * np.pi * times)

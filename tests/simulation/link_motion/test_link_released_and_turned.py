@@ -39,7 +39,7 @@ def crossings(times: Array, values: Array) -> Array:
     return np.asarray(times[before] + share * (times[before + 1] - times[before]))
 
 
-def test_springs_alone_ring_at_18_5_hertz() -> None:
+def test_springs_alone_ring_at_18_5_hertz():
     nothing = [(1.0, 1e-9)]
     moved = link.released(Plant(JOINT, nothing), 0.1, np.zeros(1)).motion
     frequency = 0.5 / np.mean(np.diff(crossings(moved.times, moved.angle)))
@@ -51,7 +51,7 @@ def test_springs_alone_ring_at_18_5_hertz() -> None:
 
 
 @pytest.mark.parametrize("ratio", [0.05, 0.3])
-def test_light_dashpot_gives_the_textbook_decay(ratio: float) -> None:
+def test_light_dashpot_gives_the_textbook_decay(ratio):
     joint, modes = dashpot(ratio * 2.0 * np.sqrt(SPRINGS * INERTIA))
     moved = link.released(Plant(joint, modes), 0.1, relaxed(modes)).motion
     omega = np.sqrt(SPRINGS / INERTIA)
@@ -64,7 +64,7 @@ def test_light_dashpot_gives_the_textbook_decay(ratio: float) -> None:
     assert swings.ringing() == pytest.approx((damped / (2.0 * np.pi), ratio), rel=1e-4)
 
 
-def test_heavy_dashpot_creeps_back_with_two_exponentials() -> None:
+def test_heavy_dashpot_creeps_back_with_two_exponentials():
     joint, modes = dashpot(5.0)
     moved = link.released(Plant(joint, modes), 0.1, relaxed(modes)).motion
     fast, slow = np.sort(np.roots([INERTIA, 5.0, SPRINGS]))
@@ -79,7 +79,7 @@ def test_heavy_dashpot_creeps_back_with_two_exponentials() -> None:
 
 
 @pytest.mark.parametrize("damping", [0.01, 5.0])
-def test_kelvin_voigt_is_the_dashpot_beside_the_spring(damping: float) -> None:
+def test_kelvin_voigt_is_the_dashpot_beside_the_spring(damping):
     joint, modes = dashpot(damping)
     moved = link.released(Plant(joint, modes), 0.1, relaxed(modes)).motion
     angle, torque = link.kelvin_voigt(joint, damping, SPRINGS, 0.1, moved)
@@ -91,7 +91,7 @@ def test_kelvin_voigt_is_the_dashpot_beside_the_spring(damping: float) -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize(("layer", "hold"), [("melt", 10.0), ("half frozen", 10.0), ("solid", 10.0), ("solid", 0.0)])
-def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer: str, hold: float) -> None:
+def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer, hold):
     # Other unknowns: torque of each mode, with the layer's angle from d/dt of the series' balance.
     tau, k = np.array(LAYERS[layer]).T
     structure = JOINT.structure_stiffness
@@ -121,7 +121,7 @@ def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer: 
 
 @pytest.mark.parametrize("frequency", [0.2, 1.0, 18.5])
 @pytest.mark.parametrize("layer", LAYERS)
-def test_sine_in_time_has_the_complex_stiffness_of_the_frequency_domain(layer: str, frequency: float) -> None:
+def test_sine_in_time_has_the_complex_stiffness_of_the_frequency_domain(layer, frequency):
     moved = link.swung(Plant(JOINT, LAYERS[layer]), 0.104, frequency, 10, 240).motion
     s = 2j * np.pi * frequency
     inner = sum(k * s * tau / (1.0 + s * tau) for tau, k in LAYERS[layer])
@@ -142,16 +142,14 @@ modes = st.lists(
 
 @settings(max_examples=20, deadline=None)
 @given(modes, st.floats(1.0, 5.0), st.floats(-4.0, 4.0))
-def test_energy_never_rises_once_the_link_is_let_go(
-    layer: list[tuple[float, float]], structure: float, hold: float
-) -> None:
+def test_energy_never_rises_once_the_link_is_let_go(layer, structure, hold):
     joint = motion.Joint(INERTIA, SPRINGS, 10.0**structure)
     moved = link.released(Plant(joint, layer), 0.1, link.held(Plant(joint, layer), 0.1, 10.0**hold)).motion
     assert np.max(np.diff(moved.energy)) <= 1e-9 * moved.energy[0]
     assert np.all(moved.energy >= 0.0)
 
 
-def test_energy_lost_is_the_heat_of_the_dashpots() -> None:
+def test_energy_lost_is_the_heat_of_the_dashpots():
     moved = link.released(Plant(JOINT, HALF), 0.1, link.held(Plant(JOINT, HALF), 0.1, 10.0)).motion
     early = moved.times <= 0.2
     heat = textbook.dissipation(moved.angle, list(moved.internal), JOINT, HALF)[early]
@@ -159,14 +157,14 @@ def test_energy_lost_is_the_heat_of_the_dashpots() -> None:
     assert np.trapezoid(heat, moved.times[early]) == pytest.approx(lost, rel=0.01)
 
 
-def test_cold_ring_is_sampled_twenty_times_a_period_as_long_as_it_lives() -> None:
+def test_cold_ring_is_sampled_twenty_times_a_period_as_long_as_it_lives():
     moved = link.released(Plant(JOINT, HALF), 0.1, link.held(Plant(JOINT, HALF), 0.1, 10.0)).motion
     frequency, ratio = link.swings(JOINT, HALF, 0.1, link.held(Plant(JOINT, HALF), 0.1, 10.0)).ringing()
     alive = 6.0 / (2.0 * np.pi * frequency * ratio)
     assert np.max(np.diff(moved.times[moved.times < alive])) < 1.0 / (20.0 * frequency)
 
 
-def test_doubling_stretches_end_where_they_should() -> None:
+def test_doubling_stretches_end_where_they_should():
     times = np.cumsum([0.0, *(step for step, count in doubling(1e-4, 100.0) for _ in range(count))])
     assert times[0] == 0.0
     assert times[1] == pytest.approx(1e-4)

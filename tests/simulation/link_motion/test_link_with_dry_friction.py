@@ -34,7 +34,7 @@ def let_go(modes: motion.Modes, one_sided: bool = False, friction: float = FRICT
 
 
 @pytest.mark.parametrize("one_sided", [False, True])
-def test_amplitude_falls_by_twice_the_band_in_every_half_swing(one_sided: bool) -> None:
+def test_amplitude_falls_by_twice_the_band_in_every_half_swing(one_sided):
     swing = let_go(NOTHING, one_sided)
     moved = swing.motion
     stops = np.flatnonzero(moved.speed == 0.0)
@@ -51,7 +51,7 @@ def test_amplitude_falls_by_twice_the_band_in_every_half_swing(one_sided: bool) 
     assert np.diff(times) == pytest.approx(np.pi * np.sqrt(INERTIA / SPRINGS), rel=1e-6)
 
 
-def test_the_loop_is_twice_the_friction_wide() -> None:
+def test_the_loop_is_twice_the_friction_wide():
     moved = let_go(NOTHING).motion
     sliding = np.abs(moved.speed) > 1e-9
     loss = moved.torque[sliding] + SPRINGS * moved.angle[sliding]
@@ -87,7 +87,7 @@ def smooth(modes: motion.Modes, one_sided: bool, times: Array) -> Array:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("modes", "one_sided"), [(THIN, False), (MELT, False), (THIN, True), (MELT, True)])
-def test_the_motion_is_that_of_scipy_with_friction_made_smooth(modes: motion.Modes, one_sided: bool) -> None:
+def test_the_motion_is_that_of_scipy_with_friction_made_smooth(modes, one_sided):
     moved = let_go(modes, one_sided).motion
     early = moved.times <= 0.4
     times = moved.times[early]
@@ -96,7 +96,7 @@ def test_the_motion_is_that_of_scipy_with_friction_made_smooth(modes: motion.Mod
     assert moved.angle[early][apart] == pytest.approx(other, abs=2e-5)
 
 
-def test_hardly_any_friction_is_none() -> None:
+def test_hardly_any_friction_is_none():
     moved = let_go(THIN, friction=1e-12).motion
     early = moved.times < 0.3
     fine = solve_ivp(
@@ -106,13 +106,13 @@ def test_hardly_any_friction_is_none() -> None:
     assert moved.angle[early] == pytest.approx(fine.y[0], abs=1e-8)
 
 
-def test_a_melt_creeps_to_the_edge_of_the_band_and_stays() -> None:
+def test_a_melt_creeps_to_the_edge_of_the_band_and_stays():
     swing = let_go(MELT)
     assert swing.rest_angle == pytest.approx(BAND, rel=1e-4)
     assert np.max(np.diff(swing.motion.energy)) <= 1e-12 * swing.motion.energy[0]
 
 
-def test_a_frozen_joint_creeps_without_inertia_on_the_edge_of_the_friction() -> None:
+def test_a_frozen_joint_creeps_without_inertia_on_the_edge_of_the_friction():
     swing = let_go(FROZEN)
     moved = swing.motion
     assert moved.times[-1] > 3000.0  # not held up by a slip at every period of the joint
@@ -127,7 +127,7 @@ def test_a_frozen_joint_creeps_without_inertia_on_the_edge_of_the_friction() -> 
 
 
 @pytest.mark.slow
-def test_the_release_of_the_published_module_shows_its_hysteresis() -> None:
+def test_the_release_of_the_published_module_shows_its_hysteresis():
     study = read_study(study_path("paper_reconstructed"))
     resolved = resolve_study(study)
     trial = release_test.release(resolved, kelvin_voigt=False)
@@ -150,7 +150,7 @@ def star(spring: float, modes: Modes, hertz: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("loss_factor", [1e-4, 0.04, 0.3, 1.5])
 @pytest.mark.parametrize("hertz", [0.1, 1.0, 100.0])
-def test_loss_factor_is_the_same_over_three_decades_and_exact_at_the_point(loss_factor: float, hertz: float) -> None:
+def test_loss_factor_is_the_same_over_three_decades_and_exact_at_the_point(loss_factor, hertz):
     spring, elements = spectrum(700.0, 700.0 * loss_factor, hertz)
     assert spring >= 0.0
     assert all(stiffness > 0.0 for _, stiffness in elements)
@@ -165,7 +165,7 @@ def test_loss_factor_is_the_same_over_three_decades_and_exact_at_the_point(loss_
 
 @pytest.mark.parametrize("layer", [LOSSY_MELT, LOSSY_FROZEN, [(0.01, 3.0)]])
 @pytest.mark.parametrize("loss_factor", [0.04, 1.5])
-def test_modes_in_series_are_those_of_both_one_behind_the_other(layer: Modes, loss_factor: float) -> None:
+def test_modes_in_series_are_those_of_both_one_behind_the_other(layer, loss_factor):
     spring, elements = spectrum(700.0, 700.0 * loss_factor, 1.0)
     together = in_series(layer, spring, elements)
     assert all(stiffness > 0.0 and tau > 0.0 for tau, stiffness in together)
@@ -174,7 +174,7 @@ def test_modes_in_series_are_those_of_both_one_behind_the_other(layer: Modes, lo
     assert np.max(np.abs(star(0.0, together, hertz) / (first * other / (first + other)) - 1.0)) < 1e-9
 
 
-def test_structures_may_share_a_time_with_the_layer_or_lose_nothing() -> None:
+def test_structures_may_share_a_time_with_the_layer_or_lose_nothing():
     spring, elements = spectrum(700.0, 28.0, 1.0)
     layer = [(elements[3][0], 90.0), (1e-3, 500.0)]
     hertz = np.geomspace(1e-3, 1e3, 100)

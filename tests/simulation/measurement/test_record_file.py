@@ -38,7 +38,7 @@ def ranges(study: tvim.Study) -> dict[str, UnmeasuredInput]:
     return {assumed.name: assumed for assumed in unmeasured_inputs(resolve_study(study.resolved))}
 
 
-def test_a_record_says_value_interval_and_file(tmp_path: Path) -> None:
+def test_a_record_says_value_interval_and_file(tmp_path):
     path = pad_file(tmp_path)
     written = tvim.fit(path).record("my_pad", catalog=tmp_path / "my_records")
     assert written == tmp_path / "my_records/peltiers/my_pad.yaml"
@@ -54,7 +54,7 @@ def test_a_record_says_value_interval_and_file(tmp_path: Path) -> None:
     assert record.value("area") == Catalog().record("peltiers", "flexible_1600").value("area")
 
 
-def test_a_measured_value_counts_with_its_own_interval(tmp_path: Path) -> None:
+def test_a_measured_value_counts_with_its_own_interval(tmp_path):
     tvim.fit(pad_file(tmp_path)).record("my_pad", catalog=tmp_path / "my_records")
     before, after = ranges(joint(tmp_path)), ranges(joint(tmp_path, peltier_module="my_pad"))
     for name in ("peltier_seebeck", "peltier_resistance", "peltier_conductance"):
@@ -64,7 +64,7 @@ def test_a_measured_value_counts_with_its_own_interval(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_the_interval_of_a_headline_shrinks(tmp_path: Path) -> None:
+def test_the_interval_of_a_headline_shrinks(tmp_path):
     tvim.fit(pad_file(tmp_path)).record("my_pad", catalog=tmp_path / "my_records")
     width = {}
     for name in ("flexible_1600", "my_pad"):
@@ -74,7 +74,7 @@ def test_the_interval_of_a_headline_shrinks(tmp_path: Path) -> None:
     assert width["my_pad"] < 0.7 * width["flexible_1600"]
 
 
-def test_a_spectrum_is_a_table_that_the_catalogue_takes(tmp_path: Path) -> None:
+def test_a_spectrum_is_a_table_that_the_catalogue_takes(tmp_path):
     omega, modes, noise = np.geomspace(0.1, 300.0, 20), [(0.05, 4e3), (0.004, 6e4)], np.random.default_rng(6)
     both = (modulus * np.exp(noise.normal(0.0, 0.01, 20)) for modulus in moduli(omega, modes))
     fitted = tvim.fit(oscillated(tmp_path / "melt.csv", omega, *both))
@@ -89,7 +89,7 @@ def test_a_spectrum_is_a_table_that_the_catalogue_takes(tmp_path: Path) -> None:
     assert record.value("melt_reference_temperature") == pytest.approx(373.15)
 
 
-def test_an_existing_record_stays_unless_overwriting_is_requested(tmp_path: Path) -> None:
+def test_an_existing_record_stays_unless_overwriting_is_requested(tmp_path):
     fitted = tvim.fit(pad_file(tmp_path))
     place = tmp_path / "my_records"
     written = fitted.record("my_pad", catalog=place)
@@ -102,13 +102,13 @@ def test_an_existing_record_stays_unless_overwriting_is_requested(tmp_path: Path
         fitted.record("../my_pad", catalog=place)
 
 
-def test_what_contradicts_the_base_leaves_no_record(tmp_path: Path) -> None:
+def test_what_contradicts_the_base_leaves_no_record(tmp_path):
     with pytest.raises(CatalogError, match="does not go with no_such_pad"):
         tvim.fit(pad_file(tmp_path)).record("my_pad", based_on="no_such_pad", catalog=tmp_path / "my_records")
     assert not list((tmp_path / "my_records").rglob("*.yaml"))
 
 
-def test_data_that_the_equations_do_not_describe_write_no_record(tmp_path: Path) -> None:
+def test_data_that_the_equations_do_not_describe_write_no_record(tmp_path):
     # A spring that stiffens as its coils touch: no one modulus is its wire's.
     angle = np.linspace(0.02, 1.0, 40)
     path = csv(tmp_path / "stiff.csv", torque__Nm=5.0 * angle + 4.0 * angle**3, angle__rad=angle)
@@ -118,7 +118,7 @@ def test_data_that_the_equations_do_not_describe_write_no_record(tmp_path: Path)
         fitted.record("my_wire", catalog=tmp_path / "my_records")
 
 
-def test_the_door_for_python_users(tmp_path: Path) -> None:
+def test_the_door_for_python_users(tmp_path):
     fitted = tvim.fit(str(pad_file(tmp_path)), "pad", leak="0.001 W/K")
     table = fitted.table()
     assert list(table.columns) == ["value", "low", "high", "unit", "meaning"]

@@ -41,7 +41,7 @@ def named(trial: Trial, name: str) -> Finding:
     return next(finding for finding in trial.findings if finding.name == name)
 
 
-def test_standard_points_and_the_interval_of_the_solid_fraction(resolved: ResolvedModule) -> None:
+def test_standard_points_and_the_interval_of_the_solid_fraction(resolved):
     assert [at.temperature - CELSIUS for at in specimens(resolved)] == pytest.approx([30.0, 60.0, 100.0])
     own = rig_of("operating_points: {hot: {temperature: 80 degC}}\n")
     assert [at.temperature - CELSIUS for at in specimens(own)] == pytest.approx([30.0, 80.0])
@@ -64,7 +64,7 @@ NOUGHT = ("energy_gain", "backlash", "contact_lost")
 
 @pytest.mark.gate
 @pytest.mark.parametrize("name", TESTS)
-def test_60_degrees_is_never_one_number_and_30_and_100_always_are(done: Done, name: str) -> None:
+def test_60_degrees_is_never_one_number_and_30_and_100_always_are(done, name):
     for finding in done(name).findings:
         if finding.name.endswith(("@60_degC", "@melting")):
             assert finding.low <= finding.value <= finding.high
@@ -75,7 +75,7 @@ def test_60_degrees_is_never_one_number_and_30_and_100_always_are(done: Done, na
 
 @pytest.mark.gate
 @pytest.mark.parametrize("name", TESTS)
-def test_every_line_drawn_is_a_column_of_one_length_and_bands_enclose_it(done: Done, name: str) -> None:
+def test_every_line_drawn_is_a_column_of_one_length_and_bands_enclose_it(done, name):
     trial = done(name)
     sheets = {sheet.name: sheet for sheet in trial.sheets}
     assert len(sheets) == len(trial.sheets)
@@ -91,7 +91,7 @@ def test_every_line_drawn_is_a_column_of_one_length_and_bands_enclose_it(done: D
             assert np.all(drawn <= high * (1.0 + 1e-12))
 
 
-def test_frequency_sweep_shows_the_data_sheets_solid_and_the_records_melt(done: Done) -> None:
+def test_frequency_sweep_shows_the_data_sheets_solid_and_the_records_melt(done):
     trial = done("frequency")
     # 411 MPa at 23 degC, softening as calibrated, nu 0.45. The melting curve's rounded corner has taken 3e-4 of it.
     fall = 0.45 * (math.log1p(math.exp(-12.0 / 5.0)) - math.log1p(math.exp(-19.0 / 5.0)))
@@ -104,7 +104,7 @@ def test_frequency_sweep_shows_the_data_sheets_solid_and_the_records_melt(done: 
     assert np.allclose(sheet.column("complex_viscosity").values, star / omega, rtol=1e-12)
 
 
-def test_linear_range_ends_where_the_record_says(done: Done) -> None:
+def test_linear_range_ends_where_the_record_says(done):
     trial = done("amplitude")
     assert named(trial, "linear_limit@30_degC").value == pytest.approx(0.003, rel=0.01)
     assert named(trial, "linear_limit@100_degC").value == pytest.approx(0.30, rel=0.01)
@@ -114,7 +114,7 @@ def test_linear_range_ends_where_the_record_says(done: Done) -> None:
     assert (between.low, between.high) == pytest.approx((0.003 ** (2 / 3) * 0.3 ** (1 / 3), 0.3), rel=0.02)
 
 
-def test_melt_creeps_at_stress_over_viscosity_and_recovers_nothing(done: Done) -> None:
+def test_melt_creeps_at_stress_over_viscosity_and_recovers_nothing(done):
     trial = done("creep")
     assert named(trial, "creep_strain@100_degC").value == pytest.approx(50.0 * 300.0 / 4200.0, rel=2e-3)
     assert named(trial, "recovered_share@100_degC").value < 1e-3
@@ -122,7 +122,7 @@ def test_melt_creeps_at_stress_over_viscosity_and_recovers_nothing(done: Done) -
     assert any("200 s" in note and "600 s" in note for note in trial.notes)
 
 
-def test_creep_of_the_mix_is_what_its_internal_equations_integrate_to(resolved: ResolvedModule, done: Done) -> None:
+def test_creep_of_the_mix_is_what_its_internal_equations_integrate_to(resolved, done):
     taus, moduli = np.array(specimen(resolved, CELSIUS + 60.0).nominal.modes).T
 
     def rates(_: float, state: np.ndarray) -> np.ndarray:
@@ -135,9 +135,7 @@ def test_creep_of_the_mix_is_what_its_internal_equations_integrate_to(resolved: 
 
 
 @pytest.mark.gate
-def test_stress_after_the_ramp_is_what_its_internal_equations_integrate_to(
-    resolved: ResolvedModule, done: Done
-) -> None:
+def test_stress_after_the_ramp_is_what_its_internal_equations_integrate_to(resolved, done):
     # 10 % within 0.1 s, held: every mode's time falls by x/sinh(x), x = stress/tau_0, stepped here by another solver.
     # tau_0 makes the spectrum flow at 16 MPa/sqrt(3), less by the fall of the modulus from 23 degC, at 1 % a second.
     at = specimen(resolved, CELSIUS + 30.0).nominal
@@ -156,13 +154,13 @@ def test_stress_after_the_ramp_is_what_its_internal_equations_integrate_to(
     assert stress == pytest.approx(float(np.sum(held.y[:, -1])), rel=2e-3)
 
 
-def test_frozen_pcl_strained_by_a_tenth_yields_as_published(done: Done) -> None:
+def test_frozen_pcl_strained_by_a_tenth_yields_as_published(done):
     # Published tensile yield of 14 to 18 MPa at room temperature, in shear over sqrt(3).
     largest = named(done("relaxation"), "largest_stress@30_degC").value
     assert 0.8 * 14e6 < largest * math.sqrt(3.0) < 1.2 * 18e6
 
 
-def test_bodies_cannot_do_what_the_melt_does(done: Done) -> None:
+def test_bodies_cannot_do_what_the_melt_does(done):
     trial = done("relaxation")
     assert named(trial, "kelvin_voigt_residual@100_degC").value > 10.0 * named(trial, "maxwell_residual@100_degC").value
     # Its best stress is the geometric mean of the melt's, clipped at a millionth of the first.
@@ -184,7 +182,7 @@ def test_bodies_cannot_do_what_the_melt_does(done: Done) -> None:
 
 
 @pytest.mark.parametrize("celsius", [30, 60, 100])
-def test_after_the_load_maxwell_flows_and_kelvin_voigt_recovers(done: Done, celsius: int) -> None:
+def test_after_the_load_maxwell_flows_and_kelvin_voigt_recovers(done, celsius):
     trial = done("creep")
     curves = next(sheet for sheet in trial.sheets if sheet.name == f"creep_{celsius}_degC")
     bodies = next(sheet for sheet in trial.sheets if sheet.name == "simple_bodies")
@@ -198,7 +196,7 @@ def test_after_the_load_maxwell_flows_and_kelvin_voigt_recovers(done: Done, cels
     assert np.allclose(curves.column("strain_kelvin_voigt").values[after], back, rtol=1e-6, atol=1e-12 * begin)
 
 
-def test_more_parameters_never_fit_worse(done: Done) -> None:
+def test_more_parameters_never_fit_worse(done):
     for name in ("frequency", "creep", "relaxation"):
         for celsius in (30, 60, 100):
             solid = named(done(name), f"standard_linear_solid_residual@{celsius}_degC").value
@@ -208,7 +206,7 @@ def test_more_parameters_never_fit_worse(done: Done) -> None:
                 assert solid <= least * 1.001, (name, kind, celsius)
 
 
-def test_temperature_sweep_melts_where_the_record_says(done: Done) -> None:
+def test_temperature_sweep_melts_where_the_record_says(done):
     trial = done("temperature")
     crossing = named(trial, "crossover_temperature")
     assert CELSIUS + 50.0 < crossing.value < CELSIUS + 65.0
@@ -224,7 +222,7 @@ def test_temperature_sweep_melts_where_the_record_says(done: Done) -> None:
         assert np.all(low[~outside] < high[~outside])
 
 
-def test_cooling_branch_is_drawn_from_the_solid_fractions_it_is_given(resolved: ResolvedModule) -> None:
+def test_cooling_branch_is_drawn_from_the_solid_fractions_it_is_given(resolved):
     def cooling(temperature: float) -> float:
         return float(1.0 / (1.0 + math.exp((temperature - CELSIUS - 35.0) / 2.0)))
 
@@ -236,7 +234,7 @@ def test_cooling_branch_is_drawn_from_the_solid_fractions_it_is_given(resolved: 
     assert any(line.sheet == "cooling" for panel in trial.panels for line in panel.lines)
 
 
-def test_cooled_from_the_melt_it_freezes_below_where_it_melts(resolved: ResolvedModule) -> None:
+def test_cooled_from_the_melt_it_freezes_below_where_it_melts(resolved):
     # Slow cooling freezes polycaprolactone at 35 to 45 degC, 10 K/min at about 30 degC at its fastest.
     trial = oscillation.temperature(resolved)
     assert 26.0 < named(trial, "freezing_temperature").value - CELSIUS < 45.0
@@ -250,7 +248,7 @@ def test_cooled_from_the_melt_it_freezes_below_where_it_melts(resolved: Resolved
     assert 27.4 < halves[2] - CELSIUS < 31.8
 
 
-def test_bad_temperatures_tests_and_numbers_are_refused_with_their_place(resolved: ResolvedModule) -> None:
+def test_bad_temperatures_tests_and_numbers_are_refused_with_their_place(resolved):
     for test in (oscillation.frequency, oscillation.amplitude, transient.creep, transient.relaxation):
         with pytest.raises(InputError, match="the temperatures of the test: value 2 is 30 °C and follows 60 °C"):
             test(resolved, [CELSIUS + 60.0, CELSIUS + 30.0])
@@ -277,7 +275,7 @@ def test_bad_temperatures_tests_and_numbers_are_refused_with_their_place(resolve
         ([(math.inf, 1.0)], "here: mode 1 has the relaxation time inf s"),
     ],
 )
-def test_what_is_no_spectrum_is_refused_with_its_place(modes: list[tuple[float, float]], message: str) -> None:
+def test_what_is_no_spectrum_is_refused_with_its_place(modes, message):
     with pytest.raises(InputError) as caught:
         check_spectrum(modes, "here")
     assert str(caught.value).startswith(message)

@@ -7,7 +7,6 @@ Symbols that numpy's functions act on: they are what numpy computes, to the last
 
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import hypothesis
@@ -60,7 +59,7 @@ def compare(model: DeviceFunctions, value_at: Callable[[Array, Array], Supplied]
 
 @pytest.mark.gate
 @pytest.mark.parametrize("design", ["as it is", "sink"])
-def test_derivatives_of_all_values_are_those_of_the_values(design: str, build: Callable[..., DeviceFunctions]) -> None:
+def test_derivatives_of_all_values_are_those_of_the_values(design, build):
     model = build(design, melt_memory=1.0)  # with one that fades within 3 K the soft time ripples by 1.2e-5
     grids: dict[str, Grid] = {}
     compare(
@@ -80,7 +79,7 @@ def drive(model: DeviceFunctions, inputs: Array, along: Array) -> Drive:
     )
 
 
-def test_derivatives_under_a_current_that_follows_a_profile(build: Callable[..., DeviceFunctions]) -> None:
+def test_derivatives_under_a_current_that_follows_a_profile(build):
     model = build()
     grids: dict[str, Grid] = {}
 
@@ -101,9 +100,7 @@ def test_derivatives_under_a_current_that_follows_a_profile(build: Callable[...,
 
 
 @pytest.mark.parametrize("design", ["as it is", "thin", "thick", "aluminium", "sink"])
-def test_values_an_optimum_is_sought_with_are_near_those_of_cvodes(
-    design: str, build: Callable[..., DeviceFunctions], judged: Callable[[str], Cycle]
-) -> None:
+def test_values_an_optimum_is_sought_with_are_near_those_of_cvodes(design, build, judged):
     model = build(design)
     values = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0))).values
     judge = judged(design).values
@@ -113,7 +110,7 @@ def test_values_an_optimum_is_sought_with_are_near_those_of_cvodes(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
-def test_values_of_a_study_s_optimum_are_near_those_of_cvodes(path: Path) -> None:
+def test_values_of_a_study_s_optimum_are_near_those_of_cvodes(path):
     study = drawn(read_study(path))
     model = resolve_study(study).functions
     grids: dict[str, Grid] = {}
@@ -128,7 +125,7 @@ def test_values_of_a_study_s_optimum_are_near_those_of_cvodes(path: Path) -> Non
     assert max(len(grid.shares) for grid in grids.values()) <= 80
 
 
-def test_values_do_not_depend_on_the_number_of_directions(build: Callable[..., DeviceFunctions]) -> None:
+def test_values_do_not_depend_on_the_number_of_directions(build):
     model = build()
     grids: dict[str, Grid] = {}
     along = directions(model)
@@ -138,7 +135,7 @@ def test_values_do_not_depend_on_the_number_of_directions(build: Callable[..., D
     assert many.slopes[:, 0] == pytest.approx(alone.slopes[:, 0], rel=1e-7, abs=1e-12)
 
 
-def test_only_the_phases_that_are_needed_are_stepped(build: Callable[..., DeviceFunctions]) -> None:
+def test_only_the_phases_that_are_needed_are_stepped(build):
     model = build()
     grids: dict[str, Grid] = {}
     along = np.zeros((len(model.start), 1))
@@ -148,7 +145,7 @@ def test_only_the_phases_that_are_needed_are_stepped(build: Callable[..., Device
     assert known == {"response_time", "peak_power"}
 
 
-def test_an_event_that_comes_later_than_the_steps_were_made_for_is_found(build: Callable[..., DeviceFunctions]) -> None:
+def test_an_event_that_comes_later_than_the_steps_were_made_for_is_found(build):
     model = build()
     grids: dict[str, Grid] = {}
     engine, nothing = CycleEngine(model), np.zeros((len(model.start), 0))
@@ -162,7 +159,7 @@ def test_an_event_that_comes_later_than_the_steps_were_made_for_is_found(build: 
             assert values[model.switch_names.index(name)] == pytest.approx(judge[name], rel=EXACT), (factor, name)
 
 
-def test_a_phase_takes_no_more_steps_than_it_did(build: Callable[..., DeviceFunctions]) -> None:
+def test_a_phase_takes_no_more_steps_than_it_did(build):
     model = build()
     grids: dict[str, Grid] = {}
     CycleEngine(model).run(model.start, np.zeros((len(model.start), 0)), None, grids)
@@ -172,7 +169,7 @@ def test_a_phase_takes_no_more_steps_than_it_did(build: Callable[..., DeviceFunc
 
 @pytest.mark.gate
 @pytest.mark.parametrize("study", ["elbow_printed", "paper_shear"])
-def test_a_steady_state_that_changes_steeply_is_found(study: str) -> None:
+def test_a_steady_state_that_changes_steeply_is_found(study):
     # Newton's method alone goes to and fro between currents that melt a part of the elbow's layer and that do not.
     read = drawn(read_study(study_path(study)))
     model = resolve_study(read).functions
@@ -213,7 +210,7 @@ def cycle(mode: str, module: str) -> Cycle:
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
 @pytest.mark.parametrize("module", [METAL, WAX, GLASS])
-def test_what_has_no_kinetics_freezes_as_it_melts(mode: str, module: str) -> None:
+def test_what_has_no_kinetics_freezes_as_it_melts(mode, module):
     phases = model(mode, module).phases
     sizes = {name: phases[name].state_size for name in phases}
     assert len(set(sizes.values())) == 1
@@ -221,13 +218,13 @@ def test_what_has_no_kinetics_freezes_as_it_melts(mode: str, module: str) -> Non
     assert times["stiffening_time"] == pytest.approx(times["equilibrium_stiffening_time"], rel=2e-5)
 
 
-def test_a_polymer_still_freezes_late() -> None:
+def test_a_polymer_still_freezes_late():
     phases = model("shear", "pcl_grade: pcl_80k").phases
     assert phases["stiffening"].state_size == phases["equilibrium_stiffening"].state_size + CELLS
 
 
 @pytest.mark.parametrize(("mode", "module"), [("shear", COMB), ("shear", GLASS), ("compression", METAL)])
-def test_symbols_are_the_same_as_floats(mode: str, module: str) -> None:
+def test_symbols_are_the_same_as_floats(mode, module):
     built = model(mode, module)
     phase = built.phases["stiffening"]
     state = np.asarray(phase.initial(built.start)).ravel() + 0.1 * np.arange(phase.state_size) / phase.state_size
@@ -239,7 +236,7 @@ def test_symbols_are_the_same_as_floats(mode: str, module: str) -> None:
     assert float(phase.impedance_now(state, -0.3, built.start)) == pytest.approx(values["impedance_now"], rel=1e-9)
 
 
-def test_a_layer_that_heats_itself_takes_its_power_and_is_hottest_inside() -> None:
+def test_a_layer_that_heats_itself_takes_its_power_and_is_hottest_inside():
     built, run = model("shear", COMB), cycle("shear", COMB)
     whole = sum(circuit(built))
     assert run.values["peak_power"] == pytest.approx(0.6**2 * whole, rel=1e-6)
@@ -250,12 +247,12 @@ def test_a_layer_that_heats_itself_takes_its_power_and_is_hottest_inside() -> No
 
 
 @pytest.mark.slow
-def test_blocks_heat_themselves_as_well() -> None:
+def test_blocks_heat_themselves_as_well():
     run = cycle("compression", f"{COMB}, {BLOCKS}")
     assert 0.0 < run.values["response_time"] < 3600.0
 
 
-def test_a_layer_that_heats_itself_is_evenly_warm_sooner_than_one_on_pads() -> None:
+def test_a_layer_that_heats_itself_is_evenly_warm_sooner_than_one_on_pads():
     """With the same power the far face waits for no heat to come through a plastic."""
     inside = cycle("shear", COMB).values
     watts = inside["peak_power"]
@@ -272,14 +269,14 @@ def resolved(module: str) -> ResolvedModule:
     return resolve_study(read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test"))
 
 
-def test_a_wax_in_its_range_is_known_to_kelvins_not_to_history() -> None:
+def test_a_wax_in_its_range_is_known_to_kelvins_not_to_history():
     # 53 to 62 degC, each one kelvin either way: at 57 degC 5/9 is frozen, 4/9 to 6/9.
     fractions = fractions_at(resolved(WAX), 57.0 + 273.15)
     assert fractions == pytest.approx((4.0 / 9.0, 5.0 / 9.0, 6.0 / 9.0), abs=0.01)
 
 
 @pytest.mark.parametrize("rate", [0.001, 10.0])
-def test_a_wax_that_cools_is_frozen_as_it_melted_at_any_rate(rate: float) -> None:
+def test_a_wax_that_cools_is_frozen_as_it_melted_at_any_rate(rate):
     frozen = frozen_on_cooling(resolved(WAX), rate)
     assert [frozen(273.15 + at) for at in (70.0, 57.0, 40.0)] == pytest.approx([0.0, 5.0 / 9.0, 1.0], abs=0.01)
 
@@ -303,7 +300,7 @@ WRITTEN: dict[str, Callable[[Any], Any]] = {
 
 @pytest.mark.parametrize("what", WRITTEN)
 @hypothesis.given(values=st.lists(st.floats(0.1, 9.0), min_size=3, max_size=3))
-def test_an_expression_of_symbols_is_what_numpy_computes(what: str, values: list[float]) -> None:
+def test_an_expression_of_symbols_is_what_numpy_computes(what, values):
     column = ca.SX.sym("x", 3)
     written = ca.Function("written", [column], [WRITTEN[what](symbols(column))])
     assert float(written(values)) == pytest.approx(float(WRITTEN[what](np.array(values))), rel=1e-13, abs=1e-13)

@@ -39,20 +39,18 @@ def agree(first: Cycle, other: Cycle) -> None:
         *(pytest.param(path, marks=pytest.mark.slow, id=path.stem) for path in STUDIES if path.stem not in QUICK),
     ],
 )
-def test_all_values_of_a_study_s_cycle_are_those_of_cvodes(path: Path) -> None:
+def test_all_values_of_a_study_s_cycle_are_those_of_cvodes(path):
     model = model_of(path)
     agree(Simulator(model).run(model.start), fine(model).run(model.start))
 
 
 @pytest.mark.parametrize("design", ["as it is", "thin", "thick", "aluminium", "sink"])
-def test_all_values_of_another_design_are_those_of_cvodes(
-    design: str, build: Callable[..., DeviceFunctions], judged: Callable[[str], Cycle]
-) -> None:
+def test_all_values_of_another_design_are_those_of_cvodes(design, build, judged):
     model = build(design)
     agree(Simulator(model).run(model.start), judged(design))
 
 
-def test_a_current_with_corners_gives_the_values_of_cvodes(build: Callable[..., DeviceFunctions]) -> None:
+def test_a_current_with_corners_gives_the_values_of_cvodes(build):
     model = build()
     profiles = {
         "softening": CurrentProfile.in_pieces(2.0, 90.0, (0.8, 2.4, 1.2, 2.0, 1.6)),
@@ -67,7 +65,7 @@ def test_a_current_with_corners_gives_the_values_of_cvodes(build: Callable[..., 
         assert np.min(np.abs(line.times - corner)) < 1e-9  # steps end at corners
 
 
-def test_a_phase_that_never_ends_has_maxima_and_nothing_else(build: Callable[..., DeviceFunctions]) -> None:
+def test_a_phase_that_never_ends_has_maxima_and_nothing_else(build):
     # At 0.4 A the pads cannot stay at 100 degC despite the losses.
     model = build()
     inputs = model.start.copy()
@@ -84,9 +82,7 @@ def test_a_phase_that_never_ends_has_maxima_and_nothing_else(build: Callable[...
 
 
 @pytest.mark.parametrize("design", ["as it is", "thin", "sink"])
-def test_a_trajectory_has_samples_enough_and_runs_as_cvodes_does(
-    design: str, build: Callable[..., DeviceFunctions]
-) -> None:
+def test_a_trajectory_has_samples_enough_and_runs_as_cvodes_does(design, build):
     model = build(design)
     shipped, judge = Simulator(model).run_to_show(model.start), fine(model).run(model.start)
     for name, line in shipped.trajectories.items():
@@ -110,14 +106,14 @@ def seen(model: DeviceFunctions, phase: str, states: Array, current: float) -> A
     return np.asarray(every(states, np.full((1, states.shape[1]), current), inputs))
 
 
-def test_what_is_shown_is_what_is_simulated(build: Callable[..., DeviceFunctions]) -> None:
+def test_what_is_shown_is_what_is_simulated(build):
     model = build()
     full, other = Simulator(model).run_to_show(model.start), Simulator(model).run(model.start)
     assert full.values == other.values
     assert all(np.array_equal(line.states, other.trajectories[name].states) for name, line in full.trajectories.items())
 
 
-def test_a_phase_goes_on_beyond_its_end_where_it_is_traced(build: Callable[..., DeviceFunctions]) -> None:
+def test_a_phase_goes_on_beyond_its_end_where_it_is_traced(build):
     model = build()
     simulator = Simulator(model)
     ended = simulator.run(model.start, phases=["softening"])
@@ -172,7 +168,7 @@ def pair(request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions]) 
 
 
 @pytest.mark.gate
-def test_switch_agrees_with_the_independent_integration(pair: tuple[Cycle, dict[str, float]]) -> None:
+def test_switch_agrees_with_the_independent_integration(pair):
     # 1 % is what the product promises; twelve cells in the layer and sixteen in the rotor reach half of it; eight
     # in the rotor, as by default, are 0.54 % off in the thin one.
     cycle, reference = pair
@@ -183,17 +179,13 @@ def test_switch_agrees_with_the_independent_integration(pair: tuple[Cycle, dict[
 
 @pytest.mark.gate
 @pytest.mark.parametrize("pair", ["thin"], indirect=True)
-def test_switch_at_the_usual_cells_is_within_the_promised_percent(
-    pair: tuple[Cycle, dict[str, float]], switch_of: Callable[[str], Cycle]
-) -> None:
+def test_switch_at_the_usual_cells_is_within_the_promised_percent(pair, switch_of):
     for name in WATCHED:
         assert switch_of("thin").values[name] == pytest.approx(pair[1][name], rel=1e-2), name
 
 
 @pytest.mark.parametrize("design", ["as it is", "sink"])
-def test_energy_is_the_integral_and_the_last_state_fulfils_the_event(
-    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> None:
+def test_energy_is_the_integral_and_the_last_state_fulfils_the_event(design, build, switch_of):
     model, cycle = build(design), switch_of(design)
     trajectory = cycle.trajectory
     current = model.start[model.index["current"]]

@@ -1,8 +1,6 @@
 """Current and power of a soft steady state: against a long simulation, the first law, and two dimensions."""
 
 import sys
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +14,7 @@ sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
 from compare import Judge, model_of, plane_of
 
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
@@ -25,9 +23,7 @@ DESIGNS = ("as it is", "thick", "sink")
 
 
 @pytest.mark.parametrize("design", DESIGNS)
-def test_at_the_hold_current_the_layer_stays_where_the_switch_ended(
-    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> None:
+def test_at_the_hold_current_the_layer_stays_where_the_switch_ended(design, build, switch_of):
     # Another integration over hours from the switch's end: the far face comes back to the target and stays.
     model, cycle = build(design), switch_of(design)
     phase, amps = model.phases["softening"], cycle.values["hold_current"]
@@ -46,9 +42,7 @@ def test_at_the_hold_current_the_layer_stays_where_the_switch_ended(
 
 
 @pytest.mark.parametrize("design", DESIGNS)
-def test_what_holds_the_layer_is_what_the_air_takes(
-    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> None:
+def test_what_holds_the_layer_is_what_the_air_takes(design, build, switch_of):
     model, cycle = build(design), switch_of(design)
     phase, balance = model.phases["softening"], cycle.balances["softening"]
     assert np.max(np.abs(np.asarray(phase.rates(balance[:-1], balance[-1], model.start)))) < 1e-9
@@ -78,9 +72,7 @@ def _plate_loss(another: AnotherStack, outermost: float, half: float) -> float:
     return another.area * flux
 
 
-def test_less_current_lets_the_layer_cool_and_more_heats_it(
-    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> None:
+def test_less_current_lets_the_layer_cool_and_more_heats_it(build, switch_of):
     model, cycle = build(), switch_of("as it is")
     phase, balance = model.phases["softening"], cycle.balances["softening"]
     for share, sign in ((0.95, -1.0), (1.05, 1.0)):
@@ -92,9 +84,7 @@ def test_less_current_lets_the_layer_cool_and_more_heats_it(
         assert sign * gap > 0.01
 
 
-def test_holding_takes_less_than_the_switch_and_never_without_one(
-    switch_of: Callable[[str], Cycle], build: Callable[..., DeviceFunctions]
-) -> None:
+def test_holding_takes_less_than_the_switch_and_never_without_one(switch_of, build):
     for design in DESIGNS:
         values = switch_of(design).values
         assert 0.0 < values["hold_power"] < values["peak_power"]
@@ -106,9 +96,7 @@ def test_holding_takes_less_than_the_switch_and_never_without_one(
 
 
 @pytest.mark.parametrize("design", ["as it is", "sink"])
-def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(
-    design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> None:
+def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(design, build, switch_of):
     model = build(design)
     simulator, place = tight(model), model.index["current"]
     for amps in (1.8, 4.0, 12.0):
@@ -120,7 +108,7 @@ def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(
 
 
 @pytest.mark.gate
-def test_a_steady_state_ignores_last_digits_of_the_switch_s_end() -> None:
+def test_a_steady_state_ignores_last_digits_of_the_switch_s_end():
     # The optimum of compare_shear.yaml, where Newton's method with shortened steps stopped dead now and then.
     study = read_study(ROOT / "validation/fe_structure/studies/compare_shear.yaml")
     sizes = {
@@ -152,7 +140,7 @@ OPTIMUM_OF_THAT_DAY = {
     [("paper_shear", OPTIMUM_OF_THAT_DAY), ("paper_reconstructed", {})],
     ids=["optimum", "published"],
 )
-def test_the_plane_stays_at_the_target_by_the_product_s_current(study: str, sizes: dict[str, Any]) -> None:
+def test_the_plane_stays_at_the_target_by_the_product_s_current(study, sizes):
     path = study_path(study)
     model = model_of(path, **sizes)
     amps = Simulator(model).run(model.start, phases=["softening"]).values["hold_current"]

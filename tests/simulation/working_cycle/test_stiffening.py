@@ -19,7 +19,7 @@ from support import tight
 
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile, ramp_time
-from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 
@@ -87,9 +87,7 @@ def another_cycle(model: DeviceFunctions) -> AnotherCycle:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("design", DESIGNS)
-def test_stiffening_agrees_with_integration_on_ten_times_the_cells(
-    design: str, build: Callable[..., DeviceFunctions]
-) -> None:
+def test_stiffening_agrees_with_integration_on_ten_times_the_cells(design, build):
     # Eight cells in the rotor leave 1.05 % in the sooner time of the thin layer, 16 leave 0.29 %, 32 leave 0.10 %;
     # more than twelve in the layer change less than 0.02 %.
     model = build(design, rotor_cells=16, **STIFF_WHEN_WARM)
@@ -121,9 +119,7 @@ def changes_by_cells(
     ("design", "cooling"),
     [("sink", 0.2), *(pytest.param(*case, marks=pytest.mark.gate) for case in (("as it is", 0.2), ("sink", 0.8)))],
 )
-def test_stiffening_converges_with_the_square_of_the_cell(
-    design: str, cooling: float, build: Callable[..., DeviceFunctions]
-) -> None:
+def test_stiffening_converges_with_the_square_of_the_cell(design, cooling, build):
     # A change of 3e-6 of a value is not told from what the integrator leaves at 1e-9: with 96 cells the orders of the
     # time and the energy of a sink at 0.2 A are 1.90 and 2.83, and these change by 9e-7 and 3e-7 of themselves.
     changes, last = changes_by_cells(build, design, cooling_current=cooling, stiffening_band=1.3)
@@ -134,7 +130,7 @@ def test_stiffening_converges_with_the_square_of_the_cell(
 
 
 @pytest.mark.gate
-def test_a_joint_that_is_half_as_stiff_is_as_sure(build: Callable[..., DeviceFunctions]) -> None:
+def test_a_joint_that_is_half_as_stiff_is_as_sure(build):
     # With a sink the last slices pass the end of the melting range just then on the melting curve (64.8 and 65.8 degC
     # of 65), where their modulus rises by decades within a kelvin: the time falls as unevenly as they pass there, so
     # that its order is open.
@@ -145,9 +141,7 @@ def test_a_joint_that_is_half_as_stiff_is_as_sure(build: Callable[..., DeviceFun
 @pytest.mark.gate
 @settings(max_examples=15, deadline=None)
 @given(heating=st.floats(1.3, 3.0), cooling=st.floats(0.0, 1.5), design=st.sampled_from(["as it is", "sink"]))
-def test_kinetics_never_stiffen_sooner_than_the_melting_curve(
-    heating: float, cooling: float, design: str, simulators: dict[str, Simulator]
-) -> None:
+def test_kinetics_never_stiffen_sooner_than_the_melting_curve(heating, cooling, design, simulators):
     simulator = simulators[design]
     inputs = changed(simulator.model, current=heating, cooling_current=cooling)
     values = simulator.run(inputs).values
@@ -155,7 +149,7 @@ def test_kinetics_never_stiffen_sooner_than_the_melting_curve(
     assert values["stiffening_time"] >= values["equilibrium_stiffening_time"]
 
 
-def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., DeviceFunctions]) -> None:
+def test_the_phase_model_equilibrium_makes_both_times_one(build):
     model = build("equilibrium")
     values = tight(model).run(model.start).values
     assert values["stiffening_time"] == pytest.approx(values["equilibrium_stiffening_time"], rel=1e-6)
@@ -164,9 +158,7 @@ def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., D
     assert values["stiffening_time"] == pytest.approx(other["equilibrium_stiffening_time"], rel=1e-6)
 
 
-def test_the_layer_starts_to_stiffen_where_the_switch_left_it(
-    build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
-) -> None:
+def test_the_layer_starts_to_stiffen_where_the_switch_left_it(build, switch_of):
     model, cycle = build(), switch_of("as it is")
     hot, cooling = cycle.trajectories["softening"], cycle.trajectories["stiffening"]
     before = temperatures(model.phases["softening"], hot.states[:, -1], 1.5, model)
@@ -194,12 +186,7 @@ def simulators(build: Callable[..., DeviceFunctions]) -> dict[str, Simulator]:
 
 
 @pytest.mark.parametrize("cooling", [1.0, 3.0, 20.0])
-def test_a_heating_current_never_stiffens_and_breaks_nothing(
-    cooling: float,
-    simulators: dict[str, Simulator],
-    switch_of: Callable[[str], Cycle],
-    capfd: pytest.CaptureFixture[str],
-) -> None:
+def test_a_heating_current_never_stiffens_and_breaks_nothing(cooling, simulators, switch_of, capfd):
     # With its cold side in free air the module cannot give away what an ampere puts in: it runs away upwards.
     simulator = simulators["as it is"]
     cycle = simulator.run(changed(simulator.model, cooling_current=cooling))
@@ -212,9 +199,7 @@ def test_a_heating_current_never_stiffens_and_breaks_nothing(
     assert "NaN" not in capfd.readouterr().err
 
 
-def test_only_requested_stages_and_those_before_are_simulated(
-    simulators: dict[str, Simulator], switch_of: Callable[[str], Cycle]
-) -> None:
+def test_only_requested_stages_and_those_before_are_simulated(simulators, switch_of):
     simulator = simulators["as it is"]
     cycle = simulator.run(simulator.model.start, phases=["stiffening"])
     assert set(cycle.trajectories) == {"softening", "stiffening"}
@@ -222,7 +207,7 @@ def test_only_requested_stages_and_those_before_are_simulated(
     assert cycle.values["equilibrium_stiffening_time"] == np.inf
 
 
-def test_more_current_stiffens_sooner_with_a_sink_not_in_free_air(simulators: dict[str, Simulator]) -> None:
+def test_more_current_stiffens_sooner_with_a_sink_not_in_free_air(simulators):
     times = {}
     for design, simulator in simulators.items():
         for cooling in (0.2, 0.8):
@@ -240,7 +225,7 @@ def evenly(duration: float, sizes: tuple[float, ...]) -> CurrentProfile:
     return CurrentProfile.in_pieces(0.0, duration, sizes)
 
 
-def test_a_profile_rises_from_zero_straight_between_nodes_and_lasts() -> None:
+def test_a_profile_rises_from_zero_straight_between_nodes_and_lasts():
     assert ramp_time(1.5, 0.5) == pytest.approx(3.0)
     profile = CurrentProfile.in_pieces(2.0, 10.0, (-1.0, -0.5, -0.5))
     assert profile.at(np.array([0.0, 1.0, 2.0, 4.5, 7.0, 50.0])) == pytest.approx([0.0, -0.5, -1.0, -0.75, -0.5, -0.5])
@@ -253,7 +238,7 @@ def test_a_profile_rises_from_zero_straight_between_nodes_and_lasts() -> None:
 
 
 @given(duration=durations, pieces=st.integers(1, 64))
-def test_going_from_corner_to_corner_meets_each_once(duration: float, pieces: int) -> None:
+def test_going_from_corner_to_corner_meets_each_once(duration, pieces):
     profile, time, corners = evenly(duration, (1.0,) * (pieces + 1)), 0.0, []
     while np.isfinite(time := profile.next_corner(time)) and len(corners) < 100:
         corners.append(time)
@@ -261,7 +246,7 @@ def test_going_from_corner_to_corner_meets_each_once(duration: float, pieces: in
 
 
 @given(duration=durations, sizes=currents)
-def test_the_mean_is_the_integral_over_the_duration(duration: float, sizes: tuple[float, ...]) -> None:
+def test_the_mean_is_the_integral_over_the_duration(duration, sizes):
     profile = evenly(duration, sizes)
     nodes = np.linspace(0.0, duration, max(len(sizes), 2))
     total = sum(quad(lambda t: float(profile.at(np.array(t))), a, b)[0] for a, b in pairwise(nodes))
@@ -269,13 +254,13 @@ def test_the_mean_is_the_integral_over_the_duration(duration: float, sizes: tupl
 
 
 @given(duration=durations, sizes=currents)
-def test_a_profile_comes_back_from_plain_data(duration: float, sizes: tuple[float, ...]) -> None:
+def test_a_profile_comes_back_from_plain_data(duration, sizes):
     profile = evenly(duration, sizes)
     assert CurrentProfile.from_plain(profile.plain()) == profile
 
 
 @pytest.mark.slow
-def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., DeviceFunctions]) -> None:
+def test_a_switch_under_a_profile_agrees_with_scipy(build):
     model = build()
     profile = evenly(100.0, (0.8, 2.4, 1.2, 2.0, 1.6))
     another = AnotherStack(value_of(model))
@@ -304,7 +289,7 @@ def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., DeviceF
     assert abs(constant - time) > 0.05 * time  # the profile is what made it
 
 
-def test_a_profile_that_is_flat_is_the_constant_current(build: Callable[..., DeviceFunctions]) -> None:
+def test_a_profile_that_is_flat_is_the_constant_current(build):
     model = build()
     flat = tight(model).run(model.start, {"softening": evenly(80.0, (1.5,) * 5)}).values
     constant = tight(model).run(model.start).values
@@ -312,7 +297,7 @@ def test_a_profile_that_is_flat_is_the_constant_current(build: Callable[..., Dev
         assert flat[name] == pytest.approx(constant[name], rel=1e-6), name
 
 
-def test_a_switch_s_end_does_not_depend_on_later_currents(build: Callable[..., DeviceFunctions]) -> None:
+def test_a_switch_s_end_does_not_depend_on_later_currents(build):
     model = build()
     simulator = tight(model)
     early = simulator.run(model.start, {"softening": evenly(400.0, (2.0,) * 5)}).values["response_time"]

@@ -65,14 +65,14 @@ def _worst(model: DeviceFunctions, names: list[str], count: int) -> float:
 
 
 @pytest.mark.gate
-def test_the_switch_is_within_the_accuracy_asked_for(build: Build) -> None:
+def test_the_switch_is_within_the_accuracy_asked_for(build):
     assert _worst(build(), SOFTENING, 4) < WITHIN
     assert _worst(build(), [*AT_THE_END, *ENDS], 4) < WITHIN
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("design", ["as it is", "thin", "thick", "aluminium", "sink", "equilibrium"])
-def test_the_whole_cycle_is_within_the_accuracy_asked_for(build: Build, design: str) -> None:
+def test_the_whole_cycle_is_within_the_accuracy_asked_for(build, design):
     model = build(design, 24)
     names = [name for name in [*SOFTENING, *BACK] if name in model.switch_names]
     assert _worst(model, names, 6) < WITHIN
@@ -80,7 +80,7 @@ def test_the_whole_cycle_is_within_the_accuracy_asked_for(build: Build, design: 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("study", [*(path.stem for path in STUDIES), *CURRENT])
-def test_every_study_is_within_the_accuracy_asked_for(study: str) -> None:
+def test_every_study_is_within_the_accuracy_asked_for(study):
     read = read_study(study_path(study))
     table = table_for(read.mode)
     inputs = given(read)
@@ -91,9 +91,7 @@ def test_every_study_is_within_the_accuracy_asked_for(study: str) -> None:
     assert _worst(model, AT_THE_END, 6) < WITHIN
 
 
-def test_no_bit_hangs_on_workers_or_neighbours(
-    build: Build, switch_of: Callable[[str], Cycle], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_bit_hangs_on_workers_or_neighbours(build, switch_of, monkeypatch):
     monkeypatch.setattr(cycle_kernel, "BLOCK", 32)
     model = build()
     kernel = CycleKernel(model, MOVING, ["response_time", "switch_energy"])
@@ -105,9 +103,7 @@ def test_no_bit_hangs_on_workers_or_neighbours(
     assert np.array_equal(kernel(columns, fitted)[:, 30:33], kernel(columns[:, 30:33], fitted))
 
 
-def test_what_never_ends_is_infinite_and_its_neighbours_are_not(
-    build: Build, switch_of: Callable[[str], Cycle]
-) -> None:
+def test_what_never_ends_is_infinite_and_its_neighbours_are_not(build, switch_of):
     model = build()
     kernel = CycleKernel(model, ["current"], ["response_time", "switch_energy", *ENDS, "peak_power"])
     values = kernel(np.array([[0.06, 1.5]]), _pace(model, switch_of("as it is")))
@@ -124,7 +120,7 @@ PLACES = [
 ]  # fmt: skip
 
 
-def test_operations_are_those_of_casadi_and_its_c_library() -> None:
+def test_operations_are_those_of_casadi_and_its_c_library():
     """For every pair of places: edges, and where the series of logarithm and exponential meet."""
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     entries = [getattr(ca, name)(x) for name in UNARY]
@@ -139,7 +135,7 @@ def test_operations_are_those_of_casadi_and_its_c_library() -> None:
 
 
 @pytest.mark.parametrize("study", ["paper_shear", "paper_compression", "wrist_joint"])
-def test_the_kernel_of_the_table_agrees_with_casadi(study: str) -> None:
+def test_the_kernel_of_the_table_agrees_with_casadi(study):
     read = read_study(study_path(study))
     table = table_for(read.mode)
     model = DeviceFunctions(table, given(read), tuple(read.operating_points), read.solver.cells)
@@ -153,7 +149,7 @@ def test_the_kernel_of_the_table_agrees_with_casadi(study: str) -> None:
         assert ours == pytest.approx(theirs, rel=digits(name, 1e-13), abs=1e-15, nan_ok=True), name
 
 
-def test_arrays_of_any_order_and_workers_give_the_same_bits() -> None:
+def test_arrays_of_any_order_and_workers_give_the_same_bits():
     x = ca.SX.sym("x", 2)
     kernel = Kernel(ca.Function("f", [x], [x[0] - 2.0 * x[1]]))
     columns = np.arange(20.0).reshape(10, 2).T

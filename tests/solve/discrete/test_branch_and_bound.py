@@ -100,7 +100,7 @@ def bowls(draw: st.DrawFn) -> list[Bowl]:
 
 @settings(deadline=None, derandomize=True, max_examples=40)
 @given(trees=bowls(), keep=st.integers(1, 5))
-def test_it_finds_the_best_combinations_and_accounts_for_all(trees: list[Bowl], keep: int) -> None:
+def test_it_finds_the_best_combinations_and_accounts_for_all(trees, keep):
     search = BranchAndBound(cast("list[Relaxation]", trees), keep)
     search.run()
     expected = sorted(objective for relaxation in trees for objective in relaxation.enumerated())
@@ -124,9 +124,7 @@ THIRTEEN, POWERS = tuple(float(i) for i in range(1, 14)), tuple(4.0**power for p
         ((POWERS, POWERS, THIRTEEN), (2.0, 5.0, 6.4), (1e-9, 1e-9, 1.0), 15),
     ],
 )
-def test_a_bowl_over_thousands_of_combinations_takes_a_few_runs(
-    lists: tuple[tuple[float, ...], ...], centre: tuple[float, ...], weights: tuple[float, ...], most: int
-) -> None:
+def test_a_bowl_over_thousands_of_combinations_takes_a_few_runs(lists, centre, weights, most):
     bowl = Bowl(0, Sizes(tuple("abcd"[: len(lists)]), lists), centre, weights, 5.0, 0.0)
     search = BranchAndBound(cast("list[Relaxation]", [bowl]), 1)
     search.run()
@@ -143,7 +141,7 @@ def _node(bowl: Bowl, depth: int = 0, *, solved: bool = True) -> Node:
     return Node(cast("Relaxation", bowl), bowl.sizes.whole, 5.0, run, depth, 0)
 
 
-def test_unsolved_boxes_are_split_in_the_middle_and_lists_ascend() -> None:
+def test_unsolved_boxes_are_split_in_the_middle_and_lists_ascend():
     bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
     search, node = BranchAndBound(cast("list[Relaxation]", [bowl]), 1), _node(bowl, solved=False)
     assert search._division(node).halves(node.box) == (((0, 2), (0, 1)), ((0, 2), (2, 3)))
@@ -191,7 +189,7 @@ SEVERAL = 3
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SHELVES)
-def test_no_combination_in_them_has_one(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_combination_in_them_has_one(name, monkeypatch):
     left: list[tuple[Relaxation, Box]] = []
     searched = Relaxation.best_within
 
@@ -240,9 +238,7 @@ def tree() -> tuple[Relaxation, Run]:
     ("cold", "box", "certain", "searches"),
     [(NO_DESIGN, ((1, 1),), True, 2), (OVER, ((1, 1),), False, 2), (NO_DESIGN, ((0, 1),), False, 1)],
 )
-def test_a_warm_run_cut_short_leaves_several_combinations_open(
-    tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch, cold: str, box: Box, certain: bool, searches: int
-) -> None:
+def test_a_warm_run_cut_short_leaves_several_combinations_open(tree, monkeypatch, cold, box, certain, searches):
     """Several are searched from one place alone: their halves are asked the same."""
     relaxation, near = tree
     statuses: list[str] = []
@@ -277,9 +273,7 @@ def beginning_nowhere(relaxation: Relaxation, monkeypatch: pytest.MonkeyPatch, n
     return endings
 
 
-def test_if_no_run_can_start_differential_evolution_finds_a_module(
-    tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_if_no_run_can_start_differential_evolution_finds_a_module(tree, monkeypatch):
     """Legs that do not reach their pins, say: the run nearby with another size in it is no module."""
     relaxation, near = tree
     endings = beginning_nowhere(relaxation, monkeypatch, near)
@@ -290,9 +284,7 @@ def test_if_no_run_can_start_differential_evolution_finds_a_module(
     assert len(endings) == 2
 
 
-def test_no_module_by_differential_evolution_is_certainly_no_design(
-    tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_module_by_differential_evolution_is_certainly_no_design(tree, monkeypatch):
     relaxation, near = tree
     endings = beginning_nowhere(relaxation, monkeypatch, near)
     monkeypatch.setattr(relaxation._screen, "worst", lambda unknowns: np.full(unknowns.shape[1], NOWHERE))

@@ -38,7 +38,7 @@ def _study(folder: Path, text: str = STUDY, **prices: float) -> Study:
 
 
 @pytest.mark.gate
-def test_the_cheaper_of_two_equal_heaters_is_chosen(tmp_path: Path) -> None:
+def test_the_cheaper_of_two_equal_heaters_is_chosen(tmp_path):
     study = _study(tmp_path, dear=25.0, cheap=15.0)
     solution = optimize(study)
     assert solution.status == "optimal"
@@ -49,7 +49,7 @@ def test_the_cheaper_of_two_equal_heaters_is_chosen(tmp_path: Path) -> None:
 
 
 @pytest.mark.gate
-def test_a_limit_on_the_cost_rules_out_the_dear_heater(tmp_path: Path) -> None:
+def test_a_limit_on_the_cost_rules_out_the_dear_heater(tmp_path):
     text = STUDY.replace('rad"}', 'rad", cost: "<= 200 USD"}').replace("minimize: cost", "minimize: springs_mass")
     solution = optimize(_study(tmp_path, text, dear=25.0, cheap=15.0))
     assert solution.status == "optimal"
@@ -58,7 +58,7 @@ def test_a_limit_on_the_cost_rules_out_the_dear_heater(tmp_path: Path) -> None:
 
 
 @pytest.mark.gate
-def test_a_limit_below_every_cost_names_the_least_one(tmp_path: Path) -> None:
+def test_a_limit_below_every_cost_names_the_least_one(tmp_path):
     shelf = STUDY.replace("{choose: [dear, cheap]}", "{choose: [cheap]}")
     least = float(optimize(_study(tmp_path, shelf, cheap=15.0)).values["cost"])
     study = _study(tmp_path, shelf.replace('rad"}', 'rad", cost: "<= 60 USD"}'), cheap=15.0)
@@ -66,7 +66,7 @@ def test_a_limit_below_every_cost_names_the_least_one(tmp_path: Path) -> None:
         refuse_what_cannot_be(study)
 
 
-def test_no_price_is_no_bargain(tmp_path: Path) -> None:
+def test_no_price_is_no_bargain(tmp_path):
     study = _study(tmp_path, dear=25.0, cheap=0.0)
     with pytest.raises(InputError, match=r"vary\.peltier_module: cost cannot compare .* without a price: cheap\."):
         optimize(study)

@@ -62,16 +62,14 @@ def alone(solution: Solution) -> dict[tuple[float, ...], float]:
 
 
 @pytest.mark.gate
-def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(
-    solution: Solution, alone: dict[tuple[float, ...], float]
-) -> None:
+def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(solution, alone):
     _agrees(listed(), solution, alone)
     work = _chosen(solution).work
     assert work.warm_iterations <= 8 * work.warm  # a re-solve takes a few iterations
 
 
 @pytest.mark.gate
-def test_the_bounds_save_most_of_the_work() -> None:
+def test_the_bounds_save_most_of_the_work():
     # One design is asked for; the solver runs for half of the combinations at most, though some have no design.
     alone = listed(LISTED.replace("solver: {", "solver: {alternatives: 1, "))
     choosing = _chosen(optimize(alone))
@@ -80,9 +78,7 @@ def test_the_bounds_save_most_of_the_work() -> None:
 
 
 @pytest.mark.slow
-def test_solving_every_combination_finds_the_same_and_says_so(
-    solution: Solution, alone: dict[tuple[float, ...], float]
-) -> None:
+def test_solving_every_combination_finds_the_same_and_says_so(solution, alone):
     proven = _chosen(optimize(listed(LISTED.replace("solver: {", "solver: {prove: true, "))))
     assert proven.proven
     assert proven.improved <= 1e-6
@@ -93,9 +89,7 @@ def test_solving_every_combination_finds_the_same_and_says_so(
 
 
 @pytest.mark.gate
-def test_every_combination_is_as_good_as_solved_alone_and_cold(
-    solution: Solution, alone: dict[tuple[float, ...], float]
-) -> None:
+def test_every_combination_is_as_good_as_solved_alone_and_cold(solution, alone):
     messages: list[str] = []
     relaxation = _relaxation(solution)
     relaxation.optimizer.progress = messages.append
@@ -112,7 +106,7 @@ def test_every_combination_is_as_good_as_solved_alone_and_cold(
 
 
 @pytest.mark.slow
-def test_bonmin_comes_to_the_same(solution: Solution) -> None:
+def test_bonmin_comes_to_the_same(solution):
     # A solver of others' making, by the algorithm of it that is right.
     chosen = best_by_bonmin(listed(), solution.reference)
     best = _chosen(solution).best[0]
@@ -131,9 +125,7 @@ def _relaxation(solution: Solution) -> Relaxation:
 
 
 @pytest.mark.gate
-def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
-    solution: Solution, alone: dict[tuple[float, ...], float]
-) -> None:
+def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(solution, alone):
     choosing = _chosen(solution)
     standard = 1e3 * min(alone, key=lambda sizes: alone[sizes])[0]
     text, data = price_in_words(choosing, TABLE), choosing_data(choosing, TABLE)
@@ -150,7 +142,7 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
 
 
 @pytest.mark.gate
-def test_records_that_differ_in_numbers_share_a_problem_and_optimum() -> None:
+def test_records_that_differ_in_numbers_share_a_problem_and_optimum():
     text = POWERFUL.replace("vary:", "module: {structure_material: STUFF}\nvary:")
     petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))
     first = Optimizer(petg)
@@ -163,7 +155,7 @@ def test_records_that_differ_in_numbers_share_a_problem_and_optimum() -> None:
     assert first.with_records(stainless) is None, "its strength is a table, which is built in"
 
 
-def test_a_design_between_listed_sizes_is_infeasible_with_advice() -> None:
+def test_a_design_between_listed_sizes_is_infeasible_with_advice():
     """By hand: the rate goes as the wire's diameter to the fourth, 3.56 N.m/rad at most with 2.6 mm, so that 2.4 mm has
     2.58 at most and 2.33 at least; between 2.65 and 3.1 the stroke fits at 2.5 mm, with neither of the two."""
     study = read_study_text(
@@ -184,7 +176,7 @@ def test_a_design_between_listed_sizes_is_infeasible_with_advice() -> None:
     assert "solver.starts" not in message  # no other start helps
 
 
-def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:
+def test_the_screen_refuses_what_arithmetic_alone_refuses():
     study = listed()
     optimizer = Optimizer(study)
     screen, begin = FeasibilityScreen(optimizer), optimizer.model.start
@@ -197,7 +189,7 @@ def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:
     assert 4.0 * rate < 5.0 or stress > 0.5 * 2211e6 / 1.6**0.145 / 1.2
 
 
-def test_too_many_combinations_are_refused_with_advice() -> None:
+def test_too_many_combinations_are_refused_with_advice():
     text = LISTED.replace("{from: 3, to: 4, step: 0.5}", "{from: 3, to: 8, step: 0.03}").replace(
         "[12 mm, 30 mm]", "{from: 12 mm, to: 22 mm, step: 0.1 mm}"
     )

@@ -1,7 +1,5 @@
 """Records mixed and records chosen whole."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from choosing import listed, with_each_record
@@ -48,7 +46,7 @@ def _apart(first: tuple[str | float, ...], other: tuple[str | float, ...]) -> fl
 
 @pytest.mark.slow
 @pytest.mark.parametrize("text", [SHEAR, COMPRESSION], ids=["shear", "compression"])
-def test_the_best_three_are_those_of_enumeration(text: str) -> None:
+def test_the_best_three_are_those_of_enumeration(text):
     study = listed(text)
     _as_enumerated(study, optimize(study))
 
@@ -65,7 +63,7 @@ values:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_so_they_are_on_random_shelves(tmp_path: Path, seed: int) -> None:
+def test_so_they_are_on_random_shelves(tmp_path, seed):
     draw = np.random.default_rng(seed)
     folder = tmp_path / "records" / "peltiers"
     folder.mkdir(parents=True)
@@ -88,7 +86,7 @@ def study() -> Study:
     return listed(SHEAR)
 
 
-def test_records_of_one_structure_are_one_family(study: Study) -> None:
+def test_records_of_one_structure_are_one_family(study):
     (family,) = families_of(study)
     assert [mixture.name for mixture in family.mixtures] == ["peltier_module", "process", "spring_material"]
     assert family.count == len(discrete_records(study, study.table)) == 12
@@ -96,7 +94,7 @@ def test_records_of_one_structure_are_one_family(study: Study) -> None:
     assert set(family.mixtures[2].read_by) == {"spring_tensile_strength", "wire_range_margin"}
 
 
-def test_records_of_another_structure_are_another_family() -> None:
+def test_records_of_another_structure_are_another_family():
     """Rigid modules lie below a spreader, sheets have none."""
     text = SHEAR.replace("[flexible_1600, silicone_9ar_08_24v, polyimide_foil_24v]",
                          "[flexible_1600, cp30138, tm_31_14_85, silicone_9ar_08_24v]")  # fmt: skip
@@ -107,7 +105,7 @@ def test_records_of_another_structure_are_another_family() -> None:
     assert sheets.count == rigid.count == 8
 
 
-def test_at_a_corner_a_mixture_is_the_device_of_its_records(study: Study) -> None:
+def test_at_a_corner_a_mixture_is_the_device_of_its_records(study):
     # Every output without a cycle, for each record of each mixture alone.
     family = families_of(study)[0]
     points = tuple(study.operating_points)
@@ -127,7 +125,7 @@ def test_at_a_corner_a_mixture_is_the_device_of_its_records(study: Study) -> Non
 MIXTURE = Mixture(({"a": "x"}, {"a": "y"}, {"a": "z"}), {"n": (1.0, 3.0, 9.0)}, ({}, {}, {}), ())
 
 
-def test_a_box_of_records_leaves_the_others_no_share() -> None:
+def test_a_box_of_records_leaves_the_others_no_share():
     sizes = Sizes(("d",), ((2.0, 3.0),)).mixed([MIXTURE])
     assert sizes.count == 6
     ends = sizes.ends(((0, 1), (0, 1)))
@@ -141,14 +139,14 @@ def test_a_box_of_records_leaves_the_others_no_share() -> None:
     [((1.0, 0.0, 0.0), 1.0), ((0.0, 0.9999, 0.0001), 2.0), ((0.3, 0.6, 0.1), 1.6), ((0.0, 0.8, 0.2), 2.2),
      ((0.4, 0.2, 0.4), 1.45)],
 )  # fmt: skip
-def test_a_mixed_design_lies_beside_the_record_it_has_most_of(shares: tuple[float, ...], place: float) -> None:
+def test_a_mixed_design_lies_beside_the_record_it_has_most_of(shares, place):
     sizes = Sizes((), ()).mixed([MIXTURE])
     values = sizes.values(dict(zip(MIXTURE.shares, shares, strict=True)))
     assert values["a"] == pytest.approx(place, abs=2e-4)
     assert sizes.are_sizes(values, sizes.whole) == (max(shares) > 0.999)
 
 
-def test_too_many_records_in_one_problem_are_refused_with_what_to_do(study: Study) -> None:
+def test_too_many_records_in_one_problem_are_refused_with_what_to_do(study):
     records = tuple({"a": str(i)} for i in range(MAX_MIXED + 1))
     family = families_of(study)[0]
     crowded = type(family)({}, (Mixture(records, {}, tuple({} for _ in records), ()),))
@@ -166,7 +164,7 @@ def solved(chosen: str, listed: str) -> Solution:
 
 
 @pytest.mark.slow
-def test_the_best_module_of_a_list_is_the_best_of_each_alone() -> None:
+def test_the_best_module_of_a_list_is_the_best_of_each_alone():
     best = solved("", f"  peltier_module: {{choose: [{', '.join(MODULES)}]}}\n")
     alone = {name: solved(f"peltier_module: {name}", "") for name in MODULES}
     masses = {name: solution.values["module_mass"] for name, solution in alone.items() if solution.feasible}
@@ -195,7 +193,7 @@ def _record(wire: float, coil: float, count: float) -> str:
 
 
 @pytest.mark.slow
-def test_the_best_stock_spring_of_a_list_is_the_best_of_each_alone(tmp_path: Path) -> None:
+def test_the_best_stock_spring_of_a_list_is_the_best_of_each_alone(tmp_path):
     folder = tmp_path / "records" / "torsion_springs"
     folder.mkdir(parents=True)
     for name, sizes in SPRINGS.items():

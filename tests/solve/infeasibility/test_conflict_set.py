@@ -58,7 +58,7 @@ def _refusal(text: str) -> str:
 
 
 @pytest.mark.gate
-def test_a_limit_that_cannot_hold_is_named_with_what_the_ranges_allow() -> None:
+def test_a_limit_that_cannot_hold_is_named_with_what_the_ranges_allow():
     message = _refusal(HEAVY)
     assert "module_mass <= 60 g cannot hold" in message
     assert "pcl_thickness >= 0.6 mm" in message
@@ -70,7 +70,7 @@ def test_a_limit_that_cannot_hold_is_named_with_what_the_ranges_allow() -> None:
     refuse_infeasible(read_study_text(HEAVY.replace("<= 60 g", f"<= {lightest * (1.0 + 1e-6):.9g} g")))
 
 
-def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps() -> None:
+def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps():
     text = (
         "mode: shear\nvary: {coil_diameter: [16 mm, 30 mm]}\n"
         'require: {envelope_diameter: "<= 137 mm"}\nminimize: module_mass\n'
@@ -83,7 +83,7 @@ def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps() -> None:
 
 
 @pytest.mark.slow
-def test_records_are_named_with_which_conflicting_limits_hold() -> None:
+def test_records_are_named_with_which_conflicting_limits_hold():
     # The wave spring of this hardware must go around a core that bears the torque, and so must the pins in it.
     task = JointTask.read("9 N.m", "1.5 N.m/rad", "74 mm", "60 s", "24 V, 3 A")
     text = study_text(task, "middle")
@@ -93,7 +93,7 @@ def test_records_are_named_with_which_conflicting_limits_hold() -> None:
         refuse_infeasible(read_study_text(re.sub(rf"(?m)^  {choice}: .*$", f"  {choice}: {record}", text)))
 
 
-def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None:
+def test_limits_that_cannot_hold_together_are_named_without_the_others():
     # A coil of 12 mm at least with an index of 6 at most needs wire of 2 mm, with a gap between its coils.
     text = HEAVY.replace(
         'spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"',
@@ -110,7 +110,7 @@ def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None
     refuse_infeasible(read_study_text(text.replace('spring_index: "<= 6", ', "")))
 
 
-def test_a_robust_study_is_refused_with_what_its_margins_take() -> None:
+def test_a_robust_study_is_refused_with_what_its_margins_take():
     # Coils of 12 mm at least stand a wire and 0.1 mm apart. A third of each tolerance is its standard deviation.
     text = HEAVY.replace(
         'spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"', 'spring_index: "<= 6", coil_pitch: "<= 2.05 mm"'
@@ -125,7 +125,7 @@ def test_a_robust_study_is_refused_with_what_its_margins_take() -> None:
     assert "deviations" not in _refusal(text)
 
 
-def test_where_runs_end_nowhere_what_is_broken_stands_for_the_conflict() -> None:
+def test_where_runs_end_nowhere_what_is_broken_stands_for_the_conflict():
     runs: list[int] = []
     limits = [SimpleNamespace(origin="require", name=str(i)) for i in range(9)]
     run = SimpleNamespace(inputs=np.zeros(1), unknowns=np.zeros(1))
@@ -141,7 +141,7 @@ def test_where_runs_end_nowhere_what_is_broken_stands_for_the_conflict() -> None
     assert len(runs) < 9
 
 
-def test_every_limit_that_the_fixed_inputs_violate_is_named_at_once() -> None:
+def test_every_limit_that_the_fixed_inputs_violate_is_named_at_once():
     message = _refusal(
         "mode: shear\nmodule: {wire_diameter: 4 mm, coil_diameter: 12 mm, core_radius: 6 mm}\n"
         'vary: {current: [0.5 A, 2.5 A]}\nrequire: {envelope_diameter: "<= 100 mm"}\nminimize: peak_power\n'
@@ -153,13 +153,13 @@ def test_every_limit_that_the_fixed_inputs_violate_is_named_at_once() -> None:
 
 
 @pytest.mark.gate
-def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> None:
+def test_every_listed_record_must_be_impossible_before_a_study_is_refused():
     listed = HEAVY.replace("vary: {", "vary: {structure_material: {choose: [petg, aluminum_6061_t6]}, ")
     assert "every listed structure_material" in _refusal(listed)
     refuse_infeasible(read_study_text(listed.replace("<= 60 g", "<= 250 g")))
 
 
-def test_a_check_says_the_same_of_limits_that_need_no_simulation() -> None:
+def test_a_check_says_the_same_of_limits_that_need_no_simulation():
     message = _refusal(STIFF)
     assert "spring_fatigue_safety >= 3" in message
     assert "module_mass" not in message
@@ -171,7 +171,7 @@ def test_a_check_says_the_same_of_limits_that_need_no_simulation() -> None:
 
 
 @pytest.mark.slow
-def test_the_smallest_set_holds_once_a_limit_of_it_moves_as_far_as_named() -> None:
+def test_the_smallest_set_holds_once_a_limit_of_it_moves_as_far_as_named():
     result = _answer(STIFF)
     assert result.design.status.startswith("infeasible")
     conflict_set = result.solution.conflict_set
@@ -184,7 +184,7 @@ def test_the_smallest_set_holds_once_a_limit_of_it_moves_as_far_as_named() -> No
     assert _answer(short).design.status.startswith("infeasible")
 
 
-def test_the_design_that_violates_least_does_so_by_what_is_reported() -> None:
+def test_the_design_that_violates_least_does_so_by_what_is_reported():
     result = _answer(STIFF)
     assert not result.has_design
     # A requirement that is put on several outputs at once, as that on the stiffness over the stroke, is one.
@@ -199,7 +199,7 @@ def test_the_design_that_violates_least_does_so_by_what_is_reported() -> None:
 
 
 @pytest.mark.slow
-def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
+def test_a_limit_on_a_time_quarrels_with_the_power_it_takes():
     result = _answer(HURRIED)
     conflict_set = result.solution.conflict_set
     sides = {side.text.split(" ")[0]: side for side in conflict_set.sides}
@@ -210,7 +210,7 @@ def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
         assert _answer(HURRIED.replace(limit, f"<= {factor * place:.6g} {unit}")).design.status == "optimal"
 
 
-def test_a_start_restarted_from_a_feasible_design_converges() -> None:
+def test_a_start_restarted_from_a_feasible_design_converges():
     study = read_study_text(STIFF.replace(">= 12 N.m/rad", ">= 4.5 N.m/rad"))
     optimizer = Optimizer(study)
     run = optimizer.solve()
@@ -239,7 +239,7 @@ solver: {{starts: 1}}
         ("pcl_thickness: [0.5 mm, 1 mm]", 'spring_rate: ">= 1 N.m/rad"'),  # nothing that is varied changes it
     ],
 )
-def test_another_spring_is_named_and_no_number_of_it(vary: str, limit: str) -> None:
+def test_another_spring_is_named_and_no_number_of_it(vary, limit):
     with pytest.raises(InfeasibleError) as caught:
         refuse_infeasible(read_study_text(FINGER.format(vary=vary, limit=limit), "test"))
     message = str(caught.value)
@@ -259,7 +259,7 @@ solver: {cells: 8, starts: 1}
 
 
 @pytest.mark.gate
-def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
+def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ():
     optimizer = Optimizer(read_study(study_path("paper_shear")))
     screen = FeasibilityScreen(optimizer)
     designs = list(designs_all_over(optimizer))
@@ -276,7 +276,7 @@ def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
     assert np.allclose(together, [screen.broken(inputs) for inputs in designs])
 
 
-def test_where_no_limit_is_of_arithmetic_every_design_keeps_them() -> None:
+def test_where_no_limit_is_of_arithmetic_every_design_keeps_them():
     study = read_tree(tree_of_text(ONLY_THE_CYCLE, "one.yaml", "one", ROOT))
     optimizer = Optimizer(study)
     screen = FeasibilityScreen(optimizer)
@@ -285,7 +285,7 @@ def test_where_no_limit_is_of_arithmetic_every_design_keeps_them() -> None:
 
 
 @pytest.mark.slow
-def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch):
     # Where no start comes to a design, those from all over do: here every start is made to fail.
     study = read_study(study_path("paper_shear"))
     usual = optimize(study)
@@ -321,10 +321,7 @@ def screen() -> FeasibilityScreen:
      ([0.1, 0.2, 0.1], [0.1, 0.0], False, 5), ([0.1, 0.2, 0.1], [np.nan, np.nan], True, 5)],
     ids=["neither finds one", "the sum finds one", "a sum has no least", "a worst finds one", "a worst has no least"],
 )  # fmt: skip
-def test_limits_are_infeasible_if_neither_measure_finds_a_point(
-    screen: FeasibilityScreen, monkeypatch: pytest.MonkeyPatch,
-    sums: list[float], worsts: list[float], impossible: bool, count: int,
-) -> None:  # fmt: skip
+def test_limits_are_infeasible_if_neither_measure_finds_a_point(screen, monkeypatch, sums, worsts, impossible, count):
     begins = [np.full(2, float(place)) for place in range(3)]
     left = {"sum": iter(sums), "worst": iter(worsts)}
     places: list[float] = []

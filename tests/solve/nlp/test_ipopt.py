@@ -45,7 +45,7 @@ class Cliff:
         return np.eye(2)
 
 
-def test_points_without_rows_count() -> None:
+def test_points_without_rows_count():
     cliff, solver = Cliff(), ProgrammeSolver(2, 2, QUIET, most_points=20)
     solver(cliff, NEVER, x0=[1.0, 1.5], lbx=[-2.0, -2.0], ubx=[2.0, 2.0], lbg=[-2.0, -2.0], ubg=[0.0, 2.0])
     assert solver.stats()["return_status"] == "Maximum_Iterations_Exceeded"

@@ -59,7 +59,7 @@ def problem_of(text: str) -> tuple[Optimizer, Array, Parameters]:
 
 
 @pytest.mark.parametrize("name", STUDIES)
-def test_gradient_and_jacobian_are_those_of_central_differences(name: str) -> None:
+def test_gradient_and_jacobian_are_those_of_central_differences(name):
     """By every unknown, at the same steps; of everything: objective, limits, what ends a phase, slopes, lateness."""
     optimizer, x, parameters = problem_of(STUDIES[name])
 
@@ -81,7 +81,7 @@ def test_gradient_and_jacobian_are_those_of_central_differences(name: str) -> No
     assert np.max(worst) < RIGHT[name], (row, column)
 
 
-def test_a_time_that_is_limited_has_no_second_row_for_the_horizon() -> None:
+def test_a_time_that_is_limited_has_no_second_row_for_the_horizon():
     sooner = Optimizer(read_study_text(SHEAR.replace("require:", 'require:\n  response_time: "<= 600 s"'), "a test"))
     assert sooner.problem.unlimited == ["return_time"]
     later = Optimizer(read_study_text(SHEAR.replace("require:", 'require:\n  response_time: "<= 2 h"'), "a test"))
@@ -92,7 +92,7 @@ def test_a_time_that_is_limited_has_no_second_row_for_the_horizon() -> None:
     assert point.rows[-2] == pytest.approx(point.times["response_time"] / (LATEST * horizon) - 1.0, abs=1e-12)
 
 
-def test_where_its_equation_is_zero_a_driven_phase_ends_as_cvodes_ends_it() -> None:
+def test_where_its_equation_is_zero_a_driven_phase_ends_as_cvodes_ends_it():
     # The equation is solved for the time its pieces take; all else stays.
     optimizer, x, parameters = problem_of(PROFILE)
     problem, x = optimizer.problem, x.copy()
@@ -108,7 +108,7 @@ def test_where_its_equation_is_zero_a_driven_phase_ends_as_cvodes_ends_it() -> N
     assert ramp + problem.pieces_time(x, 0) == pytest.approx(cycle.values["response_time"], rel=1e-3)
 
 
-def test_values_at_the_placed_steps_are_within_a_thousandth_of_cvodes() -> None:
+def test_values_at_the_placed_steps_are_within_a_thousandth_of_cvodes():
     for text in (SHEAR, COMPRESSION):
         optimizer, x, parameters = problem_of(text)
         inputs = optimizer.vector.inputs(x)
@@ -118,7 +118,7 @@ def test_values_at_the_placed_steps_are_within_a_thousandth_of_cvodes() -> None:
         assert point.values == pytest.approx(expected, rel=1e-3)
 
 
-def test_a_point_whose_switch_never_ends_has_no_value_and_raises_nothing() -> None:
+def test_a_point_whose_switch_never_ends_has_no_value_and_raises_nothing():
     optimizer, x, parameters = problem_of(SHEAR)
     weak = x.copy()
     (place,) = (i for i, free in enumerate(optimizer.free) if free.name == "current")
@@ -127,7 +127,7 @@ def test_a_point_whose_switch_never_ends_has_no_value_and_raises_nothing() -> No
     assert np.isfinite(optimizer.problem.at(x, parameters).objective)
 
 
-def test_steps_are_part_of_what_a_point_is_remembered_by() -> None:
+def test_steps_are_part_of_what_a_point_is_remembered_by():
     optimizer, x, parameters = problem_of(SHEAR)
     problem, grids = optimizer.problem, optimizer.problem.grids
     here = problem.at(x, parameters)
@@ -146,7 +146,7 @@ def is_settled(optimizer: Optimizer, run: Run) -> bool:
     return optimizer._settled(programme, run.unknowns, optimizer.ends({}, objective)["ubg"])
 
 
-def test_an_optimum_is_where_its_own_steps_have_it() -> None:
+def test_an_optimum_is_where_its_own_steps_have_it():
     """Steps are placed anew where a run ends, and the run goes on until that moves nothing."""
     optimizer, _, parameters = problem_of(SHEAR)
     run = optimizer.solve()
@@ -157,7 +157,7 @@ def test_an_optimum_is_where_its_own_steps_have_it() -> None:
     assert optimizer.problem.grids is not run.grids  # placed anew
 
 
-def test_steps_of_a_quick_switch_are_placed_again_for_a_slow_one() -> None:
+def test_steps_of_a_quick_switch_are_placed_again_for_a_slow_one():
     # The least power heats for an hour; the steps of the study's start, which takes minutes, miss its end by 0.5 %.
     text = "mode: shear\nvary: {current: [0.1 A, 3 A]}\nminimize: peak_power\nsolver: {cells: 6, starts: 1}\n"
     optimizer = Optimizer(read_study_text(text, "a test"))
@@ -170,7 +170,7 @@ def test_steps_of_a_quick_switch_are_placed_again_for_a_slow_one() -> None:
 
 
 @pytest.mark.parametrize(("most", "status"), [("100 W", "Solve_Succeeded"), ("1 W", NO_DESIGN)])
-def test_a_study_with_nothing_free_is_evaluated_and_its_limits_checked(most: str, status: str) -> None:
+def test_a_study_with_nothing_free_is_evaluated_and_its_limits_checked(most, status):
     text = SHEAR.replace("<= 9 W", f"<= {most}").replace(">= 5 N.m/rad", ">= 2 N.m/rad").replace("120 degC", "200 degC")
     study = read_study_text(text, "a test")
     optimizer = Optimizer(study.model_copy(update={"vary": {}}))
@@ -183,7 +183,7 @@ def test_a_study_with_nothing_free_is_evaluated_and_its_limits_checked(most: str
 
 
 @pytest.mark.gate
-def test_a_peak_of_a_profile_is_an_unknown_that_no_sample_exceeds() -> None:
+def test_a_peak_of_a_profile_is_an_unknown_that_no_sample_exceeds():
     optimizer = Optimizer(read_study_text(PROFILE, "a test"))
     problem = optimizer.problem
     run = optimizer.solve()
@@ -214,7 +214,7 @@ solver: {{cells: 6, starts: 1}}
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_a_torque_limit_applies_at_the_core_s_foot_and_at_all_holes(mode: str) -> None:
+def test_a_torque_limit_applies_at_the_core_s_foot_and_at_all_holes(mode):
     study = read_study_text(STUDY.format(mode=mode), "test")
     limited = {limit.output for limit in constraints_of(study, study.table, study.module)}
     assert set(CORE_PARTS) < limited
@@ -223,7 +223,7 @@ def test_a_torque_limit_applies_at_the_core_s_foot_and_at_all_holes(mode: str) -
     assert parts["core_holding_torque"] == min(parts[name] for name in CORE_PARTS)
 
 
-def test_a_search_over_the_kink_between_foot_and_holes_ends() -> None:
+def test_a_search_over_the_kink_between_foot_and_holes_ends():
     """As one limit on the core it runs out of 300 iterations; its foot and its holes apart take some thirty."""
     run = Optimizer(read_study_text(STUDY.format(mode="shear").replace("[7 mm", "[6 mm"), "test")).solve()
     assert run.start.converged
@@ -250,7 +250,7 @@ def built() -> ParametricOptimizer:
 
 
 @pytest.mark.parametrize("name", MOVED)
-def test_a_moved_problem_has_the_optimum_of_one_built_for_it(built: ParametricOptimizer, name: str) -> None:
+def test_a_moved_problem_has_the_optimum_of_one_built_for_it(built, name):
     first, study = built.solve(built.study), _with(*MOVED[name])
     assert built.fits(study)
     moved = built.solve(study, first.run)
@@ -264,7 +264,7 @@ def test_a_moved_problem_has_the_optimum_of_one_built_for_it(built: ParametricOp
         assert abs(value / first.run.start.end[variable] - 1.0) > 1e-6 or name != "all of them"
 
 
-def test_active_limits_and_ends_of_ranges(built: ParametricOptimizer) -> None:
+def test_active_limits_and_ends_of_ranges(built):
     bound = built.solve(_with("require.peak_power=<= 9 W"))
     assert "peak_power <=" in bound.active
     ended = built.solve(_with("vary.current=[0.8 A, 1.1 A]"))

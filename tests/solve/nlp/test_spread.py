@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -39,7 +38,7 @@ def _drawn(function: spread.Columns, parts: list[Contributor], samples: int, see
     return spread.moments_of(spread.drawn_values(function, parts, samples, seed))
 
 
-def test_of_a_linear_function_all_three_agree_with_algebra() -> None:
+def test_of_a_linear_function_all_three_agree_with_algebra():
     deviations = [0.1, 0.3 / math.sqrt(3.0), 0.1]
     expected = [math.hypot(2.0 * deviations[0], 3.0 * deviations[1], deviations[2]), 5.0 * deviations[2]]
     deviation, shares = spread.shares(PARTS, SLOPES)
@@ -55,7 +54,7 @@ def test_of_a_linear_function_all_three_agree_with_algebra() -> None:
     assert worst.corners == 8
 
 
-def test_a_normal_part_has_the_quantiles_and_yield_of_its_distribution() -> None:
+def test_a_normal_part_has_the_quantiles_and_yield_of_its_distribution():
     drawn = _drawn(lambda x: x, PARTS[:1], 1 << 16, seed=1)
     assert drawn.low[0] == pytest.approx(1.0 - 3.0 * 0.1, abs=2e-3)
     assert drawn.high[0] == pytest.approx(1.0 + 3.0 * 0.1, abs=2e-3)
@@ -67,7 +66,7 @@ def test_a_normal_part_has_the_quantiles_and_yield_of_its_distribution() -> None
     assert spread.capability(1.0, 0.1, 1.3, ">=") == pytest.approx(-1.0)
 
 
-def test_the_worst_case_bounds_every_module_within_tolerance() -> None:
+def test_the_worst_case_bounds_every_module_within_tolerance():
     parts = [Contributor(name, 1.0, 0.4, "uniform") for name in "abc"]
 
     def bent(x: np.ndarray) -> np.ndarray:
@@ -80,14 +79,14 @@ def test_the_worst_case_bounds_every_module_within_tolerance() -> None:
     assert np.all(drawn.values.max(axis=1) <= worst.high)
 
 
-def test_a_corner_that_the_derivative_does_not_point_to_is_found() -> None:
+def test_a_corner_that_the_derivative_does_not_point_to_is_found():
     parts = [Contributor("a", 0.1, 1.0, "uniform")]
     worst = spread.worst_case(lambda x: x**2, parts, np.array([[-1.0]]))  # a slope of the wrong sign
     assert worst.high[0] == pytest.approx(1.1**2)
     assert not worst.by_sign[0]
 
 
-def test_sobol_indices_of_ishigamis_function_are_the_published_ones() -> None:
+def test_sobol_indices_of_ishigamis_function_are_the_published_ones():
     # Ishigami and Homma 1990 with a = 7, b = 0.1; indices from the closed form, as in Saltelli et al. 2008, table 4.2.
     parts = [Contributor(name, 0.0, math.pi, "uniform") for name in "abc"]
 
@@ -100,13 +99,13 @@ def test_sobol_indices_of_ishigamis_function_are_the_published_ones() -> None:
 
 
 @pytest.mark.parametrize(("good", "count"), [(0, 50), (37, 50), (50, 50), (999, 1000)])
-def test_the_interval_of_a_yield_is_wilsons(good: int, count: int) -> None:
+def test_the_interval_of_a_yield_is_wilsons(good, count):
     share = spread.share_kept(np.arange(count) < good)
     expected = stats.binomtest(good, count).proportion_ci(method="wilson")
     assert (share.low, share.high) == pytest.approx((expected.low, expected.high), abs=1e-6)
 
 
-def test_what_never_happens_is_counted_and_left_out_of_the_mean() -> None:
+def test_what_never_happens_is_counted_and_left_out_of_the_mean():
     parts = [Contributor("a", 0.0, 1.0, "uniform")]
     drawn = _drawn(lambda x: np.where(x > 0.5, np.inf, x), parts, 1 << 12, seed=1)
     assert drawn.never[0] == pytest.approx(0.25, abs=1e-3)
@@ -114,14 +113,14 @@ def test_what_never_happens_is_counted_and_left_out_of_the_mean() -> None:
     assert spread.share_kept(drawn.values[0] <= 9.0).share == pytest.approx(0.75, abs=1e-3)
 
 
-def test_draws_stay_within_limits_and_samples_are_a_power_of_two() -> None:
+def test_draws_stay_within_limits_and_samples_are_a_power_of_two():
     part = Contributor("a", 0.1, 0.3, lower=0.0)
     assert part.ends == (0.0, pytest.approx(0.4))
     assert part.ppf(np.array([1e-6, 0.5])) == pytest.approx([0.0, 0.1])
     assert [spread.power_of_two(n) for n in (256, 257, 100_000)] == [256, 512, 131_072]
 
 
-def test_the_last_of_several_chunks_has_what_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_last_of_several_chunks_has_what_is_left(monkeypatch):
     whole = _drawn(_linear, PARTS, 8, seed=1).values
     monkeypatch.setattr(spread, "CHUNK", 8)
     chunks: list[int] = []
@@ -137,15 +136,13 @@ def test_the_last_of_several_chunks_has_what_is_left(monkeypatch: pytest.MonkeyP
 
 
 @pytest.mark.parametrize(("inputs", "count", "seed"), [(1, 8, 1), (7, 64, 3), (40, 512, 11)])
-def test_ranges_are_drawn_as_scipys_latin_hypercube(inputs: int, count: int, seed: int) -> None:
+def test_ranges_are_drawn_as_scipys_latin_hypercube(inputs, count, seed):
     shares = [UnmeasuredInput(f"share_{i}", 0.5, 0.0, 1.0, "assumed") for i in range(inputs)]
     expected = qmc.LatinHypercube(inputs, rng=np.random.default_rng(seed)).random(count).T
     assert np.array_equal(draw(shares, count, seed), expected)
 
 
-def test_kept_points_are_scipys_and_scipy_is_not_loaded_for_them(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_kept_points_are_scipys_and_scipy_is_not_loaded_for_them(tmp_path, monkeypatch):
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path))
     expected = qmc.Sobol(5, rng=np.random.default_rng(2)).random(64)
     assert np.array_equal(sobol_points(5, 64, 2), expected)
@@ -179,7 +176,7 @@ def _moments(tolerance: str) -> tuple[float, float, float]:
         ("{plus_minus: 0.03 mm, adjustable: true, adjusted_to: 0.006 mm}", 0.002e-3),
     ],
 )
-def test_a_fourth_power_has_the_moments_of_one(tolerance: str, sigma: float) -> None:
+def test_a_fourth_power_has_the_moments_of_one(tolerance, sigma):
     """Of k = c d^4, to second order: deviation 4 k sigma/d, shift of the mean 6 k (sigma/d)^2."""
     rate, shift, deviation = _moments(f"wire_diameter: {tolerance}")
     assert deviation == pytest.approx(4.0 * rate * sigma / WIRE, rel=1e-9)
@@ -189,7 +186,7 @@ def test_a_fourth_power_has_the_moments_of_one(tolerance: str, sigma: float) -> 
     assert deviation == pytest.approx(rate * math.hypot(4.0 * 0.01e-3 / WIRE, 0.01), rel=1e-9)
 
 
-def test_curvatures_of_a_quadratic_are_exact_after_some_steps() -> None:
+def test_curvatures_of_a_quadratic_are_exact_after_some_steps():
     # Nocedal, Wright, Numerical optimization, 2006, theorem 6.1.
     random = np.random.default_rng(0)
     size = 4
@@ -216,7 +213,7 @@ def test_curvatures_of_a_quadratic_are_exact_after_some_steps() -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("study", ["wrist_joint", "elbow_printed"])
-def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study, monkeypatch):
     runs = [0]
     run = CycleEngine.run
 
@@ -242,7 +239,7 @@ def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study: str, mon
     ("objective", "breach", "taken"),
     [(0.9, 0.2, True), (1.1, 0.1, False), (5.0, 0.05, False), (1.5, 0.05, True), (2.0, 0.0, True), (2.1, 0.0, False)],
 )
-def test_a_step_is_taken_if_it_beats_each_point_in_one_way(objective: float, breach: float, *, taken: bool) -> None:
+def test_a_step_is_taken_if_it_beats_each_point_in_one_way(objective, breach, *, taken):
     # Fletcher, Leyffer, Math. Program. 91, 2002: a filter of pairs of objective and breach.
     model = SimpleNamespace(switch_names=())
     problem = SimpleNamespace(model=model, unknown_count=1)

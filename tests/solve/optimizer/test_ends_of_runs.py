@@ -11,7 +11,6 @@ from typing import Any
 import casadi
 import pytest
 from explored import SMALL
-from support import Command
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.interrupts import interrupt_came, interrupt_handler
@@ -49,7 +48,7 @@ def _solve_until_interrupted(optimizer: Optimizer, signaling: threading.Timer) -
 
 
 @pytest.mark.parametrize("share", [0.2, 0.5, 0.8])
-def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer, share: float) -> None:
+def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer, share):
     before = optimizer.seconds["solve"]
     optimizer.solve()
     seconds = optimizer.seconds["solve"] - before
@@ -58,7 +57,7 @@ def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer
         _solve_until_interrupted(optimizer, signaling)
 
 
-def test_nothing_is_started_after_an_interrupt_that_was_swallowed(optimizer: Optimizer) -> None:
+def test_nothing_is_started_after_an_interrupt_that_was_swallowed(optimizer):
     study = optimizer.study
     simulator = Simulator(resolve_study(study).functions)
     screen = FeasibilityScreen(optimizer)
@@ -80,7 +79,7 @@ def _statuses() -> set[str]:
     return {word.decode() for word in words if not word.decode().isupper()}
 
 
-def test_every_status_of_ipopt_has_words_and_most_a_next_step() -> None:
+def test_every_status_of_ipopt_has_words_and_most_a_next_step():
     statuses = _statuses()
     assert {"Solve_Succeeded", "Infeasible_Problem_Detected", "Restoration_Failed"} <= statuses
     assert statuses <= set(MEANINGS)
@@ -102,7 +101,7 @@ solver: {cells: 6, starts: 2}
 
 
 @pytest.mark.gate
-def test_a_search_for_nothing_is_no_optimum(tvimdesign: Command, tmp_path: Path) -> None:
+def test_a_search_for_nothing_is_no_optimum(tvimdesign, tmp_path):
     (tmp_path / "flat.yaml").write_text(STUDY.replace("GOAL", "leg_length"))
     done = tvimdesign("run", "flat.yaml", "--no-cad", "--no-plots", "--out", "out", cwd=tmp_path)
     assert done.returncode == 3
@@ -120,7 +119,7 @@ solver: {cells: 6, starts: 1}
 
 
 @pytest.mark.gate
-def test_a_switch_that_nothing_limits_ends_within_the_horizon() -> None:
+def test_a_switch_that_nothing_limits_ends_within_the_horizon():
     # The least peak of power heats as slowly as it may: the layer barely gets as hot as it must.
     solution = optimize(read_study_text(LATE, "test"))
     assert solution.status == "optimal"
@@ -134,7 +133,7 @@ LISTED = LATE.replace("}\nmin", ", pcl_thickness: {from: 0.8 mm, to: 1.2 mm, ste
 
 
 @pytest.mark.gate
-def test_a_search_beyond_the_horizon_restarts_before_it_searches_lists(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_search_beyond_the_horizon_restarts_before_it_searches_lists(monkeypatch):
     # A random study (20264018) was through its 60 s with the lists of a switch that never ends.
     deadlines: list[Deadline] = []
     monkeypatch.setattr(search, "Deadline", lambda seconds: deadlines.append(Deadline(seconds)) or deadlines[-1])
@@ -148,7 +147,7 @@ def test_a_search_beyond_the_horizon_restarts_before_it_searches_lists(monkeypat
     assert len(deadlines) == 1  # the study's time limit is that of both
 
 
-def test_boxes_that_lead_beyond_the_horizon_are_not_gone_on_with(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_boxes_that_lead_beyond_the_horizon_are_not_gone_on_with(monkeypatch):
     # The search ends with the first box whose best design is beyond it: far beyond, IPOPT takes longest (20266007).
     study = read_study_text(LATE, "test")
     relaxation = Relaxation(0, Optimizer(study), {}, discrete_sizes(study, study.table), SolverEffort())
@@ -167,7 +166,7 @@ def test_boxes_that_lead_beyond_the_horizon_are_not_gone_on_with(monkeypatch: py
     assert ends[-1] == pytest.approx(LATEST * HORIZON, rel=1e-5)
 
 
-def test_a_search_that_begins_where_the_switch_never_ends_begins_beside() -> None:
+def test_a_search_that_begins_where_the_switch_never_ends_begins_beside():
     """At 0.9 A the layer stays stiff; without derivatives there IPOPT would not even begin."""
     optimizer = Optimizer(read_study_text(LATE + "require: {response_time: <= 300 s}\n", "test"))
     weak = optimizer.model.start.copy()

@@ -63,14 +63,14 @@ def drawn(count: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("starts", [1, 4])
-def test_the_study_s_start_comes_first_and_others_are_log_even(starts: int) -> None:
+def test_the_study_s_start_comes_first_and_others_are_log_even(starts):
     search, messages = searches(starts)
     assert sizes(search) == pytest.approx([2.0, *drawn(starts - 1)])
     assert search.passed_over == {"switch never ends": 0, "no such module": 0}
     assert messages == []
 
 
-def test_points_whose_switch_never_ends_are_skipped_and_counted() -> None:
+def test_points_whose_switch_never_ends_are_skipped_and_counted():
     search, messages = searches(3, own=2.0, takes=lambda size: np.inf if size < 10.0 else size)
     ends = [size for size in drawn(50) if size >= 10.0][:3]
     tried = 1 + list(drawn(50)).index(ends[-1]) + 1
@@ -79,7 +79,7 @@ def test_points_whose_switch_never_ends_are_skipped_and_counted() -> None:
     assert messages == ["looking for a start: the switch of the study's own never ends, or takes no time"]
 
 
-def test_points_without_a_module_are_skipped_unsimulated() -> None:
+def test_points_without_a_module_are_skipped_unsimulated():
     simulated: list[float] = []
 
     def takes(size: float) -> float:
@@ -93,7 +93,7 @@ def test_points_without_a_module_are_skipped_unsimulated() -> None:
     assert simulated == pytest.approx([2.0, *whole])  # the study's own once
 
 
-def test_where_no_point_will_do_the_search_begins_at_the_study_s_own() -> None:
+def test_where_no_point_will_do_the_search_begins_at_the_study_s_own():
     search, _ = searches(2, takes=lambda _: np.inf)
     assert sizes(search) == [2.0, 2.0]
     assert search.passed_over["switch never ends"] == 1 + 2 * MAX_DRAWS
@@ -102,7 +102,7 @@ def test_where_no_point_will_do_the_search_begins_at_the_study_s_own() -> None:
     assert search.passed_over["no such module"] == MAX_DRAWS
 
 
-def test_a_point_that_simulates_replaces_a_start_that_does_not() -> None:
+def test_a_point_that_simulates_replaces_a_start_that_does_not():
     def takes(size: float) -> float:
         if size < 10.0:
             raise SimulationError("it cannot be simulated")
@@ -117,7 +117,7 @@ def test_a_point_that_simulates_replaces_a_start_that_does_not() -> None:
     assert messages == ["looking for a start: the study's own cannot be simulated"]
 
 
-def test_where_no_point_can_be_simulated_the_error_says_what_to_do() -> None:
+def test_where_no_point_can_be_simulated_the_error_says_what_to_do():
     def takes(_: float) -> float:
         raise SimulationError("it cannot be simulated")
 
@@ -129,7 +129,7 @@ def _points(starts: int, size: int, seed: int, count: int) -> np.ndarray:
     return np.array(list(itertools.islice(unit_points(starts, size, seed), count)))
 
 
-def test_a_seed_gives_its_points_evenly_spread_if_many() -> None:
+def test_a_seed_gives_its_points_evenly_spread_if_many():
     for starts in (3, 64):
         assert np.array_equal(_points(starts, 4, 1, 50), _points(starts, 4, 1, 50))
         assert not np.allclose(_points(starts, 4, 1, 50), _points(starts, 4, 2, 50))
@@ -153,7 +153,7 @@ solver: {starts: 8}
 """
 
 
-def test_no_search_begins_with_a_core_wider_than_the_layer_s_inner_edge() -> None:
+def test_no_search_begins_with_a_core_wider_than_the_layer_s_inner_edge():
     """Nor with a wall inside the rotor's rim: heat would flow from cold to hot there."""
     optimizer = Optimizer(read_study_text(STUDY, "test"))
     place = optimizer.model.index
@@ -166,7 +166,7 @@ def test_no_search_begins_with_a_core_wider_than_the_layer_s_inner_edge() -> Non
     assert optimizer.multistart.passed_over["no such module"] > 0
 
 
-def test_starts_of_a_module_with_links_that_correct_others_differ() -> None:
+def test_starts_of_a_module_with_links_that_correct_others_differ():
     # A link that corrects another is below zero at the study's start, too: no reason to pass over a point.
     study = read_study(study_path("wrist_compression"))
     study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 3})})
@@ -216,7 +216,7 @@ def _kept_within(study: Study, optimizer: Optimizer, lower: float, upper: float)
 
 
 @pytest.mark.slow
-def test_a_start_is_led_to_what_is_as_good_as_the_best_of_all_turns() -> None:
+def test_a_start_is_led_to_what_is_as_good_as_the_best_of_all_turns():
     # The study's own start ends in an optimum with better ones beside it, which the solver does not leave.
     study = read_study(study_path("wrist_compression"))
     optimizer = Optimizer(study)
@@ -231,7 +231,7 @@ def test_a_start_is_led_to_what_is_as_good_as_the_best_of_all_turns() -> None:
 
 
 @pytest.mark.gate
-def test_the_best_turn_is_not_left(optimizer: Optimizer) -> None:
+def test_the_best_turn_is_not_left(optimizer):
     run = _run_from(optimizer, **WIDE_ARCS, **SOFT_SPRINGS)
     best, *_ = NeighboringOptima(optimizer).improve([run])
     assert best.start.objective <= run.start.objective
@@ -265,7 +265,7 @@ def _of_coils(period: float | None, tried: list[float]) -> Any:
     )  # fmt: skip
 
 
-def test_no_neighbor_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_neighbor_is_tried_twice(monkeypatch):
     # One start ends in the fifth turn and is led to the third; another in the sixth is led to the fifth, and on.
     monkeypatch.setattr(refinements, "SHAKES", 0)
     tried: list[float] = []
@@ -275,7 +275,7 @@ def test_no_neighbor_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     assert tried == pytest.approx([4.5, 3.5, 2.5, 5.5])
 
 
-def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch):
     """Within a tenth of the range, 0.9 of a coil; each from the best so far, and what is no better leaves no trace."""
     monkeypatch.setattr(refinements, "SHAKES", 12)
     tried: list[float] = []
@@ -292,7 +292,7 @@ def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch: pytest
 
 
 @pytest.mark.gate
-def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> None:
+def test_two_starts_that_each_found_one_half_find_the_whole(study):
     # One start was kept from the better springs, the other from the better layer; no turn lies beside either.
     fixed = {name: vary for name, vary in study.vary.items() if name not in {"coil_count", "pin_radius_ratio"}}
     module = {**study.module, "coil_count": 3.36, "pin_radius_ratio": 0.69}

@@ -42,7 +42,7 @@ def _active(study: Study) -> tuple[ActiveConstraint, ...]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("text", [SMALL, CURVED], ids=["at a corner", "on a slope"])
-def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
+def test_savings_are_what_optima_with_the_limit_moved_show(text):
     study = read_study_text(text, "a test")
     at_optimum = _optimum(study)
     binding = [held for held in _active(study) if held.shadow_price > 1e-3 and held.origin in ("require", "vary")]
@@ -63,7 +63,7 @@ def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
         pytest.param("wrist_compression", marks=pytest.mark.slow),
     ],
 )
-def test_savings_add_up_to_the_price_in_the_objective(name: str) -> None:
+def test_savings_add_up_to_the_price_in_the_objective(name):
     # The envelope theorem: to first order the weighted sum changes by the multiplier.
     study = read_study(study_path(name))
     study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 1})})
@@ -77,13 +77,13 @@ def test_savings_add_up_to_the_price_in_the_objective(name: str) -> None:
         assert sum(parts) == pytest.approx(held.shadow_price, abs=1e-5 + 1e-3 * sum(map(abs, parts))), held.text
 
 
-def test_a_limit_with_room_saves_nothing() -> None:
+def test_a_limit_with_room_saves_nothing():
     slack = [held for held in _active(_study()) if held.residual < -0.01]
     assert len(slack) >= 5
     assert all(saving == 0.0 for held in slack for saving in held.sensitivity.values())
 
 
-def test_a_variable_nothing_depends_on_hides_no_saving() -> None:
+def test_a_variable_nothing_depends_on_hides_no_saving():
     study = _study()
     idle = study.model_copy(update={"vary": {**study.vary, "cooling_current": Range(lower=0.5, upper=2.0)}})
     sensitivity = {held.name: held.sensitivity for held in _active(study)}
@@ -93,7 +93,7 @@ def test_a_variable_nothing_depends_on_hides_no_saving() -> None:
 
 
 @pytest.mark.gate
-def test_of_a_limit_that_is_written_twice_no_saving_is_claimed() -> None:
+def test_of_a_limit_that_is_written_twice_no_saving_is_claimed():
     study = _study()
     again = study.require[0].model_copy(update={"output": "least_spring_stiffness"})
     twice = study.model_copy(update={"require": (*study.require, again)})
@@ -128,7 +128,7 @@ def broken(optimizer: Optimizer, inputs: Array) -> float:
 
 
 @pytest.mark.gate
-def test_a_design_leads_to_an_optimum(optimizer: Optimizer, design: Array) -> None:
+def test_a_design_leads_to_an_optimum(optimizer, design):
     assert broken(optimizer, design) <= 0.0
     run = optimizer.solve(begin=design)
     assert run.start.converged
@@ -138,7 +138,7 @@ def test_a_design_leads_to_an_optimum(optimizer: Optimizer, design: Array) -> No
 
 
 @pytest.mark.gate
-def test_what_is_to_be_within_ends_stays_there(optimizer: Optimizer, design: Array) -> None:
+def test_what_is_to_be_within_ends_stays_there(optimizer, design):
     run = optimizer.solve({"placement_radius": (0.0452, 0.0452), "coil_diameter": (0.012, 0.02)}, begin=design)
     assert run.start.converged
     assert run.start.end["placement_radius"] == pytest.approx(0.0452, rel=1e-7)
@@ -147,7 +147,7 @@ def test_what_is_to_be_within_ends_stays_there(optimizer: Optimizer, design: Arr
 
 
 @pytest.mark.gate
-def test_a_study_without_a_feasible_start_is_searched_all_over(optimizer: Optimizer) -> None:
+def test_a_study_without_a_feasible_start_is_searched_all_over(optimizer):
     """From designs all over the ranges, until two come to the same optimum."""
     study = optimizer.study
     tree = Relaxation(0, optimizer, {}, discrete_sizes(study, study.table), SolverEffort())

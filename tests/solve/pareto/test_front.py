@@ -104,13 +104,13 @@ def _beats_itself(front: Front) -> bool:
     )
 
 
-def test_a_front_has_the_points_that_were_asked_for_and_none_is_beaten(pair: Front) -> None:
+def test_a_front_has_the_points_that_were_asked_for_and_none_is_beaten(pair):
     assert pair.failures == ()
     assert len(pair.points) == 7
     assert not _beats_itself(pair)
 
 
-def test_points_are_spread_evenly(pair: Front) -> None:
+def test_points_are_spread_evenly(pair):
     """On lines of one direction, evenly spread over the chord, a gap is up to 2**0.5 times as large as another."""
     numbers = np.array(_numbers(pair))
     shares = (numbers - numbers.min(axis=0)) / np.ptp(numbers, axis=0)
@@ -120,13 +120,13 @@ def test_points_are_spread_evenly(pair: Front) -> None:
 
 
 @pytest.mark.parametrize("output", [TIME, MASS])
-def test_an_end_is_the_least_that_a_study_with_that_goal_alone_finds(solved: Solved, pair: Front, output: str) -> None:
+def test_an_end_is_the_least_that_a_study_with_that_goal_alone_finds(solved, pair, output):
     # A front stops where a hundredth of one buys less than a ten-thousandth of the other.
     least = solved.alone(output)
     assert min(point.values[output] for point in pair.points) == pytest.approx(least, rel=0.01)
 
 
-def test_a_point_is_what_a_study_with_that_mass_as_a_limit_finds(solved: Solved, pair: Front) -> None:
+def test_a_point_is_what_a_study_with_that_mass_as_a_limit_finds(solved, pair):
     """From its own start, and from the point itself."""
     point = pair.points[3]
     ceiling = Requirement(output=MASS, sense="<=", limit=point.values[MASS], text="")
@@ -136,7 +136,7 @@ def test_a_point_is_what_a_study_with_that_mass_as_a_limit_finds(solved: Solved,
 
 
 @pytest.mark.gate
-def test_a_front_of_three_goes_with_the_front_of_two(pair: Front, triple: Front) -> None:
+def test_a_front_of_three_goes_with_the_front_of_two(pair, triple):
     """Both have the same ends, and no point of one is below one of the other in all three outputs."""
     assert triple.failures == ()
     assert len(triple.points) >= 7
@@ -150,7 +150,7 @@ def test_a_front_of_three_goes_with_the_front_of_two(pair: Front, triple: Front)
                 assert not all(there.values[name] < point.values[name] * 0.995 for name in (TIME, MASS, SIZE))
 
 
-def test_every_completed_point_is_a_design_that_satisfies_the_study(solved: Solved, pair: Front) -> None:
+def test_every_completed_point_is_a_design_that_satisfies_the_study(solved, pair):
     table, whole = table_for(solved.study.mode), completed(pair, solved.trade())
     for partly, point in zip(pair.points, whole.points, strict=True):
         assert {TIME, MASS} <= partly.values.keys() < point.values.keys()
@@ -162,7 +162,7 @@ def test_every_completed_point_is_a_design_that_satisfies_the_study(solved: Solv
             assert point.values[requirement.output] >= requirement.limit * (1.0 - 1e-5)
 
 
-def test_a_point_takes_few_cycles_from_its_neighbours(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_point_takes_few_cycles_from_its_neighbours(solved, monkeypatch):
     solve, run, cycles = Optimizer.solve, CycleEngine.run, list[int]()
 
     def counted(self: Optimizer, *args: Any, **more: Any) -> Run:
@@ -181,14 +181,14 @@ def test_a_point_takes_few_cycles_from_its_neighbours(solved: Solved, monkeypatc
     assert np.median(cycles) <= 11  # 10; 11.5 where the solver runs on the cycle itself
 
 
-def test_what_can_be_traded_does_not_change_the_optimum(solved: Solved) -> None:
+def test_what_can_be_traded_does_not_change_the_optimum(solved):
     bare = optimize(solved.study)
     assert bare.objective == pytest.approx(solved.solution.objective, rel=1e-5)
     assert bare.reference.keys() == solved.solution.reference.keys() == solved.study.minimize.keys()
 
 
 @pytest.mark.gate
-def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved, noted: tuple[Front, Notes]) -> None:
+def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved, noted):
     whole, notes = noted[0], Notes()
     notes.known = {number: point for number, point in noted[1].known.items() if number < 6}
     again = trace_front(solved.trade(notes), (TIME, MASS, SIZE), 9)
@@ -198,7 +198,7 @@ def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved, n
 
 
 @pytest.mark.gate
-def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_point_that_the_solver_does_not_reach_is_named(solved, monkeypatch):
     solve = Optimizer.solve
 
     def lost_between(self: Optimizer, *args: Any, objective: Objective, **more: Any) -> Run:
@@ -215,9 +215,7 @@ def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeyp
 
 
 @pytest.mark.parametrize("lost", [(TIME, MASS), (MASS,)], ids=["both", "one"])
-def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(
-    solved: Solved, lost: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(solved, lost, monkeypatch):
     """It once ended in an IndexError."""
     solve, trade = Optimizer.solve, solved.trade()
     one_each = trade.weights({TIME: 1.0, MASS: 1.0})
@@ -241,7 +239,7 @@ def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(
     assert reported["in_words"][0] == "An end has no design."
 
 
-def test_outputs_that_do_not_conflict_are_one_point() -> None:
+def test_outputs_that_do_not_conflict_are_one_point():
     # A smaller rotor is both lighter and smaller, and there is nothing else to choose.
     text = COARSE.replace("  wire_diameter: [2 mm, 3 mm]\n", "").replace("  pcl_thickness: [0.6 mm, 2 mm]\n", "")
     text = text.replace("module:\n", "module:\n  wire_diameter: 2.9 mm\n")
@@ -252,7 +250,7 @@ def test_outputs_that_do_not_conflict_are_one_point() -> None:
 
 
 @pytest.mark.parametrize("points", [5, 9])
-def test_points_closer_than_the_tolerance_are_left_out_and_counted(points: int) -> None:
+def test_points_closer_than_the_tolerance_are_left_out_and_counted(points):
     """Mass rises by 1.1 % along the front, stiffness falls by 1.2: of points 0.2 % apart it holds six, not nine.
 
     Nothing here depends on a switch, so it is quick. The coils alone bend: leg and tang as drawn make it 1.9 %.
@@ -272,7 +270,7 @@ def test_points_closer_than_the_tolerance_are_left_out_and_counted(points: int) 
 
 
 @pytest.mark.slow
-def test_listed_sizes_stay_those_of_the_optimum_and_the_report_says_so() -> None:
+def test_listed_sizes_stay_those_of_the_optimum_and_the_report_says_so():
     listed = Solved(SHEAR.replace("wire_diameter: [2 mm, 3 mm]", "wire_diameter: {choose: [2.92 mm, 3 mm]}"))
     front = trace_front(listed.trade(), (TIME, MASS), 3)
     assert {point.values["wire_diameter"] for point in front.points} == {listed.solution.values.get(

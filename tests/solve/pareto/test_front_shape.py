@@ -17,7 +17,7 @@ QUARTER = np.array([[1.0 - np.sin(a), 1.0 - np.cos(a)] for a in np.linspace(0.0,
 
 
 @given(st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5), st.integers(0, 5)), min_size=1, max_size=8))
-def test_kept_points_are_those_no_other_is_better_than(rows: list[tuple[int, int, int]]) -> None:
+def test_kept_points_are_those_no_other_is_better_than(rows):
     front = [rows[i] for i in shape.efficient(np.array(rows, dtype=float))]
     assert len(set(front)) == len(front)
     for row in rows:
@@ -25,7 +25,7 @@ def test_kept_points_are_those_no_other_is_better_than(rows: list[tuple[int, int
         assert (row in front) == (not beaten)
 
 
-def test_knees_lie_half_way_or_nowhere() -> None:
+def test_knees_lie_half_way_or_nowhere():
     assert shape.knee(QUARTER) == 4
     ends = np.array([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]])
     inside = 1.0 - np.array([[0.8, 0.6, 0.0], [1.0, 1.0, 1.0] / np.sqrt(3.0), [0.0, 0.6, 0.8]])
@@ -38,13 +38,11 @@ def test_knees_lie_half_way_or_nowhere() -> None:
 
 
 @pytest.mark.parametrize(("second", "little"), [([1.0, 1.02], [1]), ([1.0, 1.05], []), ([-1.02, -1.0], [1])])
-def test_an_output_that_spans_less_than_three_hundredths_is_hardly_traded(
-    second: list[float], little: list[int]
-) -> None:
+def test_an_output_that_spans_less_than_three_hundredths_is_hardly_traded(second, little):
     assert shape.little_traded(np.array([[1.0, 2.0], second]).T) == little
 
 
-def test_spread_is_the_largest_gap_over_the_mean_one_and_lines_are_thin() -> None:
+def test_spread_is_the_largest_gap_over_the_mean_one_and_lines_are_thin():
     points = np.array([[0.0, 0.0], [4.0, 0.0], [1.0, 0.0], [2.0, 0.0]])  # gaps 1, 1, 2
     assert shape.spread(points) == pytest.approx(1.5)
     assert shape.spread(points[::-1]) == pytest.approx(1.5)
@@ -54,7 +52,7 @@ def test_spread_is_the_largest_gap_over_the_mean_one_and_lines_are_thin() -> Non
     assert shape.little_traded(np.array([[1.0, 2.0]])) == []
 
 
-def test_every_output_falls_alike_along_the_line_through_a_place() -> None:
+def test_every_output_falls_alike_along_the_line_through_a_place():
     names, reference = ("a", "b", "c"), {"a": 2.0, "b": 30.0, "c": 0.4}
     ends = [{"a": 1.0, "b": 50.0, "c": 0.6}, {"a": 3.0, "b": 10.0, "c": 0.5}, {"a": 2.0, "b": 40.0, "c": 0.1}]
     frame = Frame.of(names, ends)
@@ -67,14 +65,14 @@ def test_every_output_falls_alike_along_the_line_through_a_place() -> None:
             assert bound.residual({**end, name: 1.01 * end[name]}) > 0.0
 
 
-def test_weights_of_neighbours_make_up_the_target() -> None:
+def test_weights_of_neighbours_make_up_the_target():
     places = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0]])
     weights = shape.affine(places, np.array([0.3, 0.5, -0.8]))
     assert weights == pytest.approx([0.2, 0.3, 0.5])
     assert shape.affine(places[:1], places[1]) == pytest.approx([1.0])
 
 
-def test_candidates_lie_in_the_hull_of_the_ends_and_reach_its_corners() -> None:
+def test_candidates_lie_in_the_hull_of_the_ends_and_reach_its_corners():
     ends = np.array([[-2.0, 1.0, 1.0], [1.0, -2.0, 1.0], [1.0, 1.0, -2.0], [-0.2, 0.1, 0.1]]) / 3.0
     places = shape.candidates(ends)
     assert places.sum(axis=1) == pytest.approx(np.zeros(len(places)), abs=1e-12)
@@ -86,7 +84,7 @@ def test_candidates_lie_in_the_hull_of_the_ends_and_reach_its_corners() -> None:
 
 
 @given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=6, max_size=12, unique=True))
-def test_the_corners_of_a_hull_are_those_of_qhull(points: list[tuple[int, int]]) -> None:
+def test_the_corners_of_a_hull_are_those_of_qhull(points):
     places = np.array(points, dtype=float)
     assume(np.linalg.matrix_rank(places - places[0]) == 2)
     expected = {points[i] for i in ConvexHull(places).vertices}
@@ -99,7 +97,7 @@ FALLING = [(1.0, 10.0), (5.0, 2.0)]  # y = 12 - 2 x
 FLAT = [(2.0, 5.0), (6.0, 4.0)]  # y = 5.5 - x / 4
 
 
-def test_two_lines_cross_where_their_equations_say() -> None:
+def test_two_lines_cross_where_their_equations_say():
     ranges = leads({"falling": FALLING, "flat": FLAT})
     # 12 - 2 x = 5.5 - x / 4 at x = 26/7; below 2 only one has anything.
     assert [(lead.best, lead.alone) for lead in ranges] == [("falling", True), ("flat", False), ("falling", False)]
@@ -113,7 +111,7 @@ def test_two_lines_cross_where_their_equations_say() -> None:
     assert ranges[2].most == pytest.approx(4.25 / 2.0)
 
 
-def test_fronts_lead_from_their_first_point_on() -> None:
+def test_fronts_lead_from_their_first_point_on():
     assert reached(FALLING, 0.99) == math.inf
     assert reached(FALLING, 3.0) == pytest.approx(6.0)
     assert reached(FALLING, 50.0) == 2.0
@@ -135,9 +133,7 @@ def _front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 @given(CURVES, CURVES, st.floats(1.0, 12.0))
-def test_the_leader_at_a_limit_is_the_front_with_less_there(
-    first: list[tuple[float, float]], other: list[tuple[float, float]], limit: float
-) -> None:
+def test_the_leader_at_a_limit_is_the_front_with_less_there(first, other, limit):
     curves = {"one": _front(first), "other": _front(other)}
     here = [lead for lead in leads(curves) if lead.lower <= limit < lead.upper]
     values = {label: reached(curve, limit) for label, curve in curves.items()}
@@ -150,9 +146,7 @@ def test_the_leader_at_a_limit_is_the_front_with_less_there(
 
 
 @given(CURVES, CURVES)
-def test_ranges_join_without_gaps_and_do_not_depend_on_the_order(
-    first: list[tuple[float, float]], other: list[tuple[float, float]]
-) -> None:
+def test_ranges_join_without_gaps_and_do_not_depend_on_the_order(first, other):
     ranges = leads({"one": _front(first), "other": _front(other)})
     assert math.isinf(ranges[-1].upper)
     assert all(a.upper == b.lower for a, b in itertools.pairwise(ranges))

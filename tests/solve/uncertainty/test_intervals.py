@@ -72,7 +72,7 @@ def simulated(output: str, **changes: float) -> float:
 
 
 @pytest.mark.gate
-def test_the_ends_are_those_of_a_plain_loop_through_the_same_modules() -> None:
+def test_the_ends_are_those_of_a_plain_loop_through_the_same_modules():
     looped = []
     for column in draw(uncertainty().unmeasured, 512, module().study.solver.seed).T:
         moved = {assumed.name: float(value) for assumed, value in zip(uncertainty().unmeasured, column, strict=True)}
@@ -85,7 +85,7 @@ def test_the_ends_are_those_of_a_plain_loop_through_the_same_modules() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("output", ["softening_time", "stiffening_time"])
-def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output: str) -> None:
+def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output):
     interval = uncertainty().intervals[output]
     moved = [
         assumed for assumed in unmeasured_inputs(module()) if assumed.name in {s.moved.name for s in interval.swings}
@@ -108,14 +108,14 @@ def test_an_interval_of_a_time_is_that_of_simulations_one_by_one(output: str) ->
 
 @pytest.mark.gate
 @pytest.mark.parametrize("place", [0, 1, 2])
-def test_one_at_a_time_is_what_a_simulation_says_at_both_ends(place: int) -> None:
+def test_one_at_a_time_is_what_a_simulation_says_at_both_ends(place):
     swing = uncertainty().intervals["softening_time"].swings[place]
     for end, expected in ((swing.moved.low, swing.at_low), (swing.moved.high, swing.at_high)):
         assert simulated("softening_time", **{swing.moved.name: end}) == pytest.approx(expected, rel=0.01)
 
 
 @pytest.mark.gate
-def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
+def test_to_know_what_carries_most_narrows_an_interval_most():
     interval = uncertainty().intervals["softening_time"]
     half = interval.to_halve
     assert bool(half) == (sum(interval.shares.values()) >= 0.75)  # half the width leaves a quarter of the variance
@@ -138,7 +138,7 @@ def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
     assert width((interval.first,)) < min(width((name,)) for name in others[:3])
 
 
-def test_shares_are_those_of_a_sum() -> None:
+def test_shares_are_those_of_a_sum():
     inputs = [unknown("a", 0.0, 3.0), unknown("b", 0.0, 1.0), unknown("c", 10.0, 10.5)]
     drawn = draw(inputs, 1024, 1)
     (whole,) = intervals(lambda x: x.sum(axis=0, keepdims=True), inputs, drawn, drawn.sum(axis=0, keepdims=True), 0.0)
@@ -151,7 +151,7 @@ def test_shares_are_those_of_a_sum() -> None:
     assert [swing.moved.name for swing in whole.swings] == ["a", "b", "c"]
 
 
-def test_what_is_known_by_its_order_only_is_drawn_evenly_in_its_logarithm() -> None:
+def test_what_is_known_by_its_order_only_is_drawn_evenly_in_its_logarithm():
     contact = unknown("contact", 1e3, 1e5, 1e4)
     assert contact.logarithmic
     assert contact.ppf([0.0, 0.5, 1.0]) == pytest.approx([1e3, 1e4, 1e5])
@@ -159,7 +159,7 @@ def test_what_is_known_by_its_order_only_is_drawn_evenly_in_its_logarithm() -> N
     assert unknown("air", 20.0, 25.0).ppf(0.5) == pytest.approx(22.5)
 
 
-def test_what_may_never_happen_has_no_upper_end() -> None:
+def test_what_may_never_happen_has_no_upper_end():
     inputs = [unknown("a", 0.0, 1.0)]
     drawn = draw(inputs, 512, 1)
 
@@ -173,7 +173,7 @@ def test_what_may_never_happen_has_no_upper_end() -> None:
     assert interval.swings[0].size == math.inf
 
 
-def test_noise_has_no_share_and_even_steps_all() -> None:
+def test_noise_has_no_share_and_even_steps_all():
     noise = np.random.default_rng(2)
     assert share_of_variance(noise.random(512), noise.random(512)) < 0.03
     assert share_of_variance(noise.random(512), np.full(512, 3.0)) == 0.0
@@ -187,7 +187,7 @@ def test_noise_has_no_share_and_even_steps_all() -> None:
     assert max(shares) < 0.1  # Sobol points have pairs of 0.75 here
 
 
-def test_a_value_that_the_study_sets_or_that_is_measured_is_not_moved() -> None:
+def test_a_value_that_the_study_sets_or_that_is_measured_is_not_moved():
     own = read_study_text(SHEAR.replace("module:\n", "module:\n  hot_contact: 10000 W/m^2/K\n"), "a test")
     names = {assumed.name for assumed in unmeasured_inputs(resolve_study(own))}
     assert "hot_contact" in {assumed.name for assumed in unmeasured_inputs(module())}
@@ -203,7 +203,7 @@ def test_a_value_that_the_study_sets_or_that_is_measured_is_not_moved() -> None:
     assert (moved["peltier_seebeck"].low, moved["peltier_seebeck"].high) == (0.020, 0.022)
 
 
-def test_what_varies_and_what_is_not_known_are_never_one_yield() -> None:
+def test_what_varies_and_what_is_not_known_are_never_one_yield():
     # With nothing unmeasured moved the yield is the same: it is of the parts alone.
     alone = model().at(module(), 256, 8)
     assert alone.together == model().at(module(), 256, 64).together
@@ -211,7 +211,7 @@ def test_what_varies_and_what_is_not_known_are_never_one_yield() -> None:
 
 
 @pytest.mark.slow
-def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
+def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it():
     # A softening limit in the middle of what the time may be is kept by about half.
     interval = uncertainty().intervals["softening_time"]
     middle = float(np.median([interval.low, interval.high]))
@@ -232,7 +232,7 @@ def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
     assert held[name] == pytest.approx(np.mean(np.array(times) <= middle), abs=0.2)
 
 
-def test_intervals_are_frozen_and_the_fewest_inputs_halve_them() -> None:
+def test_intervals_are_frozen_and_the_fewest_inputs_halve_them():
     (interval,) = intervals(lambda x: x, [unknown("a", 0.0, 1.0)], np.array([[0.2, 0.8]]), np.array([[0.2, 0.8]]), 1.0)
     for frozen, name in ((interval, "low"), (interval.swings[0], "at_low")):
         with pytest.raises(FrozenInstanceError):

@@ -57,7 +57,7 @@ def _simulated(resolved: ResolvedModule, name: str, wanted: Sequence[str], share
     return {name: float(np.log(above[name] / below[name]) / np.log((1.0 + share) / (1.0 - share))) for name in wanted}
 
 
-def test_powers_of_textbook_formulae_come_back(sensitivities: OutputSensitivities, resolved: ResolvedModule) -> None:
+def test_powers_of_textbook_formulae_come_back(sensitivities, resolved):
     by = _logarithmic(sensitivities)
     assert by["spring_stiffness", "wire_diameter"] == pytest.approx(4.0, abs=0.01)  # E d^4 / (64 D n)
     assert by["layer_strain", "pcl_thickness"] == pytest.approx(-1.0, rel=1e-12)  # r theta / t
@@ -70,16 +70,14 @@ def test_powers_of_textbook_formulae_come_back(sensitivities: OutputSensitivitie
 
 
 @pytest.mark.parametrize("name", ["pcl_thickness", "pcl_outer_radius", "current", "cooling_current", "core_radius"])
-def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(
-    name: str, sensitivities: OutputSensitivities, resolved: ResolvedModule
-) -> None:
+def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(name, sensitivities, resolved):
     by = _logarithmic(sensitivities)
     shown = _simulated(resolved, name, OF_CYCLE)
     for output in OF_CYCLE:
         assert by[output, name] == pytest.approx(shown[output], rel=3e-3, abs=3e-3), output
 
 
-def test_what_never_happens_is_left_out_by_name() -> None:
+def test_what_never_happens_is_left_out_by_name():
     weak = _rig("mode: shear\nmodule: {current: 0.2 A}\n")
     changes = output_sensitivities(weak, ["response_time", "cycle_time", "module_mass"])
     assert changes.outputs == ("module_mass",)
@@ -87,7 +85,7 @@ def test_what_never_happens_is_left_out_by_name() -> None:
     assert np.all(np.isfinite(changes.derivatives))
 
 
-def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -> None:
+def test_what_hangs_on_a_profile_is_left_out_by_name(resolved):
     # A profile divides the time its stage takes, so the current is no one number there.
     driven = ResolvedModule(resolved.study, resolved.values, {"stiffening": CurrentProfile.constant(-0.5)})
     changes = output_sensitivities(driven, ["response_time", "stiffening_time", "module_mass"])
@@ -97,7 +95,7 @@ def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -
 
 
 @pytest.mark.parametrize("name", ["block_height", "pcl_outer_radius"])
-def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -> None:
+def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name):
     study = read_study(study_path("wrist_compression"))
     resolved = resolve_study(study)
     by = _logarithmic(output_sensitivities(resolved, ["frozen_time"], [name]))

@@ -62,7 +62,7 @@ def _share(spread: Spread, output: str) -> float:
 
 
 @pytest.mark.slow
-def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price() -> None:
+def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price():
     nominal, spread = _solved(ALGEBRAIC)
     assert _share(spread, "spring_stiffness") == pytest.approx(0.5, abs=0.01)
     robust, spread = _solved(f"{ALGEBRAIC}robust: {{sigma: 2}}\n")
@@ -80,21 +80,21 @@ def _together(study: str, seed: int) -> float:
 
 
 @pytest.mark.slow
-def test_an_independent_draw_confirms_the_yield_of_all_limits_together() -> None:
+def test_an_independent_draw_confirms_the_yield_of_all_limits_together():
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.8 N.m/rad"]')
     assert _together(band, 11) < 0.55
     assert 0.9 <= _together(f"{band}robust: {{yield: 90 %}}\n", 11) < 0.93
 
 
 @pytest.mark.slow
-def test_limits_on_times_and_sizes_together_come_to_the_yield_too() -> None:
+def test_limits_on_times_and_sizes_together_come_to_the_yield_too():
     # Each of them at that share alone would leave a tenth of the modules beyond one of them.
     assert _together(TIMED, 12) < 0.5
     assert 0.9 <= _together(f"{TIMED}robust: {{yield: 90 %}}\n", 12) < 0.93
 
 
 @pytest.mark.slow
-def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
+def test_a_yield_is_reached_where_deviations_alone_are_wrong():
     # A uniform tolerance ends at 1.73 deviations: 2.33 of them keep every module, at a price nobody asked for.
     uniform = ALGEBRAIC.replace("0.05 mm", "{plus_minus: 0.12 mm, distribution: uniform}", 1)
     sigma, all_kept = _solved(f"{uniform}robust: {{sigma: {NormalDist().inv_cdf(0.99):.6f}}}\n")
@@ -105,7 +105,7 @@ def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
 
 
 @pytest.mark.slow
-def test_each_limit_is_met_in_as_many_plausible_cases_as_asked() -> None:
+def test_each_limit_is_met_in_as_many_plausible_cases_as_asked():
     held = []
     for target in ("yield: 95 %", "yield: 95 %, plausible: 90 %"):
         study = read_study_text(UNMEASURED + f"robust: {{{target}}}\n", "a test")
@@ -117,7 +117,7 @@ def test_each_limit_is_met_in_as_many_plausible_cases_as_asked() -> None:
 
 
 @pytest.mark.gate
-def test_what_a_yield_costs_is_reported() -> None:
+def test_what_a_yield_costs_is_reported():
     margined, _ = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
     plain, _ = _solved(ALGEBRAIC)
     reached = yield_of(margined)
@@ -130,7 +130,7 @@ def test_what_a_yield_costs_is_reported() -> None:
 
 
 @pytest.mark.gate
-def test_an_unreachable_yield_names_the_limit_and_the_tolerance() -> None:
+def test_an_unreachable_yield_names_the_limit_and_the_tolerance():
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{yield: 95 %}}\n", "a test")
     result = answer(study)
@@ -150,7 +150,7 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance() -> None:
 
 
 @pytest.mark.slow
-def test_every_point_of_a_front_has_the_optimum_s_margin_on_times() -> None:
+def test_every_point_of_a_front_has_the_optimum_s_margin_on_times():
     study = read_study_text(f"{TIMED}robust: {{sigma: 1.5}}\n", "a test")
     objectives = ("peak_power", "response_time")
     # Its optimum is far from the limit on the time, where the time spreads less: that margin is too small for others.
@@ -173,7 +173,7 @@ def _inputs(optimizer: Optimizer, front: Front) -> list[NDArray[np.float64]]:
 
 
 @pytest.mark.gate
-def test_the_yield_is_of_limits_that_the_module_has() -> None:
+def test_the_yield_is_of_limits_that_the_module_has():
     study = read_study_text(
         "mode: compression\nmodule: {peltier_module: silicone_9ar_08_12v}\nvary: {core_radius: [9 mm, 12 mm]}\n"
         "require: {holding_torque: '>= 4 N.m'}\nminimize: module_mass\n"
@@ -186,7 +186,7 @@ def test_the_yield_is_of_limits_that_the_module_has() -> None:
 
 
 @pytest.mark.gate
-def test_more_deviations_than_a_band_has_room_for_are_reported() -> None:
+def test_more_deviations_than_a_band_has_room_for_are_reported():
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
     result = answer(study)
@@ -194,7 +194,7 @@ def test_more_deviations_than_a_band_has_room_for_are_reported() -> None:
     assert "(`robust`): ask for fewer, or spread less" in complaint(result, study.table)
 
 
-def test_few_modules_reveal_a_low_yield_and_more_continue_them() -> None:
+def test_few_modules_reveal_a_low_yield_and_more_continue_them():
     optimizer = Optimizer(read_study_text(ALGEBRAIC, "a test"))
     inputs, yields = optimizer.model.start, Yields(optimizer)
     few = yields.compared(inputs, 1.1, NEVER)
@@ -206,7 +206,7 @@ def test_few_modules_reveal_a_low_yield_and_more_continue_them() -> None:
     assert np.array_equal(whole.columns, at_once.columns)
 
 
-def test_the_best_design_with_margins_wins(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_best_design_with_margins_wins(monkeypatch):
     """Rank three designs: the second is best with margins, and the third is worse without than that with them."""
     nominal, margined = {"first": 1.0, "second": 1.05, "third": 1.3}, {"first": 1.2, "second": 1.1, "third": 1.4}
     drawn: list[str] = []
@@ -238,7 +238,7 @@ def _drawn(first: float, second: float) -> Drawn:
     return Drawn((A, B), np.array([[first], [second]]) * rng.standard_normal((2, MODULES)))
 
 
-def test_two_independent_limits_share_what_may_be_lost() -> None:
+def test_two_independent_limits_share_what_may_be_lost():
     """Both at a share q keep q squared together: 97.5 % each for 95 %, where 95 % each would be 90 %."""
     moves = _moves(_drawn(0.1, 0.1), 0.95, {}, {A.name, B.name})
     expected = 0.1 * NormalDist().inv_cdf(0.957**0.5)  # 95.7 %: the lower end of the interval of 4096 modules is 95 %
@@ -256,7 +256,7 @@ def _tightened(residuals: Callable[[Array, Array], Array]) -> TightenedTolerance
     return tightening
 
 
-def test_the_tolerance_that_needs_least_tightening_is_found() -> None:
+def test_the_tolerance_that_needs_least_tightening_is_found():
     inverse = NormalDist().inv_cdf(0.95)
     tightening = _tightened(lambda first, _: first - 1.0)  # 84 % at a deviation of 1; 95 % at 1/1.645
     assert (tightening.name, tightening.share) == ("current", pytest.approx(0.95, abs=2e-3))
@@ -268,7 +268,7 @@ def test_the_tolerance_that_needs_least_tightening_is_found() -> None:
     assert (none.to, none.share) == (0.0, pytest.approx(NormalDist().cdf(1.0), abs=0.02))
 
 
-def test_margins_are_of_what_each_limit_spreads_and_fall_for_none() -> None:
+def test_margins_are_of_what_each_limit_spreads_and_fall_for_none():
     # A diameter of 90 mm that spreads by 0.05 mm.
     moves = _moves(_drawn(5e-4, 0.1), 0.95, {}, {A.name, B.name})
     assert moves[A.name] == pytest.approx(moves[B.name] * 5e-3, rel=0.1)
@@ -278,7 +278,7 @@ def test_margins_are_of_what_each_limit_spreads_and_fall_for_none() -> None:
     assert _moves(drawn, 0.95, {B.name: 0.3}, {A.name}, {B.name: 0.1})[B.name] == pytest.approx(-0.2)
 
 
-def test_an_active_limit_that_nothing_spreads_is_kept_and_needs_no_margin() -> None:
+def test_an_active_limit_that_nothing_spreads_is_kept_and_needs_no_margin():
     drawn = Drawn((A, B), _drawn(0.1, 0.0).residuals + np.array([[-0.3], [2e-8]]))  # what a solver leaves
     assert drawn.shares[B.name] == 1.0
     assert drawn.together.share == pytest.approx(NormalDist().cdf(3.0), abs=2e-3)

@@ -39,9 +39,7 @@ def _silent(_: str) -> None:
     pass
 
 
-def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(
-    resolved: Callable[[str], ResolvedModule],
-) -> None:
+def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(resolved):
     spread = "tolerances: {preload_angle: {row: free_angle_tolerance, adjusted_to: 1 deg}}"
     module = resolved(f"{spread}\nrequire: {{preload_margin: '>= 0 rad'}}\n")
     angle = next(contributor for contributor in contributors_of(module) if contributor.name == "preload_angle")
@@ -61,7 +59,7 @@ def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(
     assert preload.yield_adjusted.share == pytest.approx(adjusted, abs=5e-4)
 
 
-def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(resolved: Callable[[str], ResolvedModule]) -> None:
+def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(resolved):
     text = "tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: %s, adjusted_to: 2 deg}}\n"
     for adjustable, adjusted, expected in (
         ("true", None, 2.0),
@@ -89,7 +87,7 @@ def _differences(module: ResolvedModule, output: str) -> tuple[float, float]:
     return shift, float(np.sqrt(variance))
 
 
-def test_the_moments_are_those_of_differences_of_the_table(resolved: Callable[[str], ResolvedModule]) -> None:
+def test_the_moments_are_those_of_differences_of_the_table(resolved):
     module = resolved(f"tolerances:\n{SPRINGS}  pcl_thickness: {{plus_minus: 0.2 mm, distribution: uniform}}\n")
     model = DeviceFunctions(module.table, module.values, module.points, 4)
     function = moments(model, module.study.tolerances, OUTPUTS, [1.0] * len(OUTPUTS))
@@ -99,7 +97,7 @@ def test_the_moments_are_those_of_differences_of_the_table(resolved: Callable[[s
         assert (shift, deviation) == (pytest.approx(expected[0], rel=0.02), pytest.approx(expected[1], rel=0.01))
 
 
-def test_one_input_gives_a_yield_that_can_be_worked_out(resolved: Callable[[str], ResolvedModule]) -> None:
+def test_one_input_gives_a_yield_that_can_be_worked_out(resolved):
     # Mass is linear in the density of the springs, so the yield is the normal distribution's.
     module = resolved("tolerances: {spring_density: 9 %}\nrequire: {springs_mass: '<= 1 kg'}\n")
     mass = float(module.quantity("springs_mass"))
@@ -115,7 +113,7 @@ def test_one_input_gives_a_yield_that_can_be_worked_out(resolved: Callable[[str]
 
 
 @pytest.mark.gate
-def test_the_same_bits_for_any_number_of_workers(resolved: Callable[[str], ResolvedModule]) -> None:
+def test_the_same_bits_for_any_number_of_workers(resolved):
     module = resolved("tolerances: {current: 1 %, wire_diameter: 0.02 mm}\nrequire: {response_time: '<= 200 s'}\n")
     analysis = Tolerancing(module, _silent)
     alone = analysis.analyse(1 << 11, 7)
@@ -127,7 +125,7 @@ def test_the_same_bits_for_any_number_of_workers(resolved: Callable[[str], Resol
     assert alone.together == shared.together
 
 
-def test_where_nothing_spreads_the_report_says_so(resolved: Callable[[str], ResolvedModule]) -> None:
+def test_where_nothing_spreads_the_report_says_so(resolved):
     with pytest.raises(InputError, match="nothing spreads; give `tolerances: standard`"):
         Tolerancing(resolved("tolerances: {current: 0 A}\n"), _silent)
     text = "tolerances: {structure_service_temperature: 5 K}\nrequire: {spring_stiffness: '>= 1 N.m/rad'}\n"
@@ -143,7 +141,7 @@ def _outputs(module: ResolvedModule) -> list[str]:
     return analysis._requested()
 
 
-def test_without_requirements_the_spread_of_the_switch_is_reported(resolved: Callable[[str], ResolvedModule]) -> None:
+def test_without_requirements_the_spread_of_the_switch_is_reported(resolved):
     module = resolved("tolerances: {pcl_thickness: 0.05 mm}\n")
     outputs = set(_outputs(module))
     assert {"module_mass", "softening_time", "joint_stiffness@cold"} <= outputs
@@ -170,7 +168,7 @@ def module(tmp_path: Path) -> ResolvedModule:
     return resolve_study(read_study(path))
 
 
-def test_a_measured_input_knows_its_range_before_and_others_have_none(module: ResolvedModule) -> None:
+def test_a_measured_input_knows_its_range_before_and_others_have_none(module):
     inputs = {assumed.name: assumed for assumed in unmeasured_inputs(module)}
     handbook = Catalog().record("heat_paths", "handbook").entry("rotor_contact")
     measured = inputs["rotor_contact"]
@@ -184,7 +182,7 @@ def test_a_measured_input_knows_its_range_before_and_others_have_none(module: Re
 
 
 @pytest.mark.slow
-def test_the_interval_was_wider_before(module: ResolvedModule) -> None:
+def test_the_interval_was_wider_before(module):
     uncertainty = UncertaintyModel(module, ["softening_time"]).at(module, 1 << 5, 1 << 7)
     low, high = uncertainty.before["softening_time"]
     now = uncertainty.intervals["softening_time"]
@@ -203,7 +201,7 @@ def freezing_module() -> ResolvedModule:
     return resolve_study(read_study_text(TEXT, "a test"))
 
 
-def test_half_time_and_slope_of_freezing_move_without_their_dependents(freezing_module: ResolvedModule) -> None:
+def test_half_time_and_slope_of_freezing_move_without_their_dependents(freezing_module):
     names = {assumed.name for assumed in unmeasured_inputs(freezing_module)}
     assert names >= KINETICS
     assert "pcl_zero_shear_viscosity" in names
@@ -212,7 +210,7 @@ def test_half_time_and_slope_of_freezing_move_without_their_dependents(freezing_
 
 
 @pytest.mark.gate
-def test_freezing_time_is_an_interval_until_a_user_fits_his_own(freezing_module: ResolvedModule) -> None:
+def test_freezing_time_is_an_interval_until_a_user_fits_his_own(freezing_module):
     interval = UncertaintyModel(freezing_module, ["frozen_time"]).at(freezing_module, 4).intervals["frozen_time"]
     swings = {swing.moved.name: swing for swing in interval.swings}
     assert interval.low < interval.nominal < interval.high
@@ -226,7 +224,7 @@ def test_freezing_time_is_an_interval_until_a_user_fits_his_own(freezing_module:
 
 
 @pytest.mark.gate
-def test_memory_of_the_melt_is_in_the_intervals_unless_named_off() -> None:
+def test_memory_of_the_melt_is_in_the_intervals_unless_named_off():
     warm = (
         TEXT.replace("0.6 mm", "4 mm")
         + "operating_points: {cold: {temperature: 30 degC}, hot: {temperature: 70 degC}}\n"

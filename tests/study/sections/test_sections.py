@@ -45,7 +45,7 @@ def _flat(vary: Vary) -> list[Any]:
         ("wire_diameter", "{catalog: metric, from: 2.1 mm}", Options(values=(2.413e-3, 3.2e-3), source="metric")),
     ],
 )
-def test_forms(read: Read, name: str, form: str, expected: Vary) -> None:
+def test_forms(read, name, form, expected):
     result = read(_study(name, form)).vary[name]
     assert type(result) is type(expected)
     for found_value, value in zip(_flat(result), _flat(expected), strict=True):
@@ -61,7 +61,7 @@ def test_forms(read: Read, name: str, form: str, expected: Vary) -> None:
         ("peltier", "{choose: [qc_17]}", "qc_17"),
     ],
 )
-def test_the_modules_value_may_lie_within_the_options(read: Read, name: str, form: str, value: str) -> None:
+def test_the_modules_value_may_lie_within_the_options(read, name, form, value):
     assert read(_study(name, form, f"{name}: {value}")).module[name] is not None
 
 
@@ -77,7 +77,7 @@ VALIDATOR = jsonschema.Draft7Validator(json_schema({mode: table_for(mode) for mo
         ("", ()),
     ],
 )
-def test_ratings_are_read_by_name(written: str, read: tuple[str, ...]) -> None:
+def test_ratings_are_read_by_name(written, read):
     text = f"mode: shear\naccept: {written}\n"
     assert read_study_text(text).accept == read
     VALIDATOR.validate(yaml.safe_load(text))
@@ -87,7 +87,7 @@ def test_ratings_are_read_by_name(written: str, read: tuple[str, ...]) -> None:
     "written",
     ["[module_mass]", "[stroke]", "[current_margin, current_margin]", "{current_margin: true}", "[[current_margin]]"],
 )
-def test_other_names_are_refused(written: str) -> None:
+def test_other_names_are_refused(written):
     text = f"mode: shear\naccept: {written}\n"
     with pytest.raises(StudyError):
         read_study_text(text)
@@ -95,7 +95,7 @@ def test_other_names_are_refused(written: str) -> None:
         VALIDATOR.validate(yaml.safe_load(text))
 
 
-def test_ratings_are_those_of_both_modes_and_no_rules() -> None:
+def test_ratings_are_those_of_both_modes_and_no_rules():
     """In shear alone the joint's torque goes through the adhesive of the heaters, which has a rating."""
     of = {mode: [row for row in table_for(mode).outputs if row.ratings] for mode in ("shear", "compression")}
     shear, compression = ([row.name for row in rows] for rows in of.values())
@@ -114,14 +114,14 @@ def test_ratings_are_those_of_both_modes_and_no_rules() -> None:
         ("' <= 5 g '", "<=", 5e-3),
     ],
 )
-def test_limits(read: Read, written: str, sense: str, limit: float) -> None:
+def test_limits(read, written, sense, limit):
     (requirement,) = read(f"mode: shear\nrequire: {{module_mass: {written}}}").require
     assert (requirement.output, requirement.sense) == ("module_mass", sense)
     assert requirement.limit == pytest.approx(limit)
     assert requirement.text == written.strip("' ")
 
 
-def test_goals_and_fronts_are_read(read: Read) -> None:
+def test_goals_and_fronts_are_read(read):
     study = read("mode: shear\nvary: {coil_count: [2, 3]}\nminimize: joint_stiffness@hot")
     assert study.minimize == {"joint_stiffness@hot": 1.0}
     study = read(
@@ -143,7 +143,7 @@ FREE = "mode: shear\nvary: {current: [1 A, 2 A]}\nminimize: module_mass\n"
 VARY = "mode: shear\nvary: {current: [0.5 A, 3 A], coil_count: [2, 3]}\nminimize: response_time\n"
 
 
-def test_pieces_by_stage(read: Read) -> None:
+def test_pieces_by_stage(read):
     study = read(VARY + "profile: {softening: 8}")
     assert study.profile.pieces() == {"softening": 8}
     both = VARY.replace("coil_count: [2, 3]", "cooling_current: [0 A, 2 A]")
@@ -155,7 +155,7 @@ def test_pieces_by_stage(read: Read) -> None:
 @pytest.mark.parametrize(
     "section", ["", "profile:", "profile: {}", "profile: {softening: 0}", "profile: {stiffening: 0}"]
 )
-def test_zero_pieces_are_a_constant_current(read: Read, section: str) -> None:
+def test_zero_pieces_are_a_constant_current(read, section):
     assert read(VARY + section).profile.pieces() == {}
     assert read("mode: shear\n" + section).profile.pieces() == {}
 
@@ -172,9 +172,7 @@ STUDY = "tvimdesign: 1\nname: x\nmode: shear\nvary: {{{}}}\nminimize: module_mas
         ("link_dowel_length", "{catalog: iso_8734_2_5, from: 8 mm, to: 12 mm}", (8, 10, 12)),
     ],
 )
-def test_the_lengths_a_screw_or_pin_is_sold_in_are_those_that_are_tried(
-    row: str, record: str, lengths: tuple[int, ...]
-) -> None:
+def test_the_lengths_a_screw_or_pin_is_sold_in_are_those_that_are_tried(row, record, lengths):
     study = read_study_text(STUDY.format(f"{row}: {record}"), "x.yaml")
     result = study.vary[row]
     assert isinstance(result, Options)

@@ -1,7 +1,5 @@
 """The section `task`: its values reach the module, its limits the requirements, its trajectory the table."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import yaml
@@ -27,7 +25,7 @@ def _text(task: dict[str, object]) -> str:
     return f"{STUDY}\n{yaml.safe_dump({'task': task})}"
 
 
-def test_a_task_is_read_written_and_evaluated() -> None:
+def test_a_task_is_read_written_and_evaluated():
     study = read_study_text(_text(TASK))
     assert study.module["payload"] == 3.0
     limits = {limit.output: limit.limit for limit in study.require}
@@ -47,7 +45,7 @@ def test_a_task_is_read_written_and_evaluated() -> None:
     assert 1.7 < beyond < 2.0
 
 
-def test_a_csv_is_a_trajectory_and_what_is_none_is_refused(tmp_path: Path) -> None:
+def test_a_csv_is_a_trajectory_and_what_is_none_is_refused(tmp_path):
     (tmp_path / "gait.csv").write_text("time,angle\n0,0\n0.5,0.3\n1,0\n")
     study = read_study_text(_text({**TASK, "trajectory": "gait.csv"}), folder=tmp_path)
     assert study.trajectory.angles == (0.0, 0.3, 0.0)
@@ -60,7 +58,7 @@ def test_a_csv_is_a_trajectory_and_what_is_none_is_refused(tmp_path: Path) -> No
             read_study_text(_text({**TASK, "trajectory": trajectory}), folder=tmp_path)
 
 
-def test_a_margin_is_limited_by_each_part_that_holds() -> None:
+def test_a_margin_is_limited_by_each_part_that_holds():
     study = read_study_text(_text({**TASK, "payload": "1 kg"}))
     table, chosen = study.table, given(study)
     whole = table.output("task_torque_margin")
@@ -89,7 +87,7 @@ URDF = """<robot name="arm">
 """
 
 
-def test_an_arm_of_a_urdf_is_that_of_mujoco(tmp_path: Path) -> None:
+def test_an_arm_of_a_urdf_is_that_of_mujoco(tmp_path):
     mujoco = pytest.importorskip("mujoco")
     model = mujoco.MjModel.from_xml_string(URDF)
     data = mujoco.MjData(model)
@@ -135,7 +133,7 @@ def test_an_arm_of_a_urdf_is_that_of_mujoco(tmp_path: Path) -> None:
         ({"urdf": "none.urdf", "joint": "elbow"}, URDF, "cannot be read"),
     ],
 )
-def test_a_urdf_without_an_arm_is_refused(task: dict[str, object], content: str, words: str, tmp_path: Path) -> None:
+def test_a_urdf_without_an_arm_is_refused(task, content, words, tmp_path):
     (tmp_path / "arm.urdf").write_text(content)
     with pytest.raises(StudyError, match=words):
         read_study_text(_text(task), folder=tmp_path)

@@ -1,6 +1,5 @@
 """The sections `tolerances`, `sweep` and `task` of a study."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -20,7 +19,7 @@ def _read(text: str) -> Study:
     return read_study_text(f"mode: shear\n{text}", "x.yaml")
 
 
-def test_a_tolerance_is_a_quantity_a_share_or_all_that_can_be_stated() -> None:
+def test_a_tolerance_is_a_quantity_a_share_or_all_that_can_be_stated():
     result = _read("tolerances: {wire_diameter: 0.025 mm, peltier_seebeck: 10 %, temperature@hot: 2 K}").tolerances
     assert result["wire_diameter"].plus_minus == pytest.approx(25e-6)
     assert (result["peltier_seebeck"].share, result["peltier_seebeck"].plus_minus) == (pytest.approx(0.1), None)
@@ -32,7 +31,7 @@ def test_a_tolerance_is_a_quantity_a_share_or_all_that_can_be_stated() -> None:
     assert item.plus_minus == pytest.approx(5.0 * item.adjusted_to) == pytest.approx(0.0872665, rel=1e-6)
 
 
-def test_standard_tolerances_are_those_of_the_mode_and_may_be_overridden() -> None:
+def test_standard_tolerances_are_those_of_the_mode_and_may_be_overridden():
     assert _read("tolerances: standard").tolerances == standard_tolerances(table_for("shear"))
     assert {"pcl_thickness", "block_depth"} & set(standard_tolerances(table_for("compression"))) == {"block_depth"}
     result = _read("tolerances: {standard: true, current: 3 %, preload_angle: {adjustable: true}}").tolerances
@@ -42,7 +41,7 @@ def test_standard_tolerances_are_those_of_the_mode_and_may_be_overridden() -> No
 
 
 @pytest.mark.parametrize("name", standard_entries())
-def test_every_standard_tolerance_has_a_row_a_source_and_a_status(name: str) -> None:
+def test_every_standard_tolerance_has_a_row_a_source_and_a_status(name):
     entry = standard_entries()[name]
     rows = [row for mode in MODES for row in table_for(mode).inputs if row.name == name]
     assert rows
@@ -58,7 +57,7 @@ def _size(written: str, unit: str) -> float:
     return parse_quantity(written, "%" if written.endswith("%") else "K" if unit == "degC" else unit)
 
 
-def test_robust_is_a_count_of_deviations_or_a_yield() -> None:
+def test_robust_is_a_count_of_deviations_or_a_yield():
     request = f"{SEARCH}tolerances: standard\nrobust: "
     assert _read(request + "{sigma: 2.5}").robust == Robust(sigma=2.5)
     robust = _read(request + "{yield: 95 %}").robust
@@ -74,7 +73,7 @@ def block(tmp_path: Path, **sweep: object) -> SweepBlock:
     return result
 
 
-def test_a_grid_has_lists_and_ranges(tmp_path: Path) -> None:
+def test_a_grid_has_lists_and_ranges(tmp_path):
     over = {
         "pcl_thickness": {"from": "0.6 mm", "to": "2 mm", "count": 8},
         "arc_count": {"from": 3, "to": 5},
@@ -93,7 +92,7 @@ def test_a_grid_has_lists_and_ranges(tmp_path: Path) -> None:
     assert (result.method, result.task, result.seed) == ("grid", "", 1)
 
 
-def test_a_sample_and_a_list(tmp_path: Path) -> None:
+def test_a_sample_and_a_list(tmp_path):
     drawn = block(
         tmp_path, method="sobol", count=64, seed=7, task="evaluate", outputs=["module_mass", "joint_stiffness@hot"],
         over={"coil_count": {"from": 3, "to": 8, "spacing": "logarithmic"}},
@@ -108,5 +107,5 @@ def test_a_sample_and_a_list(tmp_path: Path) -> None:
     assert [[text.value for text in row] for row in listed.rows] == [["1 A", "smi"], ["2 A", "bending"]]
 
 
-def test_a_study_is_the_same_with_a_sweep(read: Callable[..., Study]) -> None:
+def test_a_study_is_the_same_with_a_sweep(read):
     assert read("mode: shear\nsweep: {over: {current: [1 A]}}") == read("mode: shear")

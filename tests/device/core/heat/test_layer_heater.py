@@ -1,7 +1,5 @@
 """A module whose layer heats itself between combs: its resistance, its supply, and what cannot stand together."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from stiff_when_warm import STIFF_WHEN_WARM
@@ -26,7 +24,7 @@ def study(mode: str, module: str) -> Study:
 
 
 @pytest.mark.parametrize(("mode", "count"), [("shear", 4.0), ("compression", 12.0)])
-def test_resistance_of_layers_in_series(mode: str, count: float) -> None:
+def test_resistance_of_layers_in_series(mode, count):
     values = given(study(mode, f"{COMB}, electrode_gap: 12 mm"))
     resistances = table_for(mode).evaluate(values, [*WANTED, "heater_count"])
     assert resistances["heater_count"] == count
@@ -37,7 +35,7 @@ def test_resistance_of_layers_in_series(mode: str, count: float) -> None:
     assert resistances["electrode_gap_margin"] == pytest.approx(12e-3 - resistances["pcl_depth"])
 
 
-def test_what_cannot_heat_or_be_held_is_named() -> None:
+def test_what_cannot_heat_or_be_held_is_named():
     cold_start = table_for("shear").evaluate(given(study("shear", "")), WANTED)
     assert (cold_start["layer_resistance"], cold_start["electrode_gap_margin"]) == (0.0, 0.0)
     module = "heat_source: layer, peltier_module: qc_17, pcl_resistivity: 0.1 ohm.m, electrode_gap: 2 mm, "
@@ -58,7 +56,7 @@ def test_what_cannot_heat_or_be_held_is_named() -> None:
         (f"{COMB}, cooling_current: 1 A", "cooling_current of 1 A and peltier_module comb_electrodes"),
     ],
 )
-def test_what_cannot_stand_together_is_named(module: str, message: str) -> None:
+def test_what_cannot_stand_together_is_named(module, message):
     own = "pcl_resistivity: 0.1 ohm.m, " if module.startswith("heat_source") else ""
     with pytest.raises(InputError, match=message):
         given(study("shear", own + module))
@@ -83,10 +81,7 @@ def chosen(hottest: float, current: float, **bears: float) -> HeaterFuse:
         (98.1, 1.0, {"heater": 112.9}, "5MA3SPF121019340", 122.0, 94.0, ("heater",)),  # 113 - 10 < 98.1 + 5
     ],
 )
-def test_the_cut_out_opens_before_the_least_rating(
-    hottest: float, current: float, bears: dict[str, float], designation: str, opens: float, holds: float,
-    above: tuple[str, ...],
-) -> None:  # fmt: skip
+def test_the_cut_out_opens_before_the_least_rating(hottest, current, bears, designation, opens, holds, above):
     fuse = chosen(hottest, current, **bears)
     assert fuse.designation == designation
     assert (fuse.opens_at - ZERO_CELSIUS, fuse.holds - ZERO_CELSIUS) == pytest.approx((opens, holds))
@@ -103,9 +98,7 @@ def test_the_cut_out_opens_before_the_least_rating(
         (89.1, 105.0, "G4A01216C", ("structure",)),
     ],
 )
-def test_a_second_maker_has_a_type_for_polycarbonate(
-    hottest: float, structure: float, designation: str, above: tuple[str, ...]
-) -> None:
+def test_a_second_maker_has_a_type_for_polycarbonate(hottest, structure, designation, above):
     record = Catalog().record("thermal_fuses", "microtemp_g4a")
     fuse = heater_fuse(record, hottest + ZERO_CELSIUS, 2.5, {"structure": structure + ZERO_CELSIUS})
     assert (fuse.designation, fuse.above) == (designation, above)
@@ -116,7 +109,7 @@ def test_a_second_maker_has_a_type_for_polycarbonate(
 TABLE = table_for("shear")
 
 
-def test_dashpots_and_molten_slices_take_up_the_work_of_a_period() -> None:
+def test_dashpots_and_molten_slices_take_up_the_work_of_a_period():
     # T = b dphi/dt over a period of phi = A sin(2 pi f t): b A^2 2 pi^2 f^2, integrated here; a rigid support.
     damping, amplitude, frequency = 1.85, 0.104, 1.0
     turns = np.linspace(0.0, 1.0, 20001)
@@ -134,7 +127,7 @@ def test_dashpots_and_molten_slices_take_up_the_work_of_a_period() -> None:
     assert shares[1] < 1e-4
 
 
-def test_the_paper_s_module_heats_by_a_watt_at_one_hertz(inputs: dict[str, Any]) -> None:
+def test_the_paper_s_module_heats_by_a_watt_at_one_hertz(inputs):
     # An independent reading of the published module, whose melt had 2.8 kPa s then, found 1.1 W.
     frequencies = {"frequency@hot": 1.0, "frequency@cold": 1.0, "pcl_zero_shear_viscosity": 2.8e3}
     given = {**inputs, **STIFF_WHEN_WARM, "temperature@hot": 373.15, "temperature@cold": 303.15, **frequencies}
@@ -143,7 +136,7 @@ def test_the_paper_s_module_heats_by_a_watt_at_one_hertz(inputs: dict[str, Any])
     assert cold < 0.01 * hot  # the torque that turns the hot joint by its stroke hardly turns the frozen one
 
 
-def test_motion_heats_the_layer_and_nothing_else(inputs: dict[str, Any]) -> None:
+def test_motion_heats_the_layer_and_nothing_else(inputs):
     given = {**inputs, **STIFF_WHEN_WARM, "temperature@hot": 373.15, "frequency@hot": 2.0}
     stack = TABLE.evaluate(given, ["stack"])["stack"]
     instant = {**given, "phase": SOFTENING, "state": heat.initial_state(stack, 5, 373.15), "drive_current": 0.0}

@@ -29,7 +29,7 @@ def stack(known: dict[str, Any]) -> heat.Stack:
     return layers
 
 
-def test_pads_and_windows_scale_the_catalogue_s_module(stack: heat.Stack) -> None:
+def test_pads_and_windows_scale_the_catalogue_s_module(stack):
     # 25 mV/K, 3 ohm, 0.12 W/K, 6 g and 500 J/kg K on 1600 mm^2; either side is a twelfth of the pads.
     share = AREA / 1600e-6
     assert (stack.area, stack.thickness, stack.density) == pytest.approx((AREA, 1e-3, 1145.0), rel=1e-9)
@@ -75,7 +75,7 @@ def between(stack: heat.Stack, first: lumps.Place, second: lumps.Place) -> lumps
     return next(link for link in stack.links if (link.first, link.second) == (first, second))
 
 
-def test_plate_beside_the_arcs_is_a_strip_heated_at_its_edge(stack: heat.Stack) -> None:
+def test_plate_beside_the_arcs_is_a_strip_heated_at_its_edge(stack):
     bodies = stack.beside[:-1]
     assert sum(lump.capacity for lump in bodies) == pytest.approx(1270.0 * 1200.0 * 4e-3 * BESIDE, rel=1e-9)
     assert sum(lump.surface.area for lump in bodies) == pytest.approx(BESIDE, rel=1e-9)
@@ -90,7 +90,7 @@ def test_plate_beside_the_arcs_is_a_strip_heated_at_its_edge(stack: heat.Stack) 
     assert stack.uneven_conductance == pytest.approx(0.24 * 4e-3 * EDGE / (PLATE_TO_EDGE + 4e-3 / np.pi), rel=1e-9)
 
 
-def test_floor_beside_the_pockets_is_two_strips_one_above_the_other(stack: heat.Stack) -> None:
+def test_floor_beside_the_pockets_is_two_strips_one_above_the_other(stack):
     bodies = stack.around
     volumes = [body.capacity / (1270.0 * 1200.0) for body in bodies[:6]]
     upper, lower = ([share * BESIDE * depth for share in (FIRST, SECOND, LAST)] for depth in (PAD, WEB))
@@ -126,7 +126,7 @@ def heat_into_slab(stack: heat.Stack, body: int, onto: float, across: float) -> 
     return float(np.linalg.solve(matrix, [1.0, 0.0])[0])
 
 
-def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.Stack) -> None:
+def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack):
     ledges = AREA - stack.cold_surface.area
     assert stack.around[6].capacity == pytest.approx(1270.0 * 1200.0 * ledges * WEB, rel=1e-9)
     # Carslaw and Jaeger, ch. V: a strip heated over its upper face up to its root, beyond which it goes on.
@@ -145,7 +145,7 @@ def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.
     assert to_root == pytest.approx(0.24 * WEB * EDGE / (width / 3.0 + beyond), rel=1e-9)
 
 
-def test_air_walls_and_core_take_heat_by_their_sizes(known: dict[str, Any], stack: heat.Stack) -> None:
+def test_air_walls_and_core_take_heat_by_their_sizes(known, stack):
     # 0.028 W/m K over 1 mm and, from 80 to 40 degC, parallel grey plates of 0.9 each (Incropera, ch. 13), between walls
     # that conduct so well that they do not count.
     conducting = TABLE.evaluate({**known, "structure_conductivity": 1e9}, ["stack"])["stack"]
@@ -171,7 +171,7 @@ def test_air_walls_and_core_take_heat_by_their_sizes(known: dict[str, Any], stac
     assert sink.surface == (15000e-6, 10.0, 0.9, None)
 
 
-def test_only_a_layer_with_a_history_freezes_in_time(known: dict[str, Any]) -> None:
+def test_only_a_layer_with_a_history_freezes_in_time(known):
     for phase, model, kinetic in (
         (SOFTENING, "kinetic", SOFTENING.history), (STIFFENING, "kinetic", True), (STIFFENING, "equilibrium", False),
         (EQUILIBRIUM_STIFFENING, "kinetic", False),
@@ -181,9 +181,7 @@ def test_only_a_layer_with_a_history_freezes_in_time(known: dict[str, Any]) -> N
 
 
 @pytest.mark.parametrize(("phase", "point"), [(SOFTENING, "hot"), (STIFFENING, "cold")])
-def test_slices_are_tested_at_the_frequency_of_where_the_phase_leads(
-    phase: Any, point: str, known: dict[str, Any]
-) -> None:
+def test_slices_are_tested_at_the_frequency_of_where_the_phase_leads(phase, point, known):
     # A layer that is everywhere at one temperature is as soft as at an operating point of that temperature.
     stack = TABLE.evaluate(known, ["stack"])["stack"]
     state = heat.initial_state(stack, 5, 368.15)
@@ -200,7 +198,7 @@ def test_slices_are_tested_at_the_frequency_of_where_the_phase_leads(
     assert impedance == pytest.approx(joint, rel=1e-4)
 
 
-def test_the_supply_gives_volts_in_size_and_takes_nothing_back(known: dict[str, Any], stack: heat.Stack) -> None:
+def test_the_supply_gives_volts_in_size_and_takes_nothing_back(known, stack):
     profile = heat.profile(heat.initial_state(stack, 5, 300.0), stack)._replace(hot=340.0, cold=310.0)
     pads = stack.peltier
     for current in (1.5, -1.5):
@@ -214,7 +212,7 @@ def test_the_supply_gives_volts_in_size_and_takes_nothing_back(known: dict[str, 
         assert watts == pytest.approx(given_by_supply, abs=1e-5)  # a corner of 0.01 W, half as high in the middle
 
 
-def test_a_switch_ends_by_the_criterion_that_was_chosen(stack: heat.Stack) -> None:
+def test_a_switch_ends_by_the_criterion_that_was_chosen(stack):
     # Faces at 95 and 75 degC, the mean at 85, on the way to 100: what is left of each, over 100 K.
     profile = heat.profile(heat.initial_state(stack, 5, 300.0), stack)._replace(near=368.15, far=348.15)
     m = Module(

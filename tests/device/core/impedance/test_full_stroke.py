@@ -38,7 +38,7 @@ def direction(module: dict[str, Any], angle: float) -> float:
     return float(brentq(miss, np.pi, 1.5 * np.pi, xtol=1e-14))
 
 
-def test_springs_are_linear_by_unity_and_follow_either_standard(inputs: dict[str, Any]) -> None:
+def test_springs_are_linear_by_unity_and_follow_either_standard(inputs):
     values = TABLE.evaluate({**inputs, "transmission": "unity"}, ROWS)
     assert values["spring_torque_full_stroke"] == pytest.approx(4 * values["held_spring_rate"] * 0.104, rel=1e-12)
     assert values["stiffness_over_stroke"] == pytest.approx(1.0, rel=1e-12)
@@ -54,7 +54,7 @@ def test_springs_are_linear_by_unity_and_follow_either_standard(inputs: dict[str
 
 
 @pytest.mark.parametrize("overhang", [2e-3, 4e-3, 40e-3])
-def test_gap_of_leg_and_core_is_the_least_from_stop_to_stop(inputs: dict[str, Any], overhang: float) -> None:
+def test_gap_of_leg_and_core_is_the_least_from_stop_to_stop(inputs, overhang):
     given = {**inputs, "leg_overhang": overhang}
     module = {**given, **TABLE.evaluate(given, ROWS)}
     least = np.inf
@@ -69,7 +69,7 @@ def test_gap_of_leg_and_core_is_the_least_from_stop_to_stop(inputs: dict[str, An
     assert module["leg_core_gap"] == pytest.approx(room, abs=1e-7)
 
 
-def test_tangs_keep_their_play_and_pins_bend_as_cantilevers(bent: dict[str, Any]) -> None:
+def test_tangs_keep_their_play_and_pins_bend_as_cantilevers(bent):
     # D n = D' n': the coil's radius changes by as much as the turns it gains or loses on the way from rest.
     turns = max(bent["spring_winding"] - bent["preload_angle"], bent["spring_unwinding"]) / (2.0 * np.pi)
     radius = 0.5 * bent["coil_diameter"]
@@ -88,7 +88,7 @@ def test_tangs_keep_their_play_and_pins_bend_as_cantilevers(bent: dict[str, Any]
     assert bent["leg_overhang_margin"] == pytest.approx(bent["leg_length"] - reached, rel=1e-9)
 
 
-def test_bought_springs_spread_as_din_2194_says(bent: dict[str, Any]) -> None:
+def test_bought_springs_spread_as_din_2194_says(bent):
     # Grade 2: 18.7 degrees of free angle, and 0.025 * 24.4094 * 2.413^-0.17 = 0.525 mm of diameter.
     assert np.degrees(bent["free_angle_tolerance"]) == pytest.approx(18.7, rel=2e-3)
     assert bent["coil_diameter_tolerance"] == pytest.approx(0.5253e-3, rel=1e-3)
@@ -108,7 +108,7 @@ def at(table: Any, given: dict[str, Any], point: str, *more: str) -> dict[str, A
     return {name.partition("@")[0]: value for name, value in values.items()}
 
 
-def test_loads_turn_springs_and_blocks_relax(squeezed: dict[str, Any]) -> None:
+def test_loads_turn_springs_and_blocks_relax(squeezed):
     loaded = at(COMPRESSION, {**squeezed, "hold_share": 0.4}, "hot")
     assert loaded["hold_torque"] == pytest.approx(0.4 * loaded["spring_stiffness"] * 0.104, rel=1e-12)
     # The melt has let go within ten seconds.
@@ -132,7 +132,7 @@ def test_loads_turn_springs_and_blocks_relax(squeezed: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("point", ["cold", "hot"])
-def test_bonded_layer_relaxes_and_cannot_part(inputs: dict[str, Any], point: str) -> None:
+def test_bonded_layer_relaxes_and_cannot_part(inputs, point):
     bonded = at(SHEAR, inputs, point, "parting_share")
     assert bonded["parting_share"] == 0.0
     assert bonded["set_angle"] > 0.0
@@ -145,9 +145,7 @@ def test_bonded_layer_relaxes_and_cannot_part(inputs: dict[str, Any], point: str
     assert parted["relaxation_loss"] > 0.0
 
 
-def test_same_spectrum_and_support_leave_the_same_set_in_either_mode(
-    inputs: dict[str, Any], squeezed: dict[str, Any]
-) -> None:
+def test_same_spectrum_and_support_leave_the_same_set_in_either_mode(inputs, squeezed):
     from_template = {
         "pcl_modes@hot": [(3.0, 200.0), (0.1, 900.0)],
         "elastic_support@hot": 700.0,
@@ -158,9 +156,7 @@ def test_same_spectrum_and_support_leave_the_same_set_in_either_mode(
         assert arc[name] == pytest.approx(other[name], rel=1e-9), name
 
 
-def test_bond_and_blocks_bear_the_load_when_it_has_just_come_on(
-    inputs: dict[str, Any], squeezed: dict[str, Any]
-) -> None:
+def test_bond_and_blocks_bear_the_load_when_it_has_just_come_on(inputs, squeezed):
     def borne(table: Any, given: dict[str, Any], row: str) -> tuple[float, float]:
         support = "elastic_support@hot"
         values = table.evaluate(given, [row, "hold_torque", "spring_stiffness", support, "pcl_modes@hot"])

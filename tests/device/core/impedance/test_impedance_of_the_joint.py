@@ -48,14 +48,14 @@ def star(joint: dict[str, Any], point: str) -> complex:
     return branch + complex(joint["spring_stiffness"])
 
 
-def test_joint_is_the_springs_parallel_to_layer_and_structure_in_series(joint: dict[str, Any], point: str) -> None:
+def test_joint_is_the_springs_parallel_to_layer_and_structure_in_series(joint, point):
     whole = star(joint, point)
     assert joint[f"joint_stiffness@{point}"] == pytest.approx(whole.real, rel=1e-9)
     assert joint[f"joint_impedance@{point}"] == pytest.approx(abs(whole), rel=1e-9)
     assert joint[f"joint_damping@{point}"] == pytest.approx(whole.imag / (2.0 * np.pi * HERTZ), rel=1e-9)
 
 
-def test_swing_follows_from_the_joints_stiffness_and_damping(joint: dict[str, Any], point: str) -> None:
+def test_swing_follows_from_the_joints_stiffness_and_damping(joint, point):
     stiffness, inertia = star(joint, point).real, 415.6e-6
     damping = star(joint, point).imag / (2.0 * np.pi * HERTZ)
     # Roots of I s^2 + b s + K: |s|^2 = K/I, -Re s/|s| = zeta.
@@ -67,7 +67,7 @@ def test_swing_follows_from_the_joints_stiffness_and_damping(joint: dict[str, An
     assert joint[f"damping_ratio@{point}"] == pytest.approx(mean, rel=1e-6)
 
 
-def test_frozen_layer_is_the_solid_and_molten_layer_the_melt(joint: dict[str, Any], inputs: dict[str, Any]) -> None:
+def test_frozen_layer_is_the_solid_and_molten_layer_the_melt(joint, inputs):
     # Solid at 30 degC: 411 MPa at 23 degC, ln E falling by 0.45 ln(1 + exp((T - 42)/5)), nu 0.45, all at 1 Hz; with a
     # loss factor of 0.05 it grows as w^(2 delta/pi) from there. Melt at 100 degC: its spectrum, nothing else.
     fall = 0.45 * np.log1p(np.exp(-12.0 / 5.0)) - 0.45 * np.log1p(np.exp(-19.0 / 5.0))
@@ -82,7 +82,7 @@ def test_frozen_layer_is_the_solid_and_molten_layer_the_melt(joint: dict[str, An
     assert polymer.maxwell_moduli(omega, modes) == pytest.approx((melt.real, melt.imag), rel=1e-9)
 
 
-def test_a_frozen_joint_holds_its_weakest_part_and_damps_as_its_structure(joint: dict[str, Any]) -> None:
+def test_a_frozen_joint_holds_its_weakest_part_and_damps_as_its_structure(joint):
     # Solid polycaprolactone alone would be 1e5 to 1e6 N*m/rad; what one can measure is the structure behind it.
     assert 1e5 < joint["pcl_stiffness@cold"] < 1e6
     assert joint["spring_stiffness"] < joint["structure_stiffness"] < joint["pcl_stiffness@cold"]
@@ -101,7 +101,7 @@ def test_a_frozen_joint_holds_its_weakest_part_and_damps_as_its_structure(joint:
     assert joint["layer_strain_safety"] == pytest.approx(6.0 / 4.16, rel=1e-9)
 
 
-def test_structure_is_core_rotor_pads_and_floor_in_series(joint: dict[str, Any]) -> None:
+def test_structure_is_core_rotor_pads_and_floor_in_series(joint):
     # A sheet of 100 MPa and 1.5 mm under the arcs, as the catalogue assumes the flexible Peltier module to be, held on
     # 2 mm around its windows of 10 mm, whose corners are round. Along a rim of a wide window a strip of 2 ln 2/pi of
     # its thickness still holds, as beside the edge of a strip line; at its ends, where a sheet of 1 GPa in bulk cannot
@@ -117,7 +117,7 @@ def test_structure_is_core_rotor_pads_and_floor_in_series(joint: dict[str, Any])
     assert 1.0 / joint["structure_stiffness"] - others == pytest.approx(1.0 / held, rel=0.01)
 
 
-def test_core_holds_until_its_foot_or_the_wall_of_a_hole_yields_in_shear(inputs: dict[str, Any]) -> None:
+def test_core_holds_until_its_foot_or_the_wall_of_a_hole_yields_in_shear(inputs):
     # The yield of the print across its layers, 31 MPa/sqrt(3), over 1.686 of a plain bar's shear: FE of this core on a
     # sharp foot. A fillet of 1.5 mm leaves 0.934 of it, by FE of round bars on such a plate (fillets.csv).
     # An optimum of paper_shear.yaml with a core of 7.53 mm had 55 MPa at 12 N.m by FE, 31 as reported.
@@ -136,7 +136,7 @@ def test_core_holds_until_its_foot_or_the_wall_of_a_hole_yields_in_shear(inputs:
     assert wide == pytest.approx(31.0 / np.sqrt(3.0) * left / (2.0 * 6.5) * 1e-3 / 1.25, rel=1e-9)
 
 
-def test_the_edges_of_the_arcs_bear_more_than_a_layer_between_rigid_faces(inputs: dict[str, Any]) -> None:
+def test_the_edges_of_the_arcs_bear_more_than_a_layer_between_rigid_faces(inputs):
     # FE of the module as published: 0.0448 MPa at 1 N*m, a mean over one thickness in from the edge; 2 MPa of bond.
     names = ["layer_edge_traction", "layer_edge_safety", "holding_torque", "layer_holding_torque"]
     values = TABLE.evaluate(inputs, names)
@@ -170,7 +170,7 @@ def six_modes(viscosity: float) -> list[tuple[float, float]]:
 
 
 @pytest.mark.parametrize(("hertz", "kilopascal"), [(1.0, 73.0), (3.0, 208.0), (5.0, 321.0)])
-def test_stress_at_full_stroke_is_what_an_independent_reading_found(hertz: float, kilopascal: float) -> None:
+def test_stress_at_full_stroke_is_what_an_independent_reading_found(hertz, kilopascal):
     angular = 2.0 * np.pi * hertz
     star = sum(g * 1j * angular * t / (1.0 + 1j * angular * t) for t, g in six_modes(2824.889))
     assert 4.133 * abs(star) / 1e3 == pytest.approx(kilopascal, rel=5e-3)
@@ -178,7 +178,7 @@ def test_stress_at_full_stroke_is_what_an_independent_reading_found(hertz: float
     assert melt.shear_stress(4.133, storage, loss) / 1e3 == pytest.approx(kilopascal, rel=5e-3)
 
 
-def test_damping_falls_to_a_seventh_if_the_melt_remembers_the_whole_stroke() -> None:
+def test_damping_falls_to_a_seventh_if_the_melt_remembers_the_whole_stroke():
     # Found for the drawn optimum: linear 1.85, at 413 % 0.25 N m s/rad. Its strain law alone, over the ring's torque.
     thinning = module(**OPTIMUM, pcl_zero_shear_viscosity=2824.889)
     law, _ = quad(lambda r: r**3 / (1.0 + (4.133 * r / 0.3) ** 2 / 19.0), INNER, 1.0)
@@ -188,7 +188,7 @@ def test_damping_falls_to_a_seventh_if_the_melt_remembers_the_whole_stroke() -> 
     assert ratio == pytest.approx(law / whole, rel=5e-3)
 
 
-def test_damping_at_stroke_is_wagners_over_the_ring() -> None:
+def test_damping_at_stroke_is_wagners_over_the_ring():
     stroked = module(**OPTIMUM)
     angular, modes = 2.0 * np.pi, six_modes(4200.0)
 
@@ -210,14 +210,14 @@ def test_damping_at_stroke_is_wagners_over_the_ring() -> None:
 # At 30 Hz the melt is stiff enough for the structure's own loss to count: 2.5 % of the damping.
 @pytest.mark.parametrize("hertz", [1.0, 30.0])
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_at_a_small_stroke_it_is_the_joint_of_small_motions(mode: str, hertz: float) -> None:
+def test_at_a_small_stroke_it_is_the_joint_of_small_motions(mode, hertz):
     small_stroke = module(mode, stroke=1e-3, **{"frequency@hot": hertz})
     assert small_stroke["hot_stiffness_at_stroke"] == pytest.approx(small_stroke["joint_stiffness@hot"], rel=1e-3)
     assert small_stroke["hot_damping_at_stroke"] == pytest.approx(small_stroke["joint_damping@hot"], rel=1e-3)
     assert small_stroke["hot_damping_at_stroke_least"] == pytest.approx(small_stroke["joint_damping@hot"], rel=0.02)
 
 
-def test_stress_and_the_free_edge_follow_from_the_strain_at_the_rim() -> None:
+def test_stress_and_the_free_edge_follow_from_the_strain_at_the_rim():
     sheared = module()
     stress = 40.0 * 0.104 / 1.0 * np.hypot(sheared["storage_modulus@hot"], sheared["loss_modulus@hot"])
     assert sheared["melt_stress"] == pytest.approx(stress, rel=1e-9)
@@ -227,7 +227,7 @@ def test_stress_and_the_free_edge_follow_from_the_strain_at_the_rim() -> None:
     assert sheared["edge_fracture_angle"] < 0.2 * sheared["stroke"]
 
 
-def test_strain_of_a_block_costs_what_its_squeeze_costs() -> None:
+def test_strain_of_a_block_costs_what_its_squeeze_costs():
     squeezed = {**module("compression")}
     squeezed |= table_for("compression").evaluate(squeezed, ["block_strain", "shape_factor"])
     squeeze, shape = squeezed["block_strain"], squeezed["shape_factor"]
@@ -237,7 +237,7 @@ def test_strain_of_a_block_costs_what_its_squeeze_costs() -> None:
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_friction_adds_at_the_stroke_what_its_energy_in_a_cycle_says(mode: str) -> None:
+def test_friction_adds_at_the_stroke_what_its_energy_in_a_cycle_says(mode):
     more = ["pin_friction_torque", "bearing_friction_torque", "spring_torque_full_stroke", "holding_torque", "stroke"]
     cold_rows = [f"{name}@cold" for name in ("joint_stiffness", "joint_damping", "bearing_damping")]
     names = [*ROWS, *more, *cold_rows, "cold_stroke", "cold_damping_at_stroke"]

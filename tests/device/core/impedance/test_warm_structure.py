@@ -24,7 +24,7 @@ def star(celsius: Any) -> Any:
     return storage * (1.0 + 1j * (0.01 + 0.03 + 1.47 * 4.0 * done * (1.0 - done)))
 
 
-def test_hot_joint_is_put_together_from_parts_as_warm_as_they_are() -> None:
+def test_hot_joint_is_put_together_from_parts_as_warm_as_they_are():
     table, given = table_for("shear"), inputs_of("shear")
     values = table.evaluate(given, LEFT)
     warm = values["part_temperatures@hot"]
@@ -53,7 +53,7 @@ def test_hot_joint_is_put_together_from_parts_as_warm_as_they_are() -> None:
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_the_hot_structure_is_softer_and_lossier(mode: str) -> None:
+def test_the_hot_structure_is_softer_and_lossier(mode):
     rows = ("warm_structure_stiffness", "warm_structure_loss")
     names = ["structure_stiffness", *(f"{name}@{point}" for name in rows for point in ("cold", "hot"))]
     values = table_for(mode).evaluate(inputs_of(mode), names)
@@ -65,7 +65,7 @@ def test_the_hot_structure_is_softer_and_lossier(mode: str) -> None:
     assert hot > 2.0 * cold
 
 
-def test_metal_hardly_softens_and_a_warm_cold_point_weakens() -> None:
+def test_metal_hardly_softens_and_a_warm_cold_point_weakens():
     given = inputs_of("shear", process="machine_6061")
     values = table_for("shear").evaluate(given, ["hot_structure_share"])
     assert 0.95 < values["hot_structure_share"] < 1.0
@@ -80,7 +80,7 @@ def test_metal_hardly_softens_and_a_warm_cold_point_weakens() -> None:
         assert warmer[name] / cold[name] == pytest.approx(np.exp(-0.003 * 22.0), rel=2e-3), name
 
 
-def test_structure_in_a_phase_is_as_warm_as_the_stack_is(inputs: dict[str, Any]) -> None:
+def test_structure_in_a_phase_is_as_warm_as_the_stack_is(inputs):
     stack = table_for("shear").evaluate(inputs, ["stack"])["stack"]
     state = heat.initial_state(stack, 6, 320.0)
     profile = heat.profile(state, stack)._replace(cold=300.0, hot=340.0)
@@ -93,7 +93,7 @@ MM = 1e-3
 
 
 @pytest.mark.parametrize("transmission", ["unity", "geometry"])
-def test_friction_on_the_pins_of_the_published_module(transmission: str) -> None:
+def test_friction_on_the_pins_of_the_published_module(transmission):
     rows = "pin_force pin_friction_torque friction_play spring_stiffness spring_rate leg_arm"
     values = values_of(rows, transmission=transmission, coil_count="3.25", leg_model="ignored")
     # The leg bears at sqrt(28.5^2 - 15.41^2) mm from the coil; its pin of 4 mm and the leg turn against each other.
@@ -109,7 +109,7 @@ def test_friction_on_the_pins_of_the_published_module(transmission: str) -> None
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_lost_motion_is_what_its_sources_come_to(mode: str) -> None:
+def test_lost_motion_is_what_its_sources_come_to(mode):
     rows = "lost_motion friction_play link_play bearing_play"
     fitted, loose = values_of(rows, mode), values_of(rows, mode, link_fit="clearance")
     for joint in (fitted, loose):
@@ -127,7 +127,7 @@ def test_lost_motion_is_what_its_sources_come_to(mode: str) -> None:
     assert share == pytest.approx(sum(friction) / springs, rel=1e-12)
 
 
-def test_cores_lean_in_bores_until_they_are_stopped() -> None:
+def test_cores_lean_in_bores_until_they_are_stopped():
     rows = "bearing_play link_bottom_level hub_top_level hub_bottom_level hub_radius link_length"
     values = values_of(rows)
     play, height = 0.4, 1e3 * (values["link_bottom_level"] + 2.0 * MM - values["hub_top_level"])
@@ -155,7 +155,7 @@ def test_cores_lean_in_bores_until_they_are_stopped() -> None:
     )
 
 
-def test_bearings_have_the_gaps_of_their_seats_and_of_their_balls() -> None:
+def test_bearings_have_the_gaps_of_their_seats_and_of_their_balls():
     module = {"bearing": "ball_6702", "hub_depth": "5 mm", "foot_height": "11 mm", "core_radius": "7.5 mm"}
     rows = "bearing_play link_bottom_level hub_top_level hub_bottom_level link_length"
     values = values_of(rows, **module)
@@ -170,7 +170,7 @@ def test_bearings_have_the_gaps_of_their_seats_and_of_their_balls() -> None:
     assert milled["bearing_play"] < 0.2 * values["bearing_play"]
 
 
-def test_keys_are_loose_and_legs_wear_by_archards_law() -> None:
+def test_keys_are_loose_and_legs_wear_by_archards_law():
     values = values_of("key_play lost_motion")
     # A key of 2.5 mm that shrinks by 2.4 % has 30 um to each side, at 33 mm from the axis.
     assert values["key_play"] == pytest.approx(0.5 * 0.024 * 2.5 / 33.0, rel=1e-9)

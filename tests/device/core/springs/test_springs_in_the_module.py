@@ -35,7 +35,7 @@ def evaluate(inputs: dict[str, Any], **changes: float | str) -> dict[str, float]
     return {name: float(value) for name, value in TABLE.evaluate(known, WANTED).items()}
 
 
-def test_rate_and_pins_are_those_of_the_paper_s_springs(inputs: dict[str, Any]) -> None:
+def test_rate_and_pins_are_those_of_the_paper_s_springs(inputs):
     # Exley et al.: four springs of 1.4023 N*m/rad at a ratio of one.
     rates = evaluate(inputs, **PAPER)
     assert rates["spring_rate"] == pytest.approx(1.4023, rel=5e-3)
@@ -46,7 +46,7 @@ def test_rate_and_pins_are_those_of_the_paper_s_springs(inputs: dict[str, Any]) 
     assert rates["leg_arm"] == pytest.approx(np.sqrt(28.5e-3**2 - 13e-3**2), rel=1e-9)
 
 
-def test_the_drawn_wire_is_as_soft_as_fe_of_the_solid(inputs: dict[str, Any]) -> None:
+def test_the_drawn_wire_is_as_soft_as_fe_of_the_solid(inputs):
     # validation/fe_spring, a spring like paper_shear's on 2026-11-22: 1.0293 N*m/rad; coil and leg alone gave 1.300.
     drawn = {
         "wire_diameter": 1.81288e-3, "coil_diameter": 8.0e-3, "coil_count": 3.0, "preload_angle": 0.12,
@@ -75,9 +75,7 @@ def test_the_drawn_wire_is_as_soft_as_fe_of_the_solid(inputs: dict[str, Any]) ->
         ("stainless_302", 12.5, 0.8),
     ],
 )
-def test_a_wire_thinner_or_thicker_than_the_materials_table_has_no_margin(
-    material: str, millimetres: float, margin: float, inputs: dict[str, Any]
-) -> None:
+def test_a_wire_thinner_or_thicker_than_the_materials_table_has_no_margin(material, millimetres, margin, inputs):
     record = Catalog().record("spring_materials", material)
     known = inputs | {"spring_material": record, "wire_diameter": millimetres * 1e-3}
     assert TABLE.evaluate(known, ["wire_range_margin"])["wire_range_margin"] == pytest.approx(margin, rel=1e-9)
@@ -93,7 +91,7 @@ def module(mode: str = "shear", process: str = "print_petg", **changes: Any) -> 
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_printed_module_loses_preload_as_pin_and_floor_creep(mode: str) -> None:
+def test_printed_module_loses_preload_as_pin_and_floor_creep(mode):
     values = module(mode)
     height = values["coil_end_level"] + values["helix_slope"] * values["leg_arm"] - values["rotor_top_level"]
     shear = 2.1e9 / 2.76
@@ -115,7 +113,7 @@ def test_printed_module_loses_preload_as_pin_and_floor_creep(mode: str) -> None:
     assert 0.005 < values["preload_loss"] / wound < 0.3
 
 
-def test_creep_grows_with_time_and_heat_and_spares_milled_modules() -> None:
+def test_creep_grows_with_time_and_heat_and_spares_milled_modules():
     plain = module()["preload_loss"]
     assert module(rest_time=3.6e7)["preload_loss"] > plain
     assert module(hot_time=3.6e5)["preload_loss"] > plain
@@ -137,7 +135,7 @@ AT = (
 )
 
 
-def test_both_say_the_same_of_the_published_module(inputs: dict[str, Any]) -> None:
+def test_both_say_the_same_of_the_published_module(inputs):
     # An independent reading of the drawn module (own geometry) found 4.53 N*m/rad at rest and 4.09 at full stroke.
     assert plain_module.stiffness({**PUBLISHED, "transmission": "unity"}, 0.0) == pytest.approx(5.61, rel=5e-3)
     assert plain_module.stiffness(PUBLISHED, 0.0) == pytest.approx(4.53, abs=0.005)
@@ -161,9 +159,8 @@ def test_both_say_the_same_of_the_published_module(inputs: dict[str, Any]) -> No
     }),
 )  # fmt: skip
 def test_every_number_of_the_springs_is_that_of_the_second_implementation(
-    ratio: float, preload: float, wire: float, index: float, placement: float, stroke: float, words: dict[str, str],
-    inputs: dict[str, Any],
-) -> None:  # fmt: skip
+    ratio, preload, wire, index, placement, stroke, words, inputs
+):
     module = {**inputs, **words, "pin_radius_ratio": ratio, "preload_angle": preload, "wire_diameter": wire,
               "coil_diameter": index * wire, "placement_radius": placement, "stroke": stroke}  # fmt: skip
     offset = 0.5 * (index * wire + wire + module["pin_diameter"])
@@ -179,7 +176,7 @@ def test_every_number_of_the_springs_is_that_of_the_second_implementation(
         assert table_values[name] == pytest.approx(plain[name], abs=1e-4 * scale), name
 
 
-def test_a_limit_on_the_stiffness_is_one_at_every_angle_of_the_stroke() -> None:
+def test_a_limit_on_the_stiffness_is_one_at_every_angle_of_the_stroke():
     text = (
         "mode: shear\nrequire: {{spring_stiffness: ['>= 5 N.m/rad', '<= 6 N.m/rad']}}\nmodule: {{transmission: {}}}\n"
     )
@@ -192,7 +189,7 @@ def test_a_limit_on_the_stiffness_is_one_at_every_angle_of_the_stroke() -> None:
     assert [limit.output for limit in unity if limit.origin == "require"] == ["spring_stiffness"] * 2
 
 
-def test_the_least_over_the_stroke_is_no_more_than_at_any_angle(inputs: dict[str, Any]) -> None:
+def test_the_least_over_the_stroke_is_no_more_than_at_any_angle(inputs):
     for ratio in (0.35, 0.5, 0.65):
         module = {**inputs, "pin_radius_ratio": ratio, "preload_angle": 0.2}
         table_values = TABLE.evaluate(module, ["least_spring_stiffness", *plain_module.DRAWN])
@@ -209,7 +206,7 @@ def study_of(more: str = "", record: str = "central_t10180") -> str:
     return f"tvimdesign: 1\nname: a\nmode: shear\nmodule:\n  stock_spring: {record}\n{more}"
 
 
-def test_springs_from_stock_have_their_record_s_sizes_and_margins() -> None:
+def test_springs_from_stock_have_their_record_s_sizes_and_margins():
     values = given_of(read_study_text(study_of(record="central_t20180")))
     # Central Springs, T20180: wire 0.51, 6 outside, 3.25 coils, stainless.
     sizes = [1e3 * values[name] for name in ("wire_diameter", "coil_diameter")]
@@ -241,12 +238,12 @@ def test_springs_from_stock_have_their_record_s_sizes_and_margins() -> None:
         "vary:\n  coil_count: [3, 5]\nminimize: module_mass\n",
     ],
 )
-def test_what_the_record_brings_along_may_not_be_set_beside_it(more: str) -> None:
+def test_what_the_record_brings_along_may_not_be_set_beside_it(more):
     with pytest.raises(InputError, match=r"torsion_springs/central_t10180.*leave .* out"):
         given_of(read_study_text(study_of(more)))
 
 
-def test_every_record_s_torque_is_that_of_its_coils_and_legs() -> None:
+def test_every_record_s_torque_is_that_of_its_coils_and_legs():
     """Return the printed torque over its deflection against E d^4/(64 D n) by hand, with the modulus of thin wire."""
     for record in (Catalog().record("torsion_springs", name) for name in RECORDS):
         modulus = {"music_wire": 203.4e9, "stainless_302": 187e9}[record.word("spring_material")]
@@ -257,7 +254,7 @@ def test_every_record_s_torque_is_that_of_its_coils_and_legs() -> None:
         assert record.value("outer_diameter") == pytest.approx(coil + wire)
 
 
-def test_a_design_with_a_spring_from_stock_is_tested_as_it_is() -> None:
+def test_a_design_with_a_spring_from_stock_is_tested_as_it_is():
     small = {"placement_radius": 16e-3, "leg_overhang": 1.5e-3, "pin_diameter": 1.5e-3}
     design = whole(design_of("from stock", {"stock_spring": "central_t10180", **small}))
     assert resolve_design(design).values["spring_material"].name == "music_wire"

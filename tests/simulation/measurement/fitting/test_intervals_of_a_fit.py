@@ -1,6 +1,5 @@
 """Fits against textbooks, lmfit, odrpack and the guide to uncertainty: values, intervals, outliers, and words."""
 
-from pathlib import Path
 from typing import Any
 
 import lmfit
@@ -45,7 +44,7 @@ def decay_fit(measured: Array, **more: bool) -> Fit:
     return fitted(problem(measured, decay, size, rate), **more)
 
 
-def test_a_line_has_the_intervals_of_the_textbook() -> None:
+def test_a_line_has_the_intervals_of_the_textbook():
     measured = 2.0 + 0.5 * X + NOISE
     slope = Parameter("slope", "1", "", 0.1, positive=False)
     zero = Parameter("zero", "1", "", 0.0, positive=False)
@@ -60,7 +59,7 @@ def test_a_line_has_the_intervals_of_the_textbook() -> None:
     assert fit.noise[0] == pytest.approx(float(np.std(measured - book.intercept - book.slope * X, ddof=2)), rel=0.05)
 
 
-def test_a_decay_is_that_of_lmfit_with_its_profile() -> None:
+def test_a_decay_is_that_of_lmfit_with_its_profile():
     fit = decay_fit(DECAY)
     model = lmfit.models.ExponentialModel()
     other = model.fit(DECAY, x=X, amplitude=1.0, decay=0.5)
@@ -72,7 +71,7 @@ def test_a_decay_is_that_of_lmfit_with_its_profile() -> None:
     assert [rate.low, rate.high] == pytest.approx([1.0 / end for end in ends["decay"][::-2]], rel=3e-3)
 
 
-def test_an_outlier_hardly_moves_the_fit() -> None:
+def test_an_outlier_hardly_moves_the_fit():
     spoilt = DECAY.copy()
     spoilt[[5, 30]] += [1.0, -0.8]
     before, after = decay_fit(DECAY), decay_fit(spoilt)
@@ -83,7 +82,7 @@ def test_an_outlier_hardly_moves_the_fit() -> None:
     )
 
 
-def test_values_that_only_their_product_decides_have_no_interval() -> None:
+def test_values_that_only_their_product_decides_have_no_interval():
     first, other = Parameter("mass", "kg", "", 1.0), Parameter("speed", "1", "", 1.0)
     product = Derived("momentum", "1", "", lambda values: values["mass"] * values["speed"])
     measured = 3.0 * X + NOISE
@@ -97,7 +96,7 @@ def test_values_that_only_their_product_decides_have_no_interval() -> None:
     assert "cannot tell mass and speed apart: they make up for one another" in sentence
 
 
-def test_a_parameter_without_effect_is_named() -> None:
+def test_a_parameter_without_effect_is_named():
     idle = Parameter("idle", "1", "", 1.0)
     slope = Parameter("slope", "1", "", 1.0)
     fit = fitted(problem(3.0 * X + NOISE, lambda values: values["slope"] * X, slope, idle))
@@ -106,7 +105,7 @@ def test_a_parameter_without_effect_is_named() -> None:
     )
 
 
-def test_an_end_that_the_data_leave_open_is_open() -> None:
+def test_an_end_that_the_data_leave_open_is_open():
     # Far slower than the record is long: any longer time does as well.
     rate = Parameter("rate", "1/s", "", 0.01)
     size = Parameter("size", "1", "", 1.0)
@@ -115,7 +114,7 @@ def test_an_end_that_the_data_leave_open_is_open() -> None:
     assert "The data do not bound rate from below." in fit.words
 
 
-def test_residuals_that_follow_one_another_widen_the_intervals() -> None:
+def test_residuals_that_follow_one_another_widen_the_intervals():
     drift = np.cumsum(NOISE) * 0.3
     fit, plain = decay_fit(3.0 * np.exp(-0.7 * X) + drift), decay_fit(DECAY)
     assert fit.autocorrelation[0] > 0.5
@@ -123,20 +122,20 @@ def test_residuals_that_follow_one_another_widen_the_intervals() -> None:
     assert any("Residuals follow one another" in sentence for sentence in fit.words)
 
 
-def test_too_few_values_are_refused() -> None:
+def test_too_few_values_are_refused():
     first, other = Parameter("a", "1", "", 1.0), Parameter("b", "1", "", 1.0)
     few = problem(X[:2], lambda values: values["a"] + values["b"] * X[:2], first, other, over=X[:2])
     with pytest.raises(InputError, match="2 values do not give 2 parameters"):
         fitted(few)
 
 
-def test_a_parameter_whose_bounds_leave_it_no_room_is_refused() -> None:
+def test_a_parameter_whose_bounds_leave_it_no_room_is_refused():
     slope = Parameter("slope", "1", "", 1e5, most=1e-200)
     with pytest.raises(InputError, match=r"slope: the data suggest 1e\+05 1; look for a wrong number"):
         fitted(problem(3.0 * X, lambda values: values["slope"] * X, slope))
 
 
-def test_what_is_known_to_lie_between_two_ends_adds_their_variance() -> None:
+def test_what_is_known_to_lie_between_two_ends_adds_their_variance():
     # A mean read with an offset with known ends alone: GUM 4.3.7, width^2/12 beside the mean's variance.
     measured, width = 5.0 + NOISE, 0.03
     mean = Parameter("mean", "1", "", 5.0, positive=False)
@@ -166,7 +165,7 @@ def faces(hot: Any, current: Any, beta: Any) -> Any:
     return np.array([seebeck * (hot - cold) + current * resistance, cold])
 
 
-def test_a_pad_is_that_of_orthogonal_distance_regression(tmp_path: Path) -> None:
+def test_a_pad_is_that_of_orthogonal_distance_regression(tmp_path):
     noise = np.random.default_rng(6)
     current = np.linspace(0.1, 3.0, 30)
     true = 298.0 + 4.0 * current
@@ -205,18 +204,18 @@ def mean_of(series: list[Array]) -> Problem:
     return Problem([mean], channels)
 
 
-def test_degrees_of_freedom_are_those_of_the_guide() -> None:
+def test_degrees_of_freedom_are_those_of_the_guide():
     # JCGM 100:2008, H.1.6: end gauge, 16.7
     assert effective_freedom([25.0**2, 9.7**2, 2.9**2, 16.6**2], [18.0, 25.6, 50.0, 2.0]) == pytest.approx(
         16.7, abs=0.1
     )
 
 
-def test_degrees_of_freedom_where_no_part_has_a_variance() -> None:
+def test_degrees_of_freedom_where_no_part_has_a_variance():
     assert effective_freedom([0.0, 0.0], [7.0, 3.0]) == 3.0
 
 
-def test_the_covariance_of_a_weighted_mean_is_that_of_meier() -> None:
+def test_the_covariance_of_a_weighted_mean_is_that_of_meier():
     # Meier, Biometrics 9 (1953) 59: 1/W (1 + 4 sum w/W (1 - w/W)/f), w = n/s^2, W = sum w.
     # In an order in which neighbours are not alike.
     shape = np.array([-1.4, 1.4, -0.8, 0.8, -0.4, 0.4, -0.1, 0.1])
@@ -234,7 +233,7 @@ def test_the_covariance_of_a_weighted_mean_is_that_of_meier() -> None:
     assert wider > 1.04
 
 
-def test_one_instrument_needs_no_such_correction() -> None:
+def test_one_instrument_needs_no_such_correction():
     residuals = Residuals(mean_of([TRUTH + np.array([-0.2, 0.1, 0.05, -0.1, 0.15])]))
     known = spread(residuals, robust_fit(residuals, np.array([TRUTH])))
     assert float(known.covariance[0, 0]) == pytest.approx(float(known.parts[0][0, 0]), rel=1e-12)
@@ -247,7 +246,7 @@ def few_readings(seed: int) -> Fit:
 
 
 @pytest.mark.slow
-def test_intervals_of_few_readings_hold_the_truth() -> None:
+def test_intervals_of_few_readings_hold_the_truth():
     # 600 seeds: 570 with the corrections, 551 without them; 95 % less three deviations are 554.
     means = [few_readings(seed)["mean"] for seed in range(600)]
     held = sum(mean.low is not None and mean.high is not None and mean.low <= TRUTH <= mean.high for mean in means)

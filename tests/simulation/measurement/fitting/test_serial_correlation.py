@@ -49,7 +49,7 @@ def held(count: int, rho: float, seeds: int) -> float:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_the_coefficient_is_the_mean_over_the_posterior(seed: int) -> None:
+def test_the_coefficient_is_the_mean_over_the_posterior(seed):
     # Patterson and Thompson's likelihood with whole matrices, and the mean of Fisher's z by quadrature.
     slopes, count = table(25), 25
     left = fit_of(slopes, noise_of(count, 0.6, seed))[1]
@@ -78,19 +78,19 @@ def test_the_coefficient_is_the_mean_over_the_posterior(seed: int) -> None:
     assert correlation.wider == pytest.approx(sum_and_sizes(correlation.rho)[0] / (left @ left), rel=1e-6)
 
 
-def test_what_noise_moves_is_the_double_sum() -> None:
+def test_what_noise_moves_is_the_double_sum():
     slopes = table(40)
     apart = np.abs(np.subtract.outer(np.arange(40), np.arange(40)))
     assert moved_by_noise(slopes, 0.8) == pytest.approx(slopes.T @ 0.8**apart @ slopes, rel=1e-9)
     assert moved_by_noise(slopes, 0.0) == pytest.approx(slopes.T @ slopes)
 
 
-def test_noise_that_follows_itself_never_makes_data_surer() -> None:
+def test_noise_that_follows_itself_never_makes_data_surer():
     swinging = (-1.0) ** np.arange(40)[:, None]
     assert moved_by_noise(swinging, 0.8)[0, 0] == pytest.approx(40.0)
 
 
-def test_channels_that_err_alike_are_taken_together() -> None:
+def test_channels_that_err_alike_are_taken_together():
     # Of six series of ten values a sixth each tells little; of the same noise for all, together enough.
     slopes = table(10)
     many = [Series(fit_of(slopes, noise_of(10, 0.7, seed))[1], slopes) for seed in range(40)]
@@ -99,7 +99,7 @@ def test_channels_that_err_alike_are_taken_together() -> None:
     assert following(many[:1], ALONE, 8.0).by_chance > 1e-3
 
 
-def test_a_misfit_that_is_no_noise_widens_by_fourteen_at_most() -> None:
+def test_a_misfit_that_is_no_noise_widens_by_fourteen_at_most():
     slopes = table(200)
     bent = fit_of(slopes, np.linspace(-1.0, 1.0, 200) ** 3)[1]
     correlation = following([Series(bent, slopes)], ALONE, 198.0)
@@ -107,13 +107,13 @@ def test_a_misfit_that_is_no_noise_widens_by_fourteen_at_most() -> None:
     assert correlation.by_chance < 1e-6
 
 
-def test_few_values_or_none_that_err_count_as_independent() -> None:
+def test_few_values_or_none_that_err_count_as_independent():
     slopes = table(9)
     assert following([Series(noise_of(9, 0.9, 1), slopes)], ALONE, 7.0) is INDEPENDENT
     assert following([Series(np.zeros(20), table(20))], ALONE, 18.0) is INDEPENDENT
 
 
-def test_strong_correlation_is_found_though_the_fit_follows_it() -> None:
+def test_strong_correlation_is_found_though_the_fit_follows_it():
     slopes, seen, estimates = table(60), [], []
     for seed in range(150):
         left = fit_of(slopes, noise_of(60, 0.8, seed))[1]
@@ -124,7 +124,7 @@ def test_strong_correlation_is_found_though_the_fit_follows_it() -> None:
 
 
 @pytest.mark.parametrize(("count", "rho"), [*((60, rho) for rho in RHOS), *((20, rho) for rho in RHOS[:3])])
-def test_intervals_hold_the_truth(count: int, rho: float) -> None:
+def test_intervals_hold_the_truth(count, rho):
     # 150 seeds of two parameters; before, 60 values at 0.3 held 88 % and at 0.6 91; 20 held 95, 90 and 76 %.
     assert 0.90 < held(count, rho, 150) < 0.99
 
@@ -137,13 +137,13 @@ def drifting(count: int, rho: float, seed: int) -> Problem:
     return Problem([mean], [Channel("y", "1", measured, lambda values: values["mean"] * np.ones(count), at, "x", "1")])
 
 
-def test_a_whole_fit_holds_the_truth_under_weak_correlation() -> None:
+def test_a_whole_fit_holds_the_truth_under_weak_correlation():
     means = [fitted(drifting(40, 0.4, seed))["mean"] for seed in range(150)]
     inside = [mean.low is not None and mean.high is not None and mean.low <= 5.0 <= mean.high for mean in means]
     assert 0.90 <= np.mean(inside) < 0.99
 
 
-def test_words_distinguish_what_is_sure_from_what_stays_open() -> None:
+def test_words_distinguish_what_is_sure_from_what_stays_open():
     sure = fitted(drifting(300, 0.9, 1))
     assert any(sentence.startswith("Residuals follow one another, most those of y") for sentence in sure.words)
     sentences = [word for seed in range(60) for word in fitted(drifting(12, 0.3, seed), profiles=False).words]
@@ -158,7 +158,7 @@ def straight(x: Array, measured: Array, *, relative: bool = False) -> Fit:
 
 @pytest.mark.parametrize("count", [12, 40, 200])
 @pytest.mark.parametrize("relative", [False, True])
-def test_a_law_that_bends_away_from_its_data_is_a_misfit(count: int, relative: bool) -> None:
+def test_a_law_that_bends_away_from_its_data_is_a_misfit(count, relative):
     x = np.linspace(0.0, 1.0, count)
     bent = 2.0 + x + 0.5 * x**2 + 0.002 * noise_of(count, 0.0, 1)
     assert "do not describe y" in straight(x, bent, relative=relative).misfit
@@ -167,7 +167,7 @@ def test_a_law_that_bends_away_from_its_data_is_a_misfit(count: int, relative: b
 
 
 @pytest.mark.parametrize(("count", "rho"), [(12, 0.0), (60, 0.3), (60, 0.6), (200, 0.8)])
-def test_noise_that_follows_itself_is_no_misfit(count: int, rho: float) -> None:
+def test_noise_that_follows_itself_is_no_misfit(count, rho):
     x = np.linspace(0.0, 1.0, count)
     misfits = [straight(x, 2.0 + x + 0.05 * noise_of(count, rho, seed)).misfit for seed in range(100)]
     assert sum(map(bool, misfits)) <= 8

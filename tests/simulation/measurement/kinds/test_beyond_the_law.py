@@ -37,18 +37,18 @@ def is_no_record(done: Measured, place: Path) -> None:
     pytest.param("creep", marks=pytest.mark.gate), pytest.param("melt", marks=pytest.mark.gate),
     pytest.param("dsc", marks=pytest.mark.gate), pytest.param("heating_log", marks=pytest.mark.gate),
 ])  # fmt: skip
-def test_a_tail_beyond_the_law_is_no_record_s(tmp_path: Path, kind: str) -> None:
+def test_a_tail_beyond_the_law_is_no_record_s(tmp_path, kind):
     is_no_record(fitted(kind, "tail"), tmp_path)
 
 
 @pytest.mark.parametrize("kind", LEFT_OUT)
-def test_a_tail_beyond_the_value_does_not_move_it(kind: str) -> None:
+def test_a_tail_beyond_the_value_does_not_move_it(kind):
     name, truth = LEFT_OUT[kind]
     assert holds(as_recorded(fitted(kind, "tail").measurement.record_values[name]), truth)
 
 
 @pytest.mark.parametrize("kind", ["torque_angle", "frozen_torque", "pad", "flow_curve"])
-def test_a_sensor_that_drifts_by_a_twentieth_is_no_record_s(tmp_path: Path, kind: str) -> None:
+def test_a_sensor_that_drifts_by_a_twentieth_is_no_record_s(tmp_path, kind):
     done = fitted(kind, "drift")
     is_no_record(done, tmp_path)
     assert drift.__name__ in done.measurement.fit.misfit or "do not describe" in done.measurement.fit.misfit

@@ -4,9 +4,7 @@ Files in the layouts of instruments go through without an option: right value an
 """
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -35,13 +33,13 @@ def pull(estimate: Estimate) -> float:
     return float(norm.ppf(0.975)) * (estimate.truth - estimate.value) / abs(end - estimate.value)
 
 
-def test_every_kind_has_data_made_for_it() -> None:
+def test_every_kind_has_data_made_for_it():
     assert set(MADE) == set(kind_sheets())
 
 
 @pytest.mark.gate
 @pytest.mark.parametrize("kind", kinds(*QUICK))
-def test_intervals_are_as_wide_as_the_errors(kind: str) -> None:
+def test_intervals_are_as_wide_as_the_errors(kind):
     """Mean squares of each parameter's pulls against chi-squared: intervals of half or twice the width are outside."""
     seeds = 20 if kind in QUICK else 10
     fits = [fit_of(kind, seed) for seed in range(seeds)]
@@ -53,13 +51,13 @@ def test_intervals_are_as_wide_as_the_errors(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", kinds(*MADE.keys() - {"heating_log"}))
-def test_all_that_is_reported_is_counted(kind: str) -> None:
+def test_all_that_is_reported_is_counted(kind):
     blocks, given, truth = MADE[kind](np.random.default_rng(0))
     fit = measure_of(kind_sheet(kind))(blocks, kind_sheet(kind).values(given), profiles=False).fit
     assert {parameter.name for parameter in (*fit.parameters, *fit.derived)} == set(truth)
 
 
-def test_a_count_goes_on_where_it_was_left(tmp_path: Path) -> None:
+def test_a_count_goes_on_where_it_was_left(tmp_path):
     file = tmp_path / "kept.jsonl"
     values = {"seebeck": [0.05, 0.051, 0.049, 0.052], "resistance": [2.0, 1.9, 1.8, 1.95]}
     whole = json.dumps({"code": code(), "kind": "pad", "seed": 0, "found": values})
@@ -71,7 +69,7 @@ def test_a_count_goes_on_where_it_was_left(tmp_path: Path) -> None:
     assert counted(["pad"], 1, 1, file) == fits
 
 
-def test_the_width_is_held_against_the_scatter() -> None:
+def test_the_width_is_held_against_the_scatter():
     values = np.random.default_rng(3).normal(7.0, 0.5, 4000)
     exact = [Estimate(7.0, value, value - 0.98, value + 0.98) for value in values]
     assert width_over_scatter(exact) == pytest.approx(1.0, abs=0.03)
@@ -82,7 +80,7 @@ def test_the_width_is_held_against_the_scatter() -> None:
 @pytest.mark.gate
 @pytest.mark.parametrize("fault", FAULTS)
 @pytest.mark.parametrize("kind", ["flow_curve", "frozen_torque", "relaxation", "creep", "melt"])
-def test_records_of_faulty_data_hold_the_truth(kind: str, fault: str) -> None:
+def test_records_of_faulty_data_hold_the_truth(kind, fault):
     fits = [fit_of(f"{kind}+{fault}", seed) for seed in range(4)]
     for name in {name for fit in fits for name in fit}:
         assert sum(fit[name].held for fit in fits if name in fit) >= sum(name in fit for fit in fits) - 1, name
@@ -98,7 +96,7 @@ WITH_MASS = ("netzsch", "ta_universal", "trios_dsc")
 
 
 @pytest.mark.parametrize(("path", "truth"), TRUTH)
-def test_rheometers(path: Path, truth: Mapping[str, Any]) -> None:
+def test_rheometers(path, truth):
     if "refusal" in truth:
         with pytest.raises(InputError, match=truth["refusal"]):
             measured(path)
@@ -114,7 +112,7 @@ def test_rheometers(path: Path, truth: Mapping[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("path", sorted(FILES.glob("dsc/*")), ids=lambda path: path.stem)
-def test_calorimeters(path: Path) -> None:
+def test_calorimeters(path):
     done = measured(path)
     assert done.kind.name == "dsc"
     assert not done.measurement.fit.misfit
@@ -137,14 +135,14 @@ def test_calorimeters(path: Path) -> None:
         ("depth [mm];width [mm]", "{0};{0}", r"(?s)of no kind there is .*The nearest: .* needs .*not used: 'depth"),
     ],
 )
-def test_a_refusal_says_what_was_not_used(tmp_path: Path, head: str, row: str, message: str) -> None:
+def test_a_refusal_says_what_was_not_used(tmp_path, head, row, message):
     path = tmp_path / "x.csv"
     path.write_text("\n".join([head, *(row.format(i) for i in range(1, 9))]) + "\n")
     with pytest.raises(InputError, match=message):
         measured(path)
 
 
-def test_columns_decide_for_a_kind(tmp_path: Path) -> None:
+def test_columns_decide_for_a_kind(tmp_path):
     path = tmp_path / "stand.csv"
     rows = "\n".join(f"{i};{i % 5};{i / 10};{i}" for i in range(12))
     path.write_text(f"cycle;time [s];angle [deg];torque [N.m]\n{rows}\n")

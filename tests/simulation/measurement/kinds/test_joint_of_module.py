@@ -35,7 +35,7 @@ def module() -> ResolvedModule:
     return resolve_study(read_study(STUDY))
 
 
-def test_a_molten_joint_tells_its_springs_its_melt_and_its_pins(tmp_path: Path, module: ResolvedModule) -> None:
+def test_a_molten_joint_tells_its_springs_its_melt_and_its_pins(tmp_path, module):
     # So slow that the melt only flows: T = eta J/t theta', and the springs' stiffness is as their modulus.
     springs, moment = float(module.quantity("spring_stiffness")), float(module.quantity("layer_polar_moment"))
     viscosity, modulus, coefficient = 5000.0, 195e9, 0.31
@@ -53,7 +53,7 @@ def test_a_molten_joint_tells_its_springs_its_melt_and_its_pins(tmp_path: Path, 
     }  # fmt: skip
 
 
-def test_a_melt_that_thins_over_a_wide_motion_is_known_by_its_amplitude(module: ResolvedModule) -> None:
+def test_a_melt_that_thins_over_a_wide_motion_is_known_by_its_amplitude(module):
     # At one hertz the same stiffness and damping over a wider motion are a longer melt's: strained more, it thins.
     of = {size: JointOfModule(module, STUDY, "molten", 2.0 * np.pi, size) for size in (0.01, 0.1)}
     seen = dict(zip(("stiffness", "damping"), of[0.1].impedance({}), strict=True))
@@ -62,9 +62,7 @@ def test_a_melt_that_thins_over_a_wide_motion_is_known_by_its_amplitude(module: 
     assert viscosity[0.01] < 0.9 * viscosity[0.1]
 
 
-def test_a_frozen_joint_tells_its_pads_and_a_run_counts_them_as_measured(
-    tmp_path: Path, module: ResolvedModule
-) -> None:
+def test_a_frozen_joint_tells_its_pads_and_a_run_counts_them_as_measured(tmp_path, module):
     names = ["joint_stiffness@cold", "joint_damping@cold"]
     softer = {**module.values, "peltier_shear_modulus": 3e6, "clamped_loss_factor": 0.04, "frequency@cold": 1.0}
     stiffness, damping = map(float, module.table.evaluate(softer, names).values())
@@ -88,7 +86,7 @@ def test_a_frozen_joint_tells_its_pads_and_a_run_counts_them_as_measured(
     assert pads.before == (earlier.low, earlier.high)
 
 
-def test_what_no_value_of_the_module_explains_goes_to_no_record(tmp_path: Path) -> None:
+def test_what_no_value_of_the_module_explains_goes_to_no_record(tmp_path):
     # Stiffer than the structure is behind rigid pads.
     paths = joints(tmp_path, 2e4, 3.0, 0.0, (1.0, 8.0))
     result = measured(paths, "sine", study=str(STUDY), state="frozen", inertia="4.3e-4 kg.m^2")
@@ -97,7 +95,7 @@ def test_what_no_value_of_the_module_explains_goes_to_no_record(tmp_path: Path) 
         write_records(result, tmp_path / "mine", "bench")
 
 
-def test_a_release_with_a_known_inertia_writes_records_too(tmp_path: Path, module: ResolvedModule) -> None:
+def test_a_release_with_a_known_inertia_writes_records_too(tmp_path, module):
     names = ["joint_stiffness@cold", "joint_damping@cold"]
     stiffness = float(module.quantity(names[0]))
     omega = float(np.sqrt(stiffness / INERTIA))
@@ -113,7 +111,7 @@ def test_a_release_with_a_known_inertia_writes_records_too(tmp_path: Path, modul
     assert [record.choice for record in result.more_records] == ["peltier_module"]
 
 
-def test_no_record_of_several_stays_where_one_cannot(tmp_path: Path, module: ResolvedModule) -> None:
+def test_no_record_of_several_stays_where_one_cannot(tmp_path, module):
     names = ["joint_stiffness@cold", "joint_damping@cold"]
     stiffness, damping = (float(module.quantity(name)) for name in names)
     result = measured(joints(tmp_path, stiffness, damping, 0.0, (1.0, 8.0)), "sine", study=str(STUDY), state="frozen")
@@ -125,7 +123,7 @@ def test_no_record_of_several_stays_where_one_cannot(tmp_path: Path, module: Res
     assert not (folder / "joints" / "bench.yaml").exists()
 
 
-def test_the_state_is_asked_for(tmp_path: Path) -> None:
+def test_the_state_is_asked_for(tmp_path):
     with pytest.raises(InputError, match="--set state"):
         fit_files(joints(tmp_path, 5.0, 0.1, 0.0, (1.0, 8.0)), "sine", study=str(STUDY))
 
@@ -164,7 +162,7 @@ def log(path: Path, *, noise: float, places: tuple[str, ...]) -> Path:
     return csv(path, time__s=time, current__A=np.where(time < HEATED, 1.5, 0.0), **columns)
 
 
-def test_its_course_is_that_of_cvodes_through_heating_and_cooling() -> None:
+def test_its_course_is_that_of_cvodes_through_heating_and_cooling():
     module = LoggedModule(resolved(), [*MADE, "ambient_temperature"])
     rows = np.concatenate([np.round(np.linspace(0, 1, 20) ** 2 * 48), 48 + np.round(np.linspace(0, 1, 20) ** 2 * 96)])
     rows = np.unique(rows).astype(int)
@@ -178,7 +176,7 @@ def test_its_course_is_that_of_cvodes_through_heating_and_cooling() -> None:
 
 
 @pytest.mark.slow
-def test_contacts_and_losses_come_back_and_make_a_record(tmp_path: Path) -> None:
+def test_contacts_and_losses_come_back_and_make_a_record(tmp_path):
     path = log(tmp_path / "log.csv", noise=0.2, places=("hot_temperature", "far_face_temperature", "rotor_temperature"))
     result = measured(path, study=str(STUDY), fitted="rotor_contact rotor_coefficient")
     fit = result.measurement.fit
@@ -190,7 +188,7 @@ def test_contacts_and_losses_come_back_and_make_a_record(tmp_path: Path) -> None
 
 
 @pytest.mark.slow
-def test_a_single_thermocouple_leaves_six_values_open_and_the_fit_says_so(tmp_path: Path) -> None:
+def test_a_single_thermocouple_leaves_six_values_open_and_the_fit_says_so(tmp_path):
     path = log(tmp_path / "log.csv", noise=0.2, places=("rotor_temperature",))
     result = fit_files(path, study=str(STUDY))
     assert "6 values from 1 places" in " ".join(result.notes)
@@ -207,7 +205,7 @@ def test_a_single_thermocouple_leaves_six_values_open_and_the_fit_says_so(tmp_pa
         ({"rotor__degC": [22.0] * 4, "current__A": [1.0, 0.0, 1.0, 0.0]}, {"study": str(STUDY)}, "one heating"),
     ],
 )
-def test_a_lack_is_reported(tmp_path: Path, columns: dict[str, object], given: dict[str, str], message: str) -> None:
+def test_a_lack_is_reported(tmp_path, columns, given, message):
     path = csv(tmp_path / "l.csv", **{"time__s": range(4), "current__A": [1.0] * 4, **columns})
     with pytest.raises(InputError, match=message):
         fit_files(path, "heating_log", **given)

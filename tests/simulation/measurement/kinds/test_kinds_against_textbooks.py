@@ -23,7 +23,7 @@ from tvimdesign.simulation.measurement.record_file import record_text
 CELSIUS = 273.15
 
 
-def test_every_kind_is_whole() -> None:
+def test_every_kind_is_whole():
     for sheet in kind_sheets().values():
         assert callable(measure_of(sheet))
         assert {name for need in sheet.needs for name in need} | set(sheet.takes) <= set(known()["quantities"])
@@ -31,13 +31,13 @@ def test_every_kind_is_whole() -> None:
         sheet.values({})
 
 
-def test_calorimetry_s_defaults_are_the_shipped_record_s() -> None:
+def test_calorimetry_s_defaults_are_the_shipped_record_s():
     record, values = Catalog().record("polymers", "pcl_80k"), kind_sheet("dsc").values({})
     names = {name: name for name in values} | {"reference_temperature": "crystallization_reference"}
     assert {name: record.value(there) for name, there in names.items()} == pytest.approx(values)
 
 
-def test_hanging_weights_on_an_arm(tmp_path: Path) -> None:
+def test_hanging_weights_on_an_arm(tmp_path):
     # 100 g on 80 mm turn a spring of 0.5 N.m/rad by 0.1 * 9.80665 * 0.08 / 0.5 rad.
     grams = np.array([0.0, 100.0, 200.0, 300.0, 400.0, 300.0, 200.0, 100.0])
     angle = np.degrees(grams * 1e-3 * 9.80665 * 0.08 / 0.5) + np.array([1, -1, 2, -2, 1, -1, 1, -1]) * 1e-4
@@ -47,7 +47,7 @@ def test_hanging_weights_on_an_arm(tmp_path: Path) -> None:
         fit_files(tmp_path / "w.csv")
 
 
-def test_the_modulus_of_a_wire_is_the_handbook_s(tmp_path: Path) -> None:
+def test_the_modulus_of_a_wire_is_the_handbook_s(tmp_path):
     # E 203.4 GPa, d 2 mm, D 20 mm, n 5: 0.5085 N.m/rad in pure bending.
     torque = np.linspace(0.05, 0.5, 10)
     torque = np.concatenate([torque, torque[::-1]])
@@ -58,7 +58,7 @@ def test_the_modulus_of_a_wire_is_the_handbook_s(tmp_path: Path) -> None:
     assert fit_files(path, **sizes).fit.value("youngs_modulus") == pytest.approx(203.4e9, rel=1e-4)
 
 
-def test_friction_and_play_of_a_joint(tmp_path: Path) -> None:
+def test_friction_and_play_of_a_joint(tmp_path):
     # By hand: 0.2 N.m of friction shift the two ways by 2 * 0.2 / 4 rad, a play of 0.03 rad the two sides by that.
     up, down = np.linspace(1.0, 4.0, 4), np.linspace(3.0, 1.0, 3)
     torque = np.concatenate([up, down, -up, -down, up])
@@ -72,7 +72,7 @@ def test_friction_and_play_of_a_joint(tmp_path: Path) -> None:
     assert values == pytest.approx([4.0, 0.2, 0.03, 0.1], rel=2e-3)
 
 
-def test_a_pad_from_its_data_sheet(tmp_path: Path) -> None:
+def test_a_pad_from_its_data_sheet(tmp_path):
     # Steady and insulated: K dT = S I T_c - I^2 R/2 with the 12706's values; at the best current dT is the sheet's.
     seebeck, resistance, conductance, hot = 15.8 / 300.0, 15.8 * 233.0 / 1800.0, 15.8 * 6 * 233 / (2 * 300 * 67), 300.0
     current = np.array([0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
@@ -93,7 +93,7 @@ def damped(time: Any, stiffness: float, damping: float, inertia: float, first: f
     return first * np.exp(-decay * time) * (np.cos(omega * time) + decay / omega * np.sin(omega * time))
 
 
-def test_a_release_is_the_textbook_s_damped_oscillation(tmp_path: Path) -> None:
+def test_a_release_is_the_textbook_s_damped_oscillation(tmp_path):
     time = np.linspace(0.0, 0.6, 300)
     noise = np.random.default_rng(2).normal(0.0, 1e-4, 300)
     path = csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1) + noise)
@@ -103,7 +103,7 @@ def test_a_release_is_the_textbook_s_damped_oscillation(tmp_path: Path) -> None:
     assert fit.value("natural_frequency") == pytest.approx(np.sqrt(5.0 / 4e-4) / (2.0 * np.pi), rel=1e-3)
 
 
-def test_dry_friction_takes_the_textbook_s_four_shares_a_cycle(tmp_path: Path) -> None:
+def test_dry_friction_takes_the_textbook_s_four_shares_a_cycle(tmp_path):
     # Den Hartog: halves of cosines about +-T_f/K, so that the amplitude falls by 4 T_f/K a cycle.
     stiffness, inertia, friction = 5.0, 4e-4, 0.02
     omega, shift = np.sqrt(stiffness / inertia), friction / stiffness
@@ -117,7 +117,7 @@ def test_dry_friction_takes_the_textbook_s_four_shares_a_cycle(tmp_path: Path) -
     assert fit.value("stiffness") == pytest.approx(stiffness, rel=2e-3)
 
 
-def test_without_an_inertia_a_release_says_what_it_does_not_know(tmp_path: Path) -> None:
+def test_without_an_inertia_a_release_says_what_it_does_not_know(tmp_path):
     time = np.linspace(0.0, 0.6, 300)
     noise = np.random.default_rng(2).normal(0.0, 1e-4, 300)
     fit = fit_files(csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1) + noise)).fit
@@ -138,7 +138,7 @@ def sweep(path: Path, celsius: float, seed: int, energy: float = 35e3) -> Path:
     return oscillated(path, omega, *(modulus * np.exp(noise.normal(0.0, 0.01, 18)) for modulus in made), celsius)
 
 
-def test_a_spectrum_has_as_many_modes_as_made_the_data(tmp_path: Path) -> None:
+def test_a_spectrum_has_as_many_modes_as_made_the_data(tmp_path):
     paths = [sweep(tmp_path / f"{t}.csv", t, seed) for seed, t in enumerate((80, 100, 120))]
     fit = fit_files(paths).fit
     times = sorted(fit.value(parameter.name) for parameter in fit.parameters if parameter.name.startswith("time"))
@@ -147,7 +147,7 @@ def test_a_spectrum_has_as_many_modes_as_made_the_data(tmp_path: Path) -> None:
     assert fit.value("zero_shear_viscosity") == pytest.approx(500.0 + 600.0 + 360.0, rel=0.02)
 
 
-def test_a_shift_that_is_not_arrhenius_gives_no_energy(tmp_path: Path) -> None:
+def test_a_shift_that_is_not_arrhenius_gives_no_energy(tmp_path):
     paths = [sweep(tmp_path / f"{t}.csv", t, t, energy) for t, energy in ((60, 90e3), (100, 35e3), (140, 20e3))]
     result = fit_files(paths)
     assert "flow_activation_energy" not in result.record_values
@@ -166,7 +166,7 @@ def freezing(celsius: Any, kinetics: Mapping[str, float]) -> Any:
     return np.log(2.0) ** (1.0 / kinetics["n"]) / kinetics["half_time"] * speed
 
 
-def test_freezing_curves_of_another_integrator(tmp_path: Path) -> None:
+def test_freezing_curves_of_another_integrator(tmp_path):
     kinetics, latent = {"half_time": 60.0, "K_g": 1.1e5, "n": 2.6}, 55e3
     paths = []
     for i, rate in enumerate((4.0, 8.0, 16.0)):
@@ -190,7 +190,7 @@ def test_freezing_curves_of_another_integrator(tmp_path: Path) -> None:
     assert "taken as negative" in result.notes[0]
 
 
-def test_melting_between_two_temperatures(tmp_path: Path) -> None:
+def test_melting_between_two_temperatures(tmp_path):
     # A straight melting curve from 48 to 60 degC takes 70 kJ/kg over 12 K: at 10 K/min 972 W/kg.
     time = np.linspace(0.0, 480.0, 800)
     celsius = 20.0 + time / 6.0
@@ -217,13 +217,13 @@ def test_melting_between_two_temperatures(tmp_path: Path) -> None:
         ("", {}, "are of no kind there is"),
     ],
 )
-def test_a_lack_is_reported(tmp_path: Path, kind: str, given: dict[str, str], message: str) -> None:
+def test_a_lack_is_reported(tmp_path, kind, given, message):
     path = csv(tmp_path / "x.csv", torque__N=[1.0, 2.0, 3.0], angle__deg=[1.0, 2.0, 3.0])
     with pytest.raises(InputError, match=message.replace("?", r"\?")):
         measured(path, kind, **given)
 
 
-def test_a_kind_without_a_record_says_so(tmp_path: Path) -> None:
+def test_a_kind_without_a_record_says_so(tmp_path):
     time = np.linspace(0.0, 0.6, 100)
     path = csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1))
     with pytest.raises(InputError, match="release: nothing in it is a value of a record"):
@@ -240,7 +240,7 @@ def _read(folder: Path, times: NDArray[np.float64]) -> list[Run]:
     return runs_of(read_data_file(path).blocks, {})[0]
 
 
-def test_of_rows_whose_rounded_times_are_the_same_the_first_counts(tmp_path: Path) -> None:
+def test_of_rows_whose_rounded_times_are_the_same_the_first_counts(tmp_path):
     seconds = np.arange(400.0)
     (run,) = _read(tmp_path, np.floor(seconds / 2.0) * 2.0)
     assert np.all(np.diff(run.time) > 0.0)
@@ -248,14 +248,14 @@ def test_of_rows_whose_rounded_times_are_the_same_the_first_counts(tmp_path: Pat
     assert run.rate == pytest.approx(-1.0 / 6.0, rel=1e-9)
 
 
-def test_times_that_fall_are_refused(tmp_path: Path) -> None:
+def test_times_that_fall_are_refused(tmp_path):
     seconds = np.arange(400.0)
     seconds[390] = -1e308
     with pytest.raises(InputError, match=r"data\.csv:2: time falls from one row to the next"):
         _read(tmp_path, seconds)
 
 
-def test_a_glass_does_not_freeze(tmp_path: Path) -> None:
+def test_a_glass_does_not_freeze(tmp_path):
     """Refuse a glass transition of 1e9 K, which ended in a LinAlgError; the campaign of faults has the input."""
     stored = json.loads((ROOT / "campaigns/corpus/fits/904f44e4b289/input.json").read_text(encoding="utf-8"))
     (tmp_path / "f.csv").write_text(stored["data"], encoding="utf-8")

@@ -41,7 +41,7 @@ def crept(time: Any, stress: float, release: float) -> Any:
     return np.array(strains)
 
 
-def test_creep_and_recovery_of_another_integrator(tmp_path: Path) -> None:
+def test_creep_and_recovery_of_another_integrator(tmp_path):
     time = np.concatenate([np.geomspace(1e-3, 7.9, 70), 8.0 + np.geomspace(1e-3, 8.0, 60)])
     strain = crept(time, 40.0, 8.0)
     noise = np.random.default_rng(1)
@@ -58,7 +58,7 @@ def test_creep_and_recovery_of_another_integrator(tmp_path: Path) -> None:
     assert result.measurement.record_conditions["melt_reference_temperature"][0] == pytest.approx(90.0 + CELSIUS)
 
 
-def test_a_creep_with_hardly_more_rows_than_its_recovery_is_a_creep(tmp_path: Path) -> None:
+def test_a_creep_with_hardly_more_rows_than_its_recovery_is_a_creep(tmp_path):
     time = np.concatenate([np.geomspace(1e-3, 7.9, 32), 8.0 + np.geomspace(1e-3, 8.0, 30)])
     noise = np.random.default_rng(1).normal(0.0, 3e-3, 62)
     path = csv(tmp_path / "c.csv", time__s=time, strain__1=crept(time, 40.0, 8.0) * np.exp(noise),
@@ -69,7 +69,7 @@ def test_a_creep_with_hardly_more_rows_than_its_recovery_is_a_creep(tmp_path: Pa
 
 
 @pytest.mark.parametrize("rise", [0.0, 0.02])
-def test_relaxation_after_a_step_and_after_a_ramp(tmp_path: Path, rise: float) -> None:
+def test_relaxation_after_a_step_and_after_a_ramp(tmp_path, rise):
     # After a ramp of length r each mode has had (1 - exp(-r/tau)) tau/r of its strain.
     time = np.geomspace(rise + 1e-3, 4.0, 90)
     whole = [(np.expm1(rise / tau) * tau / rise if rise else 1.0) for tau, _ in MODES]
@@ -84,7 +84,7 @@ def test_relaxation_after_a_step_and_after_a_ramp(tmp_path: Path, rise: float) -
     assert fit.value("plateau_modulus") == pytest.approx(20600.0, rel=0.02)
 
 
-def test_a_ramp_has_the_energy_that_made_it_and_leaves_out_what_is_frozen(tmp_path: Path) -> None:
+def test_a_ramp_has_the_energy_that_made_it_and_leaves_out_what_is_frozen(tmp_path):
     celsius = np.linspace(40.0, 170.0, 90)
     noise, melt = np.random.default_rng(3), moduli(10.0 * arrhenius(celsius, 30e3, 100.0), MODES)
     both = (np.where(celsius < 62.0, 1e8, modulus) * np.exp(noise.normal(0.0, 0.01, 90)) for modulus in melt)
@@ -119,7 +119,7 @@ def strained(path: Path, law: str, noise: float, celsius: float = 100.0) -> Path
 
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("noise", [0.0, 5e-3])
-def test_the_linear_range_ends_where_five_percent_are_gone(tmp_path: Path, law: str, noise: float) -> None:
+def test_the_linear_range_ends_where_five_percent_are_gone(tmp_path, law, noise):
     result = measured(strained(tmp_path / "a.csv", law, noise))
     assert result.kind.name == "amplitude_sweep"
     limit = result.measurement.record_values["linear_strain_melt"]
@@ -129,7 +129,7 @@ def test_the_linear_range_ends_where_five_percent_are_gone(tmp_path: Path, law: 
     assert not result.measurement.fit.misfit
 
 
-def test_a_limit_of_neither_phase_or_hardly_seen_is_no_record_s(tmp_path: Path) -> None:
+def test_a_limit_of_neither_phase_or_hardly_seen_is_no_record_s(tmp_path):
     between = fit_files(strained(tmp_path / "b.csv", "square", 5e-3, 58.0), "amplitude_sweep")
     assert not between.record_values
     path = strained(tmp_path / "s.csv", "square", 5e-3)
@@ -139,7 +139,7 @@ def test_a_limit_of_neither_phase_or_hardly_seen_is_no_record_s(tmp_path: Path) 
     assert not short.record_values
 
 
-def test_a_known_energy_is_not_fitted(tmp_path: Path) -> None:
+def test_a_known_energy_is_not_fitted(tmp_path):
     omega = np.geomspace(0.1, 100.0, 20)
     paths = []
     for celsius in (90.0, 110.0):
@@ -151,7 +151,7 @@ def test_a_known_energy_is_not_fitted(tmp_path: Path) -> None:
     assert result.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)
 
 
-def test_a_modulus_that_the_instrument_cuts_off_is_left_out(tmp_path: Path) -> None:
+def test_a_modulus_that_the_instrument_cuts_off_is_left_out(tmp_path):
     omega = np.geomspace(1e-3, 100.0, 24)
     storage, loss = moduli(omega, MODES)
     cut = storage < loss / 100.0
@@ -163,7 +163,7 @@ def test_a_modulus_that_the_instrument_cuts_off_is_left_out(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("end", [0.02, 0.5, 5.0])
-def test_no_time_lies_far_outside_what_a_creep_sees(tmp_path: Path, end: float) -> None:
+def test_no_time_lies_far_outside_what_a_creep_sees(tmp_path, end):
     # Up to long before the melt flows; without noise any slower mode would better the fit a little.
     time = np.geomspace(1e-3 * end, end, 60)
     path = csv(tmp_path / "c.csv", time__s=time, strain__1=crept(time, 40.0, 8.0), stress__Pa=np.full(60, 40.0),
@@ -190,7 +190,7 @@ def carreau_yasuda(rate: Any, zero: float, time: float, n: float, a: float) -> A
 
 
 @pytest.mark.parametrize("a", [2.0, 0.8])
-def test_the_law_is_the_textbook_s(tmp_path: Path, a: float) -> None:
+def test_the_law_is_the_textbook_s(tmp_path, a):
     noise = np.exp(np.random.default_rng(4).normal(0.0, 5e-3, 25))
     path = flow_file(tmp_path, carreau_yasuda(RATES, 1.48e4, 1.04, 0.398, a) * noise, temperature__degC=[180.0] * 25)
     done = measured(path)
@@ -202,7 +202,7 @@ def test_the_law_is_the_textbook_s(tmp_path: Path, a: float) -> None:
     assert holds(fit["zero_shear_viscosity"], 1.48e4)
 
 
-def test_a_record_has_the_viscosity_at_the_temperature_of_the_curve(tmp_path: Path) -> None:
+def test_a_record_has_the_viscosity_at_the_temperature_of_the_curve(tmp_path):
     noise = np.exp(np.random.default_rng(4).normal(0.0, 0.01, 25))
     path = flow_file(tmp_path, carreau_yasuda(RATES, 900.0, 0.3, 0.5, 2.0) * noise, temperature__degC=[90.0] * 25)
     write_records(measured(path), tmp_path / "mine", "my_melt")
@@ -211,14 +211,14 @@ def test_a_record_has_the_viscosity_at_the_temperature_of_the_curve(tmp_path: Pa
     assert record.value("zero_shear_viscosity") == pytest.approx(900.0, rel=0.02)
 
 
-def test_a_melt_that_does_not_thin_has_its_viscosity_alone(tmp_path: Path) -> None:
+def test_a_melt_that_does_not_thin_has_its_viscosity_alone(tmp_path):
     noise = np.exp(np.random.default_rng(5).normal(0.0, 0.01, 25))
     fit = measured(flow_file(tmp_path, 0.8 * noise)).measurement.fit
     assert [each.name for each in fit.parameters] == ["zero_shear_viscosity"]
     assert fit.value("zero_shear_viscosity") == pytest.approx(0.8, rel=0.01)
 
 
-def test_a_plateau_that_no_row_reaches_is_no_record_s(tmp_path: Path) -> None:
+def test_a_plateau_that_no_row_reaches_is_no_record_s(tmp_path):
     rate = np.geomspace(3.0, 300.0, 25)
     noise = np.exp(np.random.default_rng(5).normal(0.0, 0.003, 25))
     path = flow_file(tmp_path, carreau_yasuda(rate, 900.0, 1.0, 0.5, 2.0) * noise, rate, temperature__degC=[90.0] * 25)
@@ -228,7 +228,7 @@ def test_a_plateau_that_no_row_reaches_is_no_record_s(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ["relaxation", "creep", "melt"])
-def test_a_flow_curve_is_no_other_kind(tmp_path: Path, kind: str) -> None:
+def test_a_flow_curve_is_no_other_kind(tmp_path, kind):
     path = flow_file(tmp_path, np.full(12, 300.0), RATES[:12], time__s=np.arange(12.0), stress__Pa=300.0 * RATES[:12])
     with pytest.raises(InputError, match=rf"f\.csv:2: .* are a flow curve, not {kind}; --as flow_curve fits it"):
         measured(path, kind)

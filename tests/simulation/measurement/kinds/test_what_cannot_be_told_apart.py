@@ -10,7 +10,7 @@ from measured_files import csv, fit_files, holds, measured, moduli, oscillated, 
 from tvimdesign.base.errors import InputError
 
 
-def test_a_pad_at_one_current(tmp_path: Path) -> None:
+def test_a_pad_at_one_current(tmp_path):
     # One current gives V and the temperatures once: many pairs of S and R have that voltage.
     noise = np.random.default_rng(1)
     columns = {
@@ -23,7 +23,7 @@ def test_a_pad_at_one_current(tmp_path: Path) -> None:
     assert not any("hot_0" in sentence for sentence in result.fit.words)
 
 
-def test_a_load_that_only_rises_says_nothing_of_friction(tmp_path: Path) -> None:
+def test_a_load_that_only_rises_says_nothing_of_friction(tmp_path):
     torque = np.linspace(0.1, 1.0, 10)
     angle = torque / 5.0 + np.random.default_rng(1).normal(0.0, 1e-4, 10)
     result = fit_files(csv(tmp_path / "t.csv", torque__Nm=torque, angle__rad=angle), "torque_angle")
@@ -32,7 +32,7 @@ def test_a_load_that_only_rises_says_nothing_of_friction(tmp_path: Path) -> None
     assert "a backlash would not be seen" in result.notes[1]
 
 
-def test_one_hold_of_a_calorimeter_leaves_the_rate_open(tmp_path: Path) -> None:
+def test_one_hold_of_a_calorimeter_leaves_the_rate_open(tmp_path):
     time = np.linspace(0.0, 600.0, 200)
     fraction = 1.0 - np.exp(-np.log(2.0) * (time / 100.0) ** 3)
     heat = np.gradient(fraction, time) * 60.0 + np.random.default_rng(1).normal(0.0, 1e-3, 200)
@@ -42,7 +42,7 @@ def test_one_hold_of_a_calorimeter_leaves_the_rate_open(tmp_path: Path) -> None:
     assert any("crystallization_half_time and nucleation_constant" in sentence for sentence in result.fit.words)
 
 
-def test_slow_flow_alone_gives_a_viscosity_and_no_time(tmp_path: Path) -> None:
+def test_slow_flow_alone_gives_a_viscosity_and_no_time(tmp_path):
     # G'' = eta w, and a G' of instrument's noise: all that relaxes is a viscosity.
     omega = np.geomspace(0.01, 0.1, 12)
     noise = np.random.default_rng(2)
@@ -57,7 +57,7 @@ def test_slow_flow_alone_gives_a_viscosity_and_no_time(tmp_path: Path) -> None:
     assert viscosity.low < 500.0 < (viscosity.high or 0.0) < 1.1 * viscosity.low
 
 
-def test_a_creep_too_short_to_flow_has_no_viscosity(tmp_path: Path) -> None:
+def test_a_creep_too_short_to_flow_has_no_viscosity(tmp_path):
     # An elastic answer and nothing else: any longer time does as well.
     time = np.geomspace(1e-3, 1.0, 50)
     compliance = 1e-6 * np.exp(np.random.default_rng(1).normal(0.0, 0.01, 50))
@@ -82,7 +82,7 @@ def relaxed(time: Any) -> Any:
     return sum(modulus * np.exp(-time / tau) for tau, modulus in MODES)
 
 
-def test_a_modulus_that_stays_is_a_solid_s_and_no_record(tmp_path: Path) -> None:
+def test_a_modulus_that_stays_is_a_solid_s_and_no_record(tmp_path):
     time = np.geomspace(1e-3, 1.5, 80)
     path = csv(tmp_path / "r.csv", time__s=time, relaxation_modulus__Pa=(relaxed(time) + 4200.0) * noise(80, 0.02))
     result = fit_files(path, "relaxation", temperature="100 degC")
@@ -91,7 +91,7 @@ def test_a_modulus_that_stays_is_a_solid_s_and_no_record(tmp_path: Path) -> None
     assert any("The data do not flow" in note for note in result.notes)
 
 
-def test_a_viscosity_beside_the_modes_is_the_record_s_alone(tmp_path: Path) -> None:
+def test_a_viscosity_beside_the_modes_is_the_record_s_alone(tmp_path):
     omega = np.geomspace(0.1, 100.0, 25)
     storage, loss = moduli(omega, MODES)
     loss = (loss + 1500.0 * omega) * noise(25, 0.02, 1)
@@ -102,7 +102,7 @@ def test_a_viscosity_beside_the_modes_is_the_record_s_alone(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("with_strain", [True, False])
-def test_rows_while_the_strain_rises_are_left_out_and_named(tmp_path: Path, with_strain: bool) -> None:
+def test_rows_while_the_strain_rises_are_left_out_and_named(tmp_path, with_strain):
     time = np.geomspace(1e-3, 5.0, 80)
     rise = 1.0 - np.exp(-((time / 0.02) ** 2))
     columns = (
@@ -117,7 +117,7 @@ def test_rows_while_the_strain_rises_are_left_out_and_named(tmp_path: Path, with
     assert not done.measurement.record_values
 
 
-def test_rows_within_the_inertia_of_an_instrument_are_left_out(tmp_path: Path) -> None:
+def test_rows_within_the_inertia_of_an_instrument_are_left_out(tmp_path):
     time = np.geomspace(1e-3, 5.0, 80)
     fluid = time / VISCOSITY + 2e-4 * (1.0 - np.exp(-time / 0.3))
     inert = np.minimum(fluid, np.interp(0.02, time, fluid) * (time / 0.02) ** 2)
@@ -128,7 +128,7 @@ def test_rows_within_the_inertia_of_an_instrument_are_left_out(tmp_path: Path) -
     assert holds(result.record_values["zero_shear_viscosity"], VISCOSITY)
 
 
-def test_no_interval_is_narrower_than_the_last_digit_allows(tmp_path: Path) -> None:
+def test_no_interval_is_narrower_than_the_last_digit_allows(tmp_path):
     # Whole degrees that lie on a line by chance: each may be off by 0.5 deg, 0.29 deg in the mean square.
     angle = np.array([0, 5, 10, 15, 20, 15, 10, 5, 0])
     fit = fit_files(csv(tmp_path / "t.csv", torque__Nm=angle / 5, angle__deg=angle), "torque_angle").fit
@@ -138,7 +138,7 @@ def test_no_interval_is_narrower_than_the_last_digit_allows(tmp_path: Path) -> N
     assert 2.0 * 1.96 * slope_deviation < width < 2.0 * 3.5 * slope_deviation
 
 
-def test_rows_that_part_from_the_law_at_an_end_are_no_record_s(tmp_path: Path) -> None:
+def test_rows_that_part_from_the_law_at_an_end_are_no_record_s(tmp_path):
     omega = np.geomspace(0.1, 100.0, 30)
     storage, loss = moduli(omega, MODES)
     bent = storage * np.where(omega > 40.0, 0.6, 1.0)  # as the motor's inertia takes from G'
@@ -155,7 +155,7 @@ def record(path: Path, hertz: float, seed: int, *, friction: float = 0.0) -> Pat
     return turned(path, hertz, seed, (INERTIA, STIFFNESS, DAMPING, friction), 0.08, (2e-4, 2.5e-3))
 
 
-def test_two_frequencies_part_inertia_from_stiffness(tmp_path: Path) -> None:
+def test_two_frequencies_part_inertia_from_stiffness(tmp_path):
     fit = fit_files(
         [record(tmp_path / f"{hertz}.csv", hertz, seed) for seed, hertz in enumerate((1.0, 7.0))], "sine"
     ).fit
@@ -164,7 +164,7 @@ def test_two_frequencies_part_inertia_from_stiffness(tmp_path: Path) -> None:
     assert fit.value("damping") == pytest.approx(DAMPING, rel=0.03)
 
 
-def test_a_single_frequency_leaves_stiffness_open_and_a_known_inertia_not(tmp_path: Path) -> None:
+def test_a_single_frequency_leaves_stiffness_open_and_a_known_inertia_not(tmp_path):
     path = record(tmp_path / "one.csv", 3.0, 5)
     alone = fit_files(path, "sine")
     omega = 6.0 * np.pi
@@ -175,7 +175,7 @@ def test_a_single_frequency_leaves_stiffness_open_and_a_known_inertia_not(tmp_pa
     assert known.value("stiffness") == pytest.approx(STIFFNESS, rel=5e-3)
 
 
-def test_the_loop_that_no_speed_changes_is_friction(tmp_path: Path) -> None:
+def test_the_loop_that_no_speed_changes_is_friction(tmp_path):
     paths = [record(tmp_path / f"{hertz}.csv", hertz, seed, friction=0.06) for seed, hertz in enumerate((1.0, 7.0))]
     fit = fit_files(paths, "sine").fit
     assert fit.value("friction") == pytest.approx(0.06, rel=0.05)
@@ -184,14 +184,14 @@ def test_the_loop_that_no_speed_changes_is_friction(tmp_path: Path) -> None:
     assert fit.value("loss") == pytest.approx(DAMPING * 2.0 * np.pi + 4.0 * 0.06 / (np.pi * 0.08), rel=0.02)
 
 
-def test_less_than_a_period_is_refused(tmp_path: Path) -> None:
+def test_less_than_a_period_is_refused(tmp_path):
     time = np.linspace(0.0, 0.4, 60)
     columns: dict[str, Any] = {"time__s": time, "angle__rad": 0.1 * np.sin(2.0 * np.pi * time), "torque__Nm": time}
     with pytest.raises(InputError, match="less than one period"):
         fit_files(csv(tmp_path / "s.csv", **columns), "sine")
 
 
-def test_a_joint_that_slips_has_its_stiffness_and_its_torque(tmp_path: Path) -> None:
+def test_a_joint_that_slips_has_its_stiffness_and_its_torque(tmp_path):
     angle = np.linspace(0.0, 0.1, 80)
     torque = np.minimum(200.0 * angle, 11.0) + np.random.default_rng(1).normal(0.0, 0.05, 80)
     result = fit_files(csv(tmp_path / "f.csv", angle__rad=angle, torque__Nm=torque), "frozen_torque", **SIZES)
@@ -201,7 +201,7 @@ def test_a_joint_that_slips_has_its_stiffness_and_its_torque(tmp_path: Path) -> 
     assert result.record_values["bond_strength"].value == pytest.approx(11.0 * 0.040 / 1.7985e-6, rel=0.01)
 
 
-def test_what_breaks_without_bending_is_known_from_several(tmp_path: Path) -> None:
+def test_what_breaks_without_bending_is_known_from_several(tmp_path):
     torques = [9.0, 10.0, 11.0, 10.0]
     paths = []
     for i, most in enumerate(torques):
@@ -218,7 +218,7 @@ def test_what_breaks_without_bending_is_known_from_several(tmp_path: Path) -> No
     assert holds(held, 10.5)
 
 
-def test_joints_that_give_at_torques_of_their_own_have_one_each(tmp_path: Path) -> None:
+def test_joints_that_give_at_torques_of_their_own_have_one_each(tmp_path):
     torques, angle = [9.0, 10.0, 11.0, 10.5], np.linspace(0.0, 0.1, 60)
     paths = [
         csv(tmp_path / f"{i}.csv", angle__rad=angle,
@@ -236,7 +236,7 @@ def test_joints_that_give_at_torques_of_their_own_have_one_each(tmp_path: Path) 
     assert not fit_files(paths[:2], "frozen_torque", **SIZES).record_values
 
 
-def test_a_torque_that_is_largest_in_the_first_row_is_reported(tmp_path: Path) -> None:
+def test_a_torque_that_is_largest_in_the_first_row_is_reported(tmp_path):
     file = csv(tmp_path / "f.csv", angle__rad=[0.001, 0.002, 0.003, 0.004], torque__Nm=[5.0, 1e-3, 2e-3, 1e-3])
     with pytest.raises(InputError, match=r"up to its largest torque, 5 N\.m, the joint has one angle, 0\.001 rad"):
         fit_files(file, "frozen_torque")

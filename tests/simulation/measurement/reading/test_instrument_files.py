@@ -55,7 +55,7 @@ def rheocompass(names: tuple[str, str, str, str]) -> bytes:
         ("Abschnitt", "Speichermodul", "Verlustmodul", "Temperatur"),
     ],
 )
-def test_rheocompass_in_three_languages(tmp_path: Path, names: tuple[str, str, str, str]) -> None:
+def test_rheocompass_in_three_languages(tmp_path, names):
     tables = blocks(tmp_path, "sweep.csv", rheocompass(names))
     assert [round(float(block.values("temperature")[0] - 273.15), 9) for block in tables] == [60.0, 80.0]
     for block in tables:
@@ -63,7 +63,7 @@ def test_rheocompass_in_three_languages(tmp_path: Path, names: tuple[str, str, s
         assert len(block.skipped) == 1
 
 
-def test_trios_text_with_steps_and_units_of_its_own(tmp_path: Path) -> None:
+def test_trios_text_with_steps_and_units_of_its_own(tmp_path):
     rows = "\n".join(f"{x}\t{a / 1e6}\t{b / 1e6}\t3.1\t\t80" for x, a, b in SWEEP)
     text = (
         "Filename\tpcl\nInstrument name\tHR\n[File Parameters]\nGap\t1000 µm\nStress constant\t79577.5 Pa/N.m\n[step]\n"
@@ -77,7 +77,7 @@ def test_trios_text_with_steps_and_units_of_its_own(tmp_path: Path) -> None:
     assert second.values("stress") == pytest.approx([1.0, 2.0, 3.0])
 
 
-def test_trios_lims_export_with_labels_before_its_rows(tmp_path: Path) -> None:
+def test_trios_lims_export_with_labels_before_its_rows(tmp_path):
     rows = "\n".join(f"Data point\t{x}\t{a}\t{b}" for x, a, b in SWEEP)
     text = (
         "Windows setup INFormation\n[Step]\nStep name\tFrequency sweep (80.0 °C)\nNumber of points\t3\n"
@@ -88,7 +88,7 @@ def test_trios_lims_export_with_labels_before_its_rows(tmp_path: Path) -> None:
     assert block.title == "Frequency sweep (80.0 °C)"
 
 
-def test_trios_json(tmp_path: Path) -> None:
+def test_trios_json(tmp_path):
     names = {"Angular frequency": "rad/s", "Storage modulus": "Pa", "Loss modulus": "Pa", "Step": ""}
     columns = [{"name": name, "unit": unit} for name, unit in names.items()]
     data = {"columns": columns, "values": [[*row, 1] for row in SWEEP]}
@@ -97,7 +97,7 @@ def test_trios_json(tmp_path: Path) -> None:
     is_the_sweep(block)
 
 
-def test_malvern_by_the_names_of_its_actions(tmp_path: Path) -> None:
+def test_malvern_by_the_names_of_its_actions(tmp_path):
     head = (
         "Action Name;Time (action)(s);Frequency(Hz);Shear modulus (elastic component)(Pa);"
         "Shear modulus (viscous component)(Pa);Temperature(°C)"
@@ -109,7 +109,7 @@ def test_malvern_by_the_names_of_its_actions(tmp_path: Path) -> None:
     is_the_sweep(second, "frequency")
 
 
-def test_netzsch_with_its_header_and_decimal_comma(tmp_path: Path) -> None:
+def test_netzsch_with_its_header_and_decimal_comma(tmp_path):
     text = (
         "#EXPORTTYPE:DATA ALL\n#SAMPLE MASS /mg:4,98\n#EXO:-1\n##Temp./°C;Time/min;DSC/(mW/mg);Sensit./(uV/mW)\n"
         " 9,33910; 91,0;-8,719357e-02;3,42\n 9,23910; 91,1;-8,7e-02;3,42\n 9,13910; 91,2;-8,6e-02;3,42\n"
@@ -121,7 +121,7 @@ def test_netzsch_with_its_header_and_decimal_comma(tmp_path: Path) -> None:
     assert block.number("sample_mass") == pytest.approx(4.98e-6)
 
 
-def test_netzsch_of_an_sta_padded_with_a_blank_line_under_its_headings(tmp_path: Path) -> None:
+def test_netzsch_of_an_sta_padded_with_a_blank_line_under_its_headings(tmp_path):
     text = (
         "#EXPORTTYPE: ;DATA ALL ;;;\n#DECIMAL:    ;COMMA    ;;;\n#SEPARATOR:  ;SEMICOLON;;;\n"
         "#SAMPLE MASS /mg: ;22,160;;;\n"
@@ -135,7 +135,7 @@ def test_netzsch_of_an_sta_padded_with_a_blank_line_under_its_headings(tmp_path:
     assert block.number("sample_mass") == pytest.approx(22.16e-6)
 
 
-def test_numbers_after_a_blank_line_take_no_sentence_for_headings(tmp_path: Path) -> None:
+def test_numbers_after_a_blank_line_take_no_sentence_for_headings(tmp_path):
     with pytest.raises(InputError, match=r"x.csv:3: numbers without a row of headings above them"):
         blocks(tmp_path, "x.csv", "measured on;a rainy day\n\n1;2\n2;3\n")
 
@@ -146,7 +146,7 @@ def test_numbers_after_a_blank_line_take_no_sentence_for_headings(tmp_path: Path
      "T=80;\nFreq\tG'\tG\"\nrad/s\tPa\tPa\n"],
 )  # fmt: skip
 @pytest.mark.parametrize("ending", [".tts", ".osc"])
-def test_reptate_with_and_without_headings(tmp_path: Path, head: str, ending: str) -> None:
+def test_reptate_with_and_without_headings(tmp_path, head, ending):
     rows = "\n".join(f" {x:.8E} {a}\t{b}   0" for x, a, b in SWEEP).replace("E+0", "E+000")
     (block,) = blocks(tmp_path, f"melt{ending}", head + rows + "\n")
     is_the_sweep(block)
@@ -154,7 +154,7 @@ def test_reptate_with_and_without_headings(tmp_path: Path, head: str, ending: st
 
 
 @pytest.mark.parametrize(("heading", "good"), [("Status", "Dy_auto"), ("Etat", ""), ("Quality", "no error")])
-def test_rows_that_the_instrument_flags_are_left_out_and_counted(tmp_path: Path, heading: str, good: str) -> None:
+def test_rows_that_the_instrument_flags_are_left_out_and_counted(tmp_path, heading, good):
     rows = [f"{x};{a};{b};{good}" for x, a, b in SWEEP]
     flagged = ["1e-1;5;9e9;ME-", "1e-2;5;9e9;ME-, taD", "1e-3;5;9e9;MV-"]
     head = f"Angular frequency [rad/s];Storage modulus [Pa];Loss modulus [Pa];{heading}"
@@ -167,7 +167,7 @@ def test_rows_that_the_instrument_flags_are_left_out_and_counted(tmp_path: Path,
         none.complete(["loss_modulus"])
 
 
-def test_a_workbook(tmp_path: Path) -> None:
+def test_a_workbook(tmp_path):
     cells = [["sample", "PCL"], [], ["ω (rad/s)", "G' (Pa)", "G'' (Pa)"], *SWEEP]
     (block,) = blocks(tmp_path, "sweep.xlsx", workbook(cells))
     is_the_sweep(block)
