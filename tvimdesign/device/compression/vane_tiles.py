@@ -35,11 +35,7 @@ tile_places = QuantityGroup("Layout", WITH_TILES)
 tile_weights = QuantityGroup("Size and weight", WITH_TILES)
 tile_rules = QuantityGroup("Gaps", WITH_TILES)
 
-kinds.option(
-    "heater_wiring",
-    ("series", "vanes_parallel", "all_parallel"),
-    "How the heaters are wired: all in series, the vanes in parallel each in series, or all in parallel",
-)
+kinds.choices("vane_tiles")
 
 
 @tile_places.helper(requires=())

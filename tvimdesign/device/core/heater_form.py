@@ -38,48 +38,7 @@ places = QuantityGroup("Layout", WITH_TILES)
 weights = QuantityGroup("Size and weight", WITH_TILES)
 flows = QuantityGroup("Switch")
 
-kinds.option(
-    "heater_form",
-    (CUT, "rigid"),
-    "How the heaters face the PCL: cut to its outline, or as rectangles behind a spreader",
-    record=("peltier_module", "form"),
-)
-kinds.record(
-    "spreader_material", "spreaders", "aluminum_6061", "Sheet between rigid heaters and the PCL", requires=WITH_TILES
-)
-for name, unit, field, description in (
-    ("peltier_bulk_modulus", "GPa", "bulk_modulus", "Bulk modulus of a module that is cut to the PCL"),
-    ("peltier_length", "mm", "length", "Length of one rectangular heater, along its row"),
-    ("peltier_width", "mm", "width", "Width of one rectangular heater, across its row"),
-):
-    kinds.property(name, unit, ("peltier_module", field), description, default=0.0)
-for name, unit, description in (
-    ("lead_gauge", "1", "Gauge (AWG) of the leads that rectangular heaters come with"),
-    ("lead_length", "mm", "Length of these leads"),
-):
-    kinds.property(name, unit, ("peltier_module", name), description, default=0.0, read_by="cad")
-for name, unit, field, description in (
-    ("spreader_density", "kg/m^3", "density", "Density of the spreader"),
-    ("spreader_conductivity", "W/m/K", "thermal_conductivity", "Thermal conductivity of the spreader"),
-    ("spreader_specific_heat", "J/kg/K", "specific_heat", "Specific heat of the spreader"),
-    ("spreader_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the spreader"),
-):
-    kinds.property(name, unit, ("spreader_material", field), description)
-kinds.property(
-    "peltier_porch",
-    "mm",
-    ("peltier_module", "porch"),
-    "Length by which the warmer plate of such a module is longer, at the end that its leads leave",
-    mode="shear",
-    default=0.0,
-)
-kinds.property(
-    "spreader_shear_modulus",
-    "GPa",
-    ("spreader_material", "shear_modulus"),
-    "Shear modulus of the spreader",
-    mode="shear",
-)
+kinds.choices("heater_form")
 
 
 @places.output("1", default=1.0, requires=())
@@ -180,21 +139,7 @@ LAYER_HEATED = (Feature("heat_source", PADS),)
 layer_kinds = QuantityGroup("Materials")
 layer_flows = QuantityGroup("Switch")
 
-layer_kinds.option(
-    "heat_source",
-    (PADS, "layer"),
-    "Where the current makes heat: in the pads, or in the layer itself between combs of electrodes",
-    record=("peltier_module", "heat_source"),
-)
-layer_kinds.property(
-    "pcl_resistivity", "ohm*m", ("pcl_grade", "resistivity"), "Electrical resistivity of a layer that heats itself",
-    requires=LAYER_HEATED,
-)  # fmt: skip
-for _name, _about in (
-    ("electrode_gap", "Gap between two fingers of the combs that feed the layer"),
-    ("electrode_width", "Width of a finger of these combs"),
-):
-    layer_kinds.property(_name, "mm", ("peltier_module", _name), _about, requires=LAYER_HEATED)
+layer_kinds.choices("layer_heater")
 
 
 @layer_flows.output("ohm", requires=LAYER_HEATED)

@@ -13,28 +13,7 @@ WITH_ENCODER = (*WITH_MOTOR, Feature("encoder", WITHOUT))
 
 quantities = QuantityGroup("Layout", WITH_MOTOR)  # `layout.py` asks for the motor, so its name is not taken from there
 
-quantities.record(
-    "motor", "motors", WITHOUT, "Frameless motor that turns the module's housing, or none", others=(WITHOUT,)
-)
-quantities.record(
-    "encoder", "encoders", WITHOUT, "Encoder of that motor, or none", others=(WITHOUT,), requires=WITH_MOTOR
-)
-quantities.record(
-    "motor_bearing", "bearings", "ball_6802", "Ball bearings of that motor, two of a kind", requires=WITH_MOTOR
-)
-quantities.record("motor_screw", "screws", "iso_7380_m3", "Screw that holds that motor's retainer", requires=WITH_MOTOR)
-for screw, words in (("motor_screw", "motor's retainer screw"), ("mount_screw", "screws in the housing's feet")):
-    for name, unit, field, description in (
-        ("diameter", "mm", "nominal_diameter", "Nominal diameter"),
-        ("pilot", "mm", "tap_drill", "Hole for the thread"),
-        ("head", "mm", "head_diameter", "Head diameter"),
-        ("key", "mm", "hexagon_key", "Hexagon key, across its flats,"),
-        ("head_height", "mm", "head_height", "Head height"),
-        ("density", "kg/m^3", "density", "Density"),
-    ):
-        read_by = "cad" if name == "key" else ""
-        quantities.property(f"{screw}_{name}", unit, (screw, field), f"{description} of the {words}", read_by=read_by)
-quantities.property("motor_screw_clearance", "mm", ("motor_screw", "clearance_hole"), "Clearance hole of that screw")
+quantities.choices("motor_choice")
 
 
 class Motor(NamedTuple):

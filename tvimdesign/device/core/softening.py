@@ -13,17 +13,8 @@ from tvimdesign.physics.heat_flow import heat
 quantities = QuantityGroup("Softening")
 
 quantities.inputs()
-quantities.option(
-    "response_criterion",
-    ("far_face", "mean", "near_face", "softening"),
-    "What ends the switch: a face or the mean of the layer at the target temperature, or the joint's impedance",
-)
+quantities.choices("softening")
 
-quantities.option(
-    "impedance_targets",
-    ("operating_points", "stated"),
-    "What soft and stiff mean: the joint at its hot and cold points, or `soft_impedance` and `stiff_impedance`",
-)
 
 # --- response times --------------------------------------------------------------------------------------------------
 
@@ -224,11 +215,7 @@ HALF = 0.5
 SHARPNESS = 80.0
 
 stiffenings.inputs()
-stiffenings.option(
-    "stiffening_criterion",
-    ("impedance", "frozen"),
-    "What ends the way back: the joint's impedance, or every slice of the layer half frozen, so that it bears for good",
-)
+stiffenings.choices("stiffening")
 
 
 @stiffenings.output("N*m/rad")

@@ -31,8 +31,7 @@ SWING = 0.6
 SPECTRUM = 5  # Frequencies of the band at which a sine is looked at, besides the resonance
 
 quantities = QuantityGroup(GROUP, WITH_ARM)
-quantities.option("task", (WITHOUT, ARM), "Arm that the joint moves; the section `task` of a study sets it")
-quantities.option("trajectory", (WITHOUT, "given"), "Trajectory of the housing; `task: trajectory` gives it")
+quantities.choices("task")
 quantities.inputs()
 
 

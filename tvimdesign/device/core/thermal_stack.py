@@ -29,15 +29,7 @@ POWER_ROUNDING = 0.01  # W
 quantities = QuantityGroup("Switch")
 
 quantities.inputs()
-quantities.option(
-    "cold_side", ("open", "sink"), "What the pads' outer side gives its heat to: the air, or a sink of its own"
-)
-quantities.option(
-    "phase_model",
-    ("kinetic", "equilibrium"),
-    "How the layer freezes: late and supercooled as it does, or on its melting curve as is often assumed",
-    idealized={"equilibrium": "the layer freezes where it melts, where it supercools and needs its time"},
-)
+quantities.choices("thermal_stack")
 
 
 @quantities.output("1")
@@ -250,11 +242,7 @@ def damping_now(m: Module) -> Scalar:
     return m.branch_now[1] / (2.0 * np.pi * m.frequency_now)
 
 
-quantities.option(
-    "motion",
-    ("at_rest", "moving"),
-    "Whether the joint is left alone while it softens, is held soft and stiffens, or turned, which heats the PCL",
-)
+quantities.choices("heat_links")
 
 
 @quantities.output("W", per_point=True)

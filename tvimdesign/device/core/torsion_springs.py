@@ -14,22 +14,7 @@ from tvimdesign.physics.spring import leg_curvature, leg_ratio, leg_turned, outp
 
 quantities = QuantityGroup("Springs", sprung=True)
 
-quantities.option(
-    "rate_model", ("bending", "smi"), "Spring rate: pure bending, or the handbook's, 6 % softer by friction"
-)
-quantities.option(
-    "stress_factor", ("shigley", "en_13906"), "Rise of the stress at the inner fibre by the coil's curvature"
-)
-quantities.option(
-    "leg_model", ("bending", "ignored"), "Whether leg and tang bend with the coils",
-    idealized={"ignored": "the coils alone bend, where the drawn leg and tang bend too"},
-)  # fmt: skip
-quantities.option(
-    "transmission",
-    ("geometry", "unity"),
-    "Winding of a spring per angle of the rotor: the leg on its pin as drawn, or the paper's ratio of one",
-    idealized={"unity": "springs turn one to one with the rotor, where the drawn legs bear on pins at an offset"},
-)
+quantities.choices("torsion_springs")
 _AS_DRAWN = Feature("transmission", "unity")
 _OVER_STROKE = (
     "spring_stiffness", "spring_stiffness_half_stroke", "spring_stiffness_seven_tenths_stroke",

@@ -27,10 +27,7 @@ from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Impedance")
 
-quantities.option(
-    "bond_rating", ("as_new", "derated"),
-    "Bond that the torques count with: as new, or after `bond_cycles` and at the cold point's temperature",
-)  # fmt: skip
+quantities.choices("layer_impedance")
 
 
 @quantities.output("m^4")

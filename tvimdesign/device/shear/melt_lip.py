@@ -38,9 +38,7 @@ LEAST_LIP = 0.1 * MM  # Least height of a lip; assumed, 0.1 to 0.2 mm: a layer o
 places = QuantityGroup("Layout")
 weights = QuantityGroup("Size and weight")
 rules = QuantityGroup("Gaps", WITH_LIP)
-places.option(
-    "melt_lip", (NO_LIP, "rings"), "Whether rings of the rotor plate hold the melt at its inner and outer edge"
-)
+places.choices("melt_lip")
 
 
 @places.output("mm", requires=WITH_LIP)

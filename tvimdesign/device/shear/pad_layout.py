@@ -39,11 +39,7 @@ tile_weights = QuantityGroup("Size and weight", WITH_TILES)
 tile_rules = QuantityGroup("Gaps", WITH_TILES)
 kinds = QuantityGroup("Materials")
 
-kinds.option(
-    "heater_wiring",
-    ("series", "arcs_parallel", "all_parallel"),
-    "How the heaters are wired: all in series, the arcs in parallel each in series, or all in parallel",
-)
+kinds.choices("pad_layout")
 
 
 @tile_places.helper(requires=())

@@ -20,10 +20,7 @@ from tvimdesign.physics.solids import plates, structure
 kinds, places = QuantityGroup("Materials"), QuantityGroup("Layout")
 strengths, rules = QuantityGroup("Impedance"), QuantityGroup("Gaps", WITH_TILES)
 
-kinds.property(
-    "spreader_strength", "MPa", ("spreader_material", "yield_strength"), "Yield strength of the spreader",
-    requires=WITH_TILES,
-)  # fmt: skip
+kinds.choices("spreader_seat")
 
 
 @places.output("mm")

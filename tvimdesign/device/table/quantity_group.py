@@ -81,6 +81,15 @@ class QuantityGroup:
                 )
             )  # fmt: skip
 
+    def choices(self, key: str) -> None:
+        """Add the choices that `choices.yaml` lists under a key, and the numbers that the chosen records give."""
+        for name, entry in _all_choices()[key].items():
+            add = self.option if "options" in entry else self.record if "category" in entry else self.property
+            fields: dict[str, Any] = {word: tuple(of) if isinstance(of, list) else of for word, of in entry.items()}
+            if "requires" in entry:
+                fields["requires"] = tuple(Feature(*pair) for pair in entry["requires"])
+            add(name, **fields)
+
     def property(
         self,
         name: str,
@@ -333,3 +342,4 @@ def directions() -> dict[str, Literal["less", "more"]]:
 
 
 _all_inputs = partial(own_data, __file__, "inputs.yaml")  # The inputs by group and name
+_all_choices = partial(own_data, __file__, "choices.yaml")  # The choices and numbers of records by key and name
