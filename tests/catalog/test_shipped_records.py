@@ -147,6 +147,30 @@ def test_solid_spectrum_has_a_modulus_of_one_at_1_hertz():
     of_every(MELTING, check)
 
 
+DRIVERS = {
+    "moteus_c1": (10, 51, 5, 20, 0.8, 8.9, 38, 38, 9),
+    "moteus_n1": (10, 54, 9, 100, 0.8, 14.6, 46, 46, 8),
+    "moteus_r4": (10, 44, 12, 100, 0.8, 14.2, 53, 46),
+    "moteus_x1": (10, 54, 25, 120, 0.8, 23.8, 56, 56, 10),
+    "odrive_micro": (10, 31, 3.5, 7, 0.78, 11.7, 32, 32, 7),
+}
+"""Volts, uncooled and peak amperes, share of the supply, grams and mm of the README of mjbots/moteus (commit db1a762,
+2026-04-06) with its docs/guides/field-weakening.md, and of the data sheet of the ODrive Micro."""
+PRINTED = ("V", "V", "A", "A", "1", "g", "mm", "mm", "mm")
+
+
+def test_drivers_of_motors_are_as_their_makers_print_them():
+    assert set(DRIVERS) == set(CATALOG.names("motor_drivers"))
+    for name, values in DRIVERS.items():
+        entries = CATALOG.record("motor_drivers", name).entries
+        assert len(entries) == len(values)
+        names = [*CATEGORIES["motor_drivers"].values, "height"]
+        for field, value, unit in zip(names, values, PRINTED, strict=False):
+            assert (entries[field].unit, entries[field].status) == (unit, "datasheet")
+            scale = {"g": 1e-3, "mm": 1e-3}.get(unit, 1.0)
+            assert entries[field].value == pytest.approx(value * scale), (name, field)
+
+
 def test_solids_soften_and_take_up_heat_as_calibrated():
     def check(name: str) -> None:
         value = CATALOG.record("polymers", name).value

@@ -8,7 +8,7 @@ from itertools import combinations, pairwise
 from xml.etree import ElementTree
 
 import pytest
-from cad_designs import TILES, design_of
+from cad_designs import DRIVEN, TILES, design_of
 
 from tvimdesign.cad.assembly.bill_of_materials import Item, beside
 from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
@@ -19,7 +19,7 @@ from tvimdesign.catalog.offers import QUOTE, offer_for, offers, total
 KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
 KINDS |= {"preload_spring", "heater", "thermal_cutout", "controller_supply", "divider_resistor", "heater_wire"}
 KINDS |= {"crimp_splice", "wire_sleeve", "polyimide_film", "thermal_grease", "grease"}
-KINDS |= {"mould_release", "spreader", "liner"}
+KINDS |= {"mould_release", "spreader", "liner", "motor_driver"}
 DATE, UNDATED = re.compile(r"20\d\d-\d\d(-\d\d)?"), "not stated"
 BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"
 
@@ -47,6 +47,16 @@ def test_a_screw_is_ordered_by_its_length():
     eleven = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - A2-70")
     assert eleven is not None
     assert (eleven.supplier, eleven.number) == ("any fastener shop", "ISO 7380-1 - M3 x 11 - A2-70")
+
+
+def test_the_driver_of_a_motor_is_ordered_by_its_record():
+    design = design_of("driven", DRIVEN | {"motor_driver": "moteus_r4", "motor_supply_voltage": 36.0})
+    (item,) = (item for item in beside(design, {}) if item.kind == "motor_driver")
+    assert item.title == "moteus_r4, fed with 36 V"
+    assert item.mass == pytest.approx(14.2)
+    assert item.offer is not None
+    assert (item.offer.number, item.offer.price) == ("moteus-r4.11", 79.0)
+    assert not [item for item in beside(design_of("driven", DRIVEN), {}) if item.kind == "motor_driver"]
 
 
 def test_a_price_of_a_neighbour_is_an_interval_and_says_whose_it_is():

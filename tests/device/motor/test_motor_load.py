@@ -1,7 +1,8 @@
-"""The motor's torque, heat and speed in a task, against an arm on a spring that is turned alike."""
+"""The motor's torque, heat and speed in a task, against an arm on a spring that is turned alike; and its driver."""
 
 import re
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from support import study_path
 
+from tvimdesign.device.motor import motor_load
 from tvimdesign.solve.result import answer
 from tvimdesign.study.reader import read_study_text
 
@@ -35,7 +37,7 @@ def _values(motor: str, more: str = "") -> dict[str, float]:
     text = study_path("driven_joint").read_text(encoding="utf-8")
     head, _, tail = text.partition("vary:\n")
     points = tail[tail.index("operating_points:") : tail.index("tolerances:")]
-    text = head.replace("frameless_70x10", motor) + TASK + more + points
+    text = head.replace("frameless_70x10", f"{motor}\n  motor_driver: moteus_c1") + TASK + more + points
     return answer(read_study_text(text)).design.values
 
 
@@ -86,14 +88,46 @@ def test_a_small_motor_does_not_bear_the_task(motor, *, bears):
     assert values["motor_speed_margin"] > 0.0
 
 
+def test_its_voltage_is_that_of_a_star_of_three_phases():
+    """0.12 N.m for an ampere of rms current, 0.71 ohm a phase, 2 A rms at 10 rad/s, its phases drawn over a turn."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 100001)
+    current, other = (np.sqrt(2.0) * 2.0 * np.cos(turn - shift) for shift in (0.0, 2.0 * np.pi / 3.0))
+    # The phases share the power of 0.24 N.m at 10 rad/s: 2.4 W = 3 E 2 A, so E is 0.4 V rms.
+    emf, next_emf = (np.sqrt(2.0) * 0.4 * np.cos(turn - shift) for shift in (0.0, 2.0 * np.pi / 3.0))
+    largest = np.max(emf + 0.71 * current - next_emf - 0.71 * other)
+    motor = SimpleNamespace(torque_constant=0.12, winding_resistance=1.42)
+    module = SimpleNamespace(drive_motor=motor, task_speed=10.0, motor_current_at_hot=1.0, motor_current_at_cold=2.0)
+    assert motor_load.motor_voltage(module) == pytest.approx(largest, rel=1e-6)
+    # Its speed constant is 8.27 over the torque for an ampere of amplitude, 0.0849 N.m: 97.5 rpm/V, here at 95.5 rpm.
+    assert largest - np.sqrt(6.0) * 2.0 * 0.71 == pytest.approx(95.5 / 97.5, rel=1e-3)
+
+
+def test_its_driver_has_what_the_task_leaves():
+    values = _values("frameless_70x10")
+    # moteus-c1: 5 A and 20 A of amplitude, 0.8 of 24 V, 10 V to 51 V; the motor has 0.109 N.m/A rms, 0.47 ohm.
+    peak = max(values["motor_torque@hot"], values["motor_torque@cold"]) / 0.109
+    rms = max(values["motor_rms_torque@hot"], values["motor_rms_torque@cold"]) / 0.109
+    assert values["motor_driver_peak_margin"] == pytest.approx(20.0 - 1.41421356 * peak)
+    assert values["motor_driver_current_margin"] == pytest.approx(5.0 - 1.41421356 * rms)
+    wanted = 0.81649658 * 0.109 * values["task_speed"] + 1.22474487 * 0.47 * peak
+    assert values["motor_driver_voltage_margin"] == pytest.approx(19.2 - wanted)
+    assert values["motor_driver_supply_margin"] == pytest.approx(14.0)
+    assert values["motor_driver_mass"] == pytest.approx(8.9e-3)
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(("payload", "chosen"), [("200 g", "frameless_70x10"), ("1 kg", "frameless_85x13")])
-def test_the_motor_is_chosen_with_the_module(payload, chosen):
+@pytest.mark.parametrize(
+    ("payload", "chosen"), [("200 g", ("frameless_70x10", "moteus_c1")), ("1 kg", ("frameless_85x13", "moteus_x1"))]
+)
+def test_motor_and_driver_are_chosen_with_the_module(payload, chosen):
     text = study_path("driven_joint").read_text(encoding="utf-8")
     text = re.sub(r"(?m)^  motor: .*\n|^  motor_torque_margin: .*\n|^robust: .*\n", "", text)
     motors = "  motor: {choose: [frameless_50x08, frameless_70x10, frameless_85x13]}\n"
+    motors += "  motor_driver: {choose: [moteus_c1, moteus_x1]}\n"
+    text = text.replace("response_time: 1}", "response_time: 1, motor_driver_mass: 1}")
     text = text.replace("vary:\n", f"{TASK.replace('200 g', payload)}vary:\n{motors}")
     margins = "  motor_peak_margin: '>= 0 N.m'\n  motor_heat_margin: '>= 0 N.m'\n"
+    margins += "".join(f"  motor_driver_{name}_margin: '>= 0 A'\n" for name in ("peak", "current"))
     result = answer(read_study_text(text.replace("require:\n", f"require:\n{margins}")))
     assert result.feasible
-    assert result.design.choices["motor"] == chosen
+    assert (result.design.choices["motor"], result.design.choices["motor_driver"]) == chosen

@@ -183,7 +183,8 @@ def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return what is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the
     pads."""
     items = [_polymer(design, titles), *_under_pads(design, titles), *_heat_conducting_adhesive(design)]
-    items += [*_of_the_heater(design), *_supply(design), *_glues(design), *_beside_the_module(design, titles)]
+    items += [*_of_the_heater(design), *_supply(design), *_motor_driver(design, titles), *_glues(design)]
+    items += _beside_the_module(design, titles)
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
         record = str(design.choices["liner_adhesive"])
         film = inlay - design.value("liner_thickness")
@@ -361,6 +362,15 @@ def _supply(design: Design) -> list[Item]:
         Item("controller_supply", 1, False, "", f"Step-down converter for the controller, from {given:.4g} V", 0.0, ()),
         Item("divider_resistor", sensors, False, "", f"Resistor, {DIVIDER}, from 3.3 V to a thermistor", 0.0, ()),
     ]
+
+
+def _motor_driver(design: Design, titles: Mapping[str, str]) -> list[Item]:
+    """Return the driver of the motor, with the voltage that feeds it; none where the study names none."""
+    record = str(design.choices.get("motor_driver", "none"))
+    if record == "none":
+        return []
+    title = f"{titles.get('motor_driver', record)}, fed with {design.value('motor_supply_voltage'):.4g} V"
+    return [Item("motor_driver", 1, False, record, title, 1e3 * design.value("motor_driver_mass"), ())]
 
 
 def _papers(kind: str) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ WITHOUT = "none"
 
 WITH_MOTOR = (Feature("motor", WITHOUT),)
 WITH_ENCODER = (*WITH_MOTOR, Feature("encoder", WITHOUT))
+WITH_DRIVER = (*WITH_MOTOR, Feature("motor_driver", WITHOUT))
 
 quantities = QuantityGroup("Layout", WITH_MOTOR)  # `layout.py` asks for the motor, so its name is not taken from there
 

@@ -1,4 +1,4 @@
-"""Load of the motor: springs at the stroke, and the study's task by torque, heat and speed.
+"""Load of the motor and its driver: springs at the stroke, and the study's task by torque, heat, speed and voltage.
 
 The motor turns the housing against the joint's torque and moves `driven_inertia` besides. The torque of a sine is the
 sum of both amplitudes, which are not in phase: an upper bound.
@@ -6,7 +6,7 @@ sum of both amplitudes, which are not in phase: an upper bound.
 
 import numpy as np
 
-from tvimdesign.device.core.motor_choice import WITH_MOTOR
+from tvimdesign.device.core.motor_choice import WITH_DRIVER, WITH_MOTOR
 from tvimdesign.device.core.task import WITH_ARM
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
@@ -15,6 +15,8 @@ from tvimdesign.physics.layers import driven
 
 quantities = QuantityGroup("Task", (*WITH_MOTOR, *WITH_ARM))
 springs = QuantityGroup("Hold", WITH_MOTOR)
+supplies = QuantityGroup("Layout", WITH_DRIVER)
+drivers = QuantityGroup("Task", (*WITH_DRIVER, *WITH_ARM))
 
 _TOO_WEAK = "the motor cannot for long turn the springs alone by the stroke"
 
@@ -103,3 +105,58 @@ _SPEED = "the task is faster than the motor at its rated speed"
 def motor_speed_margin(m: Module) -> Scalar:
     """Rated speed of the motor beyond that of its task."""
     return m.drive_motor.rated_speed - m.task_speed
+
+
+@supplies.output("g")
+def motor_driver_mass(m: Module) -> Scalar:
+    """Mass of the motor's driver, which stands beside the module; `module_mass` leaves it out."""
+    return m.motor_driver.value("mass")
+
+
+_SUPPLY = "the supply is outside the range of the motor's driver"
+
+
+@supplies.output("V", advice=(at_least(0.0, _SUPPLY),))
+def motor_driver_supply_margin(m: Module) -> Scalar:
+    """Distance of the supply from the nearer end of the driver's range."""
+    least, most = m.motor_driver.value("supply_voltage_min"), m.motor_driver.value("supply_voltage_max")
+    return np.fmin(m.motor_supply_voltage - least, most - m.motor_supply_voltage)
+
+
+_PEAK_CURRENT = "the motor's driver does not give the peak current of the task"
+
+
+@drivers.output("A", advice=(at_least(0.0, _PEAK_CURRENT),))
+def motor_driver_peak_margin(m: Module) -> Scalar:
+    """Largest current of the motor's driver beyond that of the task, amplitudes of a phase, soft and frozen."""
+    return m.motor_driver_peak_current - np.sqrt(2.0) * np.fmax(m.motor_current_at_hot, m.motor_current_at_cold)
+
+
+_CURRENT = "the motor's driver gets too hot in the task"
+
+
+@drivers.output("A", advice=(at_least(0.0, _CURRENT),))
+def motor_driver_current_margin(m: Module) -> Scalar:
+    """Continuous current of the motor's driver beyond the rms over the task, amplitudes of a phase, soft and frozen."""
+    torque = np.fmax(m.motor_rms_torque_at_hot, m.motor_rms_torque_at_cold)
+    return m.motor_driver_current - np.sqrt(2.0) * torque / m.drive_motor.torque_constant
+
+
+@quantities.output("V")
+def motor_voltage(m: Module) -> Scalar:
+    """Largest voltage between two terminals of the motor in its task, as if largest speed and current met.
+
+    Back-EMF of its speed and drop of its current, cold, both amplitudes; its inductance is left out.
+    """
+    back_emf = np.sqrt(2.0 / 3.0) * m.drive_motor.torque_constant * m.task_speed
+    current = np.fmax(m.motor_current_at_hot, m.motor_current_at_cold)
+    return back_emf + np.sqrt(1.5) * m.drive_motor.winding_resistance * current
+
+
+_VOLTAGE = "the supply of the motor's driver is too low for the task's speed and torque"
+
+
+@drivers.output("V", advice=(at_least(0.0, _VOLTAGE),))
+def motor_driver_voltage_margin(m: Module) -> Scalar:
+    """Voltage that the driver makes of its supply beyond what the motor wants in the task."""
+    return m.motor_driver_modulation * m.motor_supply_voltage - m.motor_voltage
