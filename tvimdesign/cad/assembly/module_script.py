@@ -10,6 +10,7 @@ import inspect
 import sys
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import cadquery as cq
@@ -185,52 +186,6 @@ class _Recorder:
             self.lines += [f"    # {line}" for line in textwrap.wrap(about, _WIDTH - len("    # "))]
 
 
-_HEAD = '''"""{title}: its parts as CadQuery draws them, written by tvimdesign.
-
-    python module.py [FOLDER]     write FOLDER/<part>.step and FOLDER/module.step, and print the volumes
-
-The numbers below are the design's, in millimetres and radians. Change one, and what is drawn from it follows; numbers
-that follow from one another in the design do not, so for a consistent module change the study and run it again. Springs
-are not drawn: those of `assembly.step` are wound.
-"""
-
-from __future__ import annotations
-
-import sys
-from math import pi, sqrt
-from pathlib import Path
-
-import cadquery as cq
-from OCP.StdFail import StdFail_NotDone
-
-
-class GeometryError(ValueError):
-    """A size with which a part cannot be drawn."""
-
-
-# --- numbers ---
-
-'''
-_TAIL = '''
-
-def main(folder: Path) -> None:
-    """Write every part and the module, and print the parts' volumes."""
-    folder.mkdir(parents=True, exist_ok=True)
-    solids = {kind: draw_part() for kind, draw_part in PARTS.items()}
-    module = cq.Assembly(name="module")
-    for kind, solid in solids.items():
-        print(f"{kind:20} {solid.Volume():14.4f} mm3")
-        cq.exporters.export(cq.Workplane(obj=solid), str(folder / f"{kind}.step"))
-    for name, (kind, location) in PLACES.items():
-        module.add(solids[kind], name=name, loc=location)
-    module.export(str(folder / "module.step"))
-
-
-if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "module_parts"))
-'''
-
-
 def module_script(design: Design, dims: Dimensions) -> bytes:
     """Return the script of a module's parts, which draws their solids with CadQuery alone."""
     named, parts = _NamedDimensions(dims), MODULES[dims.mode]
@@ -247,11 +202,16 @@ def module_script(design: Design, dims: Dimensions) -> bytes:
         for name, body in placed.items()
     ]
     listed = [f'    "{kind}": {kind},' for kind in drawn]
-    return "\n".join([
-        _HEAD.format(title=design.name.replace('"', "'")) + "\n".join(_numbers(design.mode, named.read)), "", "",
-        _kernel_source(), *functions, "", "PARTS = {", *listed, "}", '"""Functions that draw a part, by kind."""', "",
-        "PLACES = {", *places, "}", '"""Kind and place of each part of the module, but of springs."""',
-    ]).encode() + _TAIL.encode()  # fmt: skip
+    head = _template("head").format(title=design.name.replace('"', "'")) + "\n".join(_numbers(design.mode, named.read))
+    parts_listed = ["PARTS = {", *listed, "}", '"""Functions that draw a part, by kind."""']
+    places_listed = ["PLACES = {", *places, "}", '"""Kind and place of each part of the module, but of springs."""']
+    lines = [head, "", "", _kernel_source(), *functions, "", *parts_listed, "", *places_listed]
+    return "\n".join(lines).encode() + _template("tail").encode()
+
+
+def _template(end: str) -> str:
+    """Return how a script begins, or ends."""
+    return Path(__file__).with_name(f"module_script_{end}.txt").read_text(encoding="utf-8")
 
 
 def _numbers(mode: str, read: Mapping[str, float]) -> list[str]:

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from tvimdesign.base.record import Record
+from tvimdesign.base.record import Record, own_data
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.physics.motions import motion
@@ -52,7 +52,8 @@ def compared(module: ResolvedModule, solved: Mapping[str, Solved]) -> list[Compa
     fine = at_loads(module, fe_values(module, {name: fe_solution.fine for name, fe_solution in solved.items()}))
     coarse = at_loads(module, fe_values(module, {name: fe_solution.coarse for name, fe_solution in solved.items()}))
     both = [name for name in fine if name in model and name in coarse]
-    rows = [Compared(name, *WORDS[name], model[name], fine[name], coarse[name]) for name in both]
+    words: Mapping[str, tuple[str, str]] = own_data(__file__, "model_comparison.yaml")
+    rows = [Compared(name, *words[name], model[name], fine[name], coarse[name]) for name in both]
     return sorted(rows, key=lambda row: -abs(math.log(row.ratio)))
 
 
@@ -67,43 +68,6 @@ def at_loads(module: ResolvedModule, rows: Mapping[str, float]) -> dict[str, flo
 
 def _drawn(module: ResolvedModule) -> dict[str, Any]:
     return {**module.values, **DRAWN}
-
-
-WORDS = {
-    "spring_rate": ("N*m/rad", "one spring, its tang clamped, from the pin's force on its leg"),
-    "coil_stress": ("MPa", "at the coil's inner fibre at full winding"),
-    "tang_stress": ("MPa", "von Mises in the bend of the tang at full winding"),
-    "hub": ("N*m/rad", "frozen joint without its springs, from the core's top to the feet"),
-    "natural_frequency": ("Hz", "frozen joint with its load, free: its lowest mode that turns the core"),
-    "link": ("N*m/rad", "link from the core to its tool hole"),
-    "link_friction_torque": ("N*m", "torque that friction under the tightened link screws holds, by where they press"),
-    "foot_force": ("N", "across the screw of a foot at the holding torque, the foot that takes most"),
-    "core": ("N*m/rad", "core of the rotor"),
-    "plate": ("N*m/rad", "rotor plate"),
-    "floor": ("N*m/rad", "floor on its feet"),
-    "rotor_vanes_and_plate": ("N*m/rad", "vanes of the rotor with the plate they hang from"),
-    "housing_vanes_and_floor": ("N*m/rad", "vanes of the housing with the floor on its feet"),
-    "core_stress": ("MPa", "von Mises in the core at the holding torque, beside holes or along the fillet of its foot"),
-    "plate_stress": (
-        "MPa",
-        "von Mises in the rotor plate at the holding torque, a mean over its thickness and a "
-        "millimetre beside the core's foot",
-    ),
-    "link_screw_stress": (
-        "MPa",
-        "a link screw, tightened, with what neither friction nor pins hold at the holding "
-        "torque: equivalent stress by VDI 2230",
-    ),
-    "link_pin_shear": ("MPa", "a dowel pin of the link, sheared by what friction does not hold of the holding torque"),
-    "foot_screw_stress": (
-        "MPa",
-        "the screw of the foot that takes most, tightened, with what friction does not hold "
-        "of the force across it: equivalent stress by VDI 2230",
-    ),
-    "edge_traction": ("MPa", "shear along the arcs' edges at the holding torque, a mean over one thickness"),
-    "seat_traction": ("MPa", "shear of the adhesive along the spreaders' rims at the holding torque, the higher mean"),
-}
-"""Unit and meaning of each row."""
 
 
 def model_values(module: ResolvedModule) -> dict[str, float]:

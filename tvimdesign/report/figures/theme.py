@@ -15,9 +15,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 from PIL import Image
 
+from tvimdesign.base.record import own_data
+
 WIDTH = 7.1  # inches: two columns of a journal's page
-RESOLUTION = 300  # dots per inch of a PNG file
-SMALL = 6.5  # points
+RESOLUTION = 300  # dots per inch of a PNG file, as in theme.yaml
+SMALL = 6.5  # points, as in theme.yaml
 NAME_STRIP = 0.22  # inches at the top of every figure, where the study's name stands
 
 COLOURS = ("#0072B2", "#E69F00", "#009E73", "#56B4E9", "#000000", "#CC79A7")
@@ -32,34 +34,8 @@ SEQUENCE = "cividis"  # Colour map whose grey rises steadily, for what has an or
 BAND: dict[str, Any] = {"alpha": 0.15, "color": COLOURS[1], "linewidth": 0.0}
 LIMIT: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (1, 2))}
 
-SETTINGS: Any = {
-    "figure.dpi": RESOLUTION,
-    "font.size": 7.5,
-    "axes.labelsize": 7.0,
-    "xtick.labelsize": SMALL,
-    "ytick.labelsize": SMALL,
-    "legend.fontsize": SMALL,
-    "legend.frameon": False,
-    "legend.handlelength": 2.6,
-    "legend.columnspacing": 1.4,
-    "legend.borderaxespad": 0.2,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.linewidth": 0.6,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 4.0,
-    "hatch.linewidth": 0.5,
-    "axes.grid": True,
-    "grid.alpha": 0.3,
-    "grid.linewidth": 0.5,
-    "text.hinting": "none",  # a tenth of the drawing
-    "pdf.fonttype": 42,  # letters stay letters: journals refuse fonts of type 3
-    "svg.fonttype": "path",  # the same look wherever it is opened
-    "svg.hashsalt": "tvimdesign",  # the same bytes from the same data
-}
-"""Settings of matplotlib."""
+
+SETTINGS: Any = own_data(__file__, "theme.yaml")  # Of matplotlib
 
 
 def style_of(number: int) -> dict[str, Any]:

@@ -8,60 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import NEVER, Deadline
+from tvimdesign.base.record import own_data
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.study import SolverOptions
 
 Array = NDArray[np.float64]
-_USUAL = {
-    "print_level": 0,
-    "sb": "yes",
-    "linear_solver": "mumps",
-    # Second derivatives of the cycle are not to be had for less than as many evaluations as there are unknowns.
-    "hessian_approximation": "limited-memory",
-    # Dense rows and few unknowns: both settings together take two thirds of the usual ones' time.
-    "limited_memory_aug_solver": "extended",
-    "mumps_pivot_order": 0,
-    # Where a peak's place or a step's end jumps, gradients do; an objective that stands still there is at its least.
-    "acceptable_tol": 1e-3,
-    "acceptable_dual_inf_tol": 1.0,
-    "acceptable_constr_viol_tol": 1e-7,
-    "acceptable_compl_inf_tol": 1e-5,
-    "acceptable_obj_change_tol": 1e-7,
-    "acceptable_iter": 2,
-    "watchdog_shortened_iter_trigger": 0,
-    "mu_init": 1e-3,
-    # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is restored inside.
-    "honor_original_bounds": "yes",
-}
-_WARM = {
-    "warm_start_init_point": "yes",
-    # Below what the tolerance asks of the barrier, so that no iteration goes to lowering it.
-    "mu_init": 1e-9,
-    "warm_start_bound_push": 1e-6,
-    "warm_start_mult_bound_push": 1e-6,
-    "warm_start_slack_bound_push": 1e-6,
-}
-_ANYWHERE = {
-    # Most boxes of a search over lists hold no design. Where the multipliers of broken limits pass 1e5, IPOPT leaves
-    # the objective and looks for the least breach. Otherwise it takes hundreds of iterations, of ever harder
-    # factorizations: `wrist_compression` takes a quarter of the time, `rigid_modules_compression` a sixth.
-    "expect_infeasible_problem": "yes",
-    "expect_infeasible_problem_ytol": 1e5,
-}
-_FEASIBLE = {
-    **_ANYWHERE,
-    # The first point that satisfies the limits is as good as any.
-    "acceptable_iter": 1,
-    "acceptable_tol": 1e6,
-    "acceptable_compl_inf_tol": 1e6,
-    "acceptable_constr_viol_tol": 1e-8,
-    "acceptable_obj_change_tol": 1e20,
-}
 Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
 """Where a run begins: anywhere; anywhere, to end where all limits are met; near another optimum, none of whose
 multipliers hold; at an optimum, with them; at the optimum
 itself, which is sought more exactly."""
-_SETTINGS: dict[Beginning, dict[str, Any]] = {"cold": _ANYWHERE, "feasible": _FEASIBLE, "warm": _WARM, "sharp": _WARM}
+_SETTINGS: dict[str, dict[str, Any]] = own_data(__file__, "ipopt.yaml")
 _SHARP = 1e-11  # Tolerance that separates a limit which hardly presses from one which does not
 _MOST_ITERATIONS = {"cold": 120, "near": 60, "warm": 25, "sharp": 60}
 """A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back. A near one
@@ -266,8 +222,8 @@ def solver_of(unknowns: int, rows: int, options: SolverOptions, beginning: Begin
     """IPOPT for programmes of so many unknowns and rows, set for where a run begins."""
     most = options.max_iterations
     ipopt: dict[str, Any] = {
-        **_USUAL,
-        **_SETTINGS.get(beginning, {}),
+        **_SETTINGS["every"],
+        **_SETTINGS[beginning],
         "limited_memory_max_history": unknowns,  # of 34 unknowns, 12 take half as many iterations again
         "max_iter": min(most, _MOST_ITERATIONS.get(beginning, most)),
         "tol": min(options.tolerance, _SHARP) if beginning == "sharp" else options.tolerance,

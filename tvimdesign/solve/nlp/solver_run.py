@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.record import own_data
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_instants import Grid
 from tvimdesign.solve.nlp.solution import Start
@@ -92,50 +93,8 @@ class Meaning(NamedTuple):
     step: str
 
 
-_BETTER_START = "set `module` to a design that nearly works, or try more `solver.starts`"
-_MORE_TIME = f"raise `solver.time_limit` (or --time-limit), or {_BETTER_START}"
 _REPORT = "this is a fault of the program or its libraries: report it with the study file"
-
-MEANINGS = {
-    "Solve_Succeeded": Meaning("converged", ""),
-    "Solved_To_Acceptable_Level": Meaning(
-        "converged, though less exactly than asked",
-        "look at what the check outside the solver says, or ease `solver.tolerance`",
-    ),
-    FEASIBLE: Meaning("a feasible design was found, not the best one", _BETTER_START),
-    INFEASIBLE: Meaning(
-        "ended where no small change brings the violated limits closer to being met",
-        "ease one of the limits it names, or widen a range that stands in the way",
-    ),
-    "Search_Direction_Becomes_Too_Small": Meaning("stalled: the next step is smaller than rounding", _BETTER_START),
-    "Diverging_Iterates": Meaning(
-        "ran off without end: something that is minimised has no least value here",
-        "give the variables it names ranges, or limit what is minimised under `require`",
-    ),
-    "User_Requested_Stop": Meaning("was interrupted", "run it again"),
-    "Maximum_Iterations_Exceeded": Meaning(
-        "ran out of iterations", "raise `solver.max_iterations`, or try more `solver.starts`"
-    ),
-    "Maximum_CpuTime_Exceeded": Meaning("ran out of processor time", _MORE_TIME),
-    "Maximum_WallTime_Exceeded": Meaning("ran out of time", _MORE_TIME),
-    "Restoration_Failed": Meaning("lost its way back to the equations of the switch", _BETTER_START),
-    "Error_In_Step_Computation": Meaning(
-        "could not compute a step: the equations are close to singular there", _BETTER_START
-    ),
-    "Invalid_Number_Detected": Meaning(
-        "met a point where an output is no number, such as a leg that cannot reach its pin",
-        "narrow the ranges under `vary` to modules that can exist",
-    ),
-    "Not_Enough_Degrees_Of_Freedom": Meaning(
-        "has fewer variables than equations left", "free another variable under `vary`"
-    ),
-    "Invalid_Problem_Definition": Meaning("was given a problem that makes no sense", _REPORT),
-    "Invalid_Option": Meaning("was given an option it does not know", _REPORT),
-    "Unrecoverable_Exception": Meaning("failed inside", _REPORT),
-    "NonIpopt_Exception_Thrown": Meaning("failed inside one of its libraries", _REPORT),
-    "Insufficient_Memory": Meaning("ran out of memory", "ask for fewer `solver.cells` or a lower `solver.fineness`"),
-    "Internal_Error": Meaning("failed inside", _REPORT),
-}
+MEANINGS = {status: Meaning(**listed) for status, listed in own_data(__file__, "statuses.yaml").items()}
 
 
 def meaning(status: str) -> Meaning:
