@@ -13,15 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from tvimdesign.base.atomic_files import (
-    RUN,
-    digest_of,
-    free_name,
-    is_as_written,
-    is_inside,
-    link_on_the_way,
-    make_folder,
-)
+from tvimdesign.base import atomic_files
 from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import InputError
 
@@ -56,12 +48,12 @@ def read_manifest(folder: Path) -> Manifest:
         is_ours = content["format"] == FORMAT and content["run"] and content[_SEAL] == _seal(content)
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         is_ours = False
-    if not is_ours or path.is_symlink() or not all(map(is_inside, files)):
+    if not is_ours or path.is_symlink() or not all(map(atomic_files.is_inside, files)):
         raise InputError(
             f"{path}: was not written by this version of tvimdesign, or was changed since; no file beside it is "
             "touched: name another folder with --out"
         )
-    return Manifest(files, content, digest_of(path))
+    return Manifest(files, content, atomic_files.digest_of(path))
 
 
 def manifest_text(content: Mapping[str, Any]) -> str:
@@ -80,7 +72,7 @@ Say = Callable[[str], None]
 def refuse_links(out: Path, names: Iterable[str]) -> None:
     """Raise InputError where a name leads through a link, or through a file: before anything is changed."""
     for name in names:
-        if way := link_on_the_way(out, name):
+        if way := atomic_files.link_on_the_way(out, name):
             leads = f"leads to {way.readlink()}" if way.is_symlink() else "is a file"
             raise InputError(f"{way}: {leads}, where results need a folder; remove it, or name another --out")
 
@@ -93,7 +85,7 @@ def replace_results(out: Path, new: Path, results: Manifest, earlier: Manifest, 
     """
     refuse_links(out, [*results.files, *earlier.files])
     for name in results.files:
-        if (new / name).exists() and not link_on_the_way(new, name):
+        if (new / name).exists() and not atomic_files.link_on_the_way(new, name):
             digests = {digest for results_set in (earlier, results) if (digest := results_set.files.get(name))}
             _move(new / name, out, name, digests, say)
     remove_own(out, {name: {digest} for name, digest in earlier.files.items() if name not in results.files}, say)
@@ -103,9 +95,9 @@ def replace_results(out: Path, new: Path, results: Manifest, earlier: Manifest, 
 
 def _move(source: Path, out: Path, name: str, digests: Collection[str], say: Say) -> None:
     target = out / name
-    make_folder(target.parent)
-    if os.path.lexists(target) and not is_as_written(out, name, digests):
-        aside = free_name(target)
+    atomic_files.make_folder(target.parent)
+    if os.path.lexists(target) and not atomic_files.is_as_written(out, name, digests):
+        aside = atomic_files.free_name(target)
         target.rename(aside)
         say(f"{target}: was changed since it was written, so it is kept as {aside.name}")
     source.replace(target)
@@ -115,13 +107,13 @@ def _move(source: Path, out: Path, name: str, digests: Collection[str], say: Say
 def remove_own(folder: Path, names: Mapping[str, Collection[str]], say: Say) -> None:
     """Remove the names whose files are as they were written, and the folders that are empty then."""
     for name, digests in names.items():
-        if is_as_written(folder, name, digests):
+        if atomic_files.is_as_written(folder, name, digests):
             (folder / name).unlink(missing_ok=True)
-        elif os.path.lexists(folder / name) and not link_on_the_way(folder, name):
+        elif os.path.lexists(folder / name) and not atomic_files.link_on_the_way(folder, name):
             say(f"{folder / name}: was changed since it was written, so it is kept")
     parents = {parent for name in names for parent in PurePosixPath(name).parents if parent.parts}
     for parent in sorted(parents, key=lambda folder_path: -len(folder_path.parts)):
-        if not link_on_the_way(folder, f"{parent}/x"):
+        if not atomic_files.link_on_the_way(folder, f"{parent}/x"):
             with suppress(OSError):  # it is not empty, or gone
                 (folder / parent).rmdir()
 
@@ -135,17 +127,17 @@ def discard_unfinished(folder: Path, keep: Callable[[str], bool] = lambda _: Fal
         if path.is_dir() and not path.is_symlink():
             with suppress(OSError):  # it is not empty
                 path.rmdir()
-        elif name != RUN and not keep(name):
+        elif name != atomic_files.RUN and not keep(name):
             path.unlink(missing_ok=True)
 
 
 def seed(out: Path, folder: Path, files: Mapping[str, str], say: Say) -> None:
     """Give a run the files of earlier results that it continues from, where they are as they were written."""
     for name, digest in files.items():
-        if not is_as_written(out, name, {digest}):
+        if not atomic_files.is_as_written(out, name, {digest}):
             say(f"{out / name}: was changed since it was written, so it is not used")
             continue
-        make_folder((folder / name).parent)
+        atomic_files.make_folder((folder / name).parent)
         try:
             os.link(out / name, folder / name)
         except OSError:  # a file system without links

@@ -15,14 +15,8 @@ from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, 
 from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule, given_profiles
 from tvimdesign.solve.duty import HOUR, ControlResult, DutyResult, control_of, duty_of
-from tvimdesign.solve.nlp.constraints import (
-    Constraint,
-    advice_of,
-    constraints_of,
-    in_words,
-    make_constraint,
-    refuse_impossible,
-)
+from tvimdesign.solve.nlp import constraints
+from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL, SIMULATED_MISSED, Progress
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, exceeded, happened, is_met, sorted_by_acceptance
@@ -122,7 +116,7 @@ def answer(
     the usual one. `designed` receives a design and its solution as soon as they exist, before the whole account. An
     interrupt of the search, or once it has found a design, is SearchInterrupted.
     """
-    refuse_impossible(study)
+    constraints.refuse_impossible(study)
     if study.task != "optimize":
         progress("simulating one working cycle")
         return _result(study, None, designed)
@@ -206,7 +200,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
     control = control_of(resolved) if exists else None
     values |= _simulated(study, duty, control, values) if exists else {}
     simulated = tuple(
-        _check(make_constraint(table, limit.output, limit.sense, limit.limit, "require"), values, table, {})
+        _check(constraints.make_constraint(table, limit.output, limit.sense, limit.limit, "require"), values, table, {})
         for limit in (study.simulated if exists else ())
     )
     if solution is not None and not all(check.met for check in simulated):
@@ -229,11 +223,11 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
     )
     if _has_design(design, solution):
         designed(design, solution)
-    required = constraints_of(study, table, resolved.values)
+    required = constraints.constraints_of(study, table, resolved.values)
     checks = (*(_check(limit, values, table, open_values) for limit in required), *simulated)
     advice = [
         limit
-        for limit in advice_of(table)
+        for limit in constraints.advice_of(table)
         if table.output(limit.output).exists(design.choices) and happened(limit.output, values, table)
     ]
     ignored = [check for limit in advice if not (check := _check(limit, values, table, open_values)).met]
@@ -293,7 +287,7 @@ def _check(
     ends = open_values.get(limit.output, (value, value))
     residual = limit.residual(value)
     return ConstraintCheck(
-        text=in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
+        text=constraints.in_words(limit, table), output=limit.output, value=value, margin=-float(residual),
         scale=limit.scale, absolute=limit.absolute, met=is_met(limit, value, table),
         worst=-max(float(limit.residual(end)) for end in ends), origin=limit.origin,
         part_of=limit.part_of,

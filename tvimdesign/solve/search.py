@@ -24,18 +24,10 @@ from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible, refuse_unreachable
+from tvimdesign.solve.nlp import solver_run
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, SolverEffort, Standard, Start, YieldReached
-from tvimdesign.solve.nlp.solver_run import (
-    ALTERNATIVES,
-    BELOW_YIELD,
-    BETWEEN,
-    MARGINS,
-    NO_COMBINATION,
-    OPTIMAL,
-    Progress,
-    Run,
-)
+from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.refinements import ending_in_time, put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
@@ -146,7 +138,7 @@ def _optimize(
     recorded = [*free, *(designs if listed else [])]
     nominal = run
     if study.robust and run.start.converged:
-        robust = deadline.attempt(MARGINS, partial(_robust, designs))
+        robust = deadline.attempt(solver_run.MARGINS, partial(_robust, designs))
         relaxation, nominal, run = robust or (relaxation, nominal, run)
         if study.robust.share is None:
             recorded = [(entry[0], run) if entry[1] is nominal else entry for entry in recorded]
@@ -206,15 +198,17 @@ def _account(
 
 def _status(study: Study, solution: Solution, *, no_combination: bool) -> str:
     """Return a solution's status that its check cannot know: a yield too low, or no design."""
-    if solution.status == OPTIMAL and study.robust is not None:
+    if solution.status == solver_run.OPTIMAL and study.robust is not None:
         if study.robust.share is None:
-            return BELOW_YIELD if MARGINS in solution.left_out else OPTIMAL
-        return OPTIMAL if solution.yield_reached and solution.yield_reached.reached else BELOW_YIELD
-    if solution.status == OPTIMAL:
-        return OPTIMAL
+            return solver_run.BELOW_YIELD if solver_run.MARGINS in solution.left_out else solver_run.OPTIMAL
+        return (
+            solver_run.OPTIMAL if solution.yield_reached and solution.yield_reached.reached else solver_run.BELOW_YIELD
+        )
+    if solution.status == solver_run.OPTIMAL:
+        return solver_run.OPTIMAL
     if solution.conflict_set:
         return "infeasible: this design violates its limits least"
-    return NO_COMBINATION if no_combination else solution.status
+    return solver_run.NO_COMBINATION if no_combination else solution.status
 
 
 def _in_time(study: Study, designs: Sequence[tuple[Relaxation, Run]], deadline: Deadline) -> Study | None:
@@ -387,11 +381,11 @@ def _with_alternatives(
     for pair in best[1:]:
         optimizer = pair[0].optimizer
         optimizer.progress("simulating the next-best choice from the lists")
-        if other := optimizer.deadline.late.attempt(ALTERNATIVES, partial(_standard, *pair)):
+        if other := optimizer.deadline.late.attempt(solver_run.ALTERNATIVES, partial(_standard, *pair)):
             standards.append(other)
     between, late = None, trees[0].optimizer.deadline.late
     if any(tree.sizes.names for tree in trees) and (best or not late.passed):
-        between = late.attempt(BETWEEN, partial(_between, trees, exact, best))
+        between = late.attempt(solver_run.BETWEEN, partial(_between, trees, exact, best))
     return replace(choosing, best=tuple(standards), between=between)
 
 

@@ -27,19 +27,9 @@ from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
+from tvimdesign.cad.export import print_files
 from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
-from tvimdesign.cad.export.print_files import (
-    Laid,
-    as_printed,
-    closed,
-    description,
-    lay_out,
-    plate_bytes,
-    printed_mesh,
-    slicer_config,
-    stl_bytes,
-    threemf_bytes,
-)
+from tvimdesign.cad.export.print_files import Laid
 from tvimdesign.cad.export.step_file import Product, product, read_part, validation, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
@@ -152,7 +142,7 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
         if outline := plate_outline(solid):
             _write(job.folder, cad_report.cut_dxf(kind), outline)
     if PRODUCTION[kind].down == "bought":
-        return [_stl(job.folder, cad_report.mesh_stl(kind), kind, *printed_mesh(kind, solid))]
+        return [_stl(job.folder, cad_report.mesh_stl(kind), kind, *print_files.printed_mesh(kind, solid))]
     return [_print(job, kind, solid, what, PRODUCTION[kind])]
 
 
@@ -195,8 +185,8 @@ def _spring(kind: str, job: Job) -> list[SolidCheck]:
     solid = free_spring(job.dims, kind)
     mesh = spring_mesh(free_coil(job.dims))
     checks = _step(job.folder, solid, product(job.design, kind))
-    body = closed(kind, mesh if kind == "spring_right" else mesh.mirrored())
-    _write(job.folder, cad_report.mesh_stl(kind), stl_bytes(body))
+    body = print_files.closed(kind, mesh if kind == "spring_right" else mesh.mirrored())
+    _write(job.folder, cad_report.mesh_stl(kind), print_files.stl_bytes(body))
     return [*checks, SolidCheck(cad_report.mesh_stl(kind), 0.0, 0.0, True, f"{kind}: its mesh is watertight")]
 
 
@@ -219,12 +209,12 @@ def _print(job: Job, kind: str, solid: cq.Solid, what: Product, making: Producti
     """Write what a printer gets. A mesh that does not close is a check that fails, and its files are left out."""
     name = cad_report.print_stl(kind)
     try:
-        lying = as_printed(solid, making, job.dims.hole_compensation, link_dowels(job.dims))
-        body, distance = printed_mesh(kind, lying)
+        lying = print_files.as_printed(solid, making, job.dims.hole_compensation, link_dowels(job.dims))
+        body, distance = print_files.printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))
     write_mesh(job.folder / "kept" / _PRINTED, Mesh(body.vertices, body.faces))
-    _write(job.folder, cad_report.print_3mf(kind), threemf_bytes(body, what))
+    _write(job.folder, cad_report.print_3mf(kind), print_files.threemf_bytes(body, what))
     return _stl(job.folder, name, kind, body, distance)
 
 
@@ -239,16 +229,19 @@ def _plates(job: Job) -> list[SolidCheck]:
     counts |= Counter({jigs.FORK: jigs.FORK_COUNT})
     if from_si(job.design.value("structure_service_temperature"), "degC") >= jigs.CAST_AT:
         counts |= Counter([*jigs.DRAWN])
-    parts = {need.removesuffix("_for_makers"): closed(need, _mesh(path)) for need, path in meshes.items()}
+    parts = {need.removesuffix("_for_makers"): print_files.closed(need, _mesh(path)) for need, path in meshes.items()}
     copies = [kind for kind in parts for _ in range(counts[kind])]
-    spots = lay_out(
+    spots = print_files.lay_out(
         [np.asarray(parts[kind].vertices)[:, :2] for kind in copies], (job.dims.bed_length, job.dims.bed_width)
     )
     known = {name: job.titles[name] for name in cad_report.PRINT_TEMPERATURES if name in job.titles}
     density, config = job.design.value("structure_density"), ""
     about = job.titles.get(STRUCTURE, str(job.design.choices[STRUCTURE]))
     if len(known) == len(cad_report.PRINT_TEMPERATURES):  # of a filament that is printed at home
-        config, about = slicer_config(job.dims, density, known), description(job.dims, about, known)
+        config, about = (
+            print_files.slicer_config(job.dims, density, known),
+            print_files.description(job.dims, about, known),
+        )
     beds = 1 + max((spot.bed for spot in spots if spot), default=-1)
     for number in range(beds):
         laid = []
@@ -258,14 +251,14 @@ def _plates(job: Job) -> list[SolidCheck]:
             what = _of_structure(job, kind) if kind in jigs.MAKING else product(job.design, kind)
             laid += [Laid(body, what, places)] if places else []
         title = f"{job.design.name}, bed {number + 1} of {beds}"
-        _write(job.folder, cad_report.plate_3mf(number + 1), plate_bytes(title, laid, about, config))
+        _write(job.folder, cad_report.plate_3mf(number + 1), print_files.plate_bytes(title, laid, about, config))
     outside = spots.count(None)
     text = f"print beds: {beds}; parts on them: {len(copies) - outside}; too large for one, with room around: {outside}"
     return [SolidCheck(cad_report.plate_3mf(1), float(outside), 0.0, True, text, warned=bool(outside))]
 
 
 def _stl(folder: Path, name: str, kind: str, body: trimesh.Trimesh, distance: float) -> SolidCheck:
-    _write(folder, name, stl_bytes(body))
+    _write(folder, name, print_files.stl_bytes(body))
     text = f"{kind}: its mesh is watertight and nowhere further than stated from the part [mm]"
     return SolidCheck(name, distance, CHORD, distance <= CHORD, text)
 

@@ -6,21 +6,7 @@ meets them in a strip, from which heat turns to the side as it comes in, as in a
 
 import numpy as np
 
-from tvimdesign.device.compression.ring_heat import (
-    ABOVE,
-    ABOVE_PADS,
-    ABOVE_VANES,
-    ABOVE_WALLS,
-    BELOW_VANES,
-    BELOW_WALLS,
-    BLOCKS,
-    CHAIN,
-    OUTER,
-    PADS,
-    RIM,
-    WALLS,
-    WITHIN,
-)
+from tvimdesign.device.compression import ring_heat
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
@@ -37,16 +23,16 @@ quantities = QuantityGroup("Switch")
 def shares_above(m: Module) -> tuple[tuple[Place, Scalar], ...]:
     """Bodies of the rotor plate above the ring, and each one's share of it."""
     ring, depths = sum(m.ring_depths), m.ring_depths
-    rows = ((BLOCKS, depths.blocks), (PADS, depths.pads), (OUTER, depths.walls))
+    rows = ((ring_heat.BLOCKS, depths.blocks), (ring_heat.PADS, depths.pads), (ring_heat.OUTER, depths.walls))
     shares = [(place, share * depth / ring) for row, depth in rows for place, share in zip(row, STRIP, strict=True)]
-    return (("beside", ABOVE_VANES), m.plate_depth / ring), *shares
+    return (("beside", ring_heat.ABOVE_VANES), m.plate_depth / ring), *shares
 
 
 @quantities.helper()
 def plate_links(m: Module) -> tuple[Link, ...]:
     """Links along the ring within the rotor plate, and to the core, but those of the chain from the vanes."""
-    last, core = BLOCKS[-1], ("beside", ABOVE[-1] + 1)
-    along = [link for link in m.plate_sheet if (link.first, link.second) not in CHAIN]
+    last, core = ring_heat.BLOCKS[-1], ("beside", ring_heat.ABOVE[-1] + 1)
+    along = [link for link in m.plate_sheet if (link.first, link.second) not in ring_heat.CHAIN]
     inwards = [
         Link(place, core, share * m.core_and_link.conductance) for place, share in m.shares_above if place != last
     ]
@@ -56,7 +42,7 @@ def plate_links(m: Module) -> tuple[Link, ...]:
 @quantities.helper()
 def core_share(m: Module) -> Scalar:
     """Share of the conductance to the core that begins at the last body of the rotor plate."""
-    return dict(m.shares_above)["beside", ABOVE[-1]]
+    return dict(m.shares_above)["beside", ring_heat.ABOVE[-1]]
 
 
 @quantities.helper()
@@ -72,18 +58,18 @@ def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
             surface.area * lumps.surface_coefficient(surface, m.ambient_temperature, m.ambient_temperature)
             for surface in (m.around_pads[i].surface for i in row)
         )
-        for row in (ABOVE_PADS[-1:], ABOVE_WALLS)
+        for row in (ring_heat.ABOVE_PADS[-1:], ring_heat.ABOVE_WALLS)
     )
     along = along_ring(m.structure_conductivity * m.ring_width, m.rotor_thickness, m.ring_depths)
     onward = pads + lumps.in_series(along.to_walls, sheet / ((1.0 / 3.0 - WAYS[0]) * m.wall_depth), *walls)
     losses = [
         lumps.Loss(Link(block, pad, share * along.to_pads), share * onward)
-        for block, pad, share in zip(BLOCKS, PADS, STRIP, strict=True)
+        for block, pad, share in zip(ring_heat.BLOCKS, ring_heat.PADS, STRIP, strict=True)
     ]
     around = 2.0 * np.pi * m.structure_conductivity * m.rotor_thickness
     without = around / np.log(1.0 + (m.rotor_radius - m.pcl_outer_radius) / (3.0 * m.pcl_outer_radius))
     within = -around / np.log(1.0 - (m.pcl_inner_radius - m.core_radius) / (3.0 * m.pcl_inner_radius))
-    for beyond, conductance in ((RIM, without), (WITHIN, within)):
+    for beyond, conductance in ((ring_heat.RIM, without), (ring_heat.WITHIN, within)):
         for place, share in m.shares_above:
             link = Link(place, ("around", beyond), share * conductance)
             losses.append(_onward(link, m.around_pads, m.ambient_temperature, share))
@@ -93,7 +79,7 @@ def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
 @quantities.helper()
 def loss_links(m: Module) -> tuple[Link, ...]:
     """Links from the plate to bodies beyond the ring."""
-    return tuple(loss.link for loss in m.plate_losses if loss.link.second[1] in (RIM, WITHIN))
+    return tuple(loss.link for loss in m.plate_losses if loss.link.second[1] in (ring_heat.RIM, ring_heat.WITHIN))
 
 
 @quantities.helper()
@@ -129,7 +115,7 @@ def vane_ways(m: Module) -> tuple[Scalar, Scalar, Scalar]:
 @quantities.helper()
 def vane_links(m: Module) -> tuple[Link, ...]:
     """Links from the rotor's vanes to the floor, and from the housing's to floor and rotor plate."""
-    floor, plate = ("around", BELOW_VANES), ("beside", ABOVE_VANES)
+    floor, plate = ("around", ring_heat.BELOW_VANES), ("beside", ring_heat.ABOVE_VANES)
     links = [Link(("plate", 0), floor, m.vane_ways[1]), Link(plate, floor, m.vane_ways[2])]
     k, area = m.structure_conductivity, m.ring_width * m.wall_depth
     whole = (m.pcl_area - m.cold_area) / m.pcl_area
@@ -138,7 +124,7 @@ def vane_links(m: Module) -> tuple[Link, ...]:
     )
     above = lumps.in_series(_into(k * m.ring_width, m.wall_depth, m.rotor_thickness), m.through_clearance * area)
     to_floor, to_plate, across = lumps.heated_between(k * whole * area / m.block_height, below, above)
-    for places in zip(WALLS, BELOW_WALLS, ABOVE_WALLS, STRIP, strict=True):
+    for places in zip(ring_heat.WALLS, ring_heat.BELOW_WALLS, ring_heat.ABOVE_WALLS, STRIP, strict=True):
         wall, floor, plate = (("around", i) for i in places[:3])
         ways = ((wall, floor, to_floor), (wall, plate, to_plate), (floor, plate, across))
         links += [Link(first, second, places[3] * conductance) for first, second, conductance in ways]

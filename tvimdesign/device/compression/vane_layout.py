@@ -14,18 +14,8 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import transitions
-from tvimdesign.physics.solids.shapes import (
-    Section,
-    between_planes,
-    corners,
-    corners_beyond,
-    mean_square,
-    radial_strip,
-    sector,
-    stacked,
-    wedge,
-    wedge_corners,
-)
+from tvimdesign.physics.solids import shapes
+from tvimdesign.physics.solids.shapes import Section
 
 places = QuantityGroup("Layout")
 
@@ -112,7 +102,7 @@ def slot_outer_radius(m: Module) -> Scalar:
     if m.heater_form == CUT:
         return m.pcl_mean_radius + 0.5 * m.slot_width
     far = m.tile_slot_radius + 0.5 * (m.slot_count - 1.0) * m.tile_slot_pitch + 0.5 * m.slot_width
-    return np.sqrt(far**2 + (0.5 * between_planes(m.housing_vane_angle, m.pad_seat, far)) ** 2)
+    return np.sqrt(far**2 + (0.5 * shapes.between_planes(m.housing_vane_angle, m.pad_seat, far)) ** 2)
 
 
 @places.output("mm")
@@ -168,13 +158,13 @@ def _slot_section(m: Module) -> Section:
     Behind tiles: what lies between the tiles of a vane, with flat ends.
     """
     if m.heater_form != CUT:
-        row = wedge(
+        row = shapes.wedge(
             m.housing_vane_angle, m.pad_depth, m.slot_width, m.tile_slot_radius, m.slot_count, m.tile_slot_pitch
         )
         return row.times(m.vane_count)
-    whole = sector(m.housing_vane_angle, m.slot_inner_radius, m.slot_outer_radius).area
-    pads = 2.0 * radial_strip(m.pad_depth, m.slot_inner_radius, m.slot_outer_radius)
-    rounded = corners_beyond(m.corner_radius, m.slot_inner_radius, m.slot_outer_radius, m.pad_seat, m.pad_depth)
+    whole = shapes.sector(m.housing_vane_angle, m.slot_inner_radius, m.slot_outer_radius).area
+    pads = 2.0 * shapes.radial_strip(m.pad_depth, m.slot_inner_radius, m.slot_outer_radius)
+    rounded = shapes.corners_beyond(m.corner_radius, m.slot_inner_radius, m.slot_outer_radius, m.pad_seat, m.pad_depth)
     area = m.vane_count * (whole - pads - rounded)
     return Section(area, area * m.pcl_mean_radius**2)
 
@@ -183,12 +173,14 @@ def _slot_section(m: Module) -> Section:
 def slot_foot_section(m: Module) -> Section:
     """Plan view of the slots below the pads: less what the pads stand on, corners rounded."""
     if m.heater_form != CUT:
-        row = wedge(m.housing_vane_angle, m.pad_seat, m.slot_width, m.tile_slot_radius, m.slot_count, m.tile_slot_pitch)
-        taken = m.slot_count * wedge_corners(m.corner_radius, m.housing_vane_angle)
+        row = shapes.wedge(
+            m.housing_vane_angle, m.pad_seat, m.slot_width, m.tile_slot_radius, m.slot_count, m.tile_slot_pitch
+        )
+        taken = m.slot_count * shapes.wedge_corners(m.corner_radius, m.housing_vane_angle)
         return (row - Section(taken, taken * m.tile_slot_radius**2)).times(m.vane_count)
-    whole = sector(m.housing_vane_angle, m.slot_inner_radius, m.slot_outer_radius).area
-    seats = 2.0 * radial_strip(m.pad_seat, m.slot_inner_radius, m.slot_outer_radius)
-    rounded = corners(m.corner_radius, m.slot_inner_radius, m.slot_outer_radius, m.pad_seat)
+    whole = shapes.sector(m.housing_vane_angle, m.slot_inner_radius, m.slot_outer_radius).area
+    seats = 2.0 * shapes.radial_strip(m.pad_seat, m.slot_inner_radius, m.slot_outer_radius)
+    rounded = shapes.corners(m.corner_radius, m.slot_inner_radius, m.slot_outer_radius, m.pad_seat)
     area = m.vane_count * (whole - seats - rounded)
     return Section(area, area * m.pcl_mean_radius**2)
 
@@ -199,10 +191,10 @@ def housing_vanes_moments(m: Module) -> Section:
 
     A pad's moment is that of a plate without thickness.
     """
-    whole = sector(m.housing_vane_angle, m.pcl_inner_radius, m.pcl_outer_radius)
-    strip = 2.0 * radial_strip(m.pad_depth, m.pcl_inner_radius, m.pcl_outer_radius)
-    pads = Section(strip, strip * mean_square(m.pcl_inner_radius, m.pcl_outer_radius))
-    return stacked(
+    whole = shapes.sector(m.housing_vane_angle, m.pcl_inner_radius, m.pcl_outer_radius)
+    strip = 2.0 * shapes.radial_strip(m.pad_depth, m.pcl_inner_radius, m.pcl_outer_radius)
+    pads = Section(strip, strip * shapes.mean_square(m.pcl_inner_radius, m.pcl_outer_radius))
+    return shapes.stacked(
         (whole.times(m.vane_count), m.vane_height),
         (pads.times(m.vane_count), -m.block_height),
         (_slot_section(m), -m.slot_height),
@@ -225,7 +217,7 @@ def housing_moments(m: Module) -> Section:
 @weights.helper()
 def rotor_vanes(m: Module) -> Section:
     """Plan view of the rotor's vanes."""
-    return sector(m.rotor_vane_angle, m.pcl_inner_radius, m.pcl_outer_radius).times(m.vane_count)
+    return shapes.sector(m.rotor_vane_angle, m.pcl_inner_radius, m.pcl_outer_radius).times(m.vane_count)
 
 
 @weights.helper()

@@ -5,17 +5,8 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.solids.shapes import (
-    NOTHING,
-    Section,
-    disc_at,
-    fillet_at_foot,
-    notch,
-    point_at,
-    ring,
-    slot,
-    stacked,
-)
+from tvimdesign.physics.solids import shapes
+from tvimdesign.physics.solids.shapes import Section
 
 quantities = QuantityGroup("Size and weight")
 LINK_SCREWS = 4
@@ -45,9 +36,11 @@ def spring_volume(m: Module) -> Scalar:
 @quantities.helper()
 def skirt_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the housing below its floor: skirt, notches and feet."""
-    skirt = ring(m.housing_inner_radius, m.housing_outer_radius)
-    notches = notch(0.5 * m.notch_width, m.housing_inner_radius, m.housing_outer_radius).times(m.foot_count)
-    foot = disc_at(m.mount_boss_radius, m.placement_radius) - disc_at(0.5 * m.mount_hole, m.placement_radius)
+    skirt = shapes.ring(m.housing_inner_radius, m.housing_outer_radius)
+    notches = shapes.notch(0.5 * m.notch_width, m.housing_inner_radius, m.housing_outer_radius).times(m.foot_count)
+    foot = shapes.disc_at(m.mount_boss_radius, m.placement_radius) - shapes.disc_at(
+        0.5 * m.mount_hole, m.placement_radius
+    )
     return (skirt - notches).plus(foot.times(m.foot_count)).times(m.foot_height)
 
 
@@ -56,14 +49,16 @@ def hub_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the hub from its lower to its upper end."""
     seats = m.upper_seat_depth + m.lower_seat_depth
     between = m.hub_top_level - m.hub_bottom_level - seats
-    return stacked((ring(m.seat_radius, m.hub_radius), seats), (ring(m.lip_radius, m.hub_radius), between))
+    return shapes.stacked(
+        (shapes.ring(m.seat_radius, m.hub_radius), seats), (shapes.ring(m.lip_radius, m.hub_radius), between)
+    )
 
 
 @quantities.helper()
 def floor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the floor around the hub, less holes and the mode's openings."""
-    holes = disc_at(0.5 * m.mount_hole, m.placement_radius).plus(m.spring_hole_section)
-    solid = ring(m.hub_radius, m.housing_outer_radius) - holes.times(m.foot_count)
+    holes = shapes.disc_at(0.5 * m.mount_hole, m.placement_radius).plus(m.spring_hole_section)
+    solid = shapes.ring(m.hub_radius, m.housing_outer_radius) - holes.times(m.foot_count)
     return solid.times(m.floor_thickness) - m.floor_openings
 
 
@@ -73,7 +68,7 @@ def bare_housing_moments(m: Module) -> Section:
 
     That is skirt and floor, wall, hub, posts, bosses, stops.
     """
-    wall = ring(m.housing_inner_radius, m.housing_outer_radius).times(m.rim_level)
+    wall = shapes.ring(m.housing_inner_radius, m.housing_outer_radius).times(m.rim_level)
     return wall.plus(
         m.skirt_moments,
         m.floor_moments,
@@ -87,30 +82,30 @@ def bare_housing_moments(m: Module) -> Section:
 @quantities.helper()
 def bare_rotor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of plate, core and pins less screw and dowel holes."""
-    return stacked(
-        (ring(m.core_radius, m.rotor_radius).plus(m.stop_teeth_section), m.rotor_thickness),
-        (ring(0.0, m.core_radius), m.link_bottom_level - m.rotor_bottom_level),
-        (ring(0.0, m.collar_radius), m.rotor_bottom_level - m.hub_top_level),
-        (ring(0.0, m.journal_radius), m.hub_top_level - m.core_bottom_level),
+    return shapes.stacked(
+        (shapes.ring(m.core_radius, m.rotor_radius).plus(m.stop_teeth_section), m.rotor_thickness),
+        (shapes.ring(0.0, m.core_radius), m.link_bottom_level - m.rotor_bottom_level),
+        (shapes.ring(0.0, m.collar_radius), m.rotor_bottom_level - m.hub_top_level),
+        (shapes.ring(0.0, m.journal_radius), m.hub_top_level - m.core_bottom_level),
         (m.pins_section, m.pin_top_level - m.rotor_top_level),
-        (disc_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS), -m.link_screw_depth),
-        (ring(0.0, 0.5 * m.retainer_screw_hole), -m.retainer_screw_depth),
+        (shapes.disc_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS), -m.link_screw_depth),
+        (shapes.ring(0.0, 0.5 * m.retainer_screw_hole), -m.retainer_screw_depth),
         (m.link_dowel_section, -m.link_dowel_depth),
-        (fillet_at_foot(m.core_radius, m.foot_fillet).plus(m.pin_fillets), 1.0),
+        (shapes.fillet_at_foot(m.core_radius, m.foot_fillet).plus(m.pin_fillets), 1.0),
         (_core_drill_points(m), -1.0),
     )
 
 
-@quantities.helper(sprung=True, default=NOTHING)
+@quantities.helper(sprung=True, default=shapes.NOTHING)
 def pins_section(m: Module) -> Section:
     """Plan view of the pins on the rotor plate."""
-    return disc_at(0.5 * m.pin_diameter, m.pin_radius).times(m.spring_count)
+    return shapes.disc_at(0.5 * m.pin_diameter, m.pin_radius).times(m.spring_count)
 
 
-@quantities.helper(sprung=True, default=NOTHING)
+@quantities.helper(sprung=True, default=shapes.NOTHING)
 def pin_fillets(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the fillets at the feet of the pins."""
-    of_pin = fillet_at_foot(0.5 * m.pin_diameter, m.foot_fillet)
+    of_pin = shapes.fillet_at_foot(0.5 * m.pin_diameter, m.foot_fillet)
     return Section(of_pin.area, of_pin.polar + of_pin.area * m.pin_radius**2).times(m.spring_count)
 
 
@@ -123,14 +118,14 @@ def springs_inertia(m: Module) -> Scalar:
 def _core_drill_points(m: Module) -> Section:
     """Return the volume and its polar moment about the axis, of the points of the core's blind holes; nothing where
     printed."""
-    return stacked(
+    return shapes.stacked(
         (
-            point_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS),
+            shapes.point_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS),
             m.drill_point_ratio * m.link_screw_hole,
         ),
-        (point_at(0.5 * m.retainer_screw_hole, 0.0), m.drill_point_ratio * m.retainer_screw_hole),
+        (shapes.point_at(0.5 * m.retainer_screw_hole, 0.0), m.drill_point_ratio * m.retainer_screw_hole),
         (
-            point_at(0.5 * m.link_dowel_diameter, m.link_dowel_circle_radius).times(m.dowels_fitted),
+            shapes.point_at(0.5 * m.link_dowel_diameter, m.link_dowel_circle_radius).times(m.dowels_fitted),
             m.drill_point_ratio * m.link_dowel_diameter,
         ),
     )
@@ -139,15 +134,15 @@ def _core_drill_points(m: Module) -> Section:
 @quantities.helper()
 def link_section(m: Module) -> Section:
     """Plan view of the output link: an obround from the core to the housing's edge, less its holes."""
-    screws = disc_at(0.5 * m.link_screw_clearance, m.link_bolt_circle_radius).times(LINK_SCREWS)
-    tool = disc_at(0.5 * m.link_tool_hole, m.link_length)
-    return slot(m.link_half_width, m.link_length) - screws - tool - m.link_dowel_section
+    screws = shapes.disc_at(0.5 * m.link_screw_clearance, m.link_bolt_circle_radius).times(LINK_SCREWS)
+    tool = shapes.disc_at(0.5 * m.link_tool_hole, m.link_length)
+    return shapes.slot(m.link_half_width, m.link_length) - screws - tool - m.link_dowel_section
 
 
 @quantities.helper()
 def retainer_section(m: Module) -> Section:
     """Plan view of the retainer."""
-    return ring(0.5 * m.retainer_screw_clearance, m.retainer_radius)
+    return shapes.ring(0.5 * m.retainer_screw_clearance, m.retainer_radius)
 
 
 @quantities.output("g")

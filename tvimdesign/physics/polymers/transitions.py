@@ -25,16 +25,8 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from tvimdesign.physics.polymers.polymer import (
-    GAS_CONSTANT,
-    PINNED_FREQUENCY,
-    ZERO_CELSIUS,
-    Melting,
-    Modes,
-    arrhenius_shift,
-    maxwell_moduli,
-    ramp,
-)
+from tvimdesign.physics.polymers import polymer
+from tvimdesign.physics.polymers.polymer import Melting, Modes
 
 BELOW_GLASS = 30.0  # K; molecules stop moving that far below the glass transition [H]
 # Roundings, each small against what it rounds.
@@ -65,10 +57,10 @@ class Kinetics(NamedTuple):
 def _mobility_and_nucleation(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
     """Return the logarithm of the growth rate but for a constant: -U/(R (T - T_inf)) - K_g/(T dT f), f = 2 T/(T + T_m0)
     [H]."""
-    above_frozen = ramp(temperature_kelvin - (kinetics.glass_transition - BELOW_GLASS), _UNDERCOOLING_ROUNDING)
-    undercooling = ramp(kinetics.equilibrium_melting - temperature_kelvin, _UNDERCOOLING_ROUNDING)
+    above_frozen = polymer.ramp(temperature_kelvin - (kinetics.glass_transition - BELOW_GLASS), _UNDERCOOLING_ROUNDING)
+    undercooling = polymer.ramp(kinetics.equilibrium_melting - temperature_kelvin, _UNDERCOOLING_ROUNDING)
     correction = 2.0 * temperature_kelvin / (temperature_kelvin + kinetics.equilibrium_melting)
-    transport = kinetics.transport_energy / (GAS_CONSTANT * above_frozen)
+    transport = kinetics.transport_energy / (polymer.GAS_CONSTANT * above_frozen)
     return -transport - kinetics.nucleation_constant / (temperature_kelvin * undercooling * correction)
 
 
@@ -76,7 +68,7 @@ def _speed(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
     """Return the rate of freezing over that at the reference temperature [1]."""
     reference = _mobility_and_nucleation(kinetics.reference, kinetics)
     logarithm = _mobility_and_nucleation(temperature_kelvin, kinetics) - reference
-    return np.exp(_SLOWEST + ramp(logarithm - _SLOWEST, 0.1))
+    return np.exp(_SLOWEST + polymer.ramp(logarithm - _SLOWEST, 0.1))
 
 
 def rate_constant(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
@@ -87,7 +79,7 @@ def rate_constant(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
 
 def solid_fraction(psi: Any, kinetics: Kinetics) -> Any:
     """Return the share that is frozen [1], X = 1 - exp(-psi^n) [A]; none for psi at and below zero."""
-    return 1.0 - np.exp(-(ramp(psi, _PSI_ROUNDING) ** kinetics.avrami_exponent))
+    return 1.0 - np.exp(-(polymer.ramp(psi, _PSI_ROUNDING) ** kinetics.avrami_exponent))
 
 
 def extended(fraction: Any, kinetics: Kinetics) -> Any:
@@ -96,7 +88,7 @@ def extended(fraction: Any, kinetics: Kinetics) -> Any:
 
     Near X = 0 the root is a straight line through zero, near X = 1 psi ends at what leaves a 10^-4 part molten.
     """
-    molten = _LEAST_MELT + ramp(1.0 - fraction - _LEAST_MELT, _LEAST_MELT)
+    molten = _LEAST_MELT + polymer.ramp(1.0 - fraction - _LEAST_MELT, _LEAST_MELT)
     extent = -np.log(molten)
     return extent * (extent**2 + _LEAST_NUCLEI**2) ** (0.5 / kinetics.avrami_exponent - 0.5)
 
@@ -104,8 +96,8 @@ def extended(fraction: Any, kinetics: Kinetics) -> Any:
 def equilibrium_fraction(temperature_kelvin: Any, melting: Melting) -> Any:
     """Return the largest share that can be solid at a temperature [1]: 1 below, 0 above the melting window, straight
     within."""
-    molten = ramp(temperature_kelvin - melting.start, _WINDOW_ROUNDING)
-    molten = molten - ramp(temperature_kelvin - melting.end, _WINDOW_ROUNDING)
+    molten = polymer.ramp(temperature_kelvin - melting.start, _WINDOW_ROUNDING)
+    molten = molten - polymer.ramp(temperature_kelvin - melting.end, _WINDOW_ROUNDING)
     return 1.0 - molten / (melting.end - melting.start)
 
 
@@ -117,7 +109,7 @@ def rate(temperature_kelvin: Any, psi: Any, kinetics: Kinetics, melting: Melting
     """
     largest = extended(equilibrium_fraction(temperature_kelvin, melting), kinetics)
     # The second ramp is the first at psi = 0: what is not there does not melt, not even in the rounded corner.
-    excess = ramp(psi - largest, _PSI_ROUNDING) - ramp(-largest, _PSI_ROUNDING)
+    excess = polymer.ramp(psi - largest, _PSI_ROUNDING) - polymer.ramp(-largest, _PSI_ROUNDING)
     return rate_constant(temperature_kelvin, kinetics) - excess / kinetics.melting_time
 
 
@@ -127,7 +119,7 @@ def enthalpy(temperature_kelvin: Any, fraction: Any, melting: Melting) -> Any:
     h_s = c_s (T - T_0), h_m = h_2 + c_m (T - T_end), both lines drawn on beyond the window. So the heat of freezing,
     h_m - h_s, changes with temperature by c_m - c_s a kelvin: Kirchhoff's law follows.
     """
-    solid = melting.specific_heat_solid * (temperature_kelvin - ZERO_CELSIUS)
+    solid = melting.specific_heat_solid * (temperature_kelvin - polymer.ZERO_CELSIUS)
     melt = melting.enthalpy_end + melting.specific_heat_melt * (temperature_kelvin - melting.end)
     return fraction * solid + (1.0 - fraction) * melt
 
@@ -135,9 +127,9 @@ def enthalpy(temperature_kelvin: Any, fraction: Any, melting: Melting) -> Any:
 def temperature(specific_enthalpy: Any, fraction: Any, melting: Melting) -> Any:
     """Return the temperature [K] of a specific enthalpy [J/kg] and a solid fraction: `enthalpy` solved for T, linear in
     it."""
-    at_zero = enthalpy(ZERO_CELSIUS, fraction, melting)
+    at_zero = enthalpy(polymer.ZERO_CELSIUS, fraction, melting)
     capacity = fraction * melting.specific_heat_solid + (1.0 - fraction) * melting.specific_heat_melt
-    return ZERO_CELSIUS + (specific_enthalpy - at_zero) / capacity
+    return polymer.ZERO_CELSIUS + (specific_enthalpy - at_zero) / capacity
 
 
 _CORNER = 1.0  # K; over this the shift's kink at the glass transition is rounded
@@ -158,9 +150,11 @@ def shift(temperature_kelvin: Any, transition: GlassTransition) -> Any:
 
     Both are 1 at T_g, where their slopes differ; that corner is rounded over one kelvin.
     """
-    above = ramp(temperature_kelvin - transition.temperature, _CORNER)
+    above = polymer.ramp(temperature_kelvin - transition.temperature, _CORNER)
     wlf = np.exp(-np.log(10.0) * transition.wlf_c1 * above / (transition.wlf_c2 + above))
-    return wlf * arrhenius_shift(temperature_kelvin - above, transition.temperature, transition.activation_energy)
+    return wlf * polymer.arrhenius_shift(
+        temperature_kelvin - above, transition.temperature, transition.activation_energy
+    )
 
 
 class Glass(NamedTuple):
@@ -181,7 +175,7 @@ class Glass(NamedTuple):
         """Return the relaxation spectrum (time [s], modulus [Pa]) at a temperature: times shift, moduli are those of
         the reference."""
         before = shift(self.reference_temperature, self.transition)
-        pinned, _ = maxwell_moduli(PINNED_FREQUENCY * before, self.modes)
+        pinned, _ = polymer.maxwell_moduli(polymer.PINNED_FREQUENCY * before, self.modes)
         shifted = shift(temperature_kelvin, self.transition)
         return [(shifted * time, self.shear_modulus / pinned * share) for time, share in self.modes]
 

@@ -19,17 +19,8 @@ import numpy as np
 from tvimdesign.physics.motions import motion, one_sided
 from tvimdesign.physics.motions.motion import Joint, Modes
 from tvimdesign.physics.motions.one_sided import Blocks, Touching
-from tvimdesign.simulation.link_motion.sampled_motion import (
-    LONGEST,
-    MOST_SAMPLES,
-    Array,
-    ContactEvent,
-    Motion,
-    OneSided,
-    growing,
-    stretches_of,
-    turns_of,
-)
+from tvimdesign.simulation.link_motion import sampled_motion
+from tvimdesign.simulation.link_motion.sampled_motion import Array, ContactEvent, Motion, OneSided
 
 SEARCHED = 1e-13  # Share of a step to which an event is located
 NUDGE = 2.0**-10  # Share of a step taken where a block is grazed, before it is asked again whether it touches
@@ -249,7 +240,7 @@ class Course:
         """Go on with steps that grow until a block is left or met, the link sticks or comes loose, or all is over."""
         contacts, swings = len(self.events), self.phase.sliding.swings
         values = self._regime(self.phase).values if swings else np.zeros(1)
-        for step, count in growing(first, values):
+        for step, count in sampled_motion.growing(first, values):
             for _ in range(count):
                 self.across(step)
                 if len(self.events) > contacts or self.phase.sliding.swings != swings:
@@ -262,9 +253,9 @@ class Course:
 
         `enough` is the energy [J] that counts as none.
         """
-        if self.time >= LONGEST or len(self.columns) >= MOST_SAMPLES:
+        if self.time >= sampled_motion.LONGEST or len(self.columns) >= sampled_motion.MOST_SAMPLES:
             return True
-        if np.isfinite(turns) and len(turns_of(self._from[1] @ np.column_stack(self.columns))) >= turns:
+        if np.isfinite(turns) and len(sampled_motion.turns_of(self._from[1] @ np.column_stack(self.columns))) >= turns:
             return True
         rests = self.phase.sliding in {Sliding.FREE, Sliding.STUCK} and self.driving_energy() <= enough
         return rests or self._spent()
@@ -299,7 +290,7 @@ class Course:
             internal=states[2:],
             torque=np.where(stuck, 0.0, pushed - sign * self._friction),
             energy=self._plant.energy(states[0], states[1], inner, touching),
-            stretches=stretches_of(self.durations),
+            stretches=sampled_motion.stretches_of(self.durations),
         )
         rest_angle = float(states[0, -1]) if self.phase.sliding is Sliding.STUCK or self._spent() else None
         return OneSided(moved, np.array(touching) > 0.0, tuple(self.events), rest_angle)

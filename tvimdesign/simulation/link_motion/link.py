@@ -7,17 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.physics.motions import motion
+from tvimdesign.simulation.link_motion import sampled_motion
 from tvimdesign.simulation.link_motion.course import HELD, Course, Plant
-from tvimdesign.simulation.link_motion.sampled_motion import (
-    DEAD,
-    LONGEST,
-    SAMPLES_A_PERIOD,
-    Array,
-    Motion,
-    OneSided,
-    Stretch,
-    doubling,
-)
+from tvimdesign.simulation.link_motion.sampled_motion import Array, Motion, OneSided, Stretch
 
 
 def held(plant: Plant, angle: float, seconds: float, precompression: float = 0.0) -> Array:
@@ -31,7 +23,7 @@ def held(plant: Plant, angle: float, seconds: float, precompression: float = 0.0
         course.across(seconds)
     elif seconds > 0.0:
         quickest = min(time for side in plant.sides for time, _ in side)
-        for step, count in doubling(quickest / SAMPLES_A_PERIOD, seconds):
+        for step, count in sampled_motion.doubling(quickest / sampled_motion.SAMPLES_A_PERIOD, seconds):
             for _ in range(count):
                 course.across(step)
     return course.states()[2:, -1]
@@ -55,8 +47,8 @@ def released(plant: Plant, angle: float, internal: Array, friction: float = 0.0,
     """
     course = Course(plant, friction)
     course.start(angle, 0.0, internal)
-    enough = DEAD**2 * course.driving_energy()
-    first = course.quickest / SAMPLES_A_PERIOD
+    enough = sampled_motion.DEAD**2 * course.driving_energy()
+    first = course.quickest / sampled_motion.SAMPLES_A_PERIOD
     while not course.over(enough, turns):
         course.follow(first, enough, turns)
     return course.motion()
@@ -123,7 +115,7 @@ class Swings:
             fading = np.exp(np.minimum(self.rates.real, 0.0) * np.exp(log_time))
             return float(np.log(np.sum(np.abs(self.shares) * fading) + 1e-300) - np.log(limit))
 
-        last = np.log(1e3 * LONGEST)
+        last = np.log(1e3 * sampled_motion.LONGEST)
         return float(np.exp(brentq(excess, -20.0, last))) if excess(last) < 0.0 else float("inf")
 
 

@@ -9,14 +9,9 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
+from tvimdesign.solve.infeasibility import feasibility_screen
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
-from tvimdesign.solve.infeasibility.feasibility_screen import (
-    NOWHERE,
-    FeasibilityScreen,
-    best_drawn,
-    designs_all_over,
-    least_broken,
-)
+from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.nlp.ipopt import TIME_OVER
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
@@ -92,7 +87,7 @@ class Relaxation:
         """Return runs from designs all over the ranges that keep the arithmetic limits, until two end alike."""
         runs: list[Run] = []
         self.optimizer.progress("no start satisfies the limits: searching the whole ranges")
-        designs = designs_all_over(self.optimizer, lambda inputs: self._mixed(inputs, {}))
+        designs = feasibility_screen.designs_all_over(self.optimizer, lambda inputs: self._mixed(inputs, {}))
         for begin in designs:
             optima = [run.start for run in runs if run.start.converged]
             if self.optimizer.deadline.passed or any(map(same_optimum, optima, optima[1:])):
@@ -232,10 +227,10 @@ class Relaxation:
         if self.sizes.mixtures or self.optimizer.deadline.passed:
             return None, False
         seed = self.optimizer.study.solver.seed
-        begin, worst = least_broken(self.optimizer, self._screen, seed, ends)
+        begin, worst = feasibility_screen.least_broken(self.optimizer, self._screen, seed, ends)
         if self.optimizer.deadline.passed:
             return None, False
-        if worst >= NOWHERE or self._screened(ends, [begin]):
+        if worst >= feasibility_screen.NOWHERE or self._screened(ends, [begin]):
             return None, True
         run = self._solved(ends, begin=begin)
         return (run, True) if run.start.converged else (None, run.start.status == NO_DESIGN)
@@ -273,7 +268,7 @@ class Relaxation:
         """
         if not self._screen.impossible(ends, self._modules(begins)):
             return False
-        begin, worst = best_drawn(self.optimizer, self._screen, ends)
+        begin, worst = feasibility_screen.best_drawn(self.optimizer, self._screen, ends)
         if worst <= 0.0 or not self._screen.impossible(ends, [self._mixed(begin, ends)]):
             return False
         self.work.screened += 1

@@ -18,14 +18,8 @@ import numpy as np
 from tvimdesign.device import Path, Table
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
-from tvimdesign.solve.nlp.constraints import (
-    ALGEBRAIC_TOLERANCE,
-    Constraint,
-    in_words,
-    make_constraint,
-    on_cycle,
-    ratings_of,
-)
+from tvimdesign.solve.nlp import constraints
+from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution, Start
 from tvimdesign.solve.nlp.solver_run import FLAT_GOAL, OPTIMAL, Array, Derivatives, Run, meaning
@@ -181,7 +175,7 @@ def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], se
     response = Response(optimizer, run) if run.start.converged else None
     limits = _active_constraints(optimizer, run, values, response)
     tolerances = [
-        CYCLE_TOLERANCE if on_cycle(optimizer.table, limit.output) else ALGEBRAIC_TOLERANCE
+        CYCLE_TOLERANCE if constraints.on_cycle(optimizer.table, limit.output) else constraints.ALGEBRAIC_TOLERANCE
         for limit in optimizer.problem.limits
     ]
     feasible = all(held.residual <= tolerance for held, tolerance in zip(limits, tolerances, strict=True))
@@ -255,7 +249,7 @@ def _active_constraints(
     return [
         _active(
             limit,
-            in_words(limit, optimizer.table),
+            constraints.in_words(limit, optimizer.table),
             float(limit.residual(values[limit.output])),
             float(shadow_price) / (run.start.objective or 1.0),
             _savings(response, [("row", first + i)]),
@@ -273,7 +267,7 @@ def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) ->
             continue
         value = run.inputs[optimizer.model.index[free.name]]
         for sense, sign in senses:
-            limit = make_constraint(
+            limit = constraints.make_constraint(
                 optimizer.table, free.name, sense, free.upper if sense == "<=" else free.lower, "vary"
             )
             multiplier = max(sign * float(run.bound_multipliers[i]), 0.0)
@@ -281,7 +275,7 @@ def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) ->
             active.append(
                 _active(
                     limit,
-                    in_words(limit, optimizer.table),
+                    constraints.in_words(limit, optimizer.table),
                     float(limit.residual(value)),
                     float(multiplier * per_scale / (run.start.objective or 1.0)),
                     _savings(response, [("upper" if sense == "<=" else "lower", i)], per_scale),
@@ -300,8 +294,8 @@ def _active_currents(optimizer: Optimizer, run: Run, response: Response | None) 
             ("<=", current.upper, 1.0), (">=", current.lower, -1.0),
         )  # fmt: skip
         for sense, bound, sign in senses:
-            limit = make_constraint(optimizer.table, current.row, sense, bound, "vary")
-            bound_text = in_words(limit, optimizer.table)
+            limit = constraints.make_constraint(optimizer.table, current.row, sense, bound, "vary")
+            bound_text = constraints.in_words(limit, optimizer.table)
             at_it = int(np.sum(sign * (shares - bound / current.upper) >= -SAME_CURRENT))
             nodes = range(place.start, place.stop)
             end: Literal["upper", "lower"] = "upper" if sense == "<=" else "lower"
@@ -324,10 +318,10 @@ def _active_slew(optimizer: Optimizer, run: Run) -> list[ActiveConstraint]:
         return []
     place = optimizer.model.index["current_slew"]
     value = float(optimizer.model.start[place])
-    limit = make_constraint(optimizer.table, "current_slew", "<=", value, "module")
+    limit = constraints.make_constraint(optimizer.table, "current_slew", "<=", value, "module")
     steepest = max(profile.steepest for profile in run.current_profiles.values())
     shadow_price = _price_of_slew(optimizer, run, value) / (run.start.objective or 1.0)
-    return [_active(limit, in_words(limit, optimizer.table), steepest / value - 1.0, shadow_price, {})]
+    return [_active(limit, constraints.in_words(limit, optimizer.table), steepest / value - 1.0, shadow_price, {})]
 
 
 def _price_of_slew(optimizer: Optimizer, run: Run, slew: float) -> float:
@@ -352,7 +346,7 @@ def happened(name: str, values: Mapping[str, float], table: Table) -> bool:
 
 def is_met(limit: Constraint, value: float, table: Table) -> bool:
     """Return whether a value satisfies a limit, to the precision of its computation."""
-    tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
+    tolerance = CYCLE_TOLERANCE if constraints.on_cycle(table, limit.output) else constraints.ALGEBRAIC_TOLERANCE
     return bool(limit.residual(value) <= tolerance)
 
 
@@ -360,7 +354,7 @@ def exceeded(values: Mapping[str, float], table: Table) -> tuple[Constraint, ...
     """Return the ratings that a design exceeds; `values` holds every input and output in SI by full name."""
     return tuple(
         limit
-        for limit in ratings_of(table)
+        for limit in constraints.ratings_of(table)
         if happened(limit.output, values, table) and not is_met(limit, values[limit.output], table)
     )
 

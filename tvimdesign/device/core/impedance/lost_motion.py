@@ -14,13 +14,7 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.motions.contacts import (
-    crossed_groove_depth,
-    joint_play,
-    overhung_shift,
-    sliding_torque,
-    worn_volume,
-)
+from tvimdesign.physics.motions import contacts
 from tvimdesign.physics.spring import pin_slip
 
 quantities = QuantityGroup("Lost motion")
@@ -41,7 +35,7 @@ def pin_friction_torque(m: Module) -> Scalar:
     At rest; over the stroke one hand presses harder by as much as the other presses less.
     """
     slip = pin_slip(m.pin_radius, m.placement_radius, m.leg_offset, m.pin_diameter)
-    return m.spring_count * sliding_torque(m.pin_friction, m.pin_force, slip)
+    return m.spring_count * contacts.sliding_torque(m.pin_friction, m.pin_force, slip)
 
 
 WEAR_STROKES = 1e6  # Full strokes to both sides for which wear counts, as fatigue does [1]
@@ -54,8 +48,8 @@ def pin_wear(m: Module) -> Scalar:
     Archard's law, with the force at rest; the preload falls by this depth over the leg's arm.
     """
     slip = pin_slip(m.pin_radius, m.placement_radius, m.leg_offset, m.pin_diameter)
-    volume = worn_volume(m.pin_wear_coefficient, m.pin_force, 4.0 * WEAR_STROKES * m.stroke * slip)
-    return crossed_groove_depth(volume, 0.5 * m.wire_diameter, 0.5 * m.pin_diameter)
+    volume = contacts.worn_volume(m.pin_wear_coefficient, m.pin_force, 4.0 * WEAR_STROKES * m.stroke * slip)
+    return contacts.crossed_groove_depth(volume, 0.5 * m.wire_diameter, 0.5 * m.pin_diameter)
 
 
 @quantities.output("rad", sprung=True)
@@ -116,8 +110,8 @@ def bearing_play(m: Module) -> Scalar:
     The core's shift at half the link's thickness, over the link's length.
     """
     height = m.link_bottom_level + 0.5 * m.link_thickness - m.core_support.top
-    shift = overhung_shift(m.core_support.clearance, m.core_support.spread, height, m.core_support.tilt)
-    return joint_play(shift, m.link_length)
+    shift = contacts.overhung_shift(m.core_support.clearance, m.core_support.spread, height, m.core_support.tilt)
+    return contacts.joint_play(shift, m.link_length)
 
 
 @quantities.output("rad", headline=True)

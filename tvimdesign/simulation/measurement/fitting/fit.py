@@ -6,15 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.simulation.measurement.fitting.intervals import (
-    LEAST_DRIFT,
-    Drifts,
-    Spread,
-    drifts,
-    moved_by,
-    profile_end,
-    spread,
-)
+from tvimdesign.simulation.measurement.fitting import intervals
+from tvimdesign.simulation.measurement.fitting.intervals import Drifts, Spread
 from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Problem, Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import BETTER, RobustFit, criterion, robust_fit
 
@@ -111,9 +104,9 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
 def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
     """Return intervals of a best fit, and what follows from it; without `profiles` they are those of the covariance."""
     residuals, best = fit
-    known = spread(residuals, best)
-    drift = drifts(residuals, best, known)
-    free = {i for direction in known.free_directions for i in moved_by(direction)}
+    known = intervals.spread(residuals, best)
+    drift = intervals.drifts(residuals, best, known)
+    free = {i for direction in known.free_directions for i in intervals.moved_by(direction)}
     parameters, words = [], in_words(fit.problem, known, best.inner)
     for i, parameter in enumerate(fit.problem.parameters):
         if parameter.nuisance:
@@ -165,7 +158,7 @@ def _drifting(problem: Problem, drift: Drifts) -> str:
     most = int(np.argmax(np.abs(drift.sizes)))
     channel = [channel for channel in problem.channels for _ in range(channel.sensors)][most]
     size = drift.sizes[most]
-    if drift.deviations < _RARE or abs(size) < LEAST_DRIFT:
+    if drift.deviations < _RARE or abs(size) < intervals.LEAST_DRIFT:
         return ""
     of = "value" if channel.relative and not channel.zero_drifts else "range"
     return (
@@ -199,7 +192,7 @@ def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profile
     half = known.half(known.axis(at))
     if not profiles or half == 0.0:
         return _within(residuals.problem.parameters[at], best.inner[at] - half, best.inner[at] + half)
-    return profile_end(residuals, best, known, at, -1), profile_end(residuals, best, known, at, 1)
+    return intervals.profile_end(residuals, best, known, at, -1), intervals.profile_end(residuals, best, known, at, 1)
 
 
 def _within(parameter: Parameter, low: float, high: float) -> tuple[float, float]:
@@ -245,7 +238,7 @@ def in_words(problem: Problem, known: Spread, inner: Array) -> list[str]:
     undetermined: set[int] = set()
     sentences = []
     for direction in known.free_directions:
-        moved = moved_by(direction)
+        moved = intervals.moved_by(direction)
         undetermined.update(moved)
         named = [i for i in moved if not problem.parameters[i].nuisance]
         sentences += [_free(problem.parameters, direction, named, inner)] if named else []

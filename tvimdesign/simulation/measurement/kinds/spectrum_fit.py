@@ -7,16 +7,8 @@ import numpy as np
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers.polymer import GAS_CONSTANT, ZERO_CELSIUS
 from tvimdesign.simulation.measurement.fitting.fit import BestFit, Estimate, Fit, best_fit, fitted, with_intervals
-from tvimdesign.simulation.measurement.kinds.melt_spectrum import (
-    BEYOND,
-    Melt,
-    MeltTest,
-    fewest_modes,
-    melt_of,
-    shift_name,
-    spectrum_problem,
-    temperature_known,
-)
+from tvimdesign.simulation.measurement.kinds import melt_spectrum
+from tvimdesign.simulation.measurement.kinds.melt_spectrum import Melt, MeltTest
 from tvimdesign.simulation.measurement.measurement import Measurement, RecordTable, Settings
 
 _UNTOLD = (
@@ -32,13 +24,13 @@ _SPLIT = 0.02  # A mode that stands for two in a record is split this share abov
 def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
     """Return the spectrum of tests, all together. Raises InputError for what lacks."""
     least = settings.get("least_temperature", 0.0)
-    known = temperature_known([test.name for test in tests], [test.temperature for test in tests])
+    known = melt_spectrum.temperature_known([test.name for test in tests], [test.temperature for test in tests])
     molten = [test for test in tests if test.temperature >= least] if known else list(tests)
     if not molten:
         raise InputError("--set least_temperature leaves no test")
     most = round(settings["largest_modes"])
-    melt = melt_of(molten, settings)
-    count, first = fewest_modes(melt, most)
+    melt = melt_spectrum.melt_of(molten, settings)
+    count, first = melt_spectrum.fewest_modes(melt, most)
     melt, count, first = _without_ends(melt, count, first)
     best, notes = _best(melt, count, first, profiles=profiles)
     notes = [*_notes(tests, melt, count, most), *notes]
@@ -62,7 +54,7 @@ def _without_ends(melt: Melt, count: int, first: BestFit) -> tuple[Melt, int, Be
         return melt, count, first
     melt = melt._replace(fast=melt.fast or fast > 0, solid=melt.solid or slow > 0)
     count -= fast + slow
-    return _without_ends(melt, count, best_fit(spectrum_problem(melt, count)))
+    return _without_ends(melt, count, best_fit(melt_spectrum.spectrum_problem(melt, count)))
 
 
 def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fit, list[str]]:
@@ -73,10 +65,10 @@ def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fi
     if melt.energy is not None or len(melt.temperatures) == 1:
         return with_intervals(first, profiles=profiles), []
     free = with_intervals(first, profiles=False)
-    shifts = {temperature: free[shift_name(temperature)] for temperature in melt.shifted}
+    shifts = {temperature: free[melt_spectrum.shift_name(temperature)] for temperature in melt.shifted}
     energy, note = arrhenius(shifts, melt.reference)
     if energy is not None:
-        return fitted(spectrum_problem(melt._replace(energy=energy), count), profiles=profiles), [note]
+        return fitted(melt_spectrum.spectrum_problem(melt._replace(energy=energy), count), profiles=profiles), [note]
     return (with_intervals(first) if profiles else free), [note]
 
 
@@ -142,8 +134,8 @@ def _viscosity_record(best: Fit, melt: Melt, count: int, notes: Sequence[str]) -
             "What relaxes while the strain rises is not seen, and the viscosity is its sum with the rest: no record is "
             "written. Set rise_time, or fit a frequency sweep together with it (--as melt)."
         )
-    elif slowest > melt.window[1] / BEYOND:
-        why = _extrapolated(slowest, melt.window[1] / BEYOND)
+    elif slowest > melt.window[1] / melt_spectrum.BEYOND:
+        why = _extrapolated(slowest, melt.window[1] / melt_spectrum.BEYOND)
     else:
         there = f", {best.value('fast_viscosity'):.3g} Pa.s" if melt.fast else " or what the inertia hides"
         why = f"Faster than the tests see there is only a viscosity{there}: the plateau modulus does not follow. "
@@ -175,7 +167,10 @@ def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: S
             f" The viscosity is known: give {viscosity.value:.3g} Pa.s as pcl_zero_shear_viscosity in a study's module."
         )  # fmt: skip
         return Measurement(best, (*notes, f"The data leave {', '.join(left_open)} open: no record is written.{known}"))
-    seen = next(parameter.most for parameter in best.problem.parameters if parameter.name == "time_1") / BEYOND
+    seen = (
+        next(parameter.most for parameter in best.problem.parameters if parameter.name == "time_1")
+        / melt_spectrum.BEYOND
+    )
     if modes[0][0] > seen:
         return Measurement(best, (*notes, _extrapolated(modes[0][0], seen)))
     values = _reported(best, "zero_shear_viscosity", "plateau_modulus", "flow_activation_energy")
