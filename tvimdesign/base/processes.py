@@ -205,7 +205,7 @@ class FedProcess:
         self.child.communicate()
 
 
-_GROUPS = os.name == "posix"  # Whether processes have groups, and a pipe can be handed on to one
+_GROUPS = os.name == "posix"  # True if processes have groups, and a pipe can be handed on to one
 
 
 class CommandGroup:

@@ -15,8 +15,8 @@ class SolidCheck:
     name: str
     value: float  # In `unit`; without one a relative deviation, a ratio or a number of things
     limit: float
-    ok: bool  # Whether the part can be made and used; with a warning it can, at a price that `text` says
-    text: str  # What was checked, for people
+    ok: bool  # True if the part can be made and used; with a warning it can, at a price that `text` says
+    text: str  # Description of the check, for people
     warned: bool = False
     part: str = ""  # The part, or the two parts, it is about
     place: Sequence[float] | None = None  # Where the value was found, in the module's coordinates [mm]
@@ -103,10 +103,10 @@ step_picture = "views/step_{:02d}.png".format
 """The picture of a step of the assembly note, in which parts come into their places."""
 step = "step/{}.step".format  # The part as it is to be, for machining and for reading into other CAD
 print_stl = "print/{}.stl".format  # The part lying as it is printed, its holes larger by the process's compensation
-print_3mf = "print/{}.3mf".format  # The same with unit, name, material and colour
+print_3mf = "print/{}.3mf".format  # Meshes with unit, name, material and colour
 plate_3mf = "print/plate_{}.3mf".format
 """A bed full of parts as they are printed, counted from 1, with the settings of their process."""
 mesh_stl = "mesh/{}.stl".format  # Triangles of a part that is bought, as it is: to look at and to simulate with
 drawing_dxf = "drawings/{}.dxf".format  # The drawing of a part that is made of the structure's material
 cut_dxf = "drawings/{}_cut.dxf".format  # The outline of a part that is a plate, for a laser or a water jet
-drawing_pdf = "drawings/{}.pdf".format  # The same drawing, to print
+drawing_pdf = "drawings/{}.pdf".format  # That drawing, to print

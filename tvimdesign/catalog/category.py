@@ -144,7 +144,7 @@ than the densities of a polymer's grades."""
 class InheritedLaw(NamedTuple):
     """A law of one material in the record of another."""
 
-    law: str  # What people call it
+    law: str  # Its name in the field
     owner: Record  # The record it comes from
     differs: str  # The value by which the owner is another material
     names: tuple[str, ...]  # The values and tables; the record needs one of its own

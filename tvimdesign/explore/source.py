@@ -27,7 +27,7 @@ class Source:
 
     tree: StudyTree
     study: Study
-    chosen: Mapping[str, Any] = field(default_factory=dict)  # What a design found for it has, by name
+    chosen: Mapping[str, Any] = field(default_factory=dict)  # Choices of a design found for it, by name
     folder: Path | None = None  # Of the result
     front: Mapping[str, Any] | None = None  # As in its results.json
     cells: SweptCells | None = None  # Of the sweep

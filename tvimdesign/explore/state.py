@@ -31,7 +31,7 @@ from tvimdesign.study.text.values import exactly
 from tvimdesign.study.text.yaml_text import Text
 from tvimdesign.study.tree import StudyTree, node_of, tree_of_text, tree_yaml, with_value
 
-SOURCE = "explore"  # What messages call the place a change was made in
+SOURCE = "explore"  # Name in messages of the place of a change
 DIGITS = 12  # Digits of a text to edit, in which an angle in degrees is the same angle again
 _OF_SEARCHES = ("robust", "profile")
 _OF_FILES = ("tvimdesign", "mode", "catalog")  # left as they are by a sized study

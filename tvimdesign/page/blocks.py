@@ -114,7 +114,7 @@ class Drawn:
     by: str  # The module of static/ that draws it
     says: str  # Its caption, which stands for it where nothing can be drawn
     data: Mapping[str, Any]
-    binary: bytes = b""  # What is too large for JSON: the meshes
+    binary: bytes = b""  # Meshes, which are too large for JSON
     libraries: Sequence[str] = ()
 
 
@@ -147,7 +147,7 @@ class Page:
     """A whole page."""
 
     title: str
-    kind: str  # What was done: `shear module`, `comparison`
+    kind: str  # Result: `shear module`, `comparison`
     status: str
     tone: Tone
     first: Sequence[Block]  # The first screen

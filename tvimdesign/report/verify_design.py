@@ -107,7 +107,7 @@ def verify_sections(folder: Path, verification: Mapping[str, Any]) -> list[Secti
     ]
 
 
-_WORK = ".verify-"  # What the name of the folder begins with in which the parts stand while they are solved
+_WORK = ".verify-"  # Start of the name of the folder of the parts while they are solved
 TITLES = {
     "joint": "von Mises\nMPa at 1 N m", "spring": "von Mises\nMPa at 1 N m", "link": "von Mises\nMPa at 1 N",
     "screws": "von Mises\nMPa at 1 N",

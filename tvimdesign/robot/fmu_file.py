@@ -36,7 +36,7 @@ FLAGS = ("-std=c99", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-w")
 PROCESSOR_LIMIT = 600.0  # Processor time [s] for compiling; it takes some seconds
 SETTINGS = {"FIRST_STEP": 1e-3, "LONGEST_STEP": 1.0, "TOLERANCE": 1e-5}
 """Of the heat's integration: steps [s], error of a step in a state, which is of the order of one."""
-_BESIDE = ".fmu-"  # What the name of the folder begins with that it is built in
+_BESIDE = ".fmu-"  # Start of the name of the folder that it is built in
 _MOMENT = (1980, 1, 1, 0, 0, 0)
 _PLATFORMS = {"Linux": ("linux", ".so"), "Darwin": ("darwin", ".dylib"), "Windows": ("win", ".dll")}
 

@@ -40,7 +40,7 @@ class JointEquations:
     """The equations of one module. All functions take (state, given), given = current, ambient, frequency."""
 
     functions: Sequence[Any]
-    observed: tuple[str, ...]  # What the function `observed` gives, in its order
+    observed: tuple[str, ...]  # Results of the function `observed`, in its order
     cells: int
     modes: int  # Maxwell elements of a slice of the layer
     sides: int  # 2 where the PCL only pushes

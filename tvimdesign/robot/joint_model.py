@@ -124,9 +124,9 @@ class JointModel:
     states: tuple[JointState, ...]
     stroke: float  # To either side [rad]
     stop_angle: float  # Angle of the hard stops to either side [rad]
-    holding_torque: float  # What the frozen joint bears [N*m]
+    holding_torque: float  # Torque that the frozen joint bears [N*m]
     step: float  # Time step [s]
-    left_out: tuple[str, ...]  # What no file has of the joint, a sentence each
+    left_out: tuple[str, ...]  # Properties of the joint that no file has, a sentence each
 
     @property
     def slug(self) -> str:

@@ -253,7 +253,7 @@ class Spring:
     name: str
     stiffness: float  # [N*m/rad]
     coefficients: Mapping[str, float]  # Its angle is the sum of these times the angles of the named hinges
-    pushes: bool = False  # Whether it acts only where its angle is above zero
+    pushes: bool = False  # True if it acts only where its angle is above zero
 
 
 @dataclass(frozen=True)

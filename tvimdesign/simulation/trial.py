@@ -81,4 +81,4 @@ class Trial:
     sheets: tuple[CurveTable, ...]
     panels: tuple[Panel, ...]
     findings: tuple[Finding, ...]
-    notes: tuple[str, ...] = ()  # What a reader must know to read the curves right, one sentence each
+    notes: tuple[str, ...] = ()  # Hints for reading the curves, one sentence each

@@ -59,7 +59,7 @@ class DutyResult:
     settling: float  # Time from a cold start until the temperatures are within 1 K of the periodic ones [s]
     energy_a_day: float  # [J]
     most: float  # Most switches an hour that keep every rating and leave time for both ways
-    limited_by: str  # What more of them would exceed: a rating, or `time`
+    limited_by: str  # Limit that more of them would exceed: a rating, or `time`
     quantities: dict[str, float] = field(default_factory=dict)  # Every quantity, with what the periodic cycle supplies
 
 

@@ -38,9 +38,9 @@ class ConstraintCheck:
     text: str
     output: str
     value: float
-    margin: float  # What is left, as a share of `scale`; negative where it is broken
+    margin: float  # Room left, as a share of `scale`; negative where it is broken
     scale: float  # The limit's size, SI; or what stands for it where the limit is zero or a temperature
-    absolute: bool  # Whether the margin is to be read in the row's unit, not as a share
+    absolute: bool  # True if the margin is to be read in the row's unit, not as a share
     met: bool
     worst: float  # The least margin over what history leaves open; the margin itself where there is one value
     origin: str  # `require`, or the reason the machine has the limit
@@ -66,7 +66,7 @@ class StudyResult:
     """Least and largest value (SI) of the outputs for which a point inside the melting range has no one answer."""
     constant_current: dict[str, float]
     """What the same module does where currents that follow a profile stay at their default; empty where none does."""
-    cooling: Cooling  # What cooling by current buys on the way back
+    cooling: Cooling  # Benefit of cooling by current on the way back
     duty: DutyResult | None
     control: ControlResult | None
 

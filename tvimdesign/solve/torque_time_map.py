@@ -100,7 +100,7 @@ class _Row:
     near: Point  # Design that comes nearest to the next cycle
     designs: list[Point] = field(default_factory=list)
     status: str = OPTIMAL  # Status of the cells without a design, once they are answered
-    at_limits: bool = False  # Whether a search for the next cycle ended at limits
+    at_limits: bool = False  # True if a search for the next cycle ended at limits
 
 
 class _Way(NamedTuple):

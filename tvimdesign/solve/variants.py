@@ -85,8 +85,8 @@ TIMES = ("stiffening_time", "frozen_time")  # The times of the way back that are
 class Cooling:
     """Ability of a module's pads to cool, whether they do, and the time of the way back without cooling [s]."""
 
-    able: bool  # Whether the heater has a Seebeck coefficient: a foil heats whichever way its current flows
-    used: bool  # Whether a current flows through it while the module stiffens
+    able: bool  # True if the heater has a Seebeck coefficient: a foil heats whichever way its current flows
+    used: bool  # True if a current flows through it while the module stiffens
     unpowered: Mapping[str, float]
     """`TIMES` with the pads unpowered, where they cool and the module gets soft; infinite where it never happens."""
 

@@ -58,7 +58,7 @@ class JointTask:
     friction: float = 0.5  # Most friction over the springs' torque at full stroke
     stiff_time: float = math.inf  # Most time from the end of the heating until it is stiff again
     process: str = ""  # Process that prints the parts; empty for the one that suits the diameter
-    cautious: bool = False  # Whether three of four plausible cases of the assumed values must satisfy each limit
+    cautious: bool = False  # True if three of four plausible cases of the assumed values must satisfy each limit
 
     @classmethod
     def read(

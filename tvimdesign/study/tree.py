@@ -36,11 +36,11 @@ class StudyTree:
     """A study as it is written, before it is read."""
 
     root: Mapping
-    file: str  # What messages call it
+    file: str  # Name in messages
     name: str  # The study's name, unless it says one
     folder: Path  # Where its folder of records is looked for
     changes: tuple[str, ...] = ()  # The calls and options that changed it
-    problems: tuple[Mistake, ...] = ()  # What is wrong with its form already; the reader adds the rest
+    problems: tuple[Mistake, ...] = ()  # Mistakes of its form; the reader adds others
     path: Path | None = None  # Its file, where it has one
 
     def section(self, name: str) -> Node | None:

@@ -279,7 +279,7 @@ class CellAnswer(NamedTuple):
     margin: float | None  # The least margin over all limits, as a share
     values: tuple[float | str | None, ...]
     """SI, in the order of the columns; words of what is chosen; None where there is none."""
-    warm: bool = False  # Whether the search began at another cell's optimum and found this one's
+    warm: bool = False  # True if the search began at another cell's optimum and found this one's
 
 
 @dataclass(frozen=True)
@@ -287,7 +287,7 @@ class SweptStudy:
     """A study, and what is set in each of its cells; it can be pickled."""
 
     tree: StudyTree
-    names: tuple[str, ...]  # What is set in each cell, as `--set` takes it
+    names: tuple[str, ...]  # Settings of each cell, as `--set` takes it
     numbers: tuple[bool, ...]  # Which of them a search can follow from another cell's optimum
     columns: tuple[str, ...]
     evaluate: bool

@@ -63,13 +63,13 @@ class Item:
     quantity: int
     made: bool
     material: str  # Record of the catalogue
-    title: str  # What the catalogue calls it, with the maker's number where there is one
+    title: str  # Title in the catalogue, with the maker's number where there is one
     mass: float  # Of one [g]
     papers: tuple[str, ...]  # Files it is made or bought from
     solids: tuple[str, ...] = ()
     """Kinds of solid of the assembly that each of them is; none for what is drawn in no file."""
     fit: str = ""  # Tolerance classes of what it sits in and on
-    fixture: bool = False  # Whether it is made to make the module, and no part of it
+    fixture: bool = False  # True if it is made to make the module, and no part of it
     asks: tuple[float, float] = (0.0, 0.0)  # Volts and amperes that a supply or a driver must bear
     treatment: str = ""  # Treatment of the specimens that gave its material's strength
     cost: float = 0.0  # Of one [USD], as the quantity `cost` counts it; zero for what that leaves out

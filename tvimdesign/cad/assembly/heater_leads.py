@@ -316,7 +316,7 @@ class Wire(NamedTuple):
 
     gauge: str
     section: float  # Of its copper [m2]
-    current: float  # What it bears in a bundle [A]
+    current: float  # Current that it bears in a bundle [A]
 
 
 @cache

@@ -91,12 +91,12 @@ class Seat:
     fit: str  # Tolerance class; nothing where what is drawn lies outside it
     limits: Limits
     roughness: float  # Ra [µm]
-    form: str  # What else is asked, in words
-    frames: tuple[Frame, ...] = ()  # What is asked of its form, its place and of the shoulder beside it
+    form: str  # Further demands, in words
+    frames: tuple[Frame, ...] = ()  # Demands on its form, its place and the shoulder beside it
     letter: str = ""  # Of the datum its axis is
     mates: str = ""  # Kind of the bought part that sits there, if any
     from_axis: float = 0.0  # Distance of its own axis from the part's
-    concave: bool = True  # Whether material is outside, as around a bore
+    concave: bool = True  # True if material is outside, as around a bore
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ class DrawingRequirements:
     seats: Sequence[Seat] = ()
     threads: Sequence[ThreadCallout] = ()
     clearance_holes: Sequence[ClearanceHole] = ()
-    general: tuple[Frame, ...] = ()  # What holds for every face without a tolerance of its own: ISO 22081
+    general: tuple[Frame, ...] = ()  # Tolerance of every face without one of its own: ISO 22081
     placed: bool = True
     """Whether places from the joint's axis are given: not of what is bought, and put where the assembly's note says."""
 

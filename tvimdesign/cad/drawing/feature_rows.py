@@ -17,7 +17,7 @@ from tvimdesign.cad.geometry.upright_walls import CORNER, Pair, Sector, Wall, pa
 
 Point = tuple[float, float]
 T = TypeVar("T")
-_BODY = ("flats", "sector")  # What a part is as a whole, whose place is that of the part
+_BODY = ("flats", "sector")  # Shapes of whole parts; their place is the part's
 _SAME = 1e-3  # Distance [mm] below which two places are one
 
 

@@ -20,7 +20,7 @@ from tvimdesign.cad.drawing.projection import Chain, View
 
 _OVER_TITLE = 65.0  # Height on the sheet above which there is room over the title block [mm]
 _LINE, _FRAME = 4.6, 5.2  # Height of its lines, and of those with tolerance frames [mm]
-_OVER = 0.8  # What is left free over and below a feature with a second line [mm]
+_OVER = 0.8  # Room over and below a feature with a second line [mm]
 _SMALL, _TEXT = 1.8, 2.3
 _INDENT = 9.0
 _COLUMNS = (0.0, 5.0, 40.0, 59.0, 73.0, 102.0, 112.0)  # Where the columns of the seats begin [mm]

@@ -24,7 +24,7 @@ class Solved:
     """Results of a solver for some parts."""
 
     fine: dict[str, float]  # By the names in its file; stiffness in N*m/rad, stress in MPa at one newton metre
-    coarse: dict[str, float]  # The same on the coarser mesh
+    coarse: dict[str, float]  # Values on the coarser mesh
     field: Path  # Surface and its stress: `points`, `triangles`, `values`, `ways`
 
 

@@ -74,7 +74,7 @@ class Cylinder:
     y: float
     bottom: float
     top: float
-    concave: bool  # Whether material is outside: a hole or a bore, not a pin
+    concave: bool  # True if material is outside: a hole or a bore, not a pin
     span: float  # How much of the circle there is [rad]
     middle: float  # Azimuth of the middle of what there is, seen from its own axis [rad]
 

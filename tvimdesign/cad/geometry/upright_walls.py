@@ -77,7 +77,7 @@ class Pair:
     """Two parallel walls with nothing between them, or with nothing but material."""
 
     walls: tuple[Wall, Wall]
-    is_slot: bool  # Whether the walls face each other; else they are the sides of a rib, a key or a flat
+    is_slot: bool  # True if the walls face each other; else they are the sides of a rib, a key or a flat
 
     @property
     def width(self) -> float:

@@ -17,7 +17,7 @@ from tvimdesign.cad.export.mesh import CHORD, Array, Mesh
 
 Index = NDArray[np.int64]
 LEAF = 4  # Triangles in a box that is not divided further
-ROOM = 1e-7  # What boxes and triangles are larger than they are [mm], so that no ray slips through between two
+ROOM = 1e-7  # Margin around boxes and triangles [mm], so that no ray slips through between two
 _BEHIND = 1e-3  # How far behind the nearest triangle so far a box must begin to be left out [mm]
 _DEEPEST = 64  # Boxes that wait at once, at most: one for each level of the tree, and one
 _FLAT = 1e-12  # A ray and a triangle whose determinant is not above this are parallel

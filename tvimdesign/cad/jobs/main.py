@@ -35,13 +35,13 @@ from tvimdesign.study.design import Design, catalog_of, read_design
 if TYPE_CHECKING:
     from tvimdesign.cad.jobs.cache import Result
 
-_NEEDED = "tvimdesign.cad.jobs.build_plan"  # What loads the CAD kernel, and all that draws with it
+_NEEDED = "tvimdesign.cad.jobs.build_plan"  # Module that loads the CAD kernel, and all that draws with it
 
 _BRIDGED = "vtk"
 KERNEL = "cadquery"
 _LETTERS = "abcdefghijklmnopqrstuvwxyz 0123456789.,-() ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
-_CACHE_NAME = "cad"  # What the user's folder of parts is called
+_CACHE_NAME = "cad"  # Name of the user's folder of parts
 
 
 def load_kernel() -> None:

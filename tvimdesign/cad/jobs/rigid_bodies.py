@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 BODIES = "bodies.json"  # Mass properties of both bodies, in SI
 MESHES = "meshes"
-BASE, MOVING = "base", "moving"  # What stands with the housing, and what turns with the rotor
+BASE, MOVING = "base", "moving"  # Bodies that stand with the housing, and turn with the rotor
 
 
 def run(design_path: Path, out: Path, _part_limit: float, send: Callable[..., None]) -> None:

@@ -36,7 +36,7 @@ class Job:
 
     design: Design
     dims: Dimensions
-    titles: Mapping[str, str]  # What the catalogue calls the chosen records, by row
+    titles: Mapping[str, str]  # Titles of the chosen records, by row
     needs: Mapping[str, Path]  # Folder `kept/` of each piece of work that this one needs
     folder: Path  # Where to write: files for the user under `out/`, what other pieces of work need under `kept/`
     progress: Progress
@@ -58,7 +58,7 @@ class Work:
     name: str
     do: Callable[[Job], list[SolidCheck]]  # Writes its files; returns the checks it made. Raises GeometryError.
     needs: tuple[str, ...] = ()
-    named: bool = False  # Whether the design's name is written into its files
+    named: bool = False  # True if the design's name is written into its files
     turn: Turn = Turn.USUAL
     words: str = ""  # Short description for people; without one the name
 

@@ -97,7 +97,7 @@ def row_texts(axes: Any, left: Sequence[str], right: Sequence[str]) -> None:
 
 mpl.rcParams.update(SETTINGS)
 _LONGEST_NAME = 110  # letters of a study's name on one line
-_NO_DATE = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}  # The same bytes from the same data
+_NO_DATE = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}  # Equal data then give equal bytes
 _COMPRESSION = 1  # Of zlib, least: a third less time than its usual 6, and no more bytes
 _NOT_NEEDED = ("GDEF", "GPOS", "GSUB", "kern", "MATH", "post")
 """Tables of a font for who sets text with it, and what its letters are called: OpenType 1.9, chapters 5 and 6."""

@@ -23,7 +23,7 @@ PLACES = {"mean_time": "mean", "near_face_time": "near face", "far_face_time": "
 
 
 case = partial(own_data, __file__, "paper_case.yaml")
-claims = partial(own_data, __file__, "paper_claims.yaml")  # What the paper states: values with units, and the places
+claims = partial(own_data, __file__, "paper_claims.yaml")  # Statements of the paper: values with units, places
 
 
 @cache

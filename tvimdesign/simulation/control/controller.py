@@ -62,7 +62,7 @@ class Controller:
     layer_loss: tuple[float, ...]
     """Real and, below zero, imaginary compliance of a layer at one temperature [rad/(N*m)]."""
     layer_structure: tuple[float, ...]
-    layer_structure_loss: tuple[float, ...]  # The same of the structure, by the temperature of the hot face
+    layer_structure_loss: tuple[float, ...]  # Loss of the structure, by the temperature of the hot face
     layer_softness: tuple[float, ...]  # One over the joint's impedance with such a layer [rad/(N*m)]
 
 

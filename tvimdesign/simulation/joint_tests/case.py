@@ -54,7 +54,7 @@ class Case:
     temperature: float
     history: History
     joint: motion.Joint
-    one_sided: bool  # Whether the polymer only pushes: blocks against either sense, of `modes` each
+    one_sided: bool  # True if the polymer only pushes: blocks against either sense, of `modes` each
     modes: motion.Modes
     friction: float = 0.0  # Torque by which the legs' friction on their pins resists the link [N*m]
 

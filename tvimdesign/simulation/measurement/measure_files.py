@@ -35,7 +35,7 @@ class KindSheet:
     settings: Mapping[str, Mapping[str, Any]]
     varies: tuple[str, ...] = ()  # Columns; one of them must change, where it is there
     constant: tuple[str, ...] = ()  # Columns that must not change, where they are there
-    only_asked: bool = False  # Whether it is fitted only where it is asked for
+    only_asked: bool = False  # True if it is fitted only where it is asked for
     decided_by: tuple[str, ...] = ()  # Columns; any of them decides for this kind
     rather_than: str = ""  # Kind that is not taken where a table may be of both
     excluded_by: tuple[str, ...] = ()  # Columns; any of them rules it out, unless it is asked for

@@ -34,7 +34,7 @@ class OtherRecord:
 
     category: str
     based_on: str
-    choice: str  # What a study names it by
+    choice: str  # Name in a study
     values: Mapping[str, Estimate]
 
 
@@ -43,7 +43,7 @@ class Measurement:
     """The result of fitting a kind of measurement."""
 
     fit: Fit
-    notes: tuple[str, ...] = ()  # What a reader has to know: what was taken for what, what was left out
+    notes: tuple[str, ...] = ()  # Assumptions, and data that was left out
     record_values: Mapping[str, Estimate] = field(default_factory=dict)  # Values of a record, by their names there
     record_tables: Mapping[str, RecordTable] = field(default_factory=dict)
     record_conditions: Mapping[str, tuple[float, str]] = field(default_factory=dict)

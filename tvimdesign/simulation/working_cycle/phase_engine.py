@@ -30,7 +30,7 @@ MANY = 5000  # Nodes of an expression from which on it is recorded apart from wh
 class Watch(NamedTuple):
     """Quantities at an instant, recorded."""
 
-    given: Tape  # What they take from the inputs alone: constants of a run
+    given: Tape  # Constants of a run, from the inputs alone
     at: Tape  # The quantities, one below the other, of state, current and these constants
 
 

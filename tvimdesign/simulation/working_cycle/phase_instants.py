@@ -60,7 +60,7 @@ class PhaseOutputs:
     values: dict[str, float] = field(default_factory=dict)
     slopes: dict[str, Array] = field(default_factory=dict)
     end: Instant | None = None
-    short: float = 0.0  # What the event that ends a driven phase still waits for at its end, and its derivatives
+    short: float = 0.0  # Rest of the event that ends a driven phase, at its end, and its derivatives
     of_short: Array = field(default_factory=lambda: np.zeros(1))
     samples: dict[str, tuple[Array, Array]] = field(default_factory=dict)
     """What the highest value of a driven phase is asked of, at the end of every step, with derivatives."""

@@ -276,7 +276,7 @@ class Steps:
 
     of_pace: int  # Steps in the time the study's own design takes
     first: float  # Length of the first step over the others'
-    growth: float  # What each of the first steps is longer by, until they are as long as the others
+    growth: float  # Ratio of each of the first steps to the one before
 
     def lengths(self, pace: float, horizon: float) -> Array:
         """Return the lengths of all steps up to the horizon."""

@@ -32,7 +32,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 TRACE = 1e-4  # Weight of the study's own objective beside the slacks
 FEASIBILITY_TOL = 1e-5  # Slack, as a share of a limit's scale, below which it counts as none
-_ROOM = 1e-2  # What slacks begin with beyond what the first point needs
+_ROOM = 1e-2  # Start of slacks beyond what the first point needs
 
 
 @dataclass(frozen=True)

@@ -28,8 +28,8 @@ from tvimdesign.solve.nlp.solver_run import Array, Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
-_ROOM = 1e-2  # What slacks begin with beyond what the first point needs
-NOWHERE = 1e3  # What a point counts as breaking a limit by at which there is no module
+_ROOM = 1e-2  # Start of slacks beyond what the first point needs
+NOWHERE = 1e3  # Violation of each limit at a point without a module
 
 
 class FeasibilityScreen:

@@ -25,9 +25,9 @@ class Constraint:
     output: str
     sense: Literal["<=", ">="]
     limit: float
-    scale: float  # What a residual of one means: the limit itself, or a hundred steps where it has no size
+    scale: float  # Size of a residual of one: the limit itself, or a hundred steps where it has no size
     origin: str  # `require` for the study's own, otherwise the reason the machine has it
-    step: str = "1 %"  # What a hundredth of the scale is, in words
+    step: str = "1 %"  # A hundredth of the scale, in words
     absolute: bool = False  # True if the limit has no size of its own, so that distances from it are in its unit
     part_of: str = ""
     """The output a requirement names that is put on several at once, which move together: `spring_stiffness`, which is

@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 class Mixture:
     """Records of one or a few choices that share numbers; a design has one of them."""
 
-    records: tuple[dict[str, str], ...]  # What is chosen by each of them, by the choices' names
+    records: tuple[dict[str, str], ...]  # Records chosen by each of them, by the choices' names
     numbers: Mapping[str, tuple[float, ...]]  # The inputs (SI) that differ among them, one value a record
     words: tuple[Mapping[str, Any], ...]  # Their records and options as the table reads them
     read_by: tuple[str, ...]  # The outputs that read these

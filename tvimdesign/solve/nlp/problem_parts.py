@@ -88,7 +88,7 @@ class Point(NamedTuple):
     values: dict[str, float]  # The wanted outputs
     gradients: dict[str, Array]
     times: dict[str, float]  # Time [s] of each event the problem needs
-    cycle: Array  # What the cycle supplies, in the order of the model's `switch_names`, and its slopes
+    cycle: Array  # Supplied values in the order of the model's `switch_names`, and slopes
     of_cycle: Array
 
 

@@ -27,11 +27,11 @@ class Start:
     begin: dict[str, float]
     end: dict[str, float]
     choices: dict[str, str | float] = field(default_factory=dict)  # The listed records and sizes this run was held to
-    relaxed: bool = False  # Whether listed sizes were free to lie between one another: where to begin, not an answer
+    relaxed: bool = False  # True if listed sizes were free to lie between one another: where to begin, not an answer
     second_try: bool = False  # True if it converged only from a feasible design, which was sought first
     by_neighbor: bool = False
     """Whether it ended a period of a number, such as a turn of the coils, beside where the solver came to first."""
-    crossed: bool = False  # Whether it began with a part, such as the springs, of one optimum in another one
+    crossed: bool = False  # True if it began with a part, such as the springs, of one optimum in another one
 
 
 def same_optimum(start: Start, other: Start) -> bool:
@@ -52,7 +52,7 @@ class ActiveConstraint:
     text: str
     residual: float
     scale: float  # SI
-    absolute: bool  # Whether the room is to be read in the row's unit, not as a share
+    absolute: bool  # True if the room is to be read in the row's unit, not as a share
     shadow_price: float
     step: str
     origin: str
@@ -113,7 +113,7 @@ class Choosing:
     bound: float | None = field(default=None, kw_only=True)
     """Objective of the best mixture of records with sizes in between, below which no combination comes as far as the
     starts go; None where no records are mixed."""
-    proven: bool  # Whether every combination was solved, and not only those that branch and bound leaves
+    proven: bool  # True if every combination was solved, and not only those that branch and bound leaves
     improved: float  # Share by which that found better than branch and bound did; zero where they agree
     work: SolverEffort  # Of branch and bound
     proof: SolverEffort  # Of the enumeration
@@ -138,7 +138,7 @@ class Side:
 class ConflictSet:
     """Facts known of a study that has no design."""
 
-    broken: tuple[Side, ...]  # What the design that breaks least breaks
+    broken: tuple[Side, ...]  # Limits that the least infeasible design violates
     sides: tuple[Side, ...]  # Limits that cannot hold together, while without any one of them the others can
     ends: tuple[str, ...]  # Ends of ranges that keep them from it
 
@@ -166,7 +166,7 @@ class TightenedTolerance:
 
     name: str
     plus_minus: float  # As the study has it [SI]
-    to: float  # What it must be [SI]; zero if no tolerance alone is enough
+    to: float  # Value that suffices [SI]; zero if no tolerance alone is enough
     share: float  # Yield with it
 
 
@@ -181,7 +181,7 @@ class YieldReached:
     lost_to: tuple[LostTo, ...]  # The limits that most modules break, the worst first
     nominal_together: float  # Share of modules that keeps all at the optimum without margins
     nominal: dict[str, float]  # Headline values and minimised outputs (SI) of the optimum without margins
-    tightened: TightenedTolerance | None = None  # What would reach it; None where it is reached
+    tightened: TightenedTolerance | None = None  # Change that would reach it; None where it is reached
 
     @property
     def reached(self) -> bool:
@@ -209,7 +209,7 @@ class Solution:
     constant: Constant | None = None
     choosing: Choosing | None = None  # How the listed choices were searched; None where none is listed
     passed_over: dict[str, int] = field(default_factory=dict)  # Points drawn at which no search began, by the reason
-    yield_reached: YieldReached | None = None  # What of a yield that was asked for is reached; None where none is
+    yield_reached: YieldReached | None = None  # Yield reached; None where none is asked
     out_of_time: float | None = None
     """The time limit [s] that ended the search before its end; None where it came to that."""
     left_out: tuple[str, ...] = ()  # List the steps after the search that the time limit left out

@@ -184,7 +184,7 @@ class Lead:
     lower: float
     upper: float  # Infinite for the last one: a front stays where it ends, as a limit that is not active costs nothing
     best: str | None  # None where the best two are alike
-    alone: bool  # Whether no other one has a design there
+    alone: bool  # True if no other one has a design there
     least: float  # Least ratio of the next best to the best over the range; 1 where it is alone
     most: float  # Largest such ratio
 

@@ -40,7 +40,7 @@ class Point:
     """What the solver left behind, for a neighbour to begin from."""
     objective: Objective | None = field(default=None, repr=False, compare=False)
     """What it is the best for; None for the study's own optimum."""
-    cost: float = math.inf  # What the solver made of that objective
+    cost: float = math.inf  # That objective at the solver's optimum
     root: int = 0  # The end it descends from, neighbour by neighbour
 
 
@@ -50,7 +50,7 @@ class Failure:
 
     where: str
     reason: str
-    infeasible: bool = False  # Whether the search ended at limits that cannot all be met nearby
+    infeasible: bool = False  # True if the search ended at limits that cannot all be met nearby
 
 
 class Memory(Protocol):

@@ -55,7 +55,7 @@ class Preload:
     """Effect of the free angle's tolerance on the joint, with and without adjusting the preload."""
 
     as_bought: float  # Tolerance to either side [rad]
-    adjusted: float  # What is left where it can be adjusted [rad]
+    adjusted: float  # Rest where it can be adjusted [rad]
     over_stroke: float
     yield_as_bought: spread.Yield  # Yield of the limits that change with the free angle
     yield_adjusted: spread.Yield

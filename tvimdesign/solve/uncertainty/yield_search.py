@@ -47,8 +47,8 @@ class Robust:
     run: Run
     margins: dict[str, float]  # By limit [shares of its scale]
     share: float
-    reached: bool  # Whether that is as many as asked, to the lower end of its interval of 95 %
-    plausible: bool = True  # Whether enough plausible cases satisfy each limit
+    reached: bool  # True if that is as many as asked, to the lower end of its interval of 95 %
+    plausible: bool = True  # True if enough plausible cases satisfy each limit
 
 
 def reach_yield(

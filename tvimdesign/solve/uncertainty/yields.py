@@ -40,7 +40,7 @@ class Drawn:
 
     limits: tuple[Constraint, ...]
     residuals: Array
-    inputs: tuple[str, ...] = ()  # What was drawn
+    inputs: tuple[str, ...] = ()  # Drawn inputs
     columns: Array = field(default_factory=lambda: np.zeros((0, MODULES)))
     """Its values [SI], a row an input, a column a module."""
 
@@ -116,7 +116,7 @@ class Yields:
     def at(self, inputs: Array, seed: int | None = None, deadline: Deadline = NEVER, count: int = MODULES) -> Drawn:
         """Draw modules of the design with these inputs, `count` or more, from the study's seed unless another is given.
 
-        What was drawn before is not drawn again. Raises TimeOverError at the deadline.
+        Drawn inputs before is not drawn again. Raises TimeOverError at the deadline.
         """
         key = (inputs.tobytes(), seed)
         before = self._drawn.get(key)

@@ -34,7 +34,7 @@ class RunWarning(NamedTuple):
     cure: str = ""
     """A line of the study behind *write* if it was tried, behind *may help:* if it was not, else in words."""
     level: str = ""
-    but: str = ""  # What the verdict says besides: of a part that is not to be had, or of what a grave warning means
+    but: str = ""  # Clause of the verdict on a part that is not to be had, or on a grave warning
 
     @property
     def grave(self) -> bool:

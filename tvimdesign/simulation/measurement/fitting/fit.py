@@ -46,7 +46,7 @@ class Fit:
     parameters: tuple[Estimate, ...]
     derived: tuple[Estimate, ...]
     correlation: Array
-    predicted: tuple[Array, ...]  # What each channel should be [SI]
+    predicted: tuple[Array, ...]  # Prediction of each channel [SI]
     noise: tuple[float, ...]  # Standard deviation of each channel, in SI or as a share
     autocorrelation: tuple[float, ...]  # Of each channel's noise from one value to the next, as the intervals count it
     words: tuple[str, ...]

@@ -31,7 +31,7 @@ class Parameter:
     scale: float = 1.0  # Size of a usual change [SI] of one that may be negative
     least: float = -np.inf  # Smallest value [SI]: 0 for a friction that may not be there
     most: float = np.inf  # Largest value [SI]
-    profiled: bool = True  # Whether its interval is read off a profile of the likelihood; off the covariance otherwise
+    profiled: bool = True  # True if its interval is read off a profile of the likelihood; off the covariance otherwise
     nuisance: bool = False
     """Whether it is of this measurement alone, such as a baseline: fitted with the others, not reported."""
 
@@ -68,10 +68,10 @@ class Channel:
     measured: Array  # [SI]
     predicted: Callable[[Values], Any]
     """A column as long as the values, from the parameters: CasADi expressions through the product's equations."""
-    at: Array  # What they are drawn over [SI]
+    at: Array  # Abscissa [SI]
     at_name: str
     at_unit: str
-    relative: bool = False  # Whether the error is a share of the value: then the logarithms are compared
+    relative: bool = False  # True if the error is a share of the value: then the logarithms are compared
     step: float = 0.0
     """Step of the last digit of the values, in SI or as a share: their noise is no less than what rounding makes."""
     noise_of: str = ""  # Channels of one word here err alike; a channel without one has a noise of its own

@@ -38,7 +38,7 @@ class Turned(NamedTuple):
     file: str
     angle: Array
     torque: Array
-    broke: bool  # Whether the torque fell after its largest value
+    broke: bool  # True if the torque fell after its largest value
     end: str
     step: float
 

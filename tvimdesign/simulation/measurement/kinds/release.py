@@ -24,7 +24,7 @@ _STEPS_A_PERIOD = 60
 _LEAST_STEPS, _MOST_STEPS = 1, 50
 CORNER = 0.01  # Speed, over the highest of the record, at which the friction has 0.76 of its size
 _CONSTANTS = ("inertia", "damping", "friction", "stiffness", "zero_angle")
-_OWN = ("zero_angle", "first_angle", "first_speed")  # What each record has for itself
+_OWN = ("zero_angle", "first_angle", "first_speed")  # Parameters that each record has for itself
 
 
 class Record(NamedTuple):
