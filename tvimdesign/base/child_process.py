@@ -1,8 +1,6 @@
-"""Child processes of our own: started alike, and gone when their parent is, however that ends.
+"""Child processes of our own: `python -m tvimdesign.base.child_process MODULE [ARGUMENT...]`.
 
-Runs a module of this package as a child: `python -m tvimdesign.base.child_process MODULE [ARGUMENT...]`.
-
-The child asks to end with its parent before the module is imported, which takes seconds where it draws or solves.
+Each asks to end with its parent before the module is imported, which takes seconds where it draws or solves.
 """
 
 import ctypes

@@ -1,7 +1,4 @@
-"""The manifest of a results folder: what made the results, and the digest of each file that the run wrote.
-
-Put the files of a finished run in the place of earlier results, and leave what the user added or changed.
-"""
+"""The manifest of a results folder, and the replacement of earlier results by those of a finished run."""
 
 import hashlib
 import json

@@ -1,7 +1,4 @@
-"""Categories: the content that `categories.yaml` requires of their records, and values that follow from others.
-
-Laws that a record has from another material: it is based on a record of one, and its own values tell them apart.
-"""
+"""Categories: the content that `categories.yaml` requires of records, and the laws that values follow from."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,4 @@
-"""Runs the command line: every error is a message and an exit code, every warning a plain line.
-
-Standard output and error of a command: letters that an encoding lacks, and a disk that is full.
-"""
+"""Runs the command line: errors as a message and an exit code, warnings as a line, text that any terminal bears."""
 
 import atexit
 import codecs

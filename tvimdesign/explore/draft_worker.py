@@ -1,7 +1,4 @@
-"""The process that drafts: a module's numbers as a line of JSON, its meshes as a line of JSON.
-
-Run as `python -m tvimdesign.explore.draft_worker`.
-"""
+"""The process that drafts, `python -m tvimdesign.explore.draft_worker`: numbers in, meshes out, as lines of JSON."""
 
 import base64
 import json

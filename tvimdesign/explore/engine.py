@@ -1,7 +1,4 @@
-"""Answers for a page: quick ones while something is dragged, exact ones when it is let go.
-
-Data of a module for a page: limits with their state, variables at their ends, and every value.
-"""
+"""Answers for a page, quick while something is dragged and exact afterwards: limits, variables and values."""
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence

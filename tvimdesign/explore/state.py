@@ -1,9 +1,4 @@
-"""State of an explorer: changes to a study, values of the controls, and pinned designs.
-
-The controls of a page: what a study varies, fixes, requires and weighs, with units, limits and what they mean.
-
-History of an explorer for undo and redo, in a file that is whole at any moment.
-"""
+"""State of an explorer: changes to a study, values of the controls, pinned designs, and the history for undo."""
 
 import hashlib
 import json

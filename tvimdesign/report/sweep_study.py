@@ -1,7 +1,4 @@
-"""The command sweep, from a study file to a finished folder.
-
-The folder of a sweep that the jobs of an array share: the job after which every cell is there gathers them.
-"""
+"""The command `sweep`, from a study file to a finished folder, alone or by the jobs of an array."""
 
 import json
 import os

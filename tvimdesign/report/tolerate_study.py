@@ -1,9 +1,4 @@
-"""One tolerance analysis, from a study or a design to a finished folder and what the terminal says.
-
-A tolerance analysis on the terminal and as a page: what varies from part to part.
-
-The spread of a module in sentences: how many modules are good, what to tighten first, what the free angle does.
-"""
+"""The command `tolerate`, from a study or a design to a folder, a page and sentences on what to tighten."""
 
 import math
 import os

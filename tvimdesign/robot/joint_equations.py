@@ -1,9 +1,7 @@
-"""The joint's equations as C: CasADi's code of heat, torque and what is observed, and the sizes the code is built with.
+"""The joint's equations as C, and the description of its FMU.
 
 Everything is a function of the thermal state and three numbers: current [A], ambient temperature [K], frequency [Hz].
 All other inputs are constants of the design.
-
-The description of an FMU, modelDescription.xml, and the variables that it lists.
 """
 
 from collections.abc import Sequence

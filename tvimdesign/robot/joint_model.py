@@ -1,7 +1,4 @@
-"""The joint of a design as simulators take it: its rigid bodies and its state at each operating point.
-
-The joint at each operating point as a simulator takes it: springs, Maxwell elements, friction, and a time step.
-"""
+"""The joint of a design as simulators take it: rigid bodies, state at each operating point, and time step."""
 
 import json
 import re

@@ -1,8 +1,4 @@
-"""Result of a virtual test as plain data: tables of curves, how they are drawn, and the numbers read off them.
-
-Every test returns one `Trial`; the report writes a CSV for each sheet and a figure from the panels, and knows nothing
-of what was tested.
-"""
+"""Result of a virtual test as plain data: tables of curves, panels that draw them, and the numbers read off them."""
 
 from dataclasses import dataclass
 

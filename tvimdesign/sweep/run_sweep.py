@@ -1,7 +1,4 @@
-"""Cells from their keys to the store, by processes here or a batch job: what is there is not done again.
-
-The key of a cell: a hash of the study, of what the cell sets, of the records it stands on, and of the version.
-"""
+"""Cells from their keys (hashes of study, settings, records, version) to the store, by processes or batch jobs."""
 
 import hashlib
 import json

@@ -1,9 +1,7 @@
-"""The store of a sweep: files to which each writer alone appends, a line a cell, so that nothing is ever shared.
+"""The store of a sweep: files to which each writer alone appends, a line a cell, and the tables made from them.
 
 A shard begins with a line that names its columns. A line that has no end was being written when its writer was killed:
 it is no cell. Whoever goes on writes a shard of its own.
-
-The cells of a finished sweep gathered to tables: CSV and SQLite.
 """
 
 import contextlib

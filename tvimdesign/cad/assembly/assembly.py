@@ -1,7 +1,4 @@
-"""Puts the parts together: every part built once, named, and placed with the rotor at an angle.
-
-Parts of the module of each mode: how each is drawn, where it stands, and how far it is lifted to be seen apart.
-"""
+"""Parts put together: each built once, named, placed with the rotor at an angle, and lifted to be seen apart."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,4 @@
-"""The note on putting a module together: what there is, the steps in order, and the pictures that show them.
-
-Figures in the steps of an assembly note: quantities of the table, and words that follow from some of them.
-"""
+"""The note on putting a module together: its parts, the steps in order with their figures, and the pictures."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,4 @@
-"""Print files: the part lying as it is printed, its holes larger, as a mesh whose error was measured.
-
-The print bed: where parts lie on it, and the settings of their process as PrusaSlicer reads them from a 3MF.
-"""
+"""Print files: parts as they are printed, with wider holes and known mesh error, and where they lie on the bed."""
 
 import io
 import zipfile

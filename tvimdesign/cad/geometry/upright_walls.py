@@ -1,7 +1,4 @@
-"""Reads off a solid the flat upright walls that bound slots, pockets, vanes and flats.
-
-Finds pockets and vanes about the axis: arcs between two end walls whose planes hold the axis.
-"""
+"""Flat upright walls of a solid that bound slots, pockets, vanes and flats, and end walls about the axis."""
 
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,4 @@
-"""The module as two rigid bodies, what stands and what turns: mass properties and a coarse mesh of each.
-
-The child process that makes them: `python -m tvimdesign.cad.jobs.rigid_bodies DESIGN OUT SECONDS`.
-"""
+"""The module as two rigid bodies: mass properties and a coarse mesh of each, made by a child process."""
 
 from __future__ import annotations
 

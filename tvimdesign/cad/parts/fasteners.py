@@ -1,7 +1,4 @@
-"""Screws, heat-set inserts and dowel pins, drawn as simply as the table counts them, and placed.
-
-Each is drawn upright on the module's axis.
-"""
+"""Screws, heat-set inserts and dowel pins, drawn upright on the axis as the table counts them, and placed."""
 
 from collections.abc import Callable, Mapping
 from functools import partial

@@ -1,7 +1,4 @@
-"""Renders meshes without a display: faces and sharp edges of parts, lights, names of colours, and the PNG.
-
-A picture of a field on a surface in colours, its shape bent as it is loaded, with a scale. Needs no display.
-"""
+"""Pictures without a display: faces and edges of parts, lights, names of colours, and fields on bent surfaces."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, lru_cache

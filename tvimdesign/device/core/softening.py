@@ -1,7 +1,4 @@
-"""Heating until the joint is soft: response times, energy, power, peaks of temperature, and what it takes to stay.
-
-Cooling until the joint is stiff again, with the current reversed; and the two phases together as a cycle.
-"""
+"""Heating until the joint is soft, cooling until it is stiff again, and both as a cycle."""
 
 import numpy as np
 

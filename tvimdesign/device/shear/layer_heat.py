@@ -1,9 +1,7 @@
-"""Path of the heat in the shear module: arcs of the rotor plate behind the layer; plate and floor beside them.
+"""Path of the heat in the shear module, and its layer in columns from the middle of an arc to its edge.
 
-Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area.
-The plate beside it is a strip that this heats; the floor is in `floor_heat`.
-
-The layer of the shear module in columns from the middle of an arc to its edge, which is the last to soften.
+Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area. The
+plate beside it is a strip that this heats; the floor is in `floor_heat`.
 """
 
 from typing import Any, NamedTuple

@@ -1,7 +1,4 @@
-"""The module as a quantity's function sees it, and which quantities such a function reads.
-
-The functions' bytecode is read, not their source: for a thousand quantities that takes 7 ms instead of 100.
-"""
+"""The module as a quantity's function sees it, and the names it reads, by bytecode: 7 ms for all, 100 by source."""
 
 import inspect
 import sys

@@ -1,7 +1,4 @@
-"""Peltier modules: heat and voltage from current and temperatures, and the plate that spreads their heat.
-
-Source: Rowe (ed.), CRC Handbook of Thermoelectrics, ch. 1; temperatures in kelvin.
-"""
+"""Peltier modules and their spreaders [K]. Source: Rowe (ed.), CRC Handbook of Thermoelectrics, ch. 1."""
 
 from math import log, pi
 from typing import Any, NamedTuple

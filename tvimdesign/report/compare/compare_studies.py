@@ -1,7 +1,4 @@
-"""The command `compare`, from studies or finished runs to a folder: optima first, and each result written at once.
-
-Child processes that answer the studies of a comparison, two at once; if one crashes, the others continue.
-"""
+"""The command `compare`: optima first, by two child processes at once, and each result written at once."""
 
 import json
 import queue

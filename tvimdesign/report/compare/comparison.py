@@ -1,7 +1,4 @@
-"""Result of a comparison: the child processes' answers as designs, rows, fronts and the winner of each pair.
-
-A comparison as sections of text, tables and figures, and what its pictures are drawn from.
-"""
+"""Result of a comparison: designs, rows, fronts, the winner of each pair, and the sections that show them."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence

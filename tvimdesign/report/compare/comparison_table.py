@@ -1,7 +1,4 @@
-"""The table of a comparison: every output that all studies have, side by side, with ratio and verdict.
-
-Conclusions of a comparison, in sentences with their conditions; every number in them is computed.
-"""
+"""The table of a comparison, outputs side by side with ratio and verdict, and its conclusions in sentences."""
 
 import math
 from collections.abc import Mapping, Sequence

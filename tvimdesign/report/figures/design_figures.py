@@ -1,9 +1,4 @@
-"""Figures of a design: fronts, stiffness and damping over temperature, torque over angle.
-
-One page for a mail or a lab book: verdict, requirements, facts, warnings and the module, on A4.
-
-The figures over a working cycle: temperatures and profiles, stiffness and damping, power and energy.
-"""
+"""Figures of a design over temperature, angle and its working cycle, fronts, and one page on A4."""
 
 import itertools
 import textwrap

@@ -1,9 +1,4 @@
-"""An answer as rows in the units people read: the tables of the terminal, of results.json and of results.csv.
-
-Meaning of "soft" and "stiff" in a module, in words: an impedance at a frequency, and what it is a multiple of.
-
-Source of each number of a design, and how well it is known: from the study, a record, a default or the model.
-"""
+"""An answer as rows in the units people read, with the source of each number and the meaning of soft and stiff."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping

@@ -1,7 +1,4 @@
-"""Blocks as lines of text of so many columns: what the terminal prints and summary.txt holds.
-
-Terminal output while a run works: results on standard output, progress on standard error.
-"""
+"""Blocks as lines of text for the terminal and summary.txt, and the progress of a run on standard error."""
 
 import io
 import os

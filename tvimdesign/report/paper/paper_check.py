@@ -1,9 +1,7 @@
-"""The paper against its own numbers: each row says what the paper states, what its formulas give here, the verdict.
+"""The paper against its own numbers: what it states (`paper_claims.yaml`), what its formulas give here, the verdict.
 
 The paper is T. Exley et al., "TVIM: Thermo-Active Variable Impedance Module: Evaluating Shear-Mode Capabilities of
-Polycaprolactone". What it states stands in `paper_claims.yaml`; every other number is computed when the paper check is.
-
-The paper check's rows on the module: the layer's area, response time, release, springs beside the PCL, housing.
+Polycaprolactone".
 """
 
 import json

@@ -1,6 +1,4 @@
-"""The paper check's rows on springs: rate, output stiffness, pretension, wire, sizes and angles.
-
-The paper check's rows on rheometry: strains, frequencies and temperatures against specimen and instrument.
+"""The paper check's rows on springs and on rheometry.
 
 The specimen is the paper's, between plates of 25 mm diameter 1 mm apart; what an instrument of its class can do is
 assumed with a range in `paper_claims.yaml`, as no sheet of its maker was read.

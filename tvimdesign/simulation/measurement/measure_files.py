@@ -1,7 +1,4 @@
-"""Files to a measurement: read, the kind found where it is not said, its tables fitted.
-
-Needs and settings of each kind of measurement, as `kinds.yaml` lists them; nothing heavy is loaded.
-"""
+"""Files to a measurement: read, their kind found by `kinds.yaml`, and their tables fitted."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

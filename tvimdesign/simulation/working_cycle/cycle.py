@@ -1,7 +1,4 @@
-"""The working cycle simulated, phase after phase, each starting where the one before has ended.
-
-`Simulator` takes any current over time; `CycleEngine` gives derivatives along directions of the inputs.
-"""
+"""The working cycle phase after phase: `Simulator` with any current, `CycleEngine` with derivatives."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,4 @@
-"""The working cycle of many designs at once: the same heat equation, events and paths as the simulator's.
-
-Every design is on its own: its bits do not hang on its neighbours.
-"""
+"""The working cycle of many designs at once; the bits of each do not depend on its neighbours."""
 
 import math
 from collections.abc import Collection, Mapping, Sequence

@@ -1,7 +1,4 @@
-"""One phase of the working cycle for a block of designs: stepped together, each to its own events.
-
-Division of the time of a phase into steps, and its dependence on the design.
-"""
+"""One phase of the working cycle for a block of designs, stepped together, each to its own events."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

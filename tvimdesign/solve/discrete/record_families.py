@@ -1,7 +1,4 @@
-"""The records a study lists, as families that share one problem: in one they differ in numbers, not in structure.
-
-Records that violate a limit whatever else is chosen, left out before anything is solved: arithmetic alone says so.
-"""
+"""Listed records as families that share one problem, without those that arithmetic alone excludes."""
 
 import itertools
 import math

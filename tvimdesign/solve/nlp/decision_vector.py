@@ -1,9 +1,4 @@
-"""The unknowns of a problem as one vector: put together at a design, and read again as inputs, times and currents.
-
-A problem with the parameters of one run as the solver takes it, and with further unknowns that move its limits.
-
-Slacks that let limits give and the share of tolerance margins that a design bears are such unknowns.
-"""
+"""The unknowns of a problem as one vector: inputs, times and currents, and further unknowns that move its limits."""
 
 from collections.abc import Iterator, Mapping
 

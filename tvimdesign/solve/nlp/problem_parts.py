@@ -1,9 +1,4 @@
-"""Parts of a problem: its free numbers and currents, the parameters of a run, and its values at a point.
-
-Objective and reserves of one run of a built problem: the parameters of a trade-off.
-
-Second-order model of what a working cycle supplies, around one cycle.
-"""
+"""Parts of a problem: free numbers and currents, parameters of a run, values at a point, model of the cycle."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,4 @@
-"""End of a solver run at one start, and the part from which another run can start.
-
-IPOPT's ways to end, in plain words, each with what to do next: data, read wherever a person sees how a run ended.
-"""
+"""End of a solver run at one start, its meaning, and the part from which another run can start."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

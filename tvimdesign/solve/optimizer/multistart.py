@@ -1,7 +1,4 @@
-"""Starts of searches: the study's own start, and points between the bounds whose switch ends.
-
-Points spread over the unit cube, seeded: where a search begins besides the study's own start.
-"""
+"""Starts of searches: the study's own, and seeded points between the bounds whose switch ends."""
 
 from collections.abc import Iterator
 from functools import cached_property

@@ -1,7 +1,4 @@
-"""Exact derivatives of a module's outputs by its variables, the working cycle included.
-
-The engine steps the working cycle with its sensitivities, and the table's arithmetic carries them on.
-"""
+"""Exact derivatives of a module's outputs by its variables, by the engine's sensitivities and the table."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass

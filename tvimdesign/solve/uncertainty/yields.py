@@ -1,7 +1,4 @@
-"""Yield of a study's limits at any of its designs: recorded once, drawn from scrambled Sobol points.
-
-Account of a requested yield: modules that satisfy the limits, limits that lose the others, and the cost.
-"""
+"""Yield of a study's limits at any of its designs, from scrambled Sobol points, and its account."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

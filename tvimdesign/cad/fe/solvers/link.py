@@ -1,7 +1,4 @@
-"""FE of the output link: clamped on the core's face below it, pushed sideways in its tool hole.
-
-Finds force times length over deflection at the hole over length [N*m/rad].
-"""
+"""FE of the output link [N*m/rad]: clamped on the core's face below it, pushed sideways in its tool hole."""
 
 import json
 from pathlib import Path

@@ -1,7 +1,4 @@
-"""FE of one torsion spring as drawn: tang clamped in the floor, force of the rotor's pin on the leg.
-
-Finds its rate [N*m/rad] and stresses [MPa] at one newton metre.
-"""
+"""FE of one torsion spring as drawn: its rate [N*m/rad], and its stresses [MPa] at one newton metre."""
 
 import json
 from math import cos, hypot, pi, sin, sqrt

@@ -1,7 +1,4 @@
-"""Which quantity a column holds and in which unit, by its heading; the names are in `headings.yaml`.
-
-User's additions to a file's own information: which column is what, units, separator, decimal sign.
-"""
+"""Quantity and unit of a column by its heading (`headings.yaml`), or by the user's map of columns."""
 
 import re
 import unicodedata
