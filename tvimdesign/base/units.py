@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from tvimdesign.base.errors import UnitError
+from tvimdesign.base.record import own_data
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,44 +38,6 @@ _OPERATORS = {"**": "^", "²": "^2", "³": "^3", ".": "*", "·": "*", "⋅": "*"
 _PRETTY = {"degC": "°C", "deg": "°", "ohm": "Ω", "um": "µm", "percent": "%"}
 _DIFFERENCE = "write temperature differences in K"
 
-_EXAMPLES = (
-    ("1", "a plain number", "0.5"),
-    ("mm", "a length", "2.413 mm"),
-    ("mm^2", "an area", "1579.2 mm^2"),
-    ("mm^3", "a volume", "20 cm^3"),
-    ("deg", "an angle", "5.96 deg"),
-    ("g", "a mass", "21 g"),
-    ("s", "a time", "70 s"),
-    ("A", "a current", "1.5 A"),
-    ("V", "a voltage", "12 V"),
-    ("ohm", "a resistance", "3 ohm"),
-    ("W", "a power", "5.9 W"),
-    ("J", "an energy", "400 J"),
-    ("N*m", "a torque", "2 N.m"),
-    ("N*m/rad", "a torsional stiffness", "5 N.m/rad"),
-    ("N*m*s/rad", "a torsional damping", "0.1 N.m.s/rad"),
-    ("kg*m^2", "an inertia", "415.6 kg.mm^2"),
-    ("MPa", "a stress or modulus", "411 MPa"),
-    ("Pa*s", "a viscosity", "530 Pa.s"),
-    ("kg/m^3", "a density", "1145 kg/m^3"),
-    ("degC", "a temperature", "100 degC"),
-    ("K", "a temperature difference", "5 K"),
-    ("Hz", "a frequency", "10 Hz"),
-    ("m/s", "a speed", "1.5 m/s"),
-    ("m/s^2", "an acceleration", "9.81 m/s^2"),
-    ("N/mm", "a stiffness", "75 N/mm"),
-    ("rad/s", "an angular frequency", "6.28 rad/s"),
-    ("W/K", "a thermal conductance", "0.12 W/K"),
-    ("W/m/K", "a thermal conductivity", "0.2 W/(m.K)"),
-    ("W/m^2/K", "a heat transfer coefficient", "15 W/(m^2.K)"),
-    ("J/kg/K", "a specific heat", "1.9 kJ/(kg.K)"),
-    ("kJ/kg", "a latent heat", "76.7 kJ/kg"),
-    ("kJ/mol", "a molar energy", "35 kJ/mol"),
-    ("kg/mol", "a molar mass", "80 kg/mol"),
-    ("mV/K", "a Seebeck coefficient", "25 mV/K"),
-    ("USD", "a price", "25 USD"),
-    ("USD/kg", "a price of a mass", "40 USD/kg"),
-)
 _COMMON = (
     "mm cm m um in ft meter metre millimeter millimetre inch mm^2 cm^2 m^2 in^2 mm^3 cm^3 m^3 L deg degree rad radian "
     "turn g kg gram kilogram s ms min h second minute hour A mA ampere V mV volt ohm mohm W mW watt J kJ joule N kN "
@@ -83,6 +46,12 @@ _COMMON = (
     "W/m^2/K W/(m^2.K) J/kg/K kJ/kg/K J/(kg.K) kJ/(kg.K) kJ/kg J/g J/kg kJ/mol J/mol mV/K V/K uV/K % percent "
     "kg*mm^2 1/h A/s rad/s^2 J/K K^2 m^4 1/rad mrad N/m N/mm N*m/A K*mm^2/W mN*m ohm*m mm^3/(N*m)"
 )
+
+
+def _examples() -> dict[str, tuple[str, str]]:
+    """Return by unit what it is of, and an example."""
+    examples: dict[str, tuple[str, str]] = own_data(__file__, "unit_examples.yaml")
+    return examples
 
 
 @dataclass(frozen=True)
@@ -112,7 +81,7 @@ def _usual() -> dict[str, _Unit]:
 
 def read_by_pint() -> dict[str, dict[str, Any]]:
     """Read the usual units by pint, for `units_read.json`."""
-    texts = {"1", *(unit for unit, _, _ in _EXAMPLES), *_COMMON.split()}
+    texts = {"1", *_examples(), *_COMMON.split()}
     return {text: asdict(_ask_pint(text)) for text in sorted(texts)}
 
 
@@ -171,7 +140,7 @@ def _ask_pint(text: str) -> _Unit:
 def _named(unit: str) -> str:
     """Say what a unit measures, with an example."""
     for exact in (True, False):
-        for known, noun, example in _EXAMPLES:
+        for known, (noun, example) in _examples().items():
             if known == unit or (not exact and _read_unit(known).dimensions == _read_unit(unit).dimensions):
                 return f"{noun} such as {example}"
     return f"a quantity in {unit}, such as 1 {unit}"

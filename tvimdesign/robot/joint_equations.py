@@ -4,7 +4,7 @@ Everything is a function of the thermal state and three numbers: current [A], am
 All other inputs are constants of the design.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -12,6 +12,7 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
+from tvimdesign.base.record import own_data
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer
@@ -187,59 +188,21 @@ class Variable:
 def fmu_variables(equations: JointEquations, resolved: ResolvedModule) -> tuple[Variable, ...]:
     """Return all variables, in the order of the value references that the C code has."""
     _, ambient, frequency = equations.start
+    starts = {"current": 0.0, "angle": 0.0, "ambient_temperature": ambient, "impedance_command": 0.0,
+              "frequency": frequency, "thermistor_lag": resolved.study.control.thermistor_lag}  # fmt: skip
+    listed = own_data(__file__, "fmu_variables.yaml")
     return (
-        Variable("current", "input", "A", "Current through the pads; above zero heats the PCL, below cools it.", 0.0),
-        Variable("angle", "input", "rad", "Angle of the joint at the end of the step; 0 where it was made.", 0.0),
-        Variable(
-            "ambient_temperature", "input", "K", "Temperature of the air, and of all parts at the start.", ambient
-        ),
-        Variable(
-            "impedance_command",
-            "input",
-            "N*m/rad",
-            "Impedance that the controller heats or cools for; at 0 `current` drives the pads.",
-            0.0,
-        ),
-        Variable("frequency", "parameter", "Hz", "Frequency of joint_stiffness and joint_damping.", frequency),
-        Variable(
-            "thermistor_lag",
-            "parameter",
-            "s",
-            "Time constant of the thermistor.",
-            resolved.study.control.thermistor_lag,
-        ),
-        Variable("torque", "output", "N*m", "Torque of the joint on what moves; springs, PCL and structure."),
-        *_observed(equations.observed),
-        *(Variable(name, "output", unit, meaning) for name, unit, meaning in _OF_CONTROL),
+        *(Variable(name, kind, unit, meaning, starts[name]) for name, (kind, unit, meaning) in listed["given"].items()),
+        *(Variable(name, "output", unit, meaning) for name, (unit, meaning) in listed["torque"].items()),
+        *(_observed(name, listed["observed"]) for name in equations.observed),
+        *(Variable(name, "output", unit, meaning) for name, (unit, meaning) in listed["control"].items()),
         *(_constant(name, float(resolved.quantity(quantity))) for name, quantity in CONSTANTS.items()),
     )
 
 
-_OF_CONTROL = (
-    ("heater_current", "A", "Current through the pads."),
-    ("thermistor_temperature", "K", "Reading of a thermistor at the layer's hot face."),
-    ("impedance_estimate", "N*m/rad", "Impedance of the joint by the controller; 0 while it does not run."),
-)
-
-
-def _observed(names: Sequence[str]) -> list[Variable]:
-    variables = []
-    for name in names:
-        meaning = _MEANINGS.get(name) or f"Temperature: {name.removeprefix('temperature_').replace('_', ' ')}."
-        variables.append(Variable(name, "output", OBSERVED_UNITS.get(name, "K"), meaning))
-    return variables
-
-
-_MEANINGS = {
-    FROZEN: "Share of the PCL that is frozen.",
-    **dict.fromkeys(INSTANT, ""),
-    "joint_impedance": "Magnitude of the joint's dynamic stiffness at the frequency.",
-    "joint_stiffness": "Stiffness of the joint at the frequency.",
-    "joint_damping": "Damping of the joint at the frequency.",
-    "electrical_power": "Power the supply gives; what the pads generate is not recovered.",
-    "terminal_power": "Electrical power at the pads' terminals, negative where they generate.",
-    "supply_voltage": "Voltage over all pads as they are wired, in size.",
-}
+def _observed(name: str, meanings: Mapping[str, str]) -> Variable:
+    meaning = meanings.get(name) or f"Temperature: {name.removeprefix('temperature_').replace('_', ' ')}."
+    return Variable(name, "output", OBSERVED_UNITS.get(name, "K"), meaning)
 
 
 def _constant(name: str, value: float) -> Variable:

@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.record import own_data
 
 if TYPE_CHECKING:  # the command line lists the tests, and must not load numpy for that
     from tvimdesign.simulation.trial import Trial
@@ -17,38 +18,11 @@ if TYPE_CHECKING:  # the command line lists the tests, and must not load numpy f
 class VirtualTest(NamedTuple):
     """Location of a test, and its description."""
 
-    function: str  # `module:function`; the function takes a `ResolvedModule` and returns a `Trial`
+    function: str  # `module:function`
     shows: str  # In one line
 
 
-TESTS: dict[str, VirtualTest] = {
-    "frequency": VirtualTest(
-        "tvimdesign.simulation.rheometer.oscillation:frequency",
-        "storage and loss modulus of the PCL against frequency, at several temperatures",
-    ),
-    "amplitude": VirtualTest(
-        "tvimdesign.simulation.rheometer.oscillation:amplitude",
-        "up to which strain the moduli of the PCL do not depend on it",
-    ),
-    "temperature": VirtualTest(
-        "tvimdesign.simulation.rheometer.oscillation:temperature",
-        "moduli of the PCL while it cools and while it is heated: where it freezes, where it melts",
-    ),
-    "creep": VirtualTest(
-        "tvimdesign.simulation.rheometer.transient:creep", "creep of the PCL under a stress, and its recovery"
-    ),
-    "relaxation": VirtualTest(
-        "tvimdesign.simulation.rheometer.transient:relaxation", "how the stress in the PCL fades at a held strain"
-    ),
-    "release": VirtualTest(
-        "tvimdesign.simulation.joint_tests.release:release",
-        "the link let go from an angle, at every operating point: how it swings and settles",
-    ),
-    "sine": VirtualTest(
-        "tvimdesign.simulation.joint_tests.sine:sine",
-        "the link turned to and fro: torque against angle, stiffness and damping of the joint in motion",
-    ),
-}
+TESTS = {name: VirtualTest(**listed) for name, listed in own_data(__file__, "virtual_tests.yaml").items()}
 
 
 def listing() -> str:
