@@ -218,7 +218,7 @@ def code_digest() -> str:
     """Return the digest of all that makes parts of a design: this package's code and the libraries it draws with."""
     digest = hashlib.sha256()
     here = Path(__file__).parents[1]  # all of `cad/`
-    for path in sorted(path for suffix in ("*.py", "*.yaml") for path in here.rglob(suffix)):
+    for path in sorted(path for suffix in ("*.py", "*.txt", "*.yaml") for path in here.rglob(suffix)):
         digest.update(path.relative_to(here).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     for name in _LIBRARIES:
         digest.update(f"{name} {metadata.version(name)}\n".encode())
