@@ -55,7 +55,6 @@ class Row(NamedTuple):
 
 BEYOND = {
     ("elbow_printed", "edge_traction"), ("elbow_machined", "edge_traction"),
-    ("compare_compression", "rotor_vanes_and_plate"),
 }  # fmt: skip
 """Studies and quantities beyond the tenth, each with the figure in README.md."""
 LEFT_OUT = {"ankle", "driven_joint", "fast_switch", "finger_of_stock_springs"}

@@ -5,7 +5,6 @@ import csv
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_bvp
-from scipy.optimize import minimize
 from support import ROOT
 
 from tvimdesign.physics.solids import fasteners, structure, vane
@@ -152,7 +151,7 @@ def test_a_root_s_moment_turns_the_plate_as_a_beam():
         * (4.0 * near * np.eye(count) + far * (np.roll(np.eye(count), 1, 0) + np.roll(np.eye(count), -1, 0)))
     )
     slope = np.linalg.solve(beam, np.ones(count))[0]
-    footing = vane.Footing(height, vane.strip_beside(radius, count, thickness), 0.0, 0.0, 2.0)
+    footing = vane.Footing(height, 0.0, 0.0, 0.0, bend=2.0, strip=vane.strip_beside(radius, count, thickness))
     rooted = vane.on_footing((YOUNGS, SHEAR), (WIDTH, thickness), between(1e-9), footing)
     assert rooted.leaning == pytest.approx(slope * (0.4e-3 + 0.5 * HEIGHT) ** 2, rel=1e-9)
     assert rooted.aside == 0.0
@@ -161,43 +160,60 @@ def test_a_root_s_moment_turns_the_plate_as_a_beam():
 def test_a_rim_beyond_the_vane_bends_with_its_strips():
     # As wide again as the vane, half the turn; pushed aside, the rim is no help.
     def on(rim: float) -> vane.Vane:
-        footing = vane.Footing(4e-3, 8e-3, 0.0, 1.0, 2.0, rim)
+        footing = vane.Footing(4e-3, 0.0, 0.0, 1.0, bend=2.0, strip=8e-3, rim=rim)
         return vane.on_footing((YOUNGS, SHEAR), (WIDTH, THICKNESS), between(1e-9), footing)
 
     assert on(WIDTH).leaning == pytest.approx(0.5 * on(0.0).leaning, rel=1e-12)
     assert on(WIDTH).aside == on(0.0).aside
 
 
+def test_a_vane_and_its_root_give_as_often_as_the_footing_says():
+    def on(bent: float, sheared: float, give: float, root: float) -> vane.Vane:
+        footing = vane.Footing(4e-3, bent, sheared, give, root)
+        return vane.on_footing((YOUNGS, SHEAR), (WIDTH, THICKNESS), between(1e-9), footing)
+
+    cantilever = on(1.0, 1.0, 0.0, 0.0)
+    stiff = vane.stiffness(YOUNGS, SHEAR, WIDTH, THICKNESS, HEIGHT, 0.4e-3)
+    assert cantilever.leaning + cantilever.aside == pytest.approx(1.0 / stiff, rel=1e-12)
+    other = on(2.0, 3.0, 1.5, 0.5)
+    arm = 0.4e-3 + 0.5 * HEIGHT
+    turned = 0.5 * arm**2 / (YOUNGS * WIDTH * 4e-3**2)
+    assert other.leaning == pytest.approx(2.0 * cantilever.leaning + turned, rel=1e-12)
+    assert other.aside == pytest.approx(3.0 * cantilever.aside + 1.5 / (YOUNGS * WIDTH), rel=1e-12)
+
+
 def between(modulus: float) -> vane.BlockBetween:
-    return vane.BlockBetween((modulus, modulus), (4e-3, 1e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
+    return vane.BlockBetween((modulus, modulus), (4e-3, 1e-3, 0.5e-3), (WIDTH, HEIGHT), 0.4e-3, 0.1 * modulus)
 
 
-def test_two_vanes_under_a_block_stand_where_their_energy_and_its_is_least():
-    # Angles of both vanes by a search for the least of strain energy less the work of a force between them. The block
-    # goes with the vanes' faces, which lie half a thickness beside the lines that turn.
-    lower, other, block = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(8e-7, 0.0, 6e-3), between(140e6)
-    arm, width, height, depth = 0.4e-3 + 0.5 * HEIGHT, WIDTH, HEIGHT, 5e-3
-
-    def energy(angles: np.ndarray) -> float:
-        first, second = 1e-3 * angles
-        up = np.array([0.5 * lower.thickness * first, -0.5 * other.thickness * second])  # along the faces
-        shear = 0.5 * (first + second) + (up[0] - up[1]) / depth
-        levels, weights = np.polynomial.legendre.leggauss(4)
-        squeeze = 0.5 * height * levels * (first - second) / depth
-        stored = 0.5 * vane.SHEARED * 140e6 * width * height * depth * shear**2
-        stored += 0.5 * vane.TILTED * 3.0 * 140e6 * width * depth * 0.5 * height * np.sum(weights * squeeze**2)
-        stored += 0.5 * arm**2 * (first**2 / lower.leaning + second**2 / other.leaning)
-        return float(1e3 * (stored - 10.0 * arm * (first + second)))
-
-    optimum = minimize(energy, np.zeros(2), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-15}).x * 1e-3
-    assert vane.compliance(lower, other, block) == pytest.approx(optimum[0] * arm / 10.0, rel=1e-5)
-    assert vane.compliance(other, lower, block) == pytest.approx(optimum[1] * arm / 10.0, rel=1e-5)
+def test_two_vanes_under_a_block_stand_as_beam_and_springs_do():
+    # Angles of both vanes, way and slope of the block's end: Timoshenko's beam element, and the pad's two springs.
+    first, other, block = vane.Vane(3e-7, 1e-8), vane.Vane(8e-7, 2e-8), between(140e6)
+    arm, depth, beyond, bending = 0.4e-3 + 0.5 * HEIGHT, 4e-3, 1.5e-3, 3.0 * 140e6 * WIDTH * HEIGHT**3 / 12.0
+    flat = 12.0 * bending / (5.0 / 6.0 * 140e6 * WIDTH * HEIGHT * depth**2)
+    element = bending / depth**3 / (1.0 + flat) * np.array([
+        [(4.0 + flat) * depth**2, -6.0 * depth, (2.0 - flat) * depth**2],
+        [-6.0 * depth, 12.0, -6.0 * depth],
+        [(2.0 - flat) * depth**2, -6.0 * depth, (4.0 + flat) * depth**2],
+    ])  # fmt: skip
+    slip, twist = np.array([0.0, beyond, 1.0, 0.0]), np.array([0.0, -1.0, 0.0, 1.0])
+    across, turned = vane.SHEARED * 140e6 * WIDTH * HEIGHT / 1e-3, vane.TILTED * 14e6 * HEIGHT**2 / 12.0
+    resists = across * np.outer(slip, slip) + turned * np.outer(twist, twist)
+    resists[np.ix_([0, 2, 3], [0, 2, 3])] += element
+    vanes = np.diag([arm**2 / first.leaning, arm**2 / other.leaning, 0.0, 0.0])
+    stands = np.linalg.solve(resists + vanes, [arm, arm, 0.0, 0.0])
+    shares = vane.compliances(first, other, block)
+    assert shares.vane == pytest.approx(arm**2 / first.leaning * stands[0] ** 2 + first.aside, rel=1e-9)
+    assert shares.other == pytest.approx(arm**2 / other.leaning * stands[1] ** 2 + other.aside, rel=1e-9)
+    assert shares.block == pytest.approx(stands @ resists @ stands, rel=1e-9)
+    assert sum(shares) == pytest.approx(arm * (stands[0] + stands[1]) + first.aside + other.aside, rel=1e-9)
 
 
 def test_soft_blocks_leave_vanes_alone_and_stiff_ones_hold_them():
-    first, other = vane.Vane(3e-7, 1e-8, 4e-3), vane.Vane(8e-7, 0.0, 6e-3)
-    assert vane.compliance(first, other, between(1e-3)) == pytest.approx(first.leaning + first.aside, rel=1e-9)
-    soft = vane.BlockBetween((140e6, 1e-3), (4e-3, 1e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
-    assert vane.compliance(first, other, soft) == pytest.approx(first.leaning + first.aside, rel=1e-9)
-    first, other = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(1e-15, 0.0, 6e-3)
-    assert vane.compliance(first, other, between(1e15)) < 1e-3 * first.leaning
+    first, other = vane.Vane(3e-7, 1e-8), vane.Vane(8e-7, 2e-8)
+    free = vane.compliances(first, other, between(1e-3))
+    assert free.vane == pytest.approx(first.leaning + first.aside, rel=1e-9)
+    assert free.other == pytest.approx(other.leaning + other.aside, rel=1e-9)
+    assert free.block < 1e-9 * free.vane
+    held = vane.compliances(first, other, between(1e15))
+    assert held == pytest.approx((first.aside, other.aside, 0.0), abs=1e-12)

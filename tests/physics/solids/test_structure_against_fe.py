@@ -36,8 +36,14 @@ SPREAD = [name for name, case in OPTIMA.items() if "spreader_gap" in case["mm"]]
 SHEAR = [name for name, case in OPTIMA.items() if "spreader_shear_modulus" not in case]
 BORED = [name for name, case in OPTIMA.items() if "link_screw_hole" in case["mm"]]
 """What the holes in a core are is known of the optima of today alone."""
+SILICONE = 1e-3  # Shear modulus of its pads [GPa]
 WITHOUT = ("foot_fillet", "adjuster_radius", "adjuster_thickness", "slip_clearance", "link_dowel_count")
 """Older cases have none of these."""
+
+
+def assumed_bulk(case: dict[str, Any]) -> float:
+    """Return the bulk modulus [GPa] of pads of older cases, which do not state it: as in later cases."""
+    return 1.2 if case.get("pad_shear_modulus") == SILICONE else 1.0
 
 
 @cache
@@ -67,7 +73,7 @@ def module(name: str) -> dict[str, Any]:
         **inputs_of(case["mode"], **words), **dict.fromkeys(WITHOUT, 0.0), **mm, **held,
         "structure_youngs_modulus": case["youngs_modulus"] * 1e9, "structure_poissons_ratio": case["poissons_ratio"],
         "peltier_shear_modulus": case.get("pad_shear_modulus", 0.1) * 1e9,
-        "peltier_bulk_modulus": case.get("pad_bulk_modulus", 0.0) * 1e9,
+        "peltier_bulk_modulus": case.get("pad_bulk_modulus", assumed_bulk(case)) * 1e9,
         "spring_count": case.get("feet", 4), "dowels_fitted": mm.get("link_dowel_count", 0.0),
         "backing_depth": mm["rotor_thickness"] - mm.get("liner_depth", 0.0),
         "cold_plate_length": mm.get("peltier_length", 0.0),
@@ -173,19 +179,11 @@ def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name):
         assert (inner > outer) == (fe_rows["edge_inner"] > fe_rows["edge_outer"])
 
 
-@pytest.mark.parametrize(
-    "name",
-    beyond(
-        BLOCKS,
-        compare_compression="rotor vanes of 8 mm and plate 18 % too soft; its hub within 2 %",
-        **{"wrist_compression_7_23, drawn": "rotor vanes and plate 30 % too soft under blocks of 15 mm"},
-    ),
-)
+@pytest.mark.parametrize("name", BLOCKS)
 def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name):
-    # A vane that leans shears its block, and FE shares that out otherwise; the whole joint is closer (below).
     fe, rows = SHIPPED[name]["found"], ("plate_stiffness", "rotor_vane_stiffness", "floor_stiffness")
     plate, rotor, floor, housing = quantities(name, *rows, "housing_vane_stiffness")
-    within = 0.08 if name.endswith(", shipped") else 0.25
+    within = 0.06 if name.endswith(", shipped") else 0.16
     assert structure.series(plate, rotor) == pytest.approx(structure.series(fe["plate"], fe["rotor_vanes"]), rel=within)
     by_fe = structure.series(fe["housing"], fe["housing_vanes"])
     assert structure.series(floor, housing) == pytest.approx(by_fe, rel=within)

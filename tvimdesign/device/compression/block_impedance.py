@@ -98,18 +98,20 @@ def over_arcs_compliance(m: Module) -> Scalar:
 
 
 @quantities.helper()
-def under_arcs_compliance(_: Module) -> Scalar:
-    """Compliance of the floor below the PCL [rad/(N*m)]: zero, it is counted with the vanes that stand on it."""
-    return 0.0
+def under_arcs_compliance(m: Module) -> Scalar:
+    """Compliance of the floor from its vanes' middle to the PCL's outer edge [rad/(N*m)]."""
+    ring = structure.ring_stiffness(m.structure_shear_modulus, m.floor_thickness, m.pcl_mean_radius, m.pcl_outer_radius)
+    return 1.0 / ring
 
 
 @quantities.helper()
 def structure_compliances(m: Module) -> Compliances:
-    """Compliances in series with the blocks: core, plate, vanes, floor up to its feet, pads and liners."""
+    """Compliances in series with the blocks: core, plate, vanes, floor up to its feet, pads with what
+    leaning vanes do to block and pad, and liners."""
     pads = m.vane_count * m.pad_press_stiffness * m.pcl_mean_radius**2
     return Compliances(
         1.0 / m.core_stiffness, 1.0 / m.plate_stiffness, 1.0 / m.rotor_vane_stiffness, 1.0 / m.housing_vane_stiffness,
-        1.0 / m.floor_stiffness, 1.0 / pads + m.liner_compliance,
+        1.0 / m.floor_stiffness, 1.0 / pads + m.leaned_on_compliance + m.liner_compliance,
     )  # fmt: skip
 
 
@@ -224,6 +226,7 @@ def block_between(m: Module) -> vane.BlockBetween:
         (m.block_depth, m.peltier_thickness, m.spreader_depth),
         (m.block_width, m.block_height),
         m.running_clearance,
+        m.pad_press_stiffness,
     )
 
 
@@ -237,7 +240,7 @@ def vanes_plate(m: Module) -> wedge.PlateAround:
 def vane_sideways(m: Module) -> wedge.Sideways:
     """Compliance of one vane of the rotor along its width and to a twist, with the plate."""
     moduli = m.structure_youngs_modulus, m.structure_shear_modulus
-    return wedge.sideways(moduli, (m.block_width, m.vane_web), m.block_between, vane.ROTOR_SPREAD, m.vanes_plate)
+    return wedge.sideways(moduli, (m.block_width, m.vane_web), m.block_between, m.vanes_plate)
 
 
 @quantities.helper()
@@ -259,25 +262,34 @@ def rotor_vane(m: Module) -> vane.Vane:
 @quantities.helper()
 def housing_vane(m: Module) -> vane.Vane:
     """Compliance of one vane of the housing beside its slots, and of the floor under its root."""
-    footing = vane.on_floor(
-        m.floor_thickness, vane.strip_beside(m.pcl_mean_radius, m.vane_count, m.housing_vane_thickness)
-    )
+    footing = vane.on_floor(m.floor_thickness)
     moduli = m.structure_youngs_modulus, m.structure_shear_modulus
     return vane.on_footing(moduli, (m.vane_webs, m.housing_vane_thickness), m.block_between, footing)
 
 
 @quantities.helper()
+def leaning_vanes(m: Module) -> vane.Shares:
+    """Compliance of a rotor's vane, a housing's vane and the block between them as the vanes lean [m/N]."""
+    return vane.compliances(m.rotor_vane, m.housing_vane, m.block_between)
+
+
+@quantities.helper()
 def rotor_vane_stiffness(m: Module) -> Scalar:
     """Stiffness of the rotor's vanes about the axis [N*m/rad], and of the plate under their roots."""
-    across = vane.compliance(m.rotor_vane, m.housing_vane, m.block_between)
-    each = wedge.compliance(across, m.vane_sideways, m.block_lean_out, m.pcl_mean_radius)
+    each = wedge.compliance(m.leaning_vanes.vane, m.vane_sideways, m.block_lean_out, m.pcl_mean_radius)
     return m.vane_count * m.pcl_mean_radius**2 / each
 
 
 @quantities.helper()
 def housing_vane_stiffness(m: Module) -> Scalar:
     """Stiffness of the housing's vanes about the axis [N*m/rad], and of the floor under them."""
-    return m.vane_count * m.pcl_mean_radius**2 / vane.compliance(m.housing_vane, m.rotor_vane, m.block_between)
+    return m.vane_count * m.pcl_mean_radius**2 / m.leaning_vanes.other
+
+
+@quantities.helper()
+def leaned_on_compliance(m: Module) -> Scalar:
+    """Compliance of blocks and pads as they resist the vanes' leaning [rad/(N*m)]."""
+    return m.leaning_vanes.block / (m.vane_count * m.pcl_mean_radius**2)
 
 
 weights = QuantityGroup("Size and weight")

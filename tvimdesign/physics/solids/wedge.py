@@ -39,14 +39,14 @@ def torsion_constant(width: Any, thickness: Any) -> Any:
 
 
 def sideways(
-    moduli: tuple[Any, Any], section: tuple[Any, Any], block: vane.BlockBetween, spread: Any, plate: PlateAround
+    moduli: tuple[Any, Any], section: tuple[Any, Any], block: vane.BlockBetween, plate: PlateAround
 ) -> Sideways:
     """Return how a vane gives to a force along its width w and to a moment about its height.
 
-    Along: c C' + a^2 12 n ln(r/R)/(2 pi E h^3), C' that of `vane.stiffness` with width and thickness in each other's
+    Along: C' + a^2 12 n ln(r/R)/(2 pi E h^3), C' that of `vane.stiffness` with width and thickness in each other's
     place. The n vanes bend the plate evenly around, a moment n M/(2 pi r) on each length, from R to r [T]. Twisted:
-    c (g + b/3)/(G J) [T], the moment handed over evenly along the height, and 1/(4 pi G h s^2), a spot of the area of
-    the root turned within the plate, pi s^2 = w t [TG]. `moduli` are E and G [Pa], c is the `spread` of its footing.
+    (g + b/3)/(G J) [T], the moment handed over evenly along the height, and 1/(4 pi G h s^2), a spot of the area of
+    the root turned within the plate, pi s^2 = w t [TG]. `moduli` are E and G [Pa].
     """
     (youngs, shear), (width, thickness) = moduli, section
     evenly = 1.0 / vane.stiffness(youngs, shear, thickness, width, block.face[1], block.free)
@@ -54,7 +54,7 @@ def sideways(
     cupped = 12.0 * block.arm**2 * reach / (youngs * plate.thickness**3)
     twisted = (block.free + block.face[1] / 3.0) / (shear * torsion_constant(width, thickness))
     spot = 1.0 / (4.0 * shear * plate.thickness * width * thickness)
-    return Sideways(spread * evenly + cupped, spread * twisted + spot)
+    return Sideways(evenly + cupped, twisted + spot)
 
 
 def lean_out(block: vane.BlockBetween, side: Sideways, thickness: Any, radius: Any) -> Any:
