@@ -23,7 +23,7 @@ from fuzzing import watched
 from fuzzing.kind import Drawn, Kind
 from kills import Try
 
-from tvimdesign.base import atomic_files, manifest
+from tvimdesign.base import atomic_files
 from tvimdesign.explore.source import open_source
 from tvimdesign.explore.state import open_history, write_history, written_digest
 from tvimdesign.solve.result import answer
@@ -59,12 +59,11 @@ def test_no_byte_of_the_user_s_is_changed_or_removed(tmp_path):
 @pytest.mark.parametrize("broken", ["digest", "rename", pytest.param("links", marks=pytest.mark.slow)])
 def test_the_campaign_sees_what_is_lost(tmp_path, monkeypatch, broken):
     if broken == "digest":  # as if a file's name were enough to make it ours
-        monkeypatch.setattr(manifest, "is_as_written", lambda folder, name, _: (folder / name).is_file())
+        monkeypatch.setattr(atomic_files, "is_as_written", lambda folder, name, _: (folder / name).is_file())
     elif broken == "rename":
         monkeypatch.setattr(Path, "rename", lambda self, _: self.unlink() if self.is_file() else None)
     else:
-        for module in (atomic_files, manifest):
-            monkeypatch.setattr(module, "link_on_the_way", lambda *_: None)
+        monkeypatch.setattr(atomic_files, "link_on_the_way", lambda *_: None)
     assert next(losses(tmp_path, 200), "")
 
 
