@@ -207,7 +207,7 @@ def test_where_no_switch_ends_the_arithmetic_conflict_is_reported(monkeypatch):
     limits = "  spring_stiffness: '>= 9 N.m/rad'\n  spring_fatigue_safety: '>= 3'\nminimize: {peak_power: 1}\n"
     with pytest.raises(
         InfeasibleError,
-        match=r"cannot hold together.*\n  spring_stiffness.*\n  moving it alone is not enough: spring_f",
+        match=r"cannot hold together.*\n  spring_stiffness.*\n  moving this alone is not enough: spring_f",
     ):
         optimize(read_study_text(f"{FOUR_SIZES_IN_SHEAR}require:\n{limits}solver: {{starts: 1}}\n"))
 

@@ -327,6 +327,12 @@ def _proof_torque(design: Design, _: Dimensions) -> str:
     return f"{torque:.3g} N·m" if math.isfinite(torque) else "the study's `holding_torque`"
 
 
+def _play(design: Design, _: Dimensions) -> str:
+    """Return the angle that the link moves without notice, from end to end; empty where the study was not evaluated."""
+    play = 2.0 * design.values.get("lost_motion", math.nan)
+    return f", {math.degrees(play):.2g}° from end to end" if math.isfinite(play) else ""
+
+
 def _greased(place: str, design: Design, _: Dimensions) -> str:
     """Return a place, if it is greased."""
     return place if place in greased(design) else ""
@@ -339,6 +345,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "bonding_heat": _bonding_heat,
     "most_current": _most_current,
     "proof_torque": _proof_torque,
+    "play": _play,
     "set_points": lambda design, _: set_points_in_words(design),
     "cutout_place": _cutout_place,
     "heated_parts": lambda _, dims: "spreaders" if dims.spreader_depth else "heaters",

@@ -111,7 +111,6 @@ _ORDERED = {
     "coldest PCL as heating stops": "softened_temperature",
     "all PCL molten": "pcl_melting_end",
     "thermistor as heating stops": "sensed_temperature",
-    "heater's peak": "peak_peltier_temperature",
 }
 """Temperatures of a switch, and the quantity of each."""
 
@@ -119,6 +118,7 @@ _ORDERED = {
 def temperatures_in_order(design: Design) -> dict[str, float]:
     """Return the temperatures [K] of a switch, where the cut-out may open and what parts bear, the lowest first."""
     switch = {words: design.values.get(name, math.nan) for words, name in _ORDERED.items()}
+    switch["heater's peak"] = largest(design, _HOTTEST) or math.nan
     points = {f"{point} point": design.values[f"temperature@{point}"] for point in design.study["operating_points"]}
     limits = {f"limit of {what}": bears for what, bears in _ratings(design).items()} | _opening(design)
     ordered = sorted((switch | points | limits).items(), key=lambda entry: entry[1])

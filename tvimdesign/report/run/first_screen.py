@@ -23,6 +23,7 @@ from tvimdesign.report.run.blocks.requirements import HEADS, Requirement, requir
 from tvimdesign.report.run.blocks.sections import text_sections
 from tvimdesign.report.run.blocks.verdict import Verdict, starts_in_words, verdict
 from tvimdesign.report.run.blocks.warnings import SHOWN, RunWarning
+from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 
 FILE = "summary.txt"
 LINES, NARROW_LINES = 16, 24  # Lines of the screen from 100 columns on, and below
@@ -62,7 +63,10 @@ def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = No
         while extra and sum(map(len, facts)) > room - len(first) - _LEAST:
             extra, facts = extra[:-1], facts[:-1]
     left = room - sum(map(len, facts))
-    table = requirement_lines(requirements(answer, answered.uncertainty), width, left - len(first))
+    rows, met = requirements(answer, answered.uncertainty), "met"
+    if answer.has_design and answer.design.status == BELOW_YIELD:
+        met = "met at nominal sizes"
+    table = requirement_lines(rows, width, left - len(first), met)
     counts = [count for count in range(SHOWN, 0, -1)
               if len(table) + len(warning_lines(answered.warnings, width, count)) <= left]  # fmt: skip
     lines = [line for fact in facts for line in fact]
@@ -97,29 +101,29 @@ def _listing(label: str, parts: Sequence[str], width: int, most: int) -> list[st
     return wrapped(first, width, indent="  ")
 
 
-def requirement_lines(rows: Sequence[Requirement], width: int, most: int) -> list[str]:
+def requirement_lines(rows: Sequence[Requirement], width: int, most: int, met: str = "met") -> list[str]:
     """Return the requirements, those most in doubt in at most `most` lines with one on the others."""
     by_doubt = sorted(rows, key=lambda row: row.doubt)
     for count in range(len(rows), 0, -1):
         first, others = by_doubt[:count], by_doubt[count:]
         lines = _fitting([HEADS, *(row.cells for row in rows if row in first)], width)
-        lines += _others(others, "others", width) if others else []
+        lines += _others(others, "others", met, width) if others else []
         if len(lines) <= most and (count > 1 or not others or by_doubt[0].met_in is None):
             return lines
-    return _others(by_doubt, "requirements", width, most) if rows else []
+    return _others(by_doubt, "requirements", met, width, most) if rows else []
 
 
-def _others(rows: Sequence[Requirement], what: str, width: int, most: int = 1) -> list[str]:
+def _others(rows: Sequence[Requirement], what: str, met: str, width: int, most: int = 1) -> list[str]:
     """Return a line that names what is violated or open of some requirements, else the most in doubt of them."""
     missed = [row.cells[0] for row in rows if row.stands.startswith(("violated", "open"))]
     if missed:
         return _fact_lines(Fact(f"{len(missed)} of {len(rows)} {what} not met", missed, listing=True), width)
-    met = f"1 {what[:-1]} is met" if len(rows) == 1 else f"{len(rows)} {what} are met"
+    count = f"1 {what[:-1]} is {met}" if len(rows) == 1 else f"{len(rows)} {what} are {met}"
     if rows[0].met_in in (None, 1.0):
         title, limit, got, *_ = rows[0].cells
         tightest = ", the tightest" if len(rows) > 1 else ""
-        return wrapped(f"{met}{tightest}: {title} {got}, asked {limit}", width, indent="  ")
-    return _listing(f"{met}, and of plausible cases", [_unsure(row) for row in rows], width, most)
+        return wrapped(f"{count}{tightest}: {title} {got}, asked {limit}", width, indent="  ")
+    return _listing(f"{count}, and of plausible cases", [_unsure(row) for row in rows], width, most)
 
 
 def _unsure(row: Requirement) -> str:

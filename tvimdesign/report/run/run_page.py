@@ -138,16 +138,14 @@ def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
     for point in design.study["operating_points"]:
         frequency, springs = design.value(f"frequency@{point}"), design.value("spring_stiffness")
         stiffness, damping = (design.value(f"joint_{kind}@{point}") for kind in ("stiffness", "damping"))
-        swing = design.value("stroke")
-        if not springs:  # a lock turns far, but frozen not beyond what it holds
-            swing = min(swing, design.value("holding_torque") / stiffness)
+        swing = min(design.value("stroke"), design.value("holding_torque") / stiffness)
         angle, torque = torque_loop(stiffness, damping, frequency, swing)
         title = f"{name_in_words(point)}: {shown(f'temperature@{point}'):.0f} °C, {frequency:g} Hz"
         loops.append({"title": title, "angle": angle.tolist(), "torque": torque.tolist(),
                       "springs": (springs * angle).tolist()})  # fmt: skip
     contact = ", while the PCL is in contact" if design.value("parting_share") > 0.0 else ""
     return {
-        "title": f"Torque that turns the joint through its stroke{contact}",
+        "title": f"Torque that turns the joint through its stroke, at most by what it holds frozen{contact}",
         "stop_angle": design.value("stop_angle"),
         "labels": {"angle": axis_label("angle", "rad"), "torque": axis_label("torque", "N*m")},
         "loops": loops,

@@ -139,8 +139,8 @@ def _refusal(task: JointTask, name: str, least_changed: float, progress: Callabl
     `least_changed` is the least diameter [m] with another record in a set of hardware.
     """
     size, hold = format_quantity(task.diameter, "mm", 3), format_quantity(task.torque, "N*m", 3)
-    soft = f"{ends_text(*task.stiffness)} {pretty('N*m/rad')}"
-    lines = [f"{name}: no joint of {size} holds {hold} frozen and has {soft} soft, with margins for its tolerances."]
+    soft = f"{ends_text(*task.stiffness)} {pretty('N*m/rad')} soft over ±{format_quantity(task.stroke, 'deg', 3)}"
+    lines = [f"{name}: no joint of {size} holds {hold} frozen and has {soft}, with margins for its tolerances."]
     progress("looking for the nearest diameter that fits")
     wider, held_there = _wider(task)
     nearer = replace(task, diameter=1e-3 * math.ceil(_ROOM * min(least_changed, LARGEST) / 1e-3))

@@ -300,8 +300,8 @@ def conflict_in_words(conflict_set: ConflictSet) -> list[str]:
         lines = [f"These cannot hold together, {seen}:"]
         stuck = [side for side in conflict_set.sides if side.beside and not side.move_words]
         lines += [f"  {_named(side)}: {_place(side)}" for side in conflict_set.sides if side not in stuck]
-        which = "it alone" if len(stuck) == 1 else "only one of these"
-        lines += [f"  moving {which} is not enough: {', '.join(map(_named, stuck))}"] if stuck else []
+        which = "this" if len(stuck) == 1 else "any of these"
+        lines += [f"  moving {which} alone is not enough: {', '.join(map(_named, stuck))}"] if stuck else []
     if conflict_set.ends:
         lines.append(f"Ends of ranges that keep {'it' if alone else 'them'} from it: {', '.join(conflict_set.ends)}.")
     return lines

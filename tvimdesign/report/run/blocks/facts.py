@@ -24,6 +24,7 @@ from tvimdesign.report.output.numbers import (
 )
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.output.terminal import DOT
+from tvimdesign.report.run.blocks.tables import requested_torque
 from tvimdesign.report.run.blocks.verdict import most_in_doubt
 from tvimdesign.report.run.reasons import NO_ROOM, active
 from tvimdesign.report.run.uncertainty_data import changes, lever, yield_of
@@ -97,7 +98,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
-        *_impedance(value),
+        *_impedance(value, requested_torque(answer.design)),
         *_drag(value),
         *_task(value, answer.design.choices),
         *_duty(answer),
@@ -155,16 +156,21 @@ _LOSES = {
 }
 
 
-def _impedance(value: _Values) -> list[Fact]:
-    """Return the link's stiffness frozen, as heating stops, and with its damping; none if heating never stops."""
+def _impedance(value: _Values, torque: float) -> list[Fact]:
+    """Return the link's stiffness frozen with its angle under a torque, as heating stops, and with its damping.
+
+    None if heating never stops.
+    """
     if math.isinf(value.values["softened_stiffness"]):
         return []
     unit = value.table.unit("softened_stiffness")
-    frozen, soft, damped = (
-        f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
-        for name in ("joint_stiffness_at_link@cold", "softened_stiffness", "softened_impedance")
+    cold = "joint_stiffness_at_link@cold"
+    frozen, soft = (
+        f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}" for name in (cold, "softened_stiffness")
     )
-    return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}, soft {soft}, damped {damped}"])]
+    turned = f"{from_si(torque / value.values[cold], 'deg'):.2g}° at {with_unit(torque, 'N*m', 2)}"
+    damped = in_unit(value.values["softened_impedance"], unit, _DIGITS)
+    return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}: {turned}", f"soft {soft}, damped {damped}"])]
 
 
 def _drag(value: _Values) -> list[Fact]:
@@ -298,7 +304,8 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
 def _soft(answer: StudyResult) -> list[str]:
     """Say what soft means, and whether the layer stalls on the way."""
     stalling = stalling_in_words(answer.histories.get("softening"), answer.design.values["softening_time"])
-    notes = ("|Z| has stiffness and damping", "molten slices soften the PCL before its coldest melts")
+    notes = ("a plausible case is measured by its own hot", "|Z| has stiffness and damping",
+             "molten slices soften the PCL before its coldest melts")  # fmt: skip
     return [soft_in_words(answer.design, table_for(answer.design.mode)), *notes, *filter(None, [stalling])]
 
 

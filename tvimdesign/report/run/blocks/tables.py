@@ -16,6 +16,7 @@ from tvimdesign.report.run.blocks.warnings import unreached_points
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
+from tvimdesign.study.design import Design
 
 _MOVES = 0.02  # Share of an output's variance from which an input counts as moving it
 _NAMED = 4
@@ -83,15 +84,20 @@ def module_grid(answer: StudyResult) -> Grid:
     return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
 
 
+def requested_torque(design: Design) -> float:
+    """Return the torque [N*m] that the study asks the frozen joint to hold, or the one that is held."""
+    requested = [limit["limit"] for limit in design.study["require"]
+             if (limit["output"], limit["sense"]) == ("holding_torque", ">=")]  # fmt: skip
+    return max(requested, default=0.0) or design.values["holding_torque"]
+
+
 def torque_path_grid(answer: StudyResult) -> Grid:
     """Return the parts on the way of the frozen torque from link to ground, and the torque that each bears [N*m].
 
     The weakest is first. Feet bear what their safety leaves beside the others. The safety is against the torque the
     study asks for, or against the one that is held.
     """
-    table, limits, values = table_for(answer.design.mode), answer.design.study["require"], answer.design.values
-    least = [limit["limit"] for limit in limits if (limit["output"], limit["sense"]) == ("holding_torque", ">=")]
-    against = max(least, default=0.0) or values["holding_torque"]
+    table, values, against = table_for(answer.design.mode), answer.design.values, requested_torque(answer.design)
     parts = [
         name for name in table.output("holding_torque").least_of if table.output(name).exists(answer.design.choices)
     ]
@@ -102,7 +108,8 @@ def torque_path_grid(answer: StudyResult) -> Grid:
         (name, number(torque), number(torque / against, 3) if against else "", table.output(name).description)
         for name, torque in sorted(borne.items(), key=lambda part: part[1])
     ]
-    title = f"Way of the frozen torque from link to ground, the weakest first, against {number(against)} N·m"
+    safety = f"strengths over {number(values['holding_safety'])}"
+    title = f"Way of the frozen torque from link to ground, the weakest first, against {number(against)} N·m, {safety}"
     return grid(title, ("part", "bears [N·m]", "safety", "meaning"), rows, right=(1, 2))
 
 
@@ -153,6 +160,9 @@ def _check_row(check: ConstraintCheck, answer: StudyResult, table: Table) -> tup
     return stands, check.text, value, pretty(table.unit(check.output)), margin, because
 
 
+_FAINT = 1e-6  # Share of a range below which a value in it is zero
+
+
 def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
     """Return the range of each headline and requirement over unmeasured inputs, and what to measure first.
 
@@ -164,7 +174,8 @@ def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
     for output, interval in intervals.items():
         if interval["low"] == interval["high"]:
             continue
-        texts = (number(interval[end]) for end in ("value", "low", "high"))
+        faint = _FAINT * (interval["high"] - interval["low"])
+        texts = (number(interval[end] if abs(interval[end]) > faint else 0.0) for end in ("value", "low", "high"))
         alone, first = interval["one_at_a_time"], next(iter(interval["shares"]), "")
         share = f"{100.0 * interval['shares'][first]:.0f} %" if first else ""
         half = f"{len(interval['to_halve'])}" if interval["to_halve"] else "many"
@@ -221,7 +232,7 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
     for limit, share in uncertainty["held"].items():
         first = measure_first(limit.partition(" ")[0], uncertainty)
         test = values[first]["source"].partition("test: ")[2] if first else ""
-        test = test or "its maker's sheet, or the built part"
+        test = test or ("its maker's sheet, or the built part" if first else "the built part")
         rows.append((limit, f"{100.0 * share:.3g} %", first or "no single input", test))
     heads = ("limit", "met in", "measure first", "test")
     note = (
