@@ -1,9 +1,4 @@
-"""The studies that ship: each runs, and comes to what it promises.
-
-Every shipped study but the paper's own is a module that somebody can order: read off file and answer.
-
-The parts that studies become.
-"""
+"""The studies that ship: each runs, comes to what it promises, can be ordered, and becomes parts."""
 
 import hashlib
 import json

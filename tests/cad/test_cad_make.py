@@ -1,7 +1,4 @@
-"""The child process and the files it writes.
-
-Random designs within a study's bounds: refused by a named rule, or sound.
-"""
+"""The child process and its files; random designs within a study's bounds are refused by a named rule, or sound."""
 
 import hashlib
 import json

@@ -1,7 +1,4 @@
-"""A user's folder: it adds and replaces, and every broken file is an error in words.
-
-Laws that a record has from another material: told where they may hold, refused where they mean nothing.
-"""
+"""A user's folder adds and replaces records; broken files and misplaced laws are errors in words."""
 
 import os
 import time

@@ -1,7 +1,4 @@
-"""Many designs side by side: functions to their last digits, linear systems, steps in time and what they pass.
-
-Factors of one pattern without pivots against numpy, for random patterns that are dominated by their diagonal.
-"""
+"""Many designs side by side: functions to their last digits, factors without pivots, steps in time and events."""
 
 import math
 from collections.abc import Callable

@@ -1,7 +1,4 @@
-"""Stiffness at the end of the switch and of the way back: as simulated, as required, and frozen or not.
-
-A point in the melting range that says what soft or stiff means leaves the times of the cycle open too.
-"""
+"""Stiffness at the end of the switch and of the way back: simulated, required, frozen or left open."""
 
 from functools import cache
 

@@ -1,7 +1,4 @@
-"""Good studies, errors as data, names that people mean; messages as in messages/ (UPDATE_MESSAGES=1 rewrites).
-
-The schema for editors, of one mind with the reader in each mode, and the template that `tvimdesign new` writes.
-"""
+"""Good studies, errors as data, messages as in messages/ (UPDATE_MESSAGES=1 rewrites), schema and template."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""The plane that judges the heat, against finite elements of drawings of their own (validation/heat_sector/fe.py).
-
-Shipped studies' parts as FE found them (validation/fe_structure/results.csv), against today's model and designs.
-"""
+"""The plane that judges the heat against finite elements of drawings of their own; shipped parts as FE found them."""
 
 import csv
 import importlib.util

@@ -1,7 +1,4 @@
-"""The bill of materials and the assembly's solids agree, one for one; drafts are the exact kernel's bodies.
-
-Notes on putting modules together, as in notes/ (UPDATE_NOTES=1 rewrites them), and what every step must have.
-"""
+"""Bill of materials, solids and drafts agree one for one; notes as in notes/ (UPDATE_NOTES=1 rewrites them)."""
 
 import csv
 import io

@@ -1,7 +1,4 @@
-"""Vanes, blocks and pads as solids: where they stand, what the stroke makes of them, and that the checks bite.
-
-Solids of rectangular Peltier modules and their spreaders: as large as the table says, apart, over ways out.
-"""
+"""Vanes, blocks, pads and Peltier modules as solids: where they stand, how large they are, and that checks bite."""
 
 from collections.abc import Mapping
 from functools import cache

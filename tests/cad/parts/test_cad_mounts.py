@@ -1,7 +1,4 @@
-"""Solids of a motor below the feet, the rotor turned to its stops, and springs.
-
-Liners, cut-outs and thermistors as solids: in their recesses, as large as the model says, in no one's way.
-"""
+"""Solids below the feet and around pads: motor, springs, liners, cut-outs, thermistors; the rotor at its stops."""
 
 from math import atan2, hypot, pi, sin, sqrt
 from typing import Any

@@ -1,7 +1,4 @@
-"""The solids against the model's rows, and against each other.
-
-Drill points, dots of scales, dowels and bonded tangs, and the jig around parts that are cast in it.
-"""
+"""The solids against the model's rows and each other; drill points, dowels, bonded tangs and the casting jig."""
 
 from collections.abc import Mapping
 from math import atan2, degrees, hypot, radians, sin, tan

@@ -1,7 +1,4 @@
-"""The figures of runs, virtual tests, fronts, comparisons and spreads, as an editor asks.
-
-The theme of figures, and the process that draws them.
-"""
+"""The figures of runs, virtual tests, fronts, comparisons and spreads, their theme, and the process that draws."""
 
 import io
 import json

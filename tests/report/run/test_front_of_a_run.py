@@ -1,7 +1,4 @@
-"""A front in a run's folder: tables, designs, figure and words; killed and resumed it is the same, byte for byte.
-
-A run ends before its search with what `check` refuses; parts and figures have a lower priority than the search.
-"""
+"""A front in a run's folder, the same when killed and resumed; what `check` refuses ends a run before its search."""
 
 import csv
 import json

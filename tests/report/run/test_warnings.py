@@ -1,7 +1,4 @@
-"""Every warning has a line that a study can hold, and one that a run proposes does mend what it warns of.
-
-The yield and the assumptions of a first screen, and a run whose uncertainty is not computed.
-"""
+"""Every warning has a line of a study that mends it; yield and assumptions of a first screen."""
 
 import json
 import re

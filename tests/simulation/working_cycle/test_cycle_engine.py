@@ -1,9 +1,4 @@
-"""The cycle with derivatives: smooth along every direction, within three thousandths of CVODES, in few steps.
-
-Metals, waxes, glasses and layers that heat themselves: working cycles, and the range of the solid fraction.
-
-Symbols that numpy's functions act on: they are what numpy computes, to the last digit.
-"""
+"""The cycle with derivatives: smooth, near CVODES, in few steps; other materials; symbols for numpy's functions."""
 
 from collections.abc import Callable
 from functools import cache

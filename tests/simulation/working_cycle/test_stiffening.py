@@ -1,7 +1,4 @@
-"""The stage in which the layer freezes: against the same physics written again, on finer grids, and without an end.
-
-Currents that follow a profile: the numbers of one, and a switch under one against scipy.
-"""
+"""The stage in which the layer freezes, against the same physics written again; currents that follow a profile."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,4 @@
-"""Studies without a design: the conflicting limits or the nearest target are named, and the way out works.
-
-Designs all over the ranges keep what depends on no cycle; limits that no point keeps are found infeasible.
-"""
+"""Studies without a design: conflicting limits or the nearest target are named, and the way out works."""
 
 import math
 import re

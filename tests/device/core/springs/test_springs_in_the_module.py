@@ -1,7 +1,4 @@
-"""Springs in the module, by a second implementation too, and springs from stock.
-
-A torsion spring from stock is chosen whole: its numbers follow from the record, and nothing else may set them.
-"""
+"""Springs in the module, by a second implementation too, and springs from stock, chosen whole."""
 
 import math
 from typing import Any

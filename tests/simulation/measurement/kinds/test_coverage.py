@@ -1,7 +1,4 @@
-"""Intervals hold what the data were made with; `benchmarks/fit_coverage.py` counts it over many seeds.
-
-Files in the layouts of instruments go through without an option: right value and interval, or a next step.
-"""
+"""Intervals hold what the data were made with (many seeds: `benchmarks/fit_coverage.py`), without any option."""
 
 import json
 from pathlib import Path
