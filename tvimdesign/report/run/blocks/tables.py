@@ -227,16 +227,31 @@ def moves(name: str, intervals: Mapping[str, Any]) -> list[tuple[str, float]]:
 
 
 def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid:
-    """Return the limits that are not met over all ranges, with what to measure first for those in doubt, and how."""
-    rows = []
+    """Return what to measure, and how, with the limits that it decides on and their share of cases, the least first."""
+    limits: dict[str, list[str]] = {}
     for limit, share in uncertainty["held"].items():
         first = measure_first(limit.partition(" ")[0], uncertainty)
-        test = values[first]["source"].partition("test: ")[2] if first else ""
-        test = test or ("its maker's sheet, or the built part" if first else "the built part")
-        rows.append((limit, f"{100.0 * share:.3g} %", first or "no single input", test))
-    heads = ("limit", "met in", "measure first", "test")
+        limits.setdefault(first, []).append(f"{limit.partition(' ')[0]} {100.0 * share:.3g} %")
+    ranges = {entry["name"]: f"{range_text(entry)} {entry['unit']}" for entry in uncertainty["unmeasured"]}
+    rows = [
+        (first or "no single input", number(values[first]["value"]) if first else "", ranges.get(first, ""),
+         _counted(limits[first]), _test_of(values[first]["source"] if first else ""))
+        for first in sorted(limits, key=lambda name: not name)
+    ]  # fmt: skip
+    heads = ("measure first", "assumed", "range", "limits met in a share of cases", "test")
     note = (
         "`tvimdesign new built.yaml --from FOLDER` keeps all chosen sizes: set what was measured there and "
         "run it. A measured wall or gap still redraws what follows from it; a new search draws other parts."
     )
-    return grid(f"{TO_MEASURE}: limits met in a part of the ranges only", heads, rows, right=(1,), note=note)
+    return grid(f"{TO_MEASURE}: what decides on limits that are met in a part of the ranges only", heads, rows,
+                right=(1,), note=note)  # fmt: skip
+
+
+def _counted(limits: Sequence[str]) -> str:
+    """Return the first of some limits, and how many more there are."""
+    return ", ".join([*limits[:_NAMED], *([f"{len(limits) - _NAMED} more"] if len(limits) > _NAMED else [])])
+
+
+def _test_of(source: str) -> str:
+    """Return the test that an input's source names."""
+    return source.partition("test: ")[2] or ("its maker's sheet, or the built part" if source else "the built part")
