@@ -18,8 +18,9 @@ from support import Command, sample_text, study_path
 
 from tvimdesign.report.output.numbers import at_its_least, ends_text, label, percent
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.blocks.facts import _model
+from tvimdesign.report.run.blocks.facts import _model, main_facts, more_facts
 from tvimdesign.report.run.blocks.requirements import Requirement, requirements
+from tvimdesign.report.run.blocks.tables import held_grid
 from tvimdesign.report.run.first_screen import (
     LINES,
     NARROW_LINES,
@@ -250,6 +251,49 @@ def test_headlines_and_requirements_have_their_ranges():
     assert label(name.split()[0]) in model
     assert f"met in {percent(share, 2)} of cases" in model
     assert intervals[name.split()[0]]["shares"]
+
+
+def test_the_frozen_link_turns_by_the_torque_that_it_holds_over_its_stiffness():
+    answered = case("paper_compression alone")
+    values = dict(answered.result.design.values)
+    stiffness = values["joint_stiffness_at_link@cold"]
+    for torque, held in ((values["holding_torque"], values["holding_torque"]), (1e6, 2.0), (1.0, 2.0)):
+        study = answered.result.design.study | {"require": [
+            {"output": "holding_torque", "sense": ">=", "limit": torque}]}  # fmt: skip
+        update = {"values": values | {"holding_torque": held}, "study": study}
+        design = answered.result.design.model_copy(update=update)
+        facts = main_facts(replace(answered.result, design=design), {})
+        link = next(fact.text for fact in facts if fact.label.startswith("Link"))
+        assert f": {math.degrees(min(torque, held) / stiffness):.2g}° at " in link
+
+
+def test_the_temperatures_of_a_switch_rise_along_their_line():
+    answered = case("paper_compression alone")
+    line = next(fact.text for fact in more_facts(answered.result, {}, None) if fact.label == "Temperatures")
+    celsius = [float(part.split()[-2]) for part in line.split(" < ")]
+    assert celsius == sorted(celsius)
+    for name in (
+        "ambient_temperature",
+        "pcl_melting_start",
+        "peltier_max_temperature",
+        "structure_service_temperature",
+    ):
+        assert round(answered.result.design.values[name] - 273.15) in celsius
+
+
+def test_each_limit_in_doubt_stands_beside_the_one_input_to_measure_for_it():
+    uncertainty = {
+        "held": {"pin_margin >= 0": 0.5, "key_margin >= 0": 0.75, "core_web >= 0": 0.9},
+        "intervals": {"pin_margin": {"shares": {"minimum_wall": 0.8, "slip_clearance": 0.1}},
+                      "key_margin": {"shares": {"minimum_wall": 0.6}}},
+        "unmeasured": [{"name": "minimum_wall", "value": 1.2, "low": 0.8, "high": 1.6, "unit": "mm"}],
+    }  # fmt: skip
+    rows = held_grid(uncertainty, {"minimum_wall": {"value": 1.2, "source": "assumed; test: comb of walls"}}).rows
+    texts = [[getattr(cell, "text", cell) for cell in row] for row in rows]
+    assert texts == [
+        ["minimum_wall", "1.2", "0.8 to 1.6 mm", "pin_margin 50 %, key_margin 75 %", "comb of walls"],
+        ["no single input", "", "", "core_web 90 %", "the built part"],
+    ]
 
 
 def test_a_margin_that_must_not_be_negative_is_at_its_least():

@@ -98,7 +98,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
-        *_impedance(value, requested_torque(answer.design)),
+        *_impedance(value, min(requested_torque(answer.design), answer.design.values["holding_torque"])),
         *_drag(value),
         *_task(value, answer.design.choices),
         *_duty(answer),
