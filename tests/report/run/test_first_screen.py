@@ -253,7 +253,7 @@ def test_headlines_and_requirements_have_their_ranges():
     assert intervals[name.split()[0]]["shares"]
 
 
-def test_the_frozen_link_turns_by_the_torque_that_it_holds_over_its_stiffness():
+def test_the_frozen_link_turns_by_what_it_holds_over_its_stiffness():
     answered = case("paper_compression alone")
     values = dict(answered.result.design.values)
     stiffness = values["joint_stiffness_at_link@cold"]
@@ -281,7 +281,7 @@ def test_the_temperatures_of_a_switch_rise_along_their_line():
         assert round(answered.result.design.values[name] - 273.15) in celsius
 
 
-def test_each_limit_in_doubt_stands_beside_the_one_input_to_measure_for_it():
+def test_a_limit_in_doubt_stands_beside_what_to_measure_for_it():
     uncertainty = {
         "held": {"pin_margin >= 0": 0.5, "key_margin >= 0": 0.75, "core_web >= 0": 0.9},
         "intervals": {"pin_margin": {"shares": {"minimum_wall": 0.8, "slip_clearance": 0.1}},
