@@ -31,7 +31,7 @@ SECTIONS = ("paper_reconstructed", "paper_compression", "elbow_machined", "held_
 """Modules that are drawn, as each study starts: both modes, then ball bearings, a wave spring with lips, a motor."""
 VARIANTS = {
     "held_layer": ("paper_reconstructed", {"axial_preload": "wave_21x25", "melt_lip": "rings"}),
-    "with_motor": ("paper_reconstructed", {"motor": "frameless_70x10", "encoder": "on_axis_28"}),
+    "with_motor": ("paper_reconstructed", {"motor": "ilm_e70x10", "encoder": "on_axis_28"}),
 }
 """Of those that no study holds: the study, and what its module has beside."""
 FOLDERS = ("studies", "tests/studies")

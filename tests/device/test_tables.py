@@ -171,7 +171,7 @@ def test_rules_hold_exactly_where_the_module_has_their_features(mode):
 
 # --- floats, arrays and symbols ------------------------------------------------------------------------------------
 
-MOTOR = {"motor": "frameless_70x10", "encoder": "on_axis_28", "motor_driver": "moteus_c1", "stroke": 0.104}
+MOTOR = {"motor": "ilm_e70x10", "encoder": "on_axis_28", "motor_driver": "moteus_c1", "stroke": 0.104}
 EXTRAS = {
     "cover": "plate", "preload_adjuster": "rotary", "thread_insert": "heat_set", "radial_clearance": 1.7e-3,
     "axial_preload": "wave_21x25", "liner_material": "peek", "cold_side": "sink", "transmission": "unity",

@@ -56,8 +56,8 @@ BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "c
                            "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate",
                            "link_dowel_count": 2}  # fmt: skip
 # A motor below the feet: with an encoder and printed, and the larger one without, milled, below blocks.
-DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
-DRIVEN_BLOCKS = BLOCKS | {"motor": "frameless_85x13", "process": "machine_6061", "corner_radius": 0.5 * MM,
+DRIVEN = {"motor": "ilm_e70x10", "encoder": "on_axis_28"}
+DRIVEN_BLOCKS = BLOCKS | {"motor": "ilm_e85x13", "process": "machine_6061", "corner_radius": 0.5 * MM,
                           "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "slot_corner_offset": -0.1 * MM,
                           "spring_pairs": 3}  # fmt: skip
 # A wave spring around the core of a plain bore, with lips beside the layer, and one below a bearing.

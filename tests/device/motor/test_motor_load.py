@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from support import study_path
 
+from tvimdesign.catalog import Catalog
 from tvimdesign.device.motor import motor_load
 from tvimdesign.solve.result import answer
 from tvimdesign.study.reader import read_study_text
@@ -37,13 +38,13 @@ def _values(motor: str, more: str = "") -> dict[str, float]:
     text = study_path("driven_joint").read_text(encoding="utf-8")
     head, _, tail = text.partition("vary:\n")
     points = tail[tail.index("operating_points:") : tail.index("tolerances:")]
-    text = head.replace("frameless_70x10", f"{motor}\n  motor_driver: moteus_c1") + TASK + more + points
+    text = head.replace("ilm_e70x10", f"{motor}\n  motor_driver: moteus_c1") + TASK + more + points
     return answer(read_study_text(text)).design.values
 
 
 @pytest.mark.gate
 def test_its_torque_is_that_of_an_arm_on_a_spring():
-    values = _values("frameless_70x10")
+    values = _values("ilm_e70x10")
     spline = CubicSpline(MOMENTS, ANGLES, bc_type="clamped")
     link = ARM * 0.25 * LENGTH**2 + PAYLOAD * LENGTH**2 + values["parts_inertia"]
     stiffness = values["joint_stiffness@cold"]
@@ -62,15 +63,26 @@ def test_its_torque_is_that_of_an_arm_on_a_spring():
 
 
 def test_its_heat_is_that_of_three_phases():
-    values = _values("frameless_70x10")
-    # A star of 0.235 ohm a phase; 0.109 N.m for an ampere of each phase's rms current.
-    phase = values["motor_rms_torque@cold"] / 0.109
-    assert values["motor_heat@cold"] == pytest.approx(3.0 * 0.235 * phase**2, rel=1e-9)
-    assert values["motor_current@cold"] == pytest.approx(values["motor_torque@cold"] / 0.109)
+    values = _values("ilm_e70x10")
+    # A star of 0.249 ohm a phase; 0.157 N.m for an ampere of each phase's rms current.
+    phase = values["motor_rms_torque@cold"] / 0.157
+    assert values["motor_heat@cold"] == pytest.approx(3.0 * 0.249 * phase**2, rel=1e-9)
+    assert values["motor_current@cold"] == pytest.approx(values["motor_torque@cold"] / 0.157)
+
+
+@pytest.mark.parametrize(
+    ("motor", "watts"),
+    [("ilm_e50x08", 11.3), ("ilm_e70x10", 11.7), ("ilm_e70x18", 21.1), ("ilm_e85x13", 16.9), ("ilm_e85x30", 33.9)],
+)
+def test_the_heat_of_rated_torque_is_that_of_the_sheet(motor, watts):
+    record = Catalog().record("motors", motor)
+    winding = {name: record.value(name) for name in ("torque_constant", "winding_resistance")}
+    rated = SimpleNamespace(drive_motor=SimpleNamespace(**winding), motor_rms_torque=record.value("continuous_torque"))
+    assert motor_load.motor_heat(rated) == pytest.approx(watts, rel=0.02)
 
 
 def test_a_sine_adds_its_amplitudes():
-    alone, swinging = _values("frameless_70x10"), _values("frameless_70x10", SINE)
+    alone, swinging = _values("ilm_e70x10"), _values("ilm_e70x10", SINE)
     # A rigid link and all that the motor turns, at 2 Hz.
     link = swinging["task_inertia"] + swinging["driven_inertia"]
     added = link * 0.1 * (2.0 * np.pi * 2.0) ** 2
@@ -80,7 +92,7 @@ def test_a_sine_adds_its_amplitudes():
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize(("motor", "bears"), [("frameless_50x08", False), ("frameless_85x13", True)])
+@pytest.mark.parametrize(("motor", "bears"), [("ilm_e50x08", False), ("ilm_e85x13", True)])
 def test_a_small_motor_does_not_bear_the_task(motor, *, bears):
     values = _values(motor, SINE.replace("0.1 rad", "1 rad"))
     margins = [values[name] for name in ("motor_peak_margin", "motor_heat_margin")]
@@ -103,13 +115,13 @@ def test_its_voltage_is_that_of_a_star_of_three_phases():
 
 
 def test_its_driver_has_what_the_task_leaves():
-    values = _values("frameless_70x10")
-    # moteus-c1: 5 A and 20 A of amplitude, 0.8 of 24 V, 10 V to 51 V; the motor has 0.109 N.m/A rms, 0.47 ohm.
-    peak = max(values["motor_torque@hot"], values["motor_torque@cold"]) / 0.109
-    rms = max(values["motor_rms_torque@hot"], values["motor_rms_torque@cold"]) / 0.109
+    values = _values("ilm_e70x10")
+    # moteus-c1: 5 A and 20 A of amplitude, 0.8 of 24 V, 10 V to 51 V; the motor has 0.157 N.m/A rms, 0.498 ohm.
+    peak = max(values["motor_torque@hot"], values["motor_torque@cold"]) / 0.157
+    rms = max(values["motor_rms_torque@hot"], values["motor_rms_torque@cold"]) / 0.157
     assert values["motor_driver_peak_margin"] == pytest.approx(20.0 - 1.41421356 * peak)
     assert values["motor_driver_current_margin"] == pytest.approx(5.0 - 1.41421356 * rms)
-    wanted = 0.81649658 * 0.109 * values["task_speed"] + 1.22474487 * 0.47 * peak
+    wanted = 0.81649658 * 0.157 * values["task_speed"] + 1.22474487 * 0.498 * peak
     assert values["motor_driver_voltage_margin"] == pytest.approx(19.2 - wanted)
     assert values["motor_driver_supply_margin"] == pytest.approx(14.0)
     assert values["motor_driver_mass"] == pytest.approx(8.9e-3)
@@ -117,12 +129,12 @@ def test_its_driver_has_what_the_task_leaves():
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("payload", "chosen"), [("200 g", ("frameless_70x10", "moteus_c1")), ("1 kg", ("frameless_85x13", "moteus_x1"))]
+    ("payload", "chosen"), [("200 g", ("ilm_e70x10", "moteus_c1")), ("1 kg", ("ilm_e85x13", "moteus_x1"))]
 )
 def test_motor_and_driver_are_chosen_with_the_module(payload, chosen):
     text = study_path("driven_joint").read_text(encoding="utf-8")
     text = re.sub(r"(?m)^  motor: .*\n|^  motor_torque_margin: .*\n|^robust: .*\n", "", text)
-    motors = "  motor: {choose: [frameless_50x08, frameless_70x10, frameless_85x13]}\n"
+    motors = "  motor: {choose: [ilm_e50x08, ilm_e70x10, ilm_e85x13]}\n"
     motors += "  motor_driver: {choose: [moteus_c1, moteus_x1]}\n"
     text = text.replace("response_time: 1}", "response_time: 1, motor_driver_mass: 1}")
     text = text.replace("vary:\n", f"{TASK.replace('200 g', payload)}vary:\n{motors}")
