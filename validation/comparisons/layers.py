@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.numbers import si
+from tvimdesign.catalog import Catalog
 from tvimdesign.physics.layers import block, lasting_load, layer, shear_lag
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import melt, plastics, transitions
@@ -26,6 +27,13 @@ def sheared_ring(inputs: Values) -> Values:
         "torque": layer.torque_at_traction(si(inputs["traction"]), polar, outer),
         "strain": layer.shear_strain(outer, inputs["angle"], thickness),
     }
+
+
+def bonded_pads(inputs: Values) -> Values:
+    """Force [N] that round pads of a frozen layer bear, as the layer of a lock: by its bond or its shear yield."""
+    record = Catalog().record("polymers", inputs["polymer"])
+    traction = min(record.value("bond_strength"), structure.shear_yield(record.value("tensile_yield")))
+    return {"force": traction * inputs["count"] * 0.25 * np.pi * si(inputs["diameter"]) ** 2}
 
 
 def layers_in_series(inputs: Values) -> Values:
