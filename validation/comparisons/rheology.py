@@ -17,6 +17,9 @@ from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import melt, polymer, transitions, viscoelasticity
 from tvimdesign.physics.solids import structure
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
+from tvimdesign.simulation.rheometer.specimen import specimens
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
+from tvimdesign.study import read_study
 
 Values = Mapping[str, Any]
 CELSIUS = polymer.ZERO_CELSIUS
@@ -124,3 +127,17 @@ def relaxation_of_a_glass(inputs: Values) -> Values:
     modes = [mode for mode in _glass(inputs["polymer"]).modes if mode[0] < 1e10]
     whole = sum(share for _, share in modes)
     return {"left": viscoelasticity.relaxation_modulus(np.array(inputs["time"], float), modes) / whole}
+
+
+def frozen_in_tension(inputs: Values) -> Values:
+    """Secant modulus and strength [MPa] of a study's frozen polymer, drawn at a constant rate.
+
+    Stress is 3^(1/2) times and strain 3^(-1/2) times that of the ramp in shear (von Mises).
+    """
+    resolved = resolve_study(read_study(CASES.parents[1] / inputs["study"]))
+    (at,) = specimens(resolved, [CELSIUS + inputs["temperature"]])
+    strain = np.linspace(0.0, 0.01 * inputs["strain"], 401)[1:]
+    rise, shear = strain[-1] / inputs["rate"], np.sqrt(3.0) * strain[-1]
+    stress = 1e-6 * np.sqrt(3.0) * at.nominal.step_stress(strain / inputs["rate"], float(shear), float(rise))
+    secant = float(np.interp(0.01 * inputs["secant"], strain, stress / strain))
+    return {"modulus": secant, "strength": float(np.max(stress))}
