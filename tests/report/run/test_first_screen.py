@@ -253,18 +253,22 @@ def test_headlines_and_requirements_have_their_ranges():
     assert intervals[name.split()[0]]["shares"]
 
 
-def test_the_frozen_link_turns_by_what_it_holds_over_its_stiffness():
+def test_the_frozen_link_leans_until_the_bearing_holds_its_core():
     answered = case("paper_compression alone")
     values = dict(answered.result.design.values)
-    stiffness = values["joint_stiffness_at_link@cold"]
-    for torque, held in ((values["holding_torque"], values["holding_torque"]), (1e6, 2.0), (1.0, 2.0)):
+    upright, leaning = values["joint_stiffness_at_link@cold"], values["joint_stiffness_in_play"]
+    assert leaning < upright
+    torques = (values["holding_torque"], values["holding_torque"]), (1e6, 2.0), (1.0, 2.0), (1e6, 0.1)
+    for torque, held in torques:
         study = answered.result.design.study | {"require": [
             {"output": "holding_torque", "sense": ">=", "limit": torque}]}  # fmt: skip
         update = {"values": values | {"holding_torque": held}, "study": study}
         design = answered.result.design.model_copy(update=update)
         facts = main_facts(replace(answered.result, design=design), {})
         link = next(fact.text for fact in facts if fact.label.startswith("Link"))
-        assert f": {math.degrees(min(torque, held) / stiffness):.2g}° at " in link
+        least = min(torque, held)
+        angle = min(least / leaning, least / upright + values["bearing_play"])  # the bearing holds the core then
+        assert f": leans {math.degrees(angle):.2g}° at " in link
 
 
 def test_the_temperatures_of_a_switch_rise_along_their_line():

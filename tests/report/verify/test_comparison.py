@@ -31,7 +31,7 @@ with (ROOT / "validation/fe_structure/results.csv").open(newline="") as _file:
 
 def solved(tmp_path: Any, factor: float = 1.0) -> dict[str, Solved]:
     spring = {"rate": float(FE_ROWS["spring_rate"]["fe"]), "fibre_max": 1.0e3, "bend_mises": 1.0e3}
-    joint = {**JOINT, "frequency": 180.0, "foot_across": 5.0, "foot_along": 0.5, "plate_mises": 0.5}
+    joint = {**JOINT, "frequency": 180.0, "foot_across": 5.0, "foot_along": 0.5, "plate_mises": 0.5, "tilt": 3e-4}
     joint["hub"] *= factor
     cost = {"unknowns": 1e5, "seconds": 40.0, "gigabytes": 0.7}
     by_solver = {"joint": {**joint, **cost}, "spring": {**spring, **cost}, "link": {"link": LINK, **cost}}
@@ -47,6 +47,7 @@ def test_the_rows_are_those_that_the_table_of_fe_has(tmp_path):
     for name in ("core_stress", "edge_traction"):
         assert rows[name].fe == pytest.approx(float(FE_ROWS[name]["fe"]) * held, rel=2e-3), name
     assert rows["link"].ratio == pytest.approx(1.0, abs=0.03)
+    assert 1.0 / rows["link_in_play"].fe == pytest.approx(1.0 / rows["hub"].fe + 1.0 / rows["link"].fe + 3e-4)
     assert {row.mesh_change for row in rows.values()} == {0.0}
 
 

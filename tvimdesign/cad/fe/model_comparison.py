@@ -76,8 +76,8 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
     names = [
         "spring_rate", "held_spring_rate", "coil_stress_per_angle", "tang_stress_per_angle", "structure_stiffness",
         "pcl_stiffness@cold", "core_stiffness", "plate_stiffness", "floor_stiffness", "link_stiffness",
-        "core_holding_torque", "cold_layer_strength", "holding_torque", "spring_stiffness", "link_friction_torque",
-        "spring_count", "placement_radius", "rotor_thickness", "core_radius",
+        "tilt_compliance", "core_holding_torque", "cold_layer_strength", "holding_torque", "spring_stiffness",
+        "link_friction_torque", "spring_count", "placement_radius", "rotor_thickness", "core_radius",
         *(("layer_edge_traction",) if shear else ("rotor_vane_stiffness", "housing_vane_stiffness")),
     ]  # fmt: skip
     inputs = _drawn(module)
@@ -89,6 +89,7 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         "coil_stress": values["coil_stress_per_angle"] / values["held_spring_rate"] * 1e-6,
         "tang_stress": values["tang_stress_per_angle"] / values["held_spring_rate"] * 1e-6,
         "hub": hub, "core": values["core_stiffness"], "link": values["link_stiffness"],
+        "link_in_play": _in_play(hub, values["link_stiffness"], values["tilt_compliance"]),
         "natural_frequency": float(
             motion.natural_frequency(values["spring_stiffness"] + hub, inputs["moving_inertia"])
         ),
@@ -105,6 +106,11 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         traction = values["layer_edge_traction"] / values["holding_torque"] * 1e-6
         return {**rows, "plate": plate, "floor": floor, "edge_traction": traction, **_seats(module)}
     return {**rows, **_vanes(values["rotor_vane_stiffness"], plate, values["housing_vane_stiffness"], floor)}
+
+
+def _in_play(hub: float, link: float, tilt: float) -> float:
+    """Return the stiffness at the link's end while the core is free to lean."""
+    return 1.0 / (1.0 / hub + 1.0 / link + tilt)
 
 
 def _seats(module: ResolvedModule) -> dict[str, float]:
@@ -146,10 +152,11 @@ def fe_values(module: ResolvedModule, fe_results: Mapping[str, Mapping[str, floa
     joint = fe_results["joint"]
     held = float(module.table.evaluate(_drawn(module), ("holding_torque",))["holding_torque"])
     slip = friction * fe_results["screws"]["friction_radius"] * 1e-3 / circle
+    link = fe_results["link"]["link"]
     return {
         **screw_rows(module, Carried(joint["foot_across"] * held, joint["foot_along"] * held, slip)),
         **joint_rows(joint), **spring_rows(fe_results["spring"]), "natural_frequency": joint["frequency"],
-        "link": fe_results["link"]["link"], "foot_force": joint["foot_across"],
+        "link": link, "link_in_play": _in_play(joint["hub"], link, joint["tilt"]), "foot_force": joint["foot_across"],
         "link_friction_torque": slip,
     }  # fmt: skip
 

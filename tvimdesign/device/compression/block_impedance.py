@@ -22,7 +22,7 @@ from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import block, lasting_load, layer
+from tvimdesign.physics.layers import block, lasting_load, layer, shear_lag
 from tvimdesign.physics.solids import structure, vane, wedge
 from tvimdesign.physics.solids.shapes import NOTHING, Section, mean_square, radial_strip
 
@@ -77,6 +77,34 @@ def pcl_damping(m: Module) -> Scalar:
 def housing_vane_thickness(m: Module) -> Scalar:
     """Thickness of the housing's vanes between their pads, at the mean radius."""
     return m.slot_angle * m.pcl_mean_radius
+
+
+@quantities.helper()
+def block_against_rotor(m: Module) -> tuple[Scalar, Scalar]:
+    """Stiffness of one frozen block with its pad at 23 degC, pressed and sheared along the vane [N/m]."""
+    blocks = m.frozen_shear_modulus * m.pcl_moment / m.block_depth
+    pressed = structure.series(blocks / (m.vane_count * m.pcl_mean_radius**2), m.pad_press_stiffness)
+    free = [1.0 - shear_lag.held_over_window(m.peltier_thickness, 0.5 * side) for side in (m.slot_width, m.slot_height)]
+    held = m.block_area - free[0] * free[1] * m.slot_width * m.slot_height
+    pad = m.peltier_shear_modulus * held / m.peltier_thickness
+    return pressed, structure.series(m.frozen_shear_modulus * m.block_area / m.block_depth, pad)
+
+
+@quantities.helper()
+def layer_against_leaning(m: Module) -> Scalar:
+    """Stiffness of all pressed blocks and pads as the rotor leans over the floor [N*m/rad].
+
+    It shears them along the axis, and turns the vanes' faces of the height h: N (s r^2 + (p + s) h^2/12)/2.
+    """
+    pressed, sheared = m.block_against_rotor
+    faces = (pressed + sheared) * m.block_height**2 / 12.0
+    return 0.5 * m.vane_count * (sheared * m.pcl_mean_radius**2 + faces)
+
+
+@quantities.helper()
+def layer_sideways(m: Module) -> Scalar:
+    """Sideways compliance of all pressed blocks and pads [m/N]: N (p + s)/2 of stiffness."""
+    return 2.0 / (m.vane_count * sum(m.block_against_rotor))
 
 
 @quantities.helper()

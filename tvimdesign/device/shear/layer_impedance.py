@@ -103,6 +103,30 @@ def liner_compliance(m: Module) -> Scalar:
 
 
 @quantities.helper()
+def frozen_layer_stiffness(m: Module) -> Scalar:
+    """Stiffness of frozen layer, pads and liners in series at 23 degC [N*m/rad]."""
+    layers = m.pcl_thickness / (m.frozen_shear_modulus * m.layer_polar_moment)
+    return 1.0 / (layers + m.pad_compliance + m.liner_compliance)
+
+
+@quantities.helper()
+def layer_against_leaning(m: Module) -> Scalar:
+    """Stiffness of layer and pads between rigid faces that lean [N*m/rad].
+
+    Half of that about the axis, as often as a pad is stiffer drawn than sheared: a strip on its ledge, 4 (1 + S^2) with
+    half the ledge over the pad's thickness as S. Adhesive around spreaders is sheared either way.
+    """
+    strip = 4.0 * (1.0 + (0.5 * m.window_ledge / m.peltier_thickness) ** 2) if m.heater_form == CUT else 1.0
+    return 0.5 * strip * m.frozen_layer_stiffness
+
+
+@quantities.helper()
+def layer_sideways(m: Module) -> Scalar:
+    """Sideways compliance of layer and pads [m/N]."""
+    return 0.5 * (m.pcl_inner_radius**2 + m.pcl_outer_radius**2) / m.frozen_layer_stiffness
+
+
+@quantities.helper()
 def core_foot_rise(m: Module) -> Scalar:
     """Rise of the core's stress at its foot [1]: on a plate that the arcs drive, with the holes of the link."""
     length = m.link_bottom_level - m.rotor_top_level

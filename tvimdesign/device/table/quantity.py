@@ -189,7 +189,7 @@ class Output:
 
         First those that say whether the module has the quantity's features.
         """
-        named = (template_name(name, self.of).replace("_at_", "@") for name in self.reads)
+        named = ("@".join(template_name(name, self.of).rsplit("_at_", 1)) for name in self.reads)
         read = (self.instead if self.instead and name == self.rises_with else name for name in named)
         return (*(feature.choice for feature in self.requires), *read)
 

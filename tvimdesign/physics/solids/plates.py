@@ -95,3 +95,78 @@ def path(seat: Seat, around: Any, radii: tuple[Any, Any], between: Any) -> Path:
     of_adhesive = both * adhesive / (adhesive + floor)
     inner, outer = (share / (around * radius**2 * seat.depth) for share, radius in zip(shares, radii, strict=True))
     return Path(inward, of_adhesive, both - of_adhesive + inward**2 * between, inner, outer)
+
+
+SHAPES = 4  # Of a leaning plate, and of the floor below: a rigid one, and three that bend
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+
+
+class Leaning(NamedTuple):
+    """A plate that leans with its core over a floor on feet, a layer between them; lengths [m]."""
+
+    core: Any  # Radius of the core
+    plate: Any  # Thickness of the plate
+    inner: Any  # Inner and outer radius of the layer, to which the plate reaches
+    outer: Any
+    layer: Any  # Stiffness of the layer between rigid faces that lean [N*m/rad]
+    bore: Any  # Radius of the floor's bore
+    floor: Any  # Thickness of the floor
+    feet: Any  # Radius of the circle of feet, to which the floor reaches
+    upright: Any  # Stiffness of all feet along the axis [N/m]
+    turning: Any  # Stiffness of all feet, built in, against turning on their circle [N*m/rad]
+
+
+def leaning_compliance(modulus: Any, poissons_ratio: Any, at: Leaning) -> Any:
+    """Return by how much a core leans under a moment across it [rad/(N*m)], plate and floor of one material.
+
+    Ritz: both are thin plates that move by f(r) cos t along the axis, f = r, x^2, x^3, x^4 with x from 0 at the core
+    (at the bore) to 1 at the layer's outer rim (at the feet), and bend with
+
+        pi D int (f'' + a)^2 - 2 (1 - nu) (f'' a - a^2) r dr,  a = f'/r - f/r^2,  D = E h^3/(12 (1 - nu^2)).
+
+    The layer is a foundation between them, even over its ring; feet hold the floor's rim evenly. All shapes but the
+    core's lean are eliminated. Source: [TW] Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, ch. 9.
+    """
+    count = 2 * SHAPES
+    energy: list[list[Any]] = [[0.0] * count for _ in range(count)]
+    for first, thickness, start, end in ((0, at.plate, at.core, at.outer), (SHAPES, at.floor, at.bore, at.feet)):
+        rigidity = modulus * thickness**3 / (12.0 * (1.0 - poissons_ratio**2))
+        for r, weight in _between(start, end):
+            bent = [(second, slope / r - way / r**2) for way, slope, second in _shapes(r, start, end)]
+            across = 1.0 - poissons_ratio
+            for i, (f, a) in enumerate(bent):
+                for j, (g, b) in enumerate(bent):
+                    work = (f + a) * (g + b) - across * (f * b + g * a - 2.0 * a * b)
+                    energy[first + i][first + j] += np.pi * rigidity * weight * r * work
+    press = 4.0 * at.layer / (at.outer**4 - at.inner**4)
+    for r, weight in _between(at.inner, at.outer):
+        plate, floor = (_shapes(r, *ends) for ends in ((at.core, at.outer), (at.bore, at.feet)))
+        _add(energy, press * weight * r, [way for way, *_ in plate] + [-way for way, *_ in floor])
+    ways, slopes, _ = zip(*_shapes(at.feet, at.bore, at.feet), strict=True)
+    for stiffness, held in ((0.5 * at.upright, ways), (0.5 * at.turning, slopes)):
+        _add(energy, stiffness, [0.0] * SHAPES + list(held))
+    for last in range(count - 1, 0, -1):
+        for i in range(last):
+            for j in range(last):
+                energy[i][j] = energy[i][j] - energy[i][last] * energy[last][j] / energy[last][last]
+    return 1.0 / energy[0][0]
+
+
+def _between(start: Any, end: Any) -> list[tuple[Any, Any]]:
+    """Return radii between two, and their weights in an integral over the radius."""
+    half = 0.5 * (end - start)
+    return [(start + half * (1.0 + node), half * weight) for node, weight in zip(_NODES, _WEIGHTS, strict=True)]
+
+
+def _shapes(r: Any, start: Any, end: Any) -> list[tuple[Any, Any, Any]]:
+    """Return f, f' and f'' of the shapes of a plate that is clamped to what leans with it at its start."""
+    length = end - start
+    x = (r - start) / length
+    bends = [(length * x**k, k * x ** (k - 1), k * (k - 1) * x ** (k - 2) / length) for k in range(2, SHAPES + 1)]
+    return [(r, 1.0, 0.0), *bends]
+
+
+def _add(energy: list[list[Any]], stiffness: Any, shares: list[Any]) -> None:
+    for i, first in enumerate(shares):
+        for j, second in enumerate(shares):
+            energy[i][j] = energy[i][j] + stiffness * first * second

@@ -100,6 +100,23 @@ def bored_shaft_stiffness(
     return shaft_stiffness(modulus, radius, length + longer - shorter)
 
 
+LEANS_AT_FOOT = 0.75
+"""Length over radius by which a core's foot in its plate lengthens it in bending; calibrated to FE, 0.6 to 0.85."""
+
+
+def bent_shaft_compliance(
+    stiffness: Any, youngs_modulus: Any, poissons_ratio: Any, radius: Any, length: Any, beyond: Any
+) -> Any:
+    """Return how far a force across a core moves a point `beyond` its end, over the force [m/N]; the plate stays.
+
+    A cantilever whose torsional `stiffness` K tells how much longer its holes make it, E I = (1 + nu) G J, with shear:
+    (((l + h)^3 - h^3)/(3 l (1 + nu)) + r^2/1.8)/K, and 0.75 r more of it at the foot [B].
+    """
+    spread = ((length + beyond) ** 3 - beyond**3) / (3.0 * length * (1.0 + poissons_ratio)) + radius**2 / 1.8
+    foot = LEANS_AT_FOOT * radius * (length + beyond) ** 2 / (youngs_modulus * 0.25 * np.pi * radius**4)
+    return spread / stiffness + foot
+
+
 FOOT_MEAN = 1e-3
 """Length [m] above the foot over which the stress is a mean: the corner is sharp, so at a point it has no value."""
 FOOT_ON_PLATE = 0.796

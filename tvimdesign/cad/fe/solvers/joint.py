@@ -13,6 +13,7 @@ from typing import Any, Protocol
 import elastic
 import joint_samples
 import joint_solids
+import numpy as np
 from netgen.occ import Glue, OCCGeometry
 from ngsolve import (
     CF,
@@ -41,6 +42,7 @@ RUBBER = 100.0  # Bulk over shear modulus from which a pad hardly changes its vo
 LOWER, HIGHER = 2, 3  # Order of displacements, and in pads of rubber that are pressed
 GRADING, GRADING_AT_SEATS = 0.6, 0.4
 """Growth of elements from one to the next; at the larger one lips beside a thin seat of adhesive get no mesh."""
+TURN = (-y, x, 0)  # Motion of the core's top about the axis
 METAL = 0.33  # Poisson's ratio of a spreader where its shear modulus is not given
 
 
@@ -70,7 +72,9 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
         shares = _energies(mesh, InnerProduct(tensor, strain), mm, torque)
         frequency = turning_frequency(mesh, values, held.solved, displacement, torque)
         feet = joint_samples.at_feet(held.space, tensor, torque, round(mm["spring_count"]))
+        tilt = held.tilt(mm)
     result = {"elements": mesh.ne, "unknowns": held.space.ndof, "hub": torque * 1e-3, "frequency": frequency, **feet}
+    result["tilt"] = tilt * 1e3
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
     result |= joint_samples.in_bodies(mesh, tensor, mm, torque) | joint_samples.at_foot(mesh, tensor, mm, torque)
     result |= joint_samples.at_plate(mesh, tensor, mm, torque)
@@ -147,8 +151,29 @@ class Held:
 
     def turned(self) -> Any:
         """Return displacement where the core's top is turned by one radian."""
+        return self.moved(TURN)
+
+    def tilt(self, mm: elastic.Results) -> float:
+        """Return the angle of the link over a torque by a force in its tool hole, less what it is without tilt.
+
+        [rad/(N*mm)]; the core's top moves as one, free to lean and to shift.
+        """
+        up = z - mm["link_bottom_level"]
+        motions = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -up, y), (up, 0, -x), TURN]
+        vectors = [self.moved(motion).vec for motion in motions]
+        force = vectors[0].CreateVector()
+        stiffness = np.empty((len(vectors), len(vectors)))
+        for row, vector in enumerate(vectors):
+            force.data = self.form.mat * vector
+            stiffness[row] = [InnerProduct(force, other) for other in vectors]
+        load = np.array([0.0, 1.0, 0.0, -0.5 * mm["link_thickness"], 0.0, mm["link_length"]])
+        free = load @ np.linalg.solve(stiffness, load) / mm["link_length"] ** 2
+        return float(free - 1.0 / stiffness[-1, -1])
+
+    def moved(self, motion: Any) -> Any:
+        """Return displacement where the core's top moves as one."""
         displacement = GridFunction(self.space)
-        displacement.Set(CF((-y, x, 0)), definedon=self.space.mesh.Boundaries("turned"))
+        displacement.Set(CF(motion), definedon=self.space.mesh.Boundaries("turned"))
         right = displacement.vec.CreateVector()
         right.data = -self.form.mat * displacement.vec
         displacement.vec.data += self.solved(right)

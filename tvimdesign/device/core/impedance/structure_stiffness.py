@@ -13,7 +13,7 @@ from tvimdesign.device.table.quantity import Scalar, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers.layer import series_stiffness
 from tvimdesign.physics.polymers import plastics
-from tvimdesign.physics.solids import structure
+from tvimdesign.physics.solids import plates, structure
 
 quantities = QuantityGroup("Impedance")
 
@@ -184,3 +184,41 @@ def structure_extrapolation(m: Module) -> Scalar:
 def branch_scale(m: Module) -> Scalar:
     """Stiffness of layer and structure over that of the model [1]; its range widens where the model extrapolates."""
     return 1.0 + (m.branch_factor - 1.0) * (1.0 + m.structure_extrapolation)
+
+
+@quantities.helper()
+def foot_sway(m: Module) -> Scalar:
+    """Sideways compliance of one foot [m/N]."""
+    tilt = structure.foot_tilt(m.mount_boss_radius, 0.5 * m.mount_hole, m.foot_height, m.floor_thickness)
+    size = m.mount_boss_radius, 0.5 * m.mount_hole, m.foot_height
+    return 1.0 / structure.foot_stiffness(m.structure_youngs_modulus, m.structure_shear_modulus, *size, tilt)
+
+
+@quantities.helper()
+def tilt_compliance(m: Module) -> Scalar:
+    """Angle of the link over a torque at its end by which the force there bends core, leans the rotor and shifts it.
+
+    Frozen, at 23 degC [rad/(N*m)], while the bearing's play leaves the core free.
+    """
+    length, beyond = m.link_bottom_level - m.rotor_top_level, 0.5 * m.link_thickness
+    bore = 0.5 * m.mount_hole
+    inertia = 0.25 * np.pi * (m.mount_boss_radius**4 - bore**4)
+    per_foot = m.structure_youngs_modulus / m.foot_height
+    at = plates.Leaning(
+        m.core_radius, m.rotor_thickness, m.pcl_inner_radius, m.pcl_outer_radius, m.layer_against_leaning,
+        m.hub_radius, m.floor_thickness, m.placement_radius,
+        m.foot_count * per_foot * np.pi * (m.mount_boss_radius**2 - bore**2), m.foot_count * per_foot * inertia,
+    )  # fmt: skip
+    leaning = plates.leaning_compliance(m.structure_youngs_modulus, m.structure_poissons_ratio, at)
+    bent = structure.bent_shaft_compliance(
+        m.core_stiffness, m.structure_youngs_modulus, m.structure_poissons_ratio, m.core_radius, length, beyond
+    )
+    above = m.link_bottom_level + beyond - 0.5 * m.rotor_bottom_level  # the layer's middle
+    shifts = bent + leaning * above**2 + m.layer_sideways + m.foot_sway / m.foot_count
+    return m.tilt_factor * shifts / m.link_length**2
+
+
+@quantities.output("N*m/rad", headline=True)
+def joint_stiffness_in_play(m: Module) -> Scalar:
+    """Stiffness a force in the frozen link's tool hole meets while the bearing's play leaves the core free to lean."""
+    return 1.0 / (1.0 / m.joint_stiffness_at_link_at_cold + m.tilt_compliance)

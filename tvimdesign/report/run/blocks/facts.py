@@ -157,18 +157,20 @@ _LOSES = {
 
 
 def _impedance(value: _Values, torque: float) -> list[Fact]:
-    """Return the link's stiffness frozen with its angle under a torque, as heating stops, and with its damping.
+    """Return the link's stiffness frozen, with its angle under a torque, as heating stops, and with its damping.
 
-    None if heating never stops.
+    The core leans until the bearing's play is used up. None if heating never stops.
     """
     if math.isinf(value.values["softened_stiffness"]):
         return []
     unit = value.table.unit("softened_stiffness")
-    cold = "joint_stiffness_at_link@cold"
+    cold, leaning = "joint_stiffness_at_link@cold", "joint_stiffness_in_play"
     frozen, soft = (
         f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}" for name in (cold, "softened_stiffness")
     )
-    turned = f"{from_si(torque / value.values[cold], 'deg'):.2g}° at {with_unit(torque, 'N*m', 2)}"
+    upright, free = torque / value.values[cold], torque / value.values[leaning]
+    angle = min(free, upright + value.values["bearing_play"])
+    turned = f"leans {from_si(angle, 'deg'):.2g}° at {with_unit(torque, 'N*m', 2)}"
     damped = in_unit(value.values["softened_impedance"], unit, _DIGITS)
     return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}: {turned}", f"soft {soft}, damped {damped}"])]
 
