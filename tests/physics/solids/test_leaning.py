@@ -104,4 +104,4 @@ def test_modules_whose_cores_lean_are_as_stiff_at_the_link_as_in_fe():
             assert upright > 1.04, row  # without leaning
             off[module.study.mode].append(abs(in_play - 1.0))
     assert np.mean(np.array(off["shear"]) < 0.1) >= 0.9
-    assert np.mean(np.array(off["compression"]) < 0.2) >= 0.9
+    assert max(off["compression"]) < 0.3
