@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from small_studies import ALGEBRAIC
 
 from tvimdesign.base.deadline import NEVER
+from tvimdesign.base.units import format_quantity
+from tvimdesign.device import table_for
 from tvimdesign.report.run.blocks.facts import _manufacturing
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
@@ -146,7 +148,30 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance():
     data = {"parts_yield": {"share": yield_of(result).together}, "tolerances": "study"}
     (fact,) = _manufacturing(result, data)
     assert re.match(r"\d+ of 100 modules meet every limit, [\d.]+ % meet ", fact.parts[0])
-    assert "±" in fact.parts[1]
+    assert "±" in fact.parts[-1]
+
+
+def _eased(text: str) -> str:
+    """Return the study with the requirement that its result eases at the value that the result names."""
+    reached = yield_of(answer(read_study_text(text, "a test")))
+    assert reached is not None
+    assert reached.eased is not None
+    output, sense, limit = reached.eased.text.split(" ", 2)
+    assert f'"{sense} {limit}"' in text
+    to = format_quantity(reached.eased.to, table_for("shear").unit(output), 9)
+    return text.replace(f'"{sense} {limit}"', f'"{sense} {to}"')
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize("most", ["5.1", "5.4"])
+def test_the_requirement_that_is_eased_to_the_named_value_gives_the_yield(most):
+    band = ALGEBRAIC.replace('">= 5 N.m/rad"', f'[">= 5 N.m/rad", "<= {most} N.m/rad"]')
+    text = f"{band}robust: {{yield: 95 %}}\n"
+    eased = _eased(text)
+    assert eased != text
+    result = answer(read_study_text(eased, "a test"))
+    assert result.design.status == "optimal"
+    assert yield_of(result).together >= 0.95
 
 
 @pytest.mark.slow

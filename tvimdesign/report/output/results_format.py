@@ -158,6 +158,13 @@ class TightenedEntry(Entry):
     share: float
 
 
+class EasedEntry(Entry):
+    """A requirement with which, eased to a value, a design reaches a requested yield."""
+
+    text: str
+    to: float
+
+
 class Yield(Entry):
     """Yield of a design with margins, and of the one without margins, by random modules."""
 
@@ -169,6 +176,7 @@ class Yield(Entry):
     nominal_together: float
     nominal: dict[str, NumberEntry]
     tightened: TightenedEntry | None
+    eased: EasedEntry | None
 
 
 class Listed(Entry):

@@ -20,7 +20,7 @@ from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE
-from tvimdesign.solve.nlp.solution import LostTo, YieldReached
+from tvimdesign.solve.nlp.solution import LostTo, TightenedTolerance, YieldReached
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.result import StudyResult
@@ -219,22 +219,38 @@ def below_yield(answer: StudyResult) -> str:
         f"the best has {percent(reached.together)}. Most is lost to"
     ]
     lines += [f"  {lost_in_words(loss)}" for loss in reached.lost_to]
-    lines += [f"At these sizes {words}." for words in lever(reached, table_for(answer.design.mode))]
-    less = f"robust: {{yield: {math.floor(100.0 * reached.together)} %}}"
-    lines.append(f"Ease these limits, widen a range under `vary`, tighten these tolerances, or write {less}.")
+    ways = lever(reached, table_for(answer.design.mode))
+    lines += [f"{way[0].upper()}{way[1:]}." for way in ways]
+    lines.append("Ease these limits, widen a range under `vary`, or tighten these tolerances.")
     return "\n".join(lines)
 
 
 def lever(reached: YieldReached, table: Table) -> list[str]:
-    """Return what the one tolerance to tighten must be for the yield asked for, in words; nothing if it is reached."""
+    """Return the tolerance to tighten and the requirement to ease, each alone, for the yield; nothing if reached."""
     tolerance, target = reached.tightened, percent(reached.target)
     if tolerance is None:
         return []
+    return [*_eased(reached, table), _tightened(tolerance, target, table)]
+
+
+def _eased(reached: YieldReached, table: Table) -> list[str]:
+    if reached.eased is None:
+        return []
+    output, sense, limit = reached.eased.text.split(" ", 2)
+    unit = table.unit(output)
+    value = from_si(reached.eased.to, unit)
+    step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) - 2)
+    to = step * (math.ceil(value / step) if sense == "<=" else math.floor(value / step))  # towards what is easier
+    eased = f"{label(output)} {sense} {to:.3g} {pretty(unit)}".rstrip()
+    return [f"other sizes give {percent(reached.target)} if {eased} ({limit} asked)"]
+
+
+def _tightened(tolerance: TightenedTolerance, target: str, table: Table) -> str:
     unit, of = difference_unit(table.unit(tolerance.name)), label(tolerance.name)
     now, to = (with_unit(size, unit, 2) for size in (tolerance.plus_minus, tolerance.to))
     if tolerance.to > 0.0:
-        return [f"{of} within about ±{to}, not ±{now}, gives {target}"]
-    return [f"no tolerance alone gives {target}: {of} without its ±{now} gives {percent(tolerance.share)}"]
+        return f"at these sizes {of} within about ±{to}, not ±{now}, gives {target}"
+    return f"at these sizes no tolerance alone gives {target}: {of} without its ±{now} gives {percent(tolerance.share)}"
 
 
 def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float | None) -> str:

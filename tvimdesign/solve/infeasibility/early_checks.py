@@ -211,7 +211,9 @@ def _conflict(study: Study, deadline: Deadline | None, *, advises: bool) -> str:
     cures = curing_records(optimizer, nearest, conflict_set)
     if cures:
         records = " or ".join(f"`{choice}: {record}`" for choice, record in cures.items())
-        lines.append(f"By arithmetic they hold with {records} under `module`, each tried alone.")
+        lines.append(
+            f"At nominal sizes they hold by arithmetic with {records} under `module`, each tried alone: a run decides."
+        )
     fixed = _fixed(optimizer, conflict_set)
     ways = f"Ease a limit, widen a range, or {fixed}." if fixed else "Ease a limit, or widen a range."
     return "\n".join([*lines, ways])

@@ -171,6 +171,14 @@ class TightenedTolerance:
 
 
 @dataclass(frozen=True)
+class EasedRequirement:
+    """A requirement that is in the way of a requested yield: with this one alone eased, a design reaches it."""
+
+    text: str
+    to: float  # Value that suffices [SI]
+
+
+@dataclass(frozen=True)
 class YieldReached:
     """Yield of random modules of a design, against the requested yield, and its cost."""
 
@@ -182,6 +190,7 @@ class YieldReached:
     nominal_together: float  # Share of modules that keeps all at the optimum without margins
     nominal: dict[str, float]  # Headline values and minimised outputs (SI) of the optimum without margins
     tightened: TightenedTolerance | None = None  # Change that would reach it; None where it is reached
+    eased: EasedRequirement | None = None  # As `tightened`; None where none of those tried is enough
 
     @property
     def reached(self) -> bool:

@@ -22,7 +22,7 @@ from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, ProgrammeSolver, so
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters
-from tvimdesign.solve.nlp.solution import Start
+from tvimdesign.solve.nlp.solution import EasedRequirement, Start
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Derivatives, Ends, Progress, Run, Trace
 from tvimdesign.solve.nlp.trust_region import TrustRegion
 from tvimdesign.solve.optimizer.multistart import Multistart
@@ -75,6 +75,7 @@ class Optimizer:
         """By limit, how far within it to stay [shares of its scale]: what is robust and no part of the problem."""
         self.floors: dict[str, float] = {}
         """By limit, the margin below which the search for a yield gives none back."""
+        self.eased: EasedRequirement | None = None  # What keeps the design from a yield, once that is known
         limits = constraints_of(study, self.table, self.model.words)
         if without_cycle:
             limits = [limit for limit in limits if not on_cycle(self.table, limit.output)]

@@ -217,7 +217,7 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
         target=share, modules=drawn.residuals.shape[1], shares=drawn.shares, together=drawn.together.share,
         lost_to=tuple(_lost(drawn, optimizer)), nominal_together=without,
         nominal={name: float(values[name]) for name in dict.fromkeys([*optimizer.study.minimize, *names])},
-        tightened=tightened(drawn, yields.contributors(run.inputs), share),
+        tightened=tightened(drawn, yields.contributors(run.inputs), share), eased=optimizer.eased,
     )  # fmt: skip
 
 
