@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
@@ -118,13 +119,15 @@ class Total(NamedTuple):
 
 
 def total(lines: Iterable[tuple[Offer | None, int]]) -> Total:
-    """Add up what bought lines cost, each with its offer and the quantity wanted."""
-    low = high = 0.0
+    """Add up what bought lines cost, each with its offer and the quantity wanted; lines of one number share packs."""
+    wanted: Counter[Offer] = Counter()
     priced = count = 0
     for offer, quantity in lines:
         count += 1
-        if offer is None or offer.price is None:
-            continue
-        packs = math.ceil(quantity / offer.pack)
-        low, high, priced = low + packs * offer.price, high + packs * (offer.high or offer.price), priced + 1
+        if offer is not None and offer.price is not None:
+            wanted[offer] += quantity
+            priced += 1
+    packs = {offer: math.ceil(quantity / offer.pack) for offer, quantity in wanted.items()}
+    low = sum(number * (offer.price or 0.0) for offer, number in packs.items())
+    high = sum(number * (offer.high or offer.price or 0.0) for offer, number in packs.items())
     return Total(low, high, priced, count)

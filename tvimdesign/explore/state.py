@@ -330,8 +330,8 @@ def open_history(folder: Path, study: bytes, first: State, *, overwrite: bool = 
         return History(study=hash_of(study), state=first, saved=history.saved)
     if history.study != hash_of(study):
         raise InputError(
-            f"{folder}: holds what was done with the study as it was before its file changed; --overwrite begins "
-            "again, --out names another folder"
+            f"{folder}: holds what was explored of another study, or of this one before its file changed; --overwrite "
+            "begins again, --out names another folder"
         )
     return history
 

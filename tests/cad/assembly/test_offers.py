@@ -126,9 +126,10 @@ def test_the_sum_is_of_whole_packs_and_counts_what_has_no_price():
     polymer = offer_for("polymer", "pcl_50k", "")
     assert polymer is not None
     assert polymer.in_words == QUOTE
-    sums = total([(screws, 101), (inserts, 8), (polymer, 1), (None, 3)])
+    # Two lines of one number come out of the same packs.
+    sums = total([(screws, 99), (inserts, 8), (polymer, 1), (None, 3), (screws, 2)])
     assert (sums.low, sums.high) == pytest.approx((2 * 7.19 + 10.90, 2 * 7.91 + 10.90))
-    assert (sums.priced, sums.lines) == (2, 4)
+    assert (sums.priced, sums.lines) == (3, 5)
 
 
 SVG = "{http://www.w3.org/2000/svg}"

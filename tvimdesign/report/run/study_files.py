@@ -151,7 +151,7 @@ def _refusal(task: JointTask, name: str, least_changed: float, progress: Callabl
     progress(f"looking for another {'torque' if task.assumes_stroke else 'stroke'} or stiffness that fits")
     ways = ["  " + " ".join(f"--{option} '{value}'" for option, value in way.items()) for way in _nearest(task, wider)]
     if ways:
-        lines.append("These fit at nominal sizes, with margins by estimate only: a run decides. Others as given:")
+        lines.append("These fit by arithmetic, with margins by estimate; a run decides, on times too. Others as given:")
         other = "torque" if task.assumes_stroke else "stroke"
         ways += [] if any(f"--{other}" in way for way in ways) else [f"No lesser {other} alone was found that fits."]
     return "\n".join([*lines, *ways] if ways else [*lines, "No one of the numbers cures it: ask for less of several."])

@@ -97,7 +97,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     peaks = f"at most {value('peak_power')}, {value(current)}, {heater_voltage(answer, uncertainty)}"
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
-        Fact("Times", list(_times(value))),
+        Fact("Times", list(_times(value)), _frozen(value)),
         *_impedance(value, min(requested_torque(answer.design), answer.design.values["holding_torque"])),
         *_drag(value),
         *_task(value, answer.design.choices),
@@ -124,6 +124,12 @@ def _times(value: _Values) -> Iterator[str]:
         yield f"stiff {value('stiffening_time')} later"
     elif math.isfinite(soft):
         yield "never stiff again"
+
+
+def _frozen(value: _Values) -> str:
+    """Return when the PCL is frozen, where the joint is stiff before; else empty."""
+    later = value.values["stiffening_time"] < value.values["frozen_time"] < math.inf
+    return f"frozen {with_unit(value.values['frozen_time'], 's', _DIGITS)}" if later else ""
 
 
 def _coldest(value: _Values) -> str:

@@ -81,7 +81,7 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
 
 def requirements_grid(rows: Sequence[Requirement]) -> Grid:
     """Return the table that a page shows."""
-    texts = ("requirement", *HEADS[1:], "depends most on")
+    texts = ("requirement", *HEADS[1:], "range depends most on")
     heads = [Head(text, i == 2, i in _WIDE) for i, text in enumerate(texts)]
     cells = [
         [
