@@ -8,10 +8,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InfeasibleError, TimeOverError
+from tvimdesign.base.units import format_quantity
+from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import Constraint, in_words, on_cycle
+from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint, on_cycle
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import EasedRequirement, same_optimum
 from tvimdesign.solve.nlp.solver_run import MARGINS, Ends, Run
@@ -20,17 +23,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
 from tvimdesign.solve.uncertainty.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
-from tvimdesign.solve.uncertainty.yield_search import (
-    PRESSING,
-    EasedDesign,
-    Robust,
-    belongs_to,
-    eased_design,
-    pressing,
-    reach_yield,
-    tightened,
-    toward,
-)
+from tvimdesign.solve.uncertainty.yield_search import PRESSING, Robust, pressing, reach_yield, tightened
 from tvimdesign.study import ProfileOptions, Requirement, Study
 from tvimdesign.study.study import Robust as RobustOptions
 
@@ -40,8 +33,7 @@ _STARTS, SIGMA = 3, 2.5
 """Of a search for a least value, and the standard deviations that a dozen active limits need for a yield of 95 %."""
 MOST_TRIED = 3  # Designs that are tried, the best first
 _PRESSED = 0.1  # Share of the highest price of a requirement from which another is eased, too
-_REACHES = (1.0, 1.5, 2.5)  # Multiples of the least move of a requirement that are tried
-_LEAST_MOVE = 0.02  # Of a requirement, as a share of it
+_MOVES = (1.0, 0.6, 0.3, 0.15, 0.07, 0.03)  # Shares of its scale by which it is eased
 _GAIN = 1e-4  # Share of the objective by which another design must be better to be drawn
 
 Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
@@ -52,7 +44,7 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
     """Return the place of the best of some designs with what the study asks for, and its robust run.
 
     Once one reaches it, the others are first solved with its margins: one that is no better there is left. Where none
-    reaches it, a requirement is eased; where that does not help, the one that comes nearest is returned.
+    reaches it, the one that comes nearest is returned; its problem has the requirement in the way, eased.
 
     Raises TimeOverError where the time is over before any is known to come near.
     """
@@ -75,70 +67,60 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
             optimizer.deadline.leave_out(MARGINS)
             break
     place, robust = min(tried, key=_rank)
-    if not robust.reached:
-        robust = _by_easing(candidates[place], robust)
     candidates[place][0].margins = robust.margins
+    if not robust.reached:
+        candidates[place][0].eased = _eased(candidates[place], robust.run)
     return place, robust.run
 
 
-def _by_easing(candidate: Candidate, missed: Robust) -> Robust:
-    """Seek a yield that was missed from designs with one requirement eased as little as the others allow.
+def _eased(candidate: Candidate, missed: Run) -> EasedRequirement | None:
+    """Return a requirement and a value of it, alone, from which on a search reaches the yield; None if none is found.
 
-    Where such a design leads to one that keeps what is asked after all, that is returned. Else the optimizer has the
-    requirement that is in the way, with a value from which on the search does reach the yield.
+    The costliest is tried first: far off, then nearer, as long as the yield is reached.
     """
-    optimizer, _, within = candidate
-    options = optimizer.study.robust
+    optimizer, run, within = candidate
+    options, deadline = optimizer.study.robust, Deadline(optimizer.deadline.remaining)
     if options is None or options.share is None:
-        return missed
-    for requirement in _in_the_way(optimizer, missed.run):
-        if optimizer.deadline.passed:
-            break
-        optimizer.progress(f"easing {requirement.output}, as the yield is missed")
-        eased = eased_design(optimizer, missed.run, within, requirement, options.share)
-        if eased is None:
-            continue
-        needed = (eased.to - requirement.limit) * toward(requirement)
-        move = max(needed, _LEAST_MOVE * abs(requirement.limit)) * toward(requirement)
-        for reach in _REACHES if needed > 0.0 else (0.0, *_REACHES):
-            limit = requirement.limit + reach * move
-            robust = _from_eased(candidate, eased, requirement, limit)
-            if robust.reached and not reach:
-                return robust
-            if robust.reached:
-                optimizer.eased = EasedRequirement(f"{requirement.output} {requirement.text}", limit)
-                return missed
-    return missed
+        return None
+    for requirement in _in_the_way(optimizer, missed):
+        suffices = None
+        for move in _MOVES:
+            moved = _moved(requirement, move, optimizer.table)
+            words = format_quantity(moved.limit, optimizer.table.unit(moved.output), 3)
+            optimizer.progress(f"yield missed: trying {moved.output} {moved.sense} {words}")
+            require = tuple(moved if each is requirement else each for each in optimizer.study.require)
+            study = optimizer.study.model_copy(update={"require": require})
+            other = Optimizer(study, optimizer.reference, deadline=deadline, mixtures=optimizer.mixtures)
+            optimum = other.solve(within, begin=run.inputs, beginning="near")
+            try:
+                if not (optimum.start.converged and reach_yield(other, optimum, within, options.share).reached):
+                    break
+            except TimeOverError:
+                return suffices
+            suffices = EasedRequirement(f"{requirement.output} {requirement.text}", moved.limit)
+        if suffices:
+            return suffices
+    return None
 
 
 def _in_the_way(optimizer: Optimizer, run: Run) -> list[Requirement]:
     """Return the requirements that cost a design most, the costliest first."""
-    prices, costs = pressing(optimizer, run), dict[Requirement, float]()
-    for requirement in optimizer.study.require:
-        costs[requirement] = max(
-            (prices.get(each.name, 0.0) for each in optimizer.problem.limits if belongs_to(each, requirement)),
-            default=0.0,
-        )
-    least = _PRESSED * max(costs.values(), default=0.0)
-    return sorted(
-        (requirement for requirement, cost in costs.items() if cost > least),
-        key=lambda requirement: -costs[requirement],
-    )
+    costs: dict[tuple[str, str], float] = {}
+    prices = pressing(optimizer, run)
+    for limit in optimizer.problem.limits:
+        for name in (limit.output, limit.part_of):
+            key = (name, limit.sense)
+            costs[key] = max(costs.get(key, 0.0), prices.get(limit.name, 0.0))
+    stated = {each: costs.get((each.output, each.sense), 0.0) for each in optimizer.study.require}
+    least = _PRESSED * max(stated.values(), default=0.0)
+    return sorted((each for each, cost in stated.items() if cost > least), key=lambda each: -stated[each])
 
 
-def _from_eased(candidate: Candidate, eased: EasedDesign, requirement: Requirement, limit: float) -> Robust:
-    """Seek the yield from a design with one requirement eased, which now stands at a limit."""
-    optimizer, _, within = candidate
-    if limit != requirement.limit:
-        moved = requirement.model_copy(update={"limit": limit})
-        require = tuple(moved if each is requirement else each for each in optimizer.study.require)
-        study = optimizer.study.model_copy(update={"require": require})
-        optimizer = Optimizer(study, optimizer.reference, deadline=optimizer.deadline, mixtures=optimizer.mixtures)
-    mine = [each for each in optimizer.problem.limits if belongs_to(each, requirement)]
-    room = {each.name: abs(limit - eased.nominal) / each.scale for each in mine}
-    optimizer.margins = {**eased.robust.margins, **room}
-    run = optimizer.solve(within, begin=eased.robust.run.inputs, beginning="near")
-    return _robust(optimizer, run, within, None)
+def _moved(requirement: Requirement, move: float, table: Table) -> Requirement:
+    """Return a requirement that is easier by a share of its scale."""
+    limit = make_constraint(table, requirement.output, requirement.sense, requirement.limit, "require")
+    sign = 1.0 if requirement.sense == "<=" else -1.0
+    return requirement.model_copy(update={"limit": limit.limit + sign * move * limit.scale})
 
 
 def _rank(tried: tuple[int, Robust]) -> tuple[bool, bool, float]:

@@ -6,23 +6,20 @@ is tightened by one and the same quantile of its own residual, the least with wh
 limits together if residuals moved as a whole. The optimum is then sought again, warm, and modules are drawn anew.
 """
 
-import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, make_constraint
+from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import MARGINS, Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.yields import Drawn, Yields, yields_of
-from tvimdesign.study import Requirement
 
 ROUNDS, MOST_ROUNDS, PREDICTIONS = 4, 8, 5
 """Designs whose modules are drawn, how many at most while each of them keeps more than those before, and at most how
@@ -40,9 +37,6 @@ _NO_ROOM = 0.05  # Share of a step of the margins that counts as none
 SHAKES, _SHAKE = 3, 0.2
 """Designs beside one that does not bear a step, and how far off they are at most, as a share of each range."""
 _GAIN = 1e-3  # Share of the objective that margins which are larger than the yield needs must be worth to be given back
-_FAR = 2.0  # Scales by which a requirement is moved that is eased
-_EASED_AIM = 0.2
-"""Share of the modules that a yield may lose which an eased requirement keeps, so that margins do reach the yield."""
 _AIM = 0.05  # Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield
 
 
@@ -218,51 +212,3 @@ def pressing(optimizer: Optimizer, run: Run) -> dict[str, float]:
     of_limits = run.multipliers[first : first + len(limits)].tolist()
     active = [(limit.name, value) for limit, value in zip(limits, of_limits, strict=True) if value > PRESSING]
     return dict(sorted(active, key=lambda limit: -limit[1]))
-
-
-class EasedDesign(NamedTuple):
-    """A design with one requirement eased: its value there, and where it must stand for the yield [SI]."""
-
-    robust: Robust
-    nominal: float
-    to: float
-
-
-def eased_design(
-    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], requirement: Requirement, share: float
-) -> EasedDesign | None:
-    """Return the design `within` ends that eases a requirement least, with the yield on all others; or None."""
-    scale = make_constraint(optimizer.table, requirement.output, requirement.sense, requirement.limit, "require").scale
-    far = requirement.model_copy(update={"limit": requirement.limit + _FAR * toward(requirement) * scale})
-    require = tuple(far if each is requirement else each for each in optimizer.study.require)
-    study = optimizer.study.model_copy(
-        update={"minimize": {requirement.output: toward(requirement)}, "require": require}
-    )
-    other = Optimizer(study, deadline=optimizer.deadline, mixtures=optimizer.mixtures)
-    run = other.solve(within, begin=run.inputs, beginning="near")
-    if not run.start.converged:
-        return None
-    try:
-        robust = reach_yield(other, run, within, share)
-        drawn = yields_of(other).at(robust.run.inputs, deadline=other.deadline)
-    except TimeOverError:
-        return None
-    mine = np.array([belongs_to(limit, far) for limit in drawn.limits])
-    others = np.all(drawn.residuals[~mine] <= ALGEBRAIC_TOLERANCE, axis=0)
-    scales = np.array([limit.scale for limit in drawn.limits])
-    beyond = np.sort(np.max(drawn.residuals[mine] * scales[mine, None], axis=0, initial=-np.inf)[others])
-    place = math.ceil((share + _EASED_AIM * (1.0 - share)) * others.size)
-    if not (robust.reached and np.any(mine)) or place > beyond.size:
-        return None
-    nominal = robust.run.start.objective * other.reference[requirement.output] * toward(requirement)
-    return EasedDesign(robust, nominal, float(far.limit + toward(requirement) * beyond[place - 1]))
-
-
-def toward(requirement: Requirement) -> float:
-    """Return the sign in which a requirement gets easier."""
-    return 1.0 if requirement.sense == "<=" else -1.0
-
-
-def belongs_to(limit: Constraint, requirement: Requirement) -> bool:
-    """Return whether a limit is put on by a requirement, itself or as a part of it."""
-    return limit.sense == requirement.sense and requirement.output in {limit.output, limit.part_of}
