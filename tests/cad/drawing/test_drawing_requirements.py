@@ -99,15 +99,18 @@ def test_seats_and_threads_have_fits_where_milled():
 
 @pytest.mark.gate
 @pytest.mark.parametrize(
-    ("kind", "about", "size"),
-    [("housing", "bearings' outer rings", "⌀21.1 H8"), ("rotor", "bearings' inner rings", "⌀14.9 h8")],
+    ("kind", "about", "size", "tool"),
+    [
+        ("housing", "bearings' outer rings", "⌀21.1 H8", "reamed"),
+        ("rotor", "bearings' inner rings", "⌀14.9 h8", "turned"),
+    ],
 )
-def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind, about, size):
+def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind, about, size, tool):
     design = design_of("printed", BEARINGS | {"process": "print_pc"}, "shear")
     dims = dimensions(design)
     requirements = drawing_requirements(kind, dims, design.choices)
     seat = next(seat for seat in requirements.seats if seat.about == about)
-    assert (seat.form, seat.frames) == ("reamed or eased to size", ())
+    assert (seat.form, seat.frames) == (f"{tool} or eased to size", ())
     assert not any("run-out" in note for note in requirements.notes)
     solid, what = drawn_part(dims, kind), product(design, kind)
     document = part_sheet(kind, solid, what, design.name, requirements).document

@@ -253,7 +253,7 @@ def test_headlines_and_requirements_have_their_ranges():
     assert intervals[name.split()[0]]["shares"]
 
 
-def test_the_frozen_link_leans_until_the_bearing_holds_its_core():
+def test_the_frozen_link_turns_until_the_bearing_holds_its_core():
     answered = case("paper_compression alone")
     values = dict(answered.result.design.values)
     upright, leaning = values["joint_stiffness_at_link@cold"], values["joint_stiffness_in_play"]
@@ -268,7 +268,7 @@ def test_the_frozen_link_leans_until_the_bearing_holds_its_core():
         link = next(fact.text for fact in facts if fact.label.startswith("Link"))
         least = min(torque, held)
         angle = min(least / leaning, least / upright + values["bearing_play"])  # the bearing holds the core then
-        assert f": leans {math.degrees(angle):.2g}° at " in link
+        assert f": turns {math.degrees(angle):.2g}° at " in link
 
 
 def test_the_temperatures_of_a_switch_rise_along_their_line():

@@ -267,7 +267,8 @@ def _as_printed(reported: Mapping[str, Any]) -> dict[str, Any]:
     if reported["printed"] is True:
         return dict(reported)
     left = {name: value for name, value in reported.items() if name not in ("gap", "bearing")}
-    return left | {"class": reported["printed"], "roughness": _EASED, "form": "reamed or eased to size"}
+    tool = "reamed" if reported["printed"][0].isupper() else "turned"  # a hole, or a shaft
+    return left | {"class": reported["printed"], "roughness": _EASED, "form": f"{tool} or eased to size"}
 
 
 def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:

@@ -176,7 +176,7 @@ def _impedance(value: _Values, torque: float) -> list[Fact]:
     )
     upright, free = torque / value.values[cold], torque / value.values[leaning]
     angle = min(free, upright + value.values["bearing_play"])
-    turned = f"leans {from_si(angle, 'deg'):.2g}° at {with_unit(torque, 'N*m', 2)}"
+    turned = f"turns {from_si(angle, 'deg'):.2g}° at {with_unit(torque, 'N*m', 2)}"
     damped = in_unit(value.values["softened_impedance"], unit, _DIGITS)
     return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}: {turned}", f"soft {soft}, damped {damped}"])]
 
