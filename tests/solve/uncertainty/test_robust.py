@@ -148,6 +148,8 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance():
     data = {"parts_yield": {"share": yield_of(result).together}, "tolerances": "study"}
     (fact,) = _manufacturing(result, data)
     assert re.match(r"\d+ of 100 modules meet every limit, [\d.]+ % meet ", fact.parts[0])
+    assert re.match(r"other sizes give 95 % if .+ <= [\d.]+ N·m/rad \(5.1 N.m/rad asked\)", fact.parts[1])
+    assert f"{fact.parts[1][1:]}.\n" in message
     assert "±" in fact.parts[-1]
 
 
@@ -208,6 +210,15 @@ def test_the_yield_is_of_limits_that_the_module_has():
     limited = [study.table.output(limit.output) for limit in yields_of(optimizer).limits]
     assert "core_foot_holding_torque" in {row.name for row in limited}
     assert all(row.exists(optimizer.model.words) for row in limited)
+
+
+def test_a_conflict_of_nominal_values_says_so_where_a_yield_is_requested():
+    text = ALGEBRAIC.replace('">= 5 N.m/rad"}', '">= 5 N.m/rad", springs_mass: "<= 1 g"}')
+    for robust_line, nominal in (("", False), ("robust: {yield: 95 %}\n", True)):
+        study = read_study_text(f"{text}{robust_line}", "a test")
+        words = complaint(answer(study), study.table)
+        assert "cannot hold" in words
+        assert ("The values are nominal: the margins for a yield ask for more." in words) == nominal
 
 
 @pytest.mark.gate

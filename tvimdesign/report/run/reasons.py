@@ -116,7 +116,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
     if conflict_set:
         lines += conflict_in_words(conflict_set)
         if (answer.design.study.get("robust") or {}).get("share") is not None:
-            lines.append("These are nominal values: the margins for a yield ask for more.")
+            lines.append("The values are nominal: the margins for a yield ask for more.")
     between = solution.choosing.between if solution and solution.choosing and not solution.choosing.best else None
     if between:
         values = ", ".join(f"{name} {choice_text(name, value, table)}" for name, value in between.choices.items())
