@@ -18,10 +18,10 @@ from tvimdesign.report.run.blocks.facts import _manufacturing
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.run.uncertainty_data import Uncertainty, below_yield, changes, yield_of
+from tvimdesign.report.run.uncertainty_data import Uncertainty, below_yield, changes, lever, yield_of
 from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.solve.nlp.constraints import Constraint
-from tvimdesign.solve.nlp.solution import TightenedTolerance
+from tvimdesign.solve.nlp.solution import EasedRequirement, TightenedTolerance, YieldReached
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.nlp.spread import Contributor
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -151,6 +151,18 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance():
     assert re.match(r"other sizes give 95 % if .+ <= [\d.]+ N·m/rad \(5.1 N.m/rad asked\)", fact.parts[1])
     assert f"{fact.parts[1][1:]}.\n" in message
     assert "±" in fact.parts[-1]
+
+
+@pytest.mark.parametrize(
+    ("text", "to", "words"),
+    [("response_time <= 1200 s", 1241.0, "time of one switch <= 1250 s (1200 s asked)"),
+     ("response_time <= 36 s", 36.0 * 1.6, "time of one switch <= 57.6 s (36 s asked)"),
+     ("holding_torque >= 8 N.m", 7.437, "torque held when frozen >= 7.43 N·m (8 N.m asked)")],
+)  # fmt: skip
+def test_an_eased_requirement_is_rounded_to_what_is_easier(text, to, words):
+    tolerance = TightenedTolerance("wire_diameter", 2e-5, 0.0, 0.5)
+    lost = YieldReached(0.95, 4096, {}, 0.5, (), 0.5, {}, tolerance, EasedRequirement(text, to))
+    assert lever(lost, table_for("shear"))[0] == f"other sizes give 95 % if {words}"
 
 
 def _eased(text: str) -> str:

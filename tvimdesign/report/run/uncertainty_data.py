@@ -14,7 +14,7 @@ import numpy as np
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
-from tvimdesign.report.output.numbers import finite, in_unit, label, number_entry, percent, with_unit
+from tvimdesign.report.output.numbers import finite, in_unit, label, number, number_entry, percent, with_unit
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
@@ -240,8 +240,9 @@ def _eased(reached: YieldReached, table: Table) -> list[str]:
     unit = table.unit(output)
     value = from_si(reached.eased.to, unit)
     step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) - 2)
-    to = step * (math.ceil(value / step) if sense == "<=" else math.floor(value / step))  # towards what is easier
-    eased = f"{label(output)} {sense} {to:.3g} {pretty(unit)}".rstrip()
+    steps = round(value / step, 6)  # then towards what is easier
+    to = step * (math.ceil(steps) if sense == "<=" else math.floor(steps))
+    eased = f"{label(output)} {sense} {number(to, _DIGITS)} {pretty(unit)}".rstrip()
     return [f"other sizes give {percent(reached.target)} if {eased} ({limit} asked)"]
 
 
