@@ -87,7 +87,9 @@ def compare(
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given.")
     ] = None,
+    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; no fronts unless given.")] = 0,
     overwrite: options.Overwrite = False,
+    plots: options.Plots = True,
     settings: options.Settings = None,
     json: options.AsJson = False,
 ) -> None:
@@ -95,8 +97,8 @@ def compare(
     from tvimdesign.report.compare.compare_studies import compare_studies
 
     compare_studies(
-        studies, out or Path("results") / "-vs-".join(study.stem for study in studies), overwrite=overwrite,
-        as_json=json, settings=settings or (),
+        studies, out or Path("results") / "-vs-".join(study.stem for study in studies), points=points,
+        overwrite=overwrite, plots=plots, as_json=json, settings=settings or (),
     )  # fmt: skip
 
 

@@ -12,6 +12,8 @@ from support import Command
 
 from tvimdesign.report.compare.compare_studies import StudyRequest, answers
 
+PICTURES = {f"fronts.{ending}" for ending in ("png", "pdf", "svg")}
+
 
 def _report(folder: Path) -> dict[str, Any]:
     reported: dict[str, Any] = json.loads((folder / "compare.json").read_text())
@@ -20,11 +22,11 @@ def _report(folder: Path) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def pair(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Shear against compression; both are drawn with wire that gives the stiffness asked."""
+    """Shear against compression, with fronts and pictures; both are drawn with wire that gives the stiffness asked."""
     folder = tmp_path_factory.mktemp("pair")
     stiff = "module:\n", "module:\n  wire_diameter: 2.8 mm\n"
     paths = written(folder, mine=SHEAR.replace(*stiff), yours=COMPRESSION.replace(*stiff))
-    done = tvimdesign("compare", *paths, "--out", folder / "out")
+    done = tvimdesign("compare", *paths, "--points", 3, "--out", folder / "out")
     assert done.returncode == 0, done.stderr
     assert "COMPARED EACH OPTIMISED FOR ITSELF" in done.stdout
     return folder / "out"
@@ -36,7 +38,9 @@ def test_folder_and_ratios_are_those_of_the_written_designs(pair):
     each = {
         f"{mode}/{file}" for mode in ("shear", "compression") for file in ("drawn.json", "optimised.json", "study.yaml")
     }
-    assert names == each | {"compare.csv", "compare.json", "manifest.json", "report.html", "summary.txt"}
+    assert names == PICTURES | each | {
+        "compare.csv", "compare.json", "fronts.csv", "fronts.json", "manifest.json", "report.html", "summary.txt",
+    }  # fmt: skip
     manifest = json.loads((pair / "manifest.json").read_text())
     assert manifest["status"] == "compared"
     assert manifest["files"].keys() == names - {"manifest.json"}
@@ -85,8 +89,18 @@ def test_contact_and_warnings_are_reported(pair):
 
 
 @pytest.mark.slow
-def test_tables_and_conclusions_agree(pair):
+def test_leads_follow_from_the_fronts_and_the_tables_agree(pair):
     reported = _report(pair)
+    fronts = [front for front in reported["fronts"]["fronts"] if front["second"] == "module_mass"]
+    lightest = {front["study"]: min(p["values"]["module_mass"] for p in front["points"]) for front in fronts}
+    by_mass = next(lead for lead in reported["leads"] if lead["limited"] == "module_mass")
+    assert by_mass["gained"] == "response_time"
+    first = by_mass["leads"][0]
+    assert first["alone"]
+    assert first["best"] == min(lightest, key=lambda study: lightest[study])
+    assert first["from"] == pytest.approx(min(lightest.values()))
+    assert first["to"] == pytest.approx(max(lightest.values()))
+    assert first["best"] in reported["sentence"]
     assert "holding_torque >= 5 N·m" in reported["sentence"]
     with (pair / "compare.csv").open(encoding="utf-8-sig") as stream:
         lines = {(line["comparison"], line["output"]): line for line in csv.DictReader(stream)}
@@ -96,12 +110,16 @@ def test_tables_and_conclusions_agree(pair):
     summary = " ".join((pair / "summary.txt").read_text().split())
     for sentence in reported["conclusions"]:
         assert sentence in summary
+    with (pair / "fronts.csv").open(encoding="utf-8-sig") as stream:
+        points = list(csv.DictReader(stream))
+    assert len(points) == sum(len(front["points"]) for front in reported["fronts"]["fronts"])
+    assert all(float(point["module_mass [g]"]) > 0.0 for point in points)
 
 
 @pytest.mark.slow
 def test_renamed_copy_is_equal(tvimdesign, tmp_path):
     paths = written(tmp_path, one=SHEAR, copy=SHEAR)
-    done = tvimdesign("compare", *paths, "--json", "--out", tmp_path / "out")
+    done = tvimdesign("compare", *paths, "--points", 2, "--no-plots", "--json", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     reported = json.loads(done.stdout)
     assert reported["studies"].keys() == {"one", "copy"}
@@ -110,6 +128,7 @@ def test_renamed_copy_is_equal(tvimdesign, tmp_path):
             nothing = row["unit"] == "°C" or row["values"]["one"] is None
             assert row["ratio"]["copy"] == (None if row["unit"] == "°C" else 1.0) or nothing, row["name"]
             assert row["verdict"]["copy"] in {"same", ""}
+    assert all(part["best"] is None for lead in reported["leads"] for part in lead["leads"])
     assert "copy and one do not differ" in reported["sentence"]
 
 
@@ -117,7 +136,7 @@ def test_renamed_copy_is_equal(tvimdesign, tmp_path):
 def test_study_without_a_design_leaves_the_other(tvimdesign, tmp_path):
     limits = '  holding_torque: ">= 5 N.m"', '  holding_torque: ">= 5 N.m"\n  response_time: "<= 120 s"'
     paths = written(tmp_path, fast=SHEAR.replace(*limits), slow=COMPRESSION.replace(*limits))
-    done = tvimdesign("compare", *paths, "--json", "--out", tmp_path / "out")
+    done = tvimdesign("compare", *paths, "--points", 2, "--json", "--out", tmp_path / "out")
     assert done.returncode == 3
     reported = json.loads(done.stdout)
     assert "slow" not in reported["studies"]  # called by their modes
@@ -127,6 +146,7 @@ def test_study_without_a_design_leaves_the_other(tvimdesign, tmp_path):
     assert "no feasible design was found for compression" in reported["sentence"]
     assert "compression, optimised" in done.stderr
     assert reported["comparisons"].keys() == {"drawn"}
+    assert {front["study"] for front in reported["fronts"]["fronts"]} == {"shear"}
 
 
 @pytest.mark.slow
@@ -137,15 +157,13 @@ def test_process_that_dies_leaves_the_other(tmp_path, monkeypatch):
     elsewhere.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(elsewhere))
     out.mkdir()
+    beside: list[list[Path]] = []
     studies = [StudyRequest("gone", tmp_path / "gone.yaml"), StudyRequest("there", path)]
     handed_over: list[tuple[str, dict[str, Any]]] = []
-    beside: list[list[Path]] = []
-
-    def keep(label: str, part: dict[str, Any]) -> None:
-        handed_over.append((label, part))
-        beside.append([*out.iterdir(), *elsewhere.iterdir()])
-
-    answered = answers(studies, out, lambda _: None, keep=keep)
+    answered = answers(
+        studies, out, 2, lambda _: None, lambda: beside.append([*out.iterdir(), *elsewhere.iterdir()]),
+        keep=lambda label, part: handed_over.append((label, part)),
+    )  # fmt: skip
     assert answered["gone"]["troubles"][0]["exit_code"] == 4
     assert "no such file" in answered["gone"]["troubles"][0]["error"]
     assert answered["there"]["troubles"] == []

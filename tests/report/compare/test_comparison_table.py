@@ -14,8 +14,9 @@ from tvimdesign.device import MODES, Output, table_for
 from tvimdesign.device.table.quantity_group import directions
 from tvimdesign.report.compare.comparison import Outcome, side_by_side, summary_text
 from tvimdesign.report.compare.comparison_job import ComparisonJob
-from tvimdesign.report.compare.comparison_table import ALIKE, Row, against, compare_csv
+from tvimdesign.report.compare.comparison_table import Row, against, compare_csv
 from tvimdesign.report.run.blocks.warnings import advice_text
+from tvimdesign.solve.pareto.front_shape import ALIKE
 from tvimdesign.study.tree import tree_of_file
 
 
@@ -103,7 +104,7 @@ def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
     first, second = COARSE, FIXED + REQUIRED
     paths = written(folder, shear=first, compression=second)
     jobs = {
-        name: ComparisonJob(tree_of_file(path), list, lambda _: None)
+        name: ComparisonJob(tree_of_file(path), 0, list, lambda _: None)
         for name, path in zip(("s", "c"), paths, strict=True)
     }
     return Outcome(

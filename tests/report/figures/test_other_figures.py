@@ -91,6 +91,11 @@ def test_an_editor_finds_no_fault_with_a_front(outputs):
 
 
 def test_an_editor_finds_no_fault_with_other_figures():
+    def line(label: str, by: float) -> dict[str, Any]:
+        return {"label": label, "x": [60.0 * by, 70.0 * by], "y": [80.0, 60.0], "optimum": [[65.0 * by], [65.0]]}
+
+    panel = {"lines": [line("shear", 1.0), line("compression", 1.1)], "x_label": LABELS[1], "y_label": LABELS[0]}
+    assert faults(signed(design_figures.fronts({"title": "Fronts", "panels": [panel, panel]}))) == []
     names = ["envelope volume", "spring stiffness", "joint damping, hot"]
     parts = [{"name": f"a contributor {i}", "shares": [14.0] * 3} for i in range(7)]
     panel = {"title": "50 % of modules within limits", "label": "Spring stiffness (N·m/rad)", "counts": [1, 5, 20, 5],

@@ -1,5 +1,8 @@
 """The shape of a front, and which front lies lowest where, against points and crossings worked out by hand."""
 
+import itertools
+import math
+
 import numpy as np
 import pytest
 from hypothesis import assume, given
@@ -7,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from tvimdesign.solve.pareto import front_shape as shape
-from tvimdesign.solve.pareto.front_shape import Frame
+from tvimdesign.solve.pareto.front_shape import Frame, leads, reached
 
 QUARTER = np.array([[1.0 - np.sin(a), 1.0 - np.cos(a)] for a in np.linspace(0.0, np.pi / 2.0, 9)])
 """A quarter circle that bulges towards the origin: its knee is half-way, at 45 degrees."""
@@ -88,3 +91,65 @@ def test_the_corners_of_a_hull_are_those_of_qhull(points):
     corners = [(int(x), int(y)) for x, y in shape._hull(places)]
     assert set(corners) == expected
     assert len(corners) == len(expected)
+
+
+FALLING = [(1.0, 10.0), (5.0, 2.0)]  # y = 12 - 2 x
+FLAT = [(2.0, 5.0), (6.0, 4.0)]  # y = 5.5 - x / 4
+
+
+def test_two_lines_cross_where_their_equations_say():
+    ranges = leads({"falling": FALLING, "flat": FLAT})
+    # 12 - 2 x = 5.5 - x / 4 at x = 26/7; below 2 only one has anything.
+    assert [(lead.best, lead.alone) for lead in ranges] == [("falling", True), ("flat", False), ("falling", False)]
+    assert ranges[0].lower == 1.0
+    assert ranges[0].upper == 2.0
+    assert ranges[1].upper == pytest.approx(26.0 / 7.0)
+    assert math.isinf(ranges[2].upper)
+    # At x = 2 the one has 8, the other 5; from 6 on 2 against 4.
+    assert ranges[1].most == pytest.approx(8.0 / 5.0)
+    assert ranges[1].least == pytest.approx(1.0)
+    assert ranges[2].most == pytest.approx(4.25 / 2.0)
+
+
+def test_fronts_lead_from_their_first_point_on():
+    assert reached(FALLING, 0.99) == math.inf
+    assert reached(FALLING, 3.0) == pytest.approx(6.0)
+    assert reached(FALLING, 50.0) == 2.0
+    ranges = leads({"one": FALLING, "other": list(reversed(FALLING))})
+    assert [lead.best for lead in ranges] == [None]
+    ranges = leads({"falling": FALLING, "flat": FLAT, "low": [(3.0, 1.0)]})
+    assert [lead.best for lead in ranges] == ["falling", "flat", "low"]
+    assert ranges[2].least == pytest.approx(2.0)  # against the next best, which ends at 2
+    ranges = leads({"point": [(2.0, 3.0)]})
+    assert [(lead.lower, lead.upper, lead.best, lead.alone) for lead in ranges] == [(2.0, math.inf, "point", True)]
+
+
+CURVES = st.lists(st.tuples(st.floats(1.0, 9.0), st.floats(1.0, 9.0)), min_size=1, max_size=5, unique_by=lambda p: p[0])
+
+
+def _front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Points made a front: rising limits, falling values."""
+    return list(zip(sorted(x for x, _ in points), sorted((y for _, y in points), reverse=True), strict=True))
+
+
+@given(CURVES, CURVES, st.floats(1.0, 12.0))
+def test_the_leader_at_a_limit_is_the_front_with_less_there(first, other, limit):
+    curves = {"one": _front(first), "other": _front(other)}
+    here = [lead for lead in leads(curves) if lead.lower <= limit < lead.upper]
+    values = {label: reached(curve, limit) for label, curve in curves.items()}
+    if not here:
+        assert all(math.isinf(value) for value in values.values())
+        return
+    assert len(here) == 1
+    if here[0].best is not None and abs(limit - here[0].lower) > 1e-9:
+        assert values[here[0].best] <= min(values.values()) * (1.0 + 4e-3)
+
+
+@given(CURVES, CURVES)
+def test_ranges_join_without_gaps_and_do_not_depend_on_the_order(first, other):
+    ranges = leads({"one": _front(first), "other": _front(other)})
+    assert math.isinf(ranges[-1].upper)
+    assert all(a.upper == b.lower for a, b in itertools.pairwise(ranges))
+    turned = leads({"other": _front(other), "one": _front(first)})
+    assert [lead.best for lead in turned] == [lead.best for lead in ranges]
+    assert [lead.lower for lead in turned] == pytest.approx([lead.lower for lead in ranges])

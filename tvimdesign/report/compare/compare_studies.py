@@ -17,6 +17,7 @@ from tvimdesign.report.compare.comparison import (
     FILES,
     Outcome,
     comparison_sections,
+    drawings,
     first_blocks,
     summary_text,
     title_of,
@@ -34,8 +35,9 @@ from tvimdesign.study.tree import study_text, tree_of_file
 
 
 def compare_studies(
-    paths: Sequence[Path], out: Path, *, overwrite: bool, as_json: bool, settings: Sequence[str] = ()
-) -> None:
+    paths: Sequence[Path], out: Path, *, points: int, overwrite: bool, plots: bool, as_json: bool,
+    settings: Sequence[str] = (),
+) -> None:  # fmt: skip
     """Compare studies, or the results of finished runs, and write the folder.
 
     Raises InputError for what cannot be compared, TvimError for what could not be done.
@@ -46,8 +48,8 @@ def compare_studies(
     if missing := [path for path in paths if not path.exists()]:
         raise InputError(f"{missing[0]}: no such file or folder")
     finished = [path.suffix == ".json" or path.is_dir() for path in paths]
-    if any(finished) and (settings or not all(finished)):
-        raise InputError("compare takes results of finished runs alone, without studies and --set")
+    if any(finished) and (points or settings or not all(finished)):
+        raise InputError("compare takes results of finished runs alone, without studies, --points and --set")
     cases = labelled(_results(paths) if all(finished) else _studies(paths, settings), paths)
     texts = {label: _study_text(case, settings) for label, case in cases.items()}
     of_file = {case.places.file: label for label, case in cases.items()}
@@ -65,12 +67,17 @@ def compare_studies(
                 answers_by_label[label] = finished_run(design_file(path), case.study.table, which)
         else:
             requests = [StudyRequest(label, case.path) for label, case in cases.items()]
-            answers_by_label |= answers(requests, command.folder.path, command.progress, settings, keep)
+            start_plotter = command.start_plotter if plots else lambda: None
+            answers_by_label |= answers(
+                requests, command.folder.path, points, command.progress, start_plotter, settings, keep
+            )
         outcome = Outcome(cases, answers_by_label, unequal)
         outcome.seconds["all answers"] = time.perf_counter() - began
+        command.begin_plots(drawings(outcome), title_of(outcome))
         outcome.seconds["whole"] = time.perf_counter() - began
         _write(command.folder, outcome, texts)
         command.failures += [TvimError(text) for text in outcome.failures]
+        command.finish_plots("drawing the plots")
         studies = {label: case.study.model_dump(mode="json") for label, case in cases.items()}
         inputs = {label: design_file(path) for label, path in zip(cases, paths, strict=True)}
         status = "PARTLY DONE" if outcome.failures else f"COMPARED {COMPARISONS[outcome.which].upper()}"
@@ -147,6 +154,9 @@ def _write(folder: ResultsFolder, outcome: Outcome, texts: dict[str, str]) -> No
     folder.write("compare.csv", compare_csv(outcome.rows))
     folder.write("summary.txt", summary_text(outcome))
     folder.write_json("compare.json", outcome.plain())
+    if outcome.fronts:
+        folder.write("fronts.csv", outcome.fronts_csv())
+        folder.write_json("fronts.json", outcome.fronts_plain())
 
 
 def _no_design(failures: Sequence[TvimError]) -> TvimError:
@@ -178,7 +188,9 @@ class _Child(NamedTuple):
 def answers(
     requests: Sequence[StudyRequest],
     out: Path,
+    points: int,
     progress: Progress,
+    when_idle: Callable[[], object] = lambda: None,
     settings: Sequence[str] = (),
     keep: Callable[[str, dict[str, Any]], object] = lambda _label, _answer: None,
 ) -> dict[str, dict[str, Any]]:
@@ -188,6 +200,8 @@ def answers(
     ----------
     out
         Folder in which the jobs write into a folder of their own, which is removed at the end.
+    when_idle
+        Called as soon as nothing more is to be started: from then on a core is free.
     settings
         Changes to every study, each `name=value`.
     keep
@@ -204,7 +218,7 @@ def answers(
                     study = waiting.pop(0)
                     progress(f"{study.label}, preparing the equations")
                     others = [other.path for other in requests if other is not study]
-                    running.append(_start(study, others, settings, Path(folder) / str(number), lines))
+                    running.append(_start(study, others, (points, settings), Path(folder) / str(number), lines))
                 label, line = lines.get()
                 child = next(child for child in running if child.label == label)
                 if line is not None:
@@ -216,6 +230,8 @@ def answers(
                     continue
                 running.remove(child)
                 answers_by_label[label] = _finish(child)
+                if not waiting and len(running) == AT_ONCE - 1:
+                    when_idle()
         finally:
             for child in running:
                 child.process.kill()
@@ -224,15 +240,15 @@ def answers(
 
 
 def _start(
-    study: StudyRequest, others: Sequence[Path], settings: Sequence[str], stem: Path,
+    study: StudyRequest, others: Sequence[Path], how: tuple[int, Sequence[str]], stem: Path,
     lines: queue.Queue[tuple[str, str | None]],
 ) -> _Child:  # fmt: skip
-    """Start a child process."""
+    """Start a child process; `how` is the count of points of a front, and the settings."""
     out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
     paths = [str(path.resolve()) for path in (study.path, out, *others)]
     with errors.open("wb") as stream:
         process = start_child(
-            "tvimdesign.report.compare.comparison_job", [*paths[:2], json.dumps(list(settings)), *paths[2:]],
+            "tvimdesign.report.compare.comparison_job", [*paths[:2], str(how[0]), json.dumps(list(how[1])), *paths[2:]],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
         )  # fmt: skip
     read_lines(process, lambda line: lines.put((study.label, line)))

@@ -1,4 +1,4 @@
-"""Result of a comparison: designs, rows, conclusions, and the sections that show them."""
+"""Result of a comparison: designs, rows, fronts, the winner of each pair, and the sections that show them."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -8,13 +8,23 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
-from tvimdesign.base.units import pretty
-from tvimdesign.page.blocks import Block, Folded, Grid, Listing, Points, Section, Warned, Words
-from tvimdesign.report.compare.comparison_table import Row, against, common_rows, conditions, plain
-from tvimdesign.report.output.numbers import head, in_unit, number
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.page.blocks import Block, Drawn, Folded, Grid, Listing, Points, Section, Warned, Words
+from tvimdesign.report.compare.comparison_table import (
+    ParetoComparison,
+    Row,
+    against,
+    common_rows,
+    conditions,
+    plain,
+    standing,
+)
+from tvimdesign.report.output.numbers import axis_label, csv_text, finite_in, head, in_unit, number
 from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import WIDTH, plain_text, print_section
 from tvimdesign.report.run.blocks.warnings import advice_text
+from tvimdesign.solve.pareto.front_shape import leads
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
 
@@ -65,6 +75,77 @@ class Outcome:
         """Return the rows that all designs have, by comparison; none where fewer than two studies have an answer."""
         return {which: common_rows(designs, self.tables) for which, designs in self.designs.items() if len(designs) > 1}
 
+    # --- fronts ---
+
+    @property
+    def fronts(self) -> dict[tuple[str, str], dict[str, dict[str, Any]]]:
+        """Fronts by their two outputs, then by study."""
+        fronts_by_pair: dict[tuple[str, str], dict[str, dict[str, Any]]] = {}
+        for label, answer in self.answers.items():
+            for front in answer["fronts"]:
+                fronts_by_pair.setdefault((front["first"], front["second"]), {})[label] = front
+        return fronts_by_pair
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a row that any of the studies has."""
+        return next(table.unit(name) for table in self.tables.values() if name.partition("@")[0] in table.by_name)
+
+    @cached_property
+    def contests(self) -> list[ParetoComparison]:
+        """Compare the fronts over each pair of outputs with a limit on either of them."""
+        comparisons = []
+        for (first, second), fronts in self.fronts.items():
+            points = {label: _curve(front, second, first) for label, front in fronts.items()}
+            for gained, limited, curves in (
+                (first, second, points),
+                (second, first, {label: [(y, x) for x, y in curve] for label, curve in points.items()}),
+            ):
+                led = tuple(leads(curves))
+                if led and len(fronts) > 1:
+                    comparisons.append(ParetoComparison(gained, limited, self.unit(gained), self.unit(limited), led))
+        return comparisons
+
+    def fronts_plain(self) -> dict[str, Any]:
+        """Return every front, its points in their units; null is never."""
+        names = {name for _, _, point in self._points() for name in point["values"]}
+        return {
+            **head(),
+            "units_of_values": {name: pretty(self.unit(name)) for name in sorted(names)},
+            "fronts": [
+                {
+                    "study": label, "first": first, "second": second,
+                    "points": [self._point(point) for point in front["points"]],
+                    **{kind: front[kind] for kind in ("dominated", "failures", "notes")},
+                }
+                for (first, second), fronts in self.fronts.items() for label, front in fronts.items()
+            ],
+        }  # fmt: skip
+
+    def fronts_csv(self) -> str:
+        """Return a line for each point of each front, every input and output of its design in a column."""
+        names = list(dict.fromkeys(name for _, _, point in self._points() for name in point["values"]))
+        heads = {name: f"{name} [{pretty(self.unit(name))}]" for name in names}
+        rows = [
+            {"study": label, "front": front,
+             **{heads[name]: finite_in(value, self.unit(name)) for name, value in point["values"].items()}}
+            for label, front, point in self._points()
+        ]  # fmt: skip
+        return csv_text(rows, ["study", "front", *heads.values()], 8)
+
+    def _points(self) -> Iterator[tuple[str, str, dict[str, Any]]]:
+        for (first, second), fronts in self.fronts.items():
+            for label, front in fronts.items():
+                yield from ((label, f"{first} against {second}", point) for point in front["points"])
+
+    def _point(self, point: dict[str, Any]) -> dict[str, Any]:
+        values = {name: finite_in(value, self.unit(name)) for name, value in point["values"].items()}
+        return {
+            "where": point["where"],
+            "values": values,
+            "si": point["values"],
+            "current_profiles": point["current_profiles"],
+        }
+
     # --- what follows ---
 
     @cached_property
@@ -78,7 +159,7 @@ class Outcome:
                 for label in self.designs[which] if self.answers[label][which]["broken"]
             ]  # fmt: skip
             sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in (*texts, *broken)]
-        return sentences
+        return [*sentences, *(standing(contest) for contest in self.contests)]
 
     def _verdicts(self) -> list[str]:
         designs = {label: answer.get(self.which, {}) for label, answer in self.answers.items()}
@@ -117,6 +198,8 @@ class Outcome:
             "differences": self.differences,
             "studies": {label: self._study(label) for label in self.cases},
             "comparisons": {which: [plain(row) for row in rows] for which, rows in self.rows.items()},
+            "leads": [contest.plain() for contest in self.contests],
+            "fronts": self.fronts_plain() if self.fronts else {},
             "seconds": self.seconds,
         }
 
@@ -130,15 +213,51 @@ class Outcome:
         }  # fmt: skip
 
 
-FILES = {"summary.txt": "all of this as text", "compare.csv": "every output"}
+def _curve(front: dict[str, Any], x: str, y: str) -> list[tuple[float, float]]:
+    points = [(point["values"][x], point["values"][y]) for point in front["points"]]
+    return sorted((a, b) for a, b in points if a is not None and b is not None and math.isfinite(a + b))
+
+
+def drawings(outcome: Outcome) -> list[Drawing]:
+    """Return every picture there is something for."""
+    return [Drawing("fronts", "design_figures.fronts", _fronts(outcome))] if outcome.fronts else []
+
+
+def _fronts(outcome: Outcome) -> dict[str, Any]:
+    panels = []
+    for (first, second), fronts in outcome.fronts.items():
+        units = {name: outcome.unit(name) for name in (first, second)}
+
+        def shown(name: str, values: Any, units: dict[str, str] = units) -> float:
+            return from_si(values[name], units[name])
+
+        lines = []
+        for label, front in fronts.items():
+            points = sorted((shown(second, p["values"]), shown(first, p["values"])) for p in front["points"])
+            optimum = outcome.designs["optimised"][label].values
+            lines.append({
+                "label": label, "x": [x for x, _ in points], "y": [y for _, y in points],
+                "points": True, "optimum": [[shown(second, optimum)], [shown(first, optimum)]],
+            })  # fmt: skip
+        axes = {f"{axis}_label": axis_label(name, units[name]) for axis, name in (("x", second), ("y", first))}
+        panels.append({"lines": lines, **axes})
+    return {"title": "Fronts; filled: each study's optimum", "panels": panels}
+
+
+FILES = {"summary.txt": "all of this as text", "compare.csv": "every output", "fronts.csv": "the fronts"}
 
 
 def comparison_sections(outcome: Outcome, texts: Mapping[str, str]) -> list[Section]:
-    """Return what follows, the tables it follows from, and the studies; `texts` are the studies' files."""
+    """Return what follows, the tables it follows from, figures and the studies; `texts` are the studies' files."""
     follows, troubles = outcome.conclusions[1:], outcome.failures
+    fronts: list[Block] = [
+        Drawn("fronts", "lines.js", "The fronts: each point is a whole design.", drawing.data, libraries=["echarts"])
+        for drawing in drawings(outcome)
+    ]
     return [
         *([Section("follows", "What follows", [Points(follows)])] if follows else []),
         _side_by_side(outcome),
+        *([Section("curves", "Fronts", fronts)] if fronts else []),
         *([Section("differ", "Different conditions", [Points(outcome.differences)])] if outcome.differences else []),
         Section("searches", "How they were found", [Points(list(_searches(outcome)))]),
         *([Section("not-done", "Not done", [Points(troubles)])] if troubles else []),
@@ -216,7 +335,7 @@ def _value(row: Row, label: str) -> str:
 
 
 def _searches(outcome: Outcome) -> Iterator[str]:
-    """Yield what soft means, how optima were found, and what is accepted."""
+    """Yield what soft means, how optima and fronts were found, and what is accepted."""
     which = outcome.which
     texts = [f"{label}: {answer[which]['soft']}" for label, answer in outcome.answers.items() if which in answer]
     if texts:
@@ -233,6 +352,12 @@ def _searches(outcome: Outcome) -> Iterator[str]:
             )
         if names := answer.get(which, {}).get("accepting"):
             yield f"{label} is beyond its rating, as its study accepts: {', '.join(names)}."
+    for (first, second), fronts in outcome.fronts.items():
+        for label, front in fronts.items():
+            points = [f"{len(front['points'])} points", *front["notes"]]
+            points += [f"{front['dominated']} more are no better in anything"] if front["dominated"] else []
+            points += [f"no design at {failure['where']}: {failure['reason']}" for failure in front["failures"]]
+            yield f"Front of {first} against {second}, {label}: {'; '.join(points)}."
 
 
 def warnings_of(outcome: Outcome) -> Iterator[str]:

@@ -1,6 +1,6 @@
-"""The child process that answers one study of a comparison: its optimum first, then as drawn.
+"""The child process that answers one study of a comparison: its optimum first, fronts last.
 
-`python -m tvimdesign.report.compare.comparison_job STUDY OUT SETTINGS OTHERS`. SETTINGS is a JSON list of
+`python -m tvimdesign.report.compare.comparison_job STUDY OUT POINTS SETTINGS OTHERS`. SETTINGS is a JSON list of
 `name=value`; OTHERS are the studies it is compared with. After each step it writes what it has found to OUT, one JSON
 object, and prints a line of JSON. A step that fails is listed under `troubles`, and the other steps are done.
 """
@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import asdict
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -19,12 +20,17 @@ from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent, line_writer
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
 from tvimdesign.device import Table
+from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.output.tables import results, soft_in_words
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.report.run.reasons import above_rating, complaint, starts_reported
 from tvimdesign.report.run.uncertainty_data import below_yield, uncertainty_of
 from tvimdesign.solve import anchored_search
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
+from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.design import Design, read_design
@@ -67,24 +73,32 @@ def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:
 
 def empty_answer() -> dict[str, Any]:
     """Return what a comparison has of a study before anything is computed."""
-    return {"seconds": {}, "troubles": []}
+    return {"fronts": [], "seconds": {}, "troubles": []}
 
 
 Say = Callable[[str], None]
+
+
+def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
+    """Return the time, mass and size that fronts are drawn over: those the study minimises, else the usual ones."""
+    times = [name for name in study.minimize if table.unit(name) == "s"]
+    sizes = [name for name in study.minimize if name in {"envelope_diameter", "envelope_volume", "envelope_height"}]
+    return (times or ["response_time"])[0], "module_mass", (sizes or ["envelope_diameter"])[0]
 
 
 class ComparisonJob:
     """The answer of one study: what was found, what failed, how long each step took."""
 
     def __init__(
-        self, tree: StudyTree, others: Callable[[], Sequence[StudyTree]], say: Say,
+        self, tree: StudyTree, points: int, others: Callable[[], Sequence[StudyTree]], say: Say,
         keep: Callable[[dict[str, Any]], object] = lambda _: None,
     ) -> None:  # fmt: skip
         """Read the study. `others` gives the studies it is compared with; `keep` gets what is found, step by step."""
         self.study, self._keep = read_tree(tree), keep
         self._others = others
         self.table = self.study.table
-        self.say = say
+        self.points, self.say = points, say
+        self._built: list[tuple[Optimizer, list[Run]]] = []
         self.answer = empty_answer()
 
     @cached_property
@@ -109,6 +123,9 @@ class ComparisonJob:
                 self.say("verdict")
                 warnings = warnings_of(answered, record_checks(self.study))
                 self.answer[which]["verdict"] = verdict(answered, uncertainty_of(answered, self.study), warnings).text
+        if answered and self._built and self.points:
+            with self._step("fronts"):
+                self._trade(answered)
         return self.answer
 
     @contextmanager
@@ -127,7 +144,9 @@ class ComparisonJob:
     def _optimised(self) -> StudyResult:
         starts = [anchored_search.at_its_start(study) for study in (self.study, *self.others)]
         common = anchored_search.common(starts)
-        answered = answer(self.study, self.say, common)
+        objectives = front_outputs(self.study, self.table) if self.points else ()
+        built = self._built
+        answered = answer(self.study, self.say, common, lambda *search: built.append(search), objectives)
         if not answered.has_design:
             raise InfeasibleError(complaint(answered, self.table))
         self.answer["optimised"] = self._compared(answered)
@@ -143,6 +162,32 @@ class ComparisonJob:
         reported = results(answered, self.table) | {"starts": starts_reported(answered)}
         return compared_design(answered.design, reported, self.table)
 
+    def _trade(self, best: StudyResult) -> None:
+        assert best.solution is not None
+        trade = Tradeoff(self.study, best.solution, *self._built[0], self.say)
+        first, *others = front_outputs(self.study, self.table)
+        for second in others:
+            front = completed(trace_front(trade, (first, second), self.points), trade)
+            self.answer["fronts"].append(self._plain(front, trade.optimum))
+
+    @staticmethod
+    def _plain(front: Front, optimum: Point) -> dict[str, Any]:
+        """Return a front in SI, with the study's own optimum where it is on it; null where something never happens."""
+        first, second = front.outputs
+        points = sorted(undominated([*front.points, optimum], front.outputs), key=lambda point: point.values[first])
+        plain: dict[str, Any] = all_finite({
+            "first": first,
+            "second": second,
+            "notes": front.notes,
+            "dominated": front.dominated,
+            "failures": [asdict(failure) for failure in front.failures],
+            "points": [
+                {"where": point.where, "values": point.values, "current_profiles": point.current_profiles}
+                for point in points
+            ],
+        })  # fmt: skip
+        return plain
+
 
 def main(arguments: list[str]) -> int:
     """Run the job; print each step, and when something is written."""
@@ -155,10 +200,10 @@ def main(arguments: list[str]) -> int:
         write_line({"kept": list(design_answer["seconds"])})
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
-    path, out, listed, *others = arguments
+    path, out, points, listed, *others = arguments
     settings = json.loads(listed)
     ComparisonJob(
-        tree_of_file(path, settings), lambda: [tree_of_file(other, settings) for other in others],
+        tree_of_file(path, settings), int(points), lambda: [tree_of_file(other, settings) for other in others],
         lambda text: write_line({"progress": text}), keep,
     ).run()  # fmt: skip
     return 0

@@ -5,14 +5,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from tvimdesign.base.units import format_quantity, pretty, si_unit
+from tvimdesign.base.units import format_quantity, from_si, pretty, si_unit
 from tvimdesign.device import Output, Table
 from tvimdesign.report.output.numbers import csv_text, finite, finite_in, listed, number
+from tvimdesign.solve.pareto.front_shape import ALIKE, Lead
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
 
 Verdict = Literal["better", "worse", "same", "open", ""]
-ALIKE = 2e-3  # Share within which two values count as the same: the tolerance of the simulation they come from
 
 
 @dataclass(frozen=True)
@@ -125,6 +125,29 @@ _WORDS = {
 """By unit, what less and more of an output are called."""
 
 
+@dataclass(frozen=True)
+class ParetoComparison:
+    """Two outputs that every study trades: who leads in `gained`, by limits on `limited`."""
+
+    gained: str
+    limited: str
+    gained_unit: str
+    limited_unit: str
+    leads: tuple[Lead, ...]
+
+    def plain(self) -> dict[str, Any]:
+        """Return plain data, limits in the unit; null as an upper limit is no end."""
+        return {
+            "gained": self.gained, "limited": self.limited, "unit": pretty(self.limited_unit),
+            "leads": [
+                {"from": from_si(lead.lower, self.limited_unit),
+                 "to": finite_in(lead.upper, self.limited_unit),
+                 "best": lead.best, "alone": lead.alone, "least_ratio": lead.least, "most_ratio": lead.most}
+                for lead in self.leads
+            ],
+        }  # fmt: skip
+
+
 def conditions(cases: Mapping[str, Case]) -> list[str]:
     """Describe what holds for every study: shared requirements, temperatures, current, materials, surroundings."""
     first = next(iter(cases.values()))
@@ -171,3 +194,28 @@ def _factor(factor: float, less: bool) -> str:
     if factor >= _TIMES_FROM:
         return f"{number(factor, 2)} times "
     return f"{number(100.0 * (1.0 - 1.0 / factor if less else factor - 1.0), 2)} % "
+
+
+def standing(contest: ParetoComparison) -> str:
+    """Say in one sentence who leads where."""
+    word = _WORDS.get(pretty(contest.gained_unit), ("better", ""))[0]
+    parts = []
+    for lead in contest.leads:
+        where = _range(lead, contest.limited_unit)
+        if lead.alone:
+            parts.append(f"{where} only {lead.best} has a design")
+        elif lead.best is None:
+            parts.append(f"{where} the best two are alike")
+        else:
+            parts.append(f"{where} {lead.best} is {word}, by {_span(lead)}")
+    return f"With {contest.limited} limited, {'; '.join(parts)} ({contest.gained})."
+
+
+def _range(lead: Lead, unit: str) -> str:
+    lower = format_quantity(lead.lower, unit)
+    return f"from {lower} to {format_quantity(lead.upper, unit)}" if math.isfinite(lead.upper) else f"from {lower} on"
+
+
+def _span(lead: Lead) -> str:
+    least, most = (number(100.0 * (ratio - 1.0), 2) for ratio in (lead.least, lead.most))
+    return f"{least} %" if least == most else f"{least} to {most} %"

@@ -1,4 +1,4 @@
-"""Figures of a design over temperature, angle and its working cycle, a front, and one page on A4."""
+"""Figures of a design over temperature, angle and its working cycle, fronts, and one page on A4."""
 
 import itertools
 import textwrap
@@ -52,6 +52,22 @@ def _marks(axes: Any, data: dict[str, Any], x: int, y: int) -> None:
     optimum = data["optimum"]
     axes.plot(optimum[x], optimum[y], linestyle="", marker="*", color=theme.COLOURS[1], markeredgecolor="black",
               markeredgewidth=0.5, markersize=9, label="weighted optimum")  # fmt: skip
+
+
+def fronts(data: dict[str, Any]) -> Figure:
+    """Draw fronts of all studies, a panel for each pair of outputs; the optimum of each study is filled."""
+    figure = theme.new_figure(3.25)
+    theme.caption(figure, data["title"])
+    for panel, left, _, wide in theme.in_rows(data["panels"], len(data["panels"]), 0.62, 0.65):
+        axes = theme.place(figure, left, 0.72, wide, 1.9)
+        for i, line in enumerate(panel["lines"]):
+            style = {"marker": theme.MARKERS[i % len(theme.MARKERS)], **theme.style_of(i)}
+            axes.plot(line["x"], line["y"], markerfacecolor="white", label=line["label"], **style)
+            axes.plot(*line["optimum"], **style | {"linestyle": "", "markersize": 7})
+        axes.set(xlabel=panel["x_label"], ylabel=panel["y_label"])
+        axes.locator_params(nbins=theme.TICKS)
+    figure.legend(*axes.get_legend_handles_labels(), loc="lower center", ncols=min(4, len(panel["lines"])))
+    return figure
 
 
 def impedance(data: dict[str, Any]) -> Figure:

@@ -289,14 +289,17 @@ class _Tracer:
         return distinct
 
     def _undominated(self, points: Sequence[Point]) -> list[Point]:
-        """Return the points that no other matches in every output (less is better); of equal ones the first."""
-        if not points:
-            return []
-        values = [[point.values[name] for name in self.outputs] for point in points]
-        return [points[i] for i in shape.efficient(np.array(values))]
+        return undominated(points, self.outputs)
 
     def _same(self, point: Point, other: Point) -> bool:
         return all(_alike([point.values[name], other.values[name]]) for name in self.outputs)
+
+
+def undominated(points: Sequence[Point], names: Sequence[str]) -> list[Point]:
+    """Return the points that no other matches in every named output (less is better); of equal ones the first."""
+    if not points:
+        return []
+    return [points[i] for i in shape.efficient(np.array([[point.values[name] for name in names] for point in points]))]
 
 
 def _alike(values: Sequence[float]) -> bool:
