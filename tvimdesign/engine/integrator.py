@@ -237,6 +237,30 @@ def adapted(
 
 
 @njit(cache=True, error_model="numpy")
+def pursue(
+    m: System, v: Array, states: Array, lengths: Array, current: float, slope: float, h: float, room: float,
+    tolerance: float, ahead: Array,
+) -> tuple[int, float]:  # fmt: skip
+    """Step from `states[0]` as `adapted` does, `room` at most, and fill the states after it and the steps' lengths.
+
+    Returns how many steps were taken, and the length of the next, zero where it fails.
+    """
+    for k in range(lengths.size):
+        whole = h <= 0.999 * room
+        least = h if whole else room
+        for p in range(ahead.size):
+            states[k + 1, p] = states[k, p]
+        length, following = adapted(m, v, states[k + 1], current, slope, least, tolerance, ahead)
+        if length == 0.0:
+            return k, 0.0
+        h = following if whole or length < least else max(following, h)
+        lengths[k], current, room = length, current + slope * length, room - length
+        if room <= 0.0:
+            return k + 1, h
+    return lengths.size, h
+
+
+@njit(cache=True, error_model="numpy")
 def advance(
     m: System, w: Array, d: Array, v: Array, states: Array, tangents: Array, first: int, lengths: Array,
     of_lengths: Array, u: Array, du: Array, ahead: Array,

@@ -13,6 +13,7 @@ import numpy as np
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.engine.integrator import Motion
 from tvimdesign.engine.interpreter import Array
+from tvimdesign.engine.lanes import lanes_of
 from tvimdesign.engine.tape import Tape
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
@@ -44,6 +45,7 @@ class PhaseEngine:
         self.lip = 0 if phase._stack.lip is None else 2
         """Temperatures of the lip, which has no heat capacity: unknowns beside the state."""
         self._watches: dict[tuple[str, ...], Watch] = {}
+        self._lanes: dict[tuple[str, ...], Array] = {}
         place = phase.input_names.index(phase.phase.current_input)
         self._current_place = place
 
@@ -86,6 +88,12 @@ class PhaseEngine:
             values = ca.densify(ca.vertcat(*(ca.SX(self.phase._instant[name]) for name in names)))
             self._watches[names] = Watch(*Tape.parted(self.phase._arguments, [values]))
         return self._watches[names]
+
+    def lanes(self, names: tuple[str, ...]) -> Array:
+        """Return registers in which these quantities are evaluated at many instants."""
+        if names not in self._lanes:
+            self._lanes[names] = lanes_of(self.watch(*names).at)
+        return self._lanes[names]
 
     @cached_property
     def together(self) -> dict[str, tuple[tuple[str, ...], int]]:

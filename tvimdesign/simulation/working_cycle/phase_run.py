@@ -15,8 +15,10 @@ import numpy as np
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import SimulationError
-from tvimdesign.engine.integrator import STAGES, TIMES, Motion, adapted, advance, step
+from tvimdesign.engine.integrator import STAGES, TIMES, Motion, advance, pursue, step
 from tvimdesign.engine.interpreter import Array
+from tvimdesign.engine.lanes import evaluate
+from tvimdesign.engine.vectors import LANES
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, Instant, hermite
 
@@ -67,35 +69,38 @@ class PhaseRun:
         nothing will change any more. Raises SimulationError where not even the first step can be taken.
         """
         start = replace(start, current=float(profile.at(np.zeros(1))[0]))
-        events = dict.fromkeys(self._due(sought, start.state, start.current), start)
-        self.instants, h = [start], FIRST * pace
-        y, ahead, now = start.state.copy(), np.zeros(start.state.size), start
-        nothing, settled = np.zeros((y.size, self.lanes)), False
-        while now.time < horizon and len(self.instants) <= MOST_STEPS and not settled:
-            if len(events) == len(sought) and not throughout:
+        self.instants, h, events = [start], FIRST * pace, dict[str, Instant]()
+        states, lengths = np.empty((LANES, start.state.size)), np.empty(LANES - 1)
+        ahead, nothing, settled = np.zeros(start.state.size), np.zeros((start.state.size, self.lanes)), False
+        while (now := self.instants[-1]).time < horizon and len(self.instants) <= MOST_STEPS and h > 0.0:
+            if settled or (len(events) == len(sought) and not throughout):
                 break
             deadline.check("the working cycle of a design was simulated")
-            room = min(profile.next_corner(now.time), horizon) - now.time
-            least, whole = (room, False) if h > 0.999 * room else (h, True)
-            end = float(profile.at(np.array([now.time + least]))[0])
-            slope = (end - now.current) / least
-            length, following = adapted(
-                self.motion.system, self.registers[2], y, now.current, slope, least, tolerance, ahead
+            corner, first = profile.next_corner(now.time), len(self.instants)
+            room = min(corner, horizon) - now.time
+            slope = (float(profile.at(np.array([now.time + room]))[0]) - now.current) / room
+            states[0] = now.state
+            taken, h = pursue(
+                self.motion.system, self.registers[2], states, lengths, now.current, slope, h, room, tolerance, ahead
             )
-            if length == 0.0:
-                if len(self.instants) == 1:
-                    name = self.of.phase.phase.name
-                    raise SimulationError(f"the {name} of this design cannot be simulated; check its inputs")
-                break
-            h = following if whole or length < least else max(following, h)
-            current = now.current + slope * length
-            then = Instant(now.time + length, now.of_time, y.copy(), nothing, current, now.of_current, now.step + 1)
-            self.instants.append(then)
-            for name in self._due([name for name in sought if name not in events], then.state, current):
-                events[name] = self._crossing(name, now, then, slope) if seek else then
-            if slope == 0.0 and not throughout and np.isinf(profile.next_corner(then.time)):
-                settled = bool(np.max(np.abs(self.rates(then)[: self.of.size])) * (horizon - then.time) < STALLED)
-            now = then
+            times = np.minimum(np.cumsum(lengths[:taken]), room).tolist()
+            self.instants += [
+                Instant(
+                    now.time + time, now.of_time, state.copy(), nothing, now.current + slope * time, now.of_current, k
+                )
+                for k, (time, state) in enumerate(zip(times, states[1:], strict=False), start=first - 1)
+            ]
+            for name, k in self._first_due([name for name in sought if name not in events], first - 1).items():
+                before, then = self.instants[max(k - 1, 0)], self.instants[k]
+                events[name] = self._crossing(name, before, then, slope) if seek and k > 0 else then
+            if len(events) == len(sought) and not throughout:
+                del self.instants[max((moment.step for moment in events.values()), default=-1) + 2 :]
+            elif len(self.instants) == 1:
+                name = self.of.phase.phase.name
+                raise SimulationError(f"the {name} of this design cannot be simulated; check its inputs")
+            last = self.instants[-1]
+            if slope == 0.0 and not throughout and np.isinf(corner):
+                settled = bool(np.max(np.abs(self.rates(last)[: self.of.size])) * (horizon - last.time) < STALLED)
         return events, settled
 
     def search(self, start: Instant, pace: float, dpace: Array, sought: list[str], grid: Grid) -> dict[str, Instant]:
@@ -167,15 +172,27 @@ class PhaseRun:
         group, place = self.of.together[name]
         return float(self._values(group, y, current)[place])
 
-    def _due(self, names: list[str], y: Array, current: float) -> list[str]:
-        """Return the events that have happened at an instant."""
-        together = self.of.together
-        values = {group: self._values(group, y, current) for group in {together[name][0] for name in names}}
-        return [name for name in names if values[together[name][0]][together[name][1]] >= 0.0]
+    def _first_due(self, names: list[str], first: int) -> dict[str, int]:
+        """Return the first instant, from the one numbered `first` on, at which each event has happened."""
+        due, places = dict[str, int](), {name: self.of.together[name] for name in names}
+        for group in {group for group, _ in places.values()}:
+            happened = self.values(group, self.instants[first:]) >= 0.0
+            due |= {
+                name: first + int(np.argmax(happened[:, place]))
+                for name, (its, place) in places.items()
+                if its == group and happened[:, place].any()
+            }
+        return due
 
     def values(self, group: tuple[str, ...], passed: Sequence[Instant]) -> Array:
         """Return quantities that are recorded together, a column each, at some instants, a row each."""
-        return np.array([self._values(group, instant.state, instant.current) for instant in passed])
+        tape, w, size = self.of.watch(*group).at, self.of.lanes(group), self.of.size
+        w[size + 1 : tape.arguments[-1]] = self._constants_of(group)[0][:, None]
+        given, values = np.empty((size + 1, len(passed))), np.empty((len(group), len(passed)))
+        given[:size] = np.array([instant.state for instant in passed]).T[:size]
+        given[size] = [instant.current for instant in passed]
+        evaluate(tape.code, w, np.arange(size + 1), given, tape.results[0], values, 0, len(passed))
+        return values.T
 
     def _values(self, group: tuple[str, ...], y: Array, current: float) -> Array:
         (values,) = self.of.watch(*group).at.values(

@@ -123,7 +123,7 @@ class ProgrammeSolver:
 
     def __call__(self, programme: Programme, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
         """Run it with nlpsol's arguments, until the deadline at most. Raises what the programme raises."""
-        self._held.programme = programme
+        self._held.programme, self._held.at = programme, b""
         answer = self._solver(deadline, **arguments)
         if self._held.error is not None:
             error, self._held.error = self._held.error, None
@@ -135,6 +135,8 @@ class _Held:
     """The programme of the run."""
 
     programme: Programme
+    at: bytes  # Unknowns of the last point, and the programme there: IPOPT takes it in four parts
+    point: "Evaluated"
     error: BaseException | None = None
     count_point: Callable[[], None]
 
@@ -164,20 +166,23 @@ class _Part(ca.Callback):
 
     def eval_buffer(self, arguments: Sequence[memoryview], results: Sequence[memoryview | None]) -> int:
         """Write the results; anything but zero says that there are none."""
+        held, at = self._held, arguments[0].tobytes()
         try:
-            point = self._held.programme.at(np.frombuffer(arguments[0]))
+            if at != held.at:
+                held.point, held.at = held.programme.at(np.frombuffer(at)), at
         except BaseException as error:  # CasADi would swallow it
-            self._held.error = error
+            held.error = error
             return 1
+        point = held.point
         of_objective = self._part == "objective"
         computed: tuple[Any, Any] = (point.rows, point.jacobian)
         if of_objective:
             computed = (point.objective, point.gradient)
         elif not self._sloped:  # where a cycle never ends, IPOPT asks for no objective
-            self._held.count_point()
+            held.count_point()
         for result, values in zip(results, computed, strict=False):
             if result is not None:
-                np.frombuffer(result)[:] = np.ravel(values, order="F")
+                np.frombuffer(result)[:] = values.ravel(order="F") if isinstance(values, np.ndarray) else values
         return 0
 
 

@@ -26,7 +26,7 @@ from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, Phas
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
-from tvimdesign.solve.nlp.problem_parts import CycleModel, Free, FreeCurrent, Parameters, Peak, Point
+from tvimdesign.solve.nlp.problem_parts import CycleModel, Free, FreeCurrent, Parameters, Peak, Places, Point
 
 Array = NDArray[np.float64]
 
@@ -156,14 +156,10 @@ class Problem:
         inputs, along = self.inputs_at(x, parameters.inputs)
         cycle, of_cycle, driven = self._supplied(x, inputs, along)
         sampled, of_sampled = self._peaks(x, cycle, of_cycle, driven)
-        numbers = np.where(np.isfinite(cycle), cycle, np.nan)
+        values, slopes = np.zeros(0), np.zeros((0, len(x)))
         if self.wanted:
+            numbers = np.where(np.isfinite(cycle), cycle, np.nan)
             ((values, slopes),) = self._outputs.tangents([inputs, numbers], [along, of_cycle])
-        else:
-            values, slopes = np.zeros(0), np.zeros((0, len(x)))
-        place = {name: i for i, name in enumerate(self.wanted)}
-        chosen = [place[name] for name in self.minimize]
-        traded = [place[name] for name in self.objectives]
         rows, jacobian = [], []
         for current in self.free_currents:
             phase = driven.get(current.phase)
@@ -176,19 +172,27 @@ class Problem:
         equations, of_equations = np.array(rows), np.array(jacobian).reshape(len(rows), len(x))
         places, factors, at_limits = self._limit_rows
         beyond, of_beyond = factors * (values[places] - at_limits), factors[:, None] * slopes[places]
-        sums, of_sums = parameters.factors @ values[traded], parameters.factors @ slopes[traded]
+        sums, of_sums = (parameters.factors @ part[self._places.traded] for part in (values, slopes))
         steep, of_steep = self._slopes(x)
         late, of_late = self._lateness(inputs, cycle, of_cycle)
-        weights = parameters.weights
-        events = dict(zip(self.model.switch_names, cycle, strict=True))
-        times = {name: float(events[name]) for name in self.events}
-        every = np.concatenate([equations, beyond, sums, steep, late, sampled])
+        minimized, weights = self._places.minimized, parameters.weights
         return Point(
-            float(weights @ values[chosen]), weights @ slopes[chosen], every,
+            float(weights @ values[minimized]), weights @ slopes[minimized],
+            np.concatenate([equations, beyond, sums, steep, late, sampled]),
             np.concatenate([of_equations, of_beyond, of_sums, of_steep, of_late, of_sampled]),
-            dict(zip(self.wanted, values.tolist(), strict=True)), dict(zip(self.wanted, slopes, strict=True)), times,
-            cycle, of_cycle,
+            self._places, values, slopes, cycle, of_cycle,
         )  # fmt: skip
+
+    @cached_property
+    def _places(self) -> Places:
+        outputs, supplied = (
+            {name: i for i, name in enumerate(group)} for group in (self.wanted, self.model.switch_names)
+        )
+        minimized, traded = (
+            np.array([outputs[name] for name in group], dtype=np.int64) for group in (self.minimize, self.objectives)
+        )
+        late = np.array([supplied[name] for name in self.unlimited], dtype=np.int64)
+        return Places(outputs, {name: supplied[name] for name in self.events}, minimized, traded, late)
 
     def _supplied(self, x: Array, inputs: Array, along: Array) -> Supplied:
         if self._cycle_model is not None:
@@ -202,13 +206,20 @@ class Problem:
             count = len(self.model.switch_names)
             return Supplied(np.full(count, np.nan), np.zeros((count, along.shape[1])), {})
 
+    @cached_property
+    def _free_numbers(self) -> tuple[NDArray[np.int64], Array, NDArray[np.bool_]]:
+        """Return the place of each free number among the inputs, its reference, whether its unknown is a logarithm."""
+        places = np.array([self.model.index[free.name] for free in self.free], dtype=np.int64)
+        return places, np.array([f.reference for f in self.free]), np.array([f.logarithmic for f in self.free], bool)
+
     def inputs_at(self, x: Array, inputs: Array) -> tuple[Array, Array]:
         """Return inputs with the free numbers in their places, and their derivatives by the unknowns."""
         values, along = inputs.copy(), np.zeros((len(inputs), len(x)))
-        for i, free in enumerate(self.free):
-            place = self.model.index[free.name]
-            values[place] = free.to_value(x[i])
-            along[place, i] = values[place] if free.logarithmic else free.reference
+        places, references, logarithmic = self._free_numbers
+        unknowns = x[: len(places)]
+        factors = np.where(logarithmic, np.exp(np.where(logarithmic, unknowns, 0.0)), unknowns)
+        values[places] = references * factors
+        along[places, np.arange(len(places))] = references * np.where(logarithmic, factors, 1.0)
         for i, current in enumerate(self.free_currents):
             row, nodes = self.model.index[current.row], self.nodes_place(i)
             weights = np.full(current.nodes, 1.0 / current.pieces)
@@ -272,9 +283,8 @@ class Problem:
 
     def _lateness(self, inputs: Array, cycle: Array, of_cycle: Array) -> tuple[Array, Array]:
         """Return the lateness of events without a time limit, as a share of the allowed time."""
-        place = [self.model.switch_names.index(name) for name in self.unlimited]
-        latest = self._latest(inputs)
-        return cycle[place] / latest - 1.0, of_cycle[place] / latest
+        latest, late = self._latest(inputs), self._places.late
+        return cycle[late] / latest - 1.0, of_cycle[late] / latest
 
     def _peaks(self, x: Array, cycle: Array, of_cycle: Array, driven: dict[str, PhaseOutputs]) -> tuple[Array, Array]:
         """Put the peaks of driven phases in their places, and return how far the samples are above them."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from tvimdesign.device import Path
 
 Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,16 @@ class Parameters:
     factors: Array  # Of each bound (a row) on each traded output (a column)
 
 
+class Places(NamedTuple):
+    """Where numbers stand: by name among a problem's wanted outputs, and its events among what the cycle supplies."""
+
+    outputs: Mapping[str, int]
+    events: Mapping[str, int]
+    minimized: Integers  # Among the outputs, of those that are minimised and traded
+    traded: Integers
+    late: Integers  # Among what the cycle supplies, of events without a time limit
+
+
 class Point(NamedTuple):
     """The problem at one point; derivatives by the unknowns."""
 
@@ -80,11 +91,26 @@ class Point(NamedTuple):
     gradient: Array
     rows: Array
     jacobian: Array
-    values: dict[str, float]  # The wanted outputs
-    gradients: dict[str, Array]
-    times: dict[str, float]  # Time [s] of each event the problem needs
+    places: Places
+    outputs: Array  # The wanted outputs, and their slopes
+    of_outputs: Array
     cycle: Array  # Supplied values in the order of the model's `switch_names`, and slopes
     of_cycle: Array
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Return the wanted outputs by name."""
+        return dict(zip(self.places.outputs, self.outputs.tolist(), strict=True))
+
+    @property
+    def gradients(self) -> dict[str, Array]:
+        """Return their gradients by name."""
+        return dict(zip(self.places.outputs, self.of_outputs, strict=True))
+
+    @property
+    def times(self) -> dict[str, float]:
+        """Return the time [s] of each event the problem needs."""
+        return {name: float(self.cycle[place]) for name, place in self.places.events.items()}
 
 
 @dataclass(frozen=True)
@@ -140,7 +166,7 @@ class CycleModel:
         step = x - self.at
         turned = self.curvatures @ step
         change, slopes = self.slopes @ step + 0.5 * turned @ step, self.slopes + turned
-        grown = self.values * np.exp(np.clip(change, -30.0, 30.0))
+        grown = self.values * np.exp(np.minimum(np.maximum(change, -30.0), 30.0))
         values = np.where(self.positive, grown, self.values + change)
         return values, np.where(self.positive, grown, 1.0)[:, None] * slopes
 
