@@ -53,9 +53,7 @@ class Row(NamedTuple):
         ]
 
 
-BEYOND = {
-    ("elbow_printed", "edge_traction"), ("elbow_machined", "edge_traction"),
-}  # fmt: skip
+BEYOND: set[tuple[str, str]] = set()
 """Studies and quantities beyond the tenth, each with the figure in README.md."""
 LEFT_OUT = {"ankle", "driven_joint", "fast_switch", "finger_of_stock_springs"}
 """Studies not in the table, with the reason in README.md."""

@@ -19,7 +19,7 @@ from tvimdesign.catalog.offers import QUOTE, offer_for, offers, total
 KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
 KINDS |= {"preload_spring", "heater", "thermal_cutout", "controller_supply", "divider_resistor", "heater_wire"}
 KINDS |= {"crimp_splice", "wire_sleeve", "polyimide_film", "thermal_grease", "grease"}
-KINDS |= {"mould_release", "spreader", "liner", "motor_driver"}
+KINDS |= {"filament", "mould_release", "spreader", "liner", "motor_driver"}
 DATE, UNDATED = re.compile(r"20\d\d-\d\d(-\d\d)?"), "not stated"
 BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"
 
@@ -47,6 +47,18 @@ def test_a_screw_is_ordered_by_its_length():
     eleven = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - A2-70")
     assert eleven is not None
     assert (eleven.supplier, eleven.number) == ("any fastener shop", "ISO 7380-1 - M3 x 11 - A2-70")
+
+
+def test_what_is_printed_at_home_lists_its_filament():
+    design = design_of("plain", {})
+    made = sum(1e3 * design.value(f"{kind}_mass") for kind in ("housing", "rotor", "link", "retainer"))
+    titles = {"structure_material": "Polycarbonate (Bambu Lab PC), printed", "nozzle_temperature": "270"}
+    (item,) = (item for item in beside(design, titles) if item.kind == "filament")
+    assert f"{made:.3g} g for the parts" in item.title
+    assert item.quantity == 1 + int(2.0 * made // 1000.0)
+    assert item.offer is not None
+    assert item.price == "47.27 to 228.80 USD a pack of 1 (2016-04, of polycarbonate, 1 kg)"
+    assert not [item for item in beside(design, {}) if item.kind == "filament"]  # a shop brings its own
 
 
 def test_the_driver_of_a_motor_is_ordered_by_its_record():

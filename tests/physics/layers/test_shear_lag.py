@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 from plane_conduction import in_rectangle
 from scipy import sparse
-from scipy.integrate import solve_bvp
+from scipy.integrate import solve_bvp, trapezoid
 from scipy.sparse.linalg import spsolve
 from support import ROOT
 
@@ -144,10 +144,13 @@ def test_at_the_wall_itself_the_sheet_gives_nothing():
         assert shear_lag.rim_rise(held, 100.0) == pytest.approx(1.0 + shear_lag.rim_width(held) / 100.0)
 
 
-def solved(coupled: np.ndarray, enters: np.ndarray, lap: shear_lag.AnnularLap) -> tuple[float, float, float, float]:
-    """Rises at both edges over T r_o/J, the upper sheet's share, and the traction's mean square over an even one's.
+DEPTH = 1.5e-3
 
-    Of F'' - 3 F'/r = A F - b, F of each layer 0 at the inner edge and 1 at the outer, by numbers.
+
+def solved(coupled: np.ndarray, enters: np.ndarray, lap: shear_lag.AnnularLap) -> tuple[float, float, float, float]:
+    """Return rises at edges over T r_o/J, the upper sheet's share, and the traction's mean square over an even one.
+
+    Rises are means over `DEPTH`. Of F'' - 3 F'/r = A F - b, F of each layer 0 at the inner edge and 1 at the outer.
     """
     a, b, count = lap.inner, lap.outer, len(enters)
 
@@ -161,15 +164,17 @@ def solved(coupled: np.ndarray, enters: np.ndarray, lap: shear_lag.AnnularLap) -
 
     grid = np.linspace(a, b, 100)
     solution = solve_bvp(slopes, ends, grid, np.ones((2 * count + 2, grid.size)), tol=1e-6)
-    even = 0.25 * (b**4 - a**4) / b
+    even = 0.75 * (b**4 - a**4) / b
+    inner = solution.sol(a + DEPTH)[0] * even / ((a + DEPTH) ** 3 - a**3)
+    outer = (1.0 - solution.sol(b - DEPTH)[0]) * even / (b**3 - (b - DEPTH) ** 3)
     share = solution.sol(b)[-2] / (0.5 * (a**-2 - b**-2))
     square = solution.sol(b)[-1] * 0.25 * (b**4 - a**4)
-    return solution.sol(a)[count] * even / a**2, solution.sol(b)[count] * even / b**2, share, square
+    return inner, outer, share, square
 
 
 def agrees(lap: shear_lag.AnnularLap, by_numbers: tuple[float, float, float, float]) -> None:
     at_inner, at_outer, share, square = by_numbers
-    rises = shear_lag.edge_rises(lap)
+    rises = shear_lag.edge_rises(lap, DEPTH)
     assert rises[0] == pytest.approx(at_inner, rel=0.04)
     assert rises[1] == pytest.approx(at_outer, rel=0.01)
     assert shear_lag.upper_share(lap) == pytest.approx(share, rel=0.01)
@@ -196,17 +201,32 @@ def test_a_lower_sheet_that_hands_torque_on_inward_keeps_less(inward):
 
 def test_limits_of_an_annular_lap():
     lap = shear_lag.annular_lap(1e10, 1e-12, 2e-12, (15e-3, 27.5e-3))
-    assert shear_lag.edge_rises(lap) == pytest.approx((15.0 / 27.5, 1.0), rel=1e-4)
+    assert shear_lag.edge_rises(lap, 1e-5) == pytest.approx((15.0 / 27.5, 1.0), rel=1e-3)
     # Volkersen's lap joint, of whose load the lower sheet bears 0.7 in the middle.
     layer, upper, lower, width = 5e10, 7e-7, 3e-7, 0.012
     lap = shear_lag.annular_lap(layer, upper, lower, (10.0, 10.0 + width))
-    inner, outer = shear_lag.edge_rises(lap)
+    inner, outer = shear_lag.edge_rises(lap, 1e-5)
     assert outer == pytest.approx(shear_lag.edge_rise(layer, upper, lower, width), rel=5e-3)
     assert inner == pytest.approx(shear_lag.edge_rise(layer, lower, upper, width), rel=5e-3)
     # A printed plate on a spreader of aluminum: the bonds of the inner rim bear several times those of the outer.
     lap = shear_lag.annular_lap(1.8e11, 1.0 / 2.9e6, 1.0 / 15e6, (15e-3, 27.5e-3))
-    inner, outer = shear_lag.edge_rises(lap)
+    inner, outer = shear_lag.edge_rises(lap, 1e-5)
     assert inner > 3.0 * outer
+
+
+def test_ends_of_an_arc_bear_what_a_plate_brings_in_over_the_gap():
+    # E h u'' = k u - f above an arc, -f over the gap, by numbers; u' is 0 in the middle of both.
+    layer, sheet, arc, gap = 7.6e10, 8.5e6, 14e-3, 2.6e-3
+    x = np.linspace(0.0, 1.0, 50)
+
+    def slopes(_: np.ndarray, y: np.ndarray) -> np.ndarray:
+        return np.vstack([y[1] * arc, (layer * y[0] - 1.0) / sheet * arc])
+
+    bar = solve_bvp(slopes, lambda at, to: np.array([at[1], to[1] - gap / sheet]), x, np.ones((2, x.size)), tol=1e-6)
+    traction = layer * bar.sol(x)[0]
+    assert shear_lag.end_rise(layer, sheet, arc, gap) == pytest.approx(traction[-1] / trapezoid(traction, x), rel=1e-3)
+    assert shear_lag.end_rise(layer, 1e6 * sheet, arc, gap) == pytest.approx(1.0, rel=1e-3)  # a stiff one turns as one
+    assert shear_lag.end_rise(layer, sheet, arc, 0.0) == pytest.approx(1.0)
 
 
 RADII, AROUND = (15e-3, 27.5e-3), 3 * 1.9

@@ -182,7 +182,12 @@ def _spring(design: Design, kind: str, title: str) -> str:
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return what is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the
     pads."""
-    items = [_polymer(design, titles), *_under_pads(design, titles), *_heat_conducting_adhesive(design)]
+    items = [
+        *_filament(design, titles),
+        _polymer(design, titles),
+        *_under_pads(design, titles),
+        *_heat_conducting_adhesive(design),
+    ]
     items += [*_of_the_heater(design), *_supply(design), *_motor_driver(design, titles), *_glues(design)]
     items += _beside_the_module(design, titles)
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
@@ -222,6 +227,17 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
         jig.append(Item(jigs.FORK, jigs.FORK_COUNT, True, record, holds, 0.0, files, fixture=True))
     release = f"Mould release for thermoplastics at {jigs.CAST_AT:g} °C, wiped thinly on mould and lid"
     return [*jig, Item("mould_release", 1, False, "", release, 0.0, ())]
+
+
+def _filament(design: Design, titles: Mapping[str, str]) -> list[Item]:
+    """Return the spools that the module's parts are printed of at home, with as much again for jigs and supports."""
+    if cad_report.PRINT_TEMPERATURES[0] not in titles:
+        return []
+    made = [design.values.get(f"{kind}_mass", 0.0) for kind in ("housing", "rotor", "link", "retainer", "cover")]
+    adjusters = design.values.get("adjuster_volume", 0.0) * design.value("structure_density")
+    grams, record = 1e3 * (sum(made) + adjusters), str(design.choices["structure_material"])
+    words = f"Filament, {titles.get('structure_material', record)}: {grams:.3g} g for the parts, as much for the rest"
+    return [Item("filament", math.ceil(2.0 * grams / 1000.0), False, record, words, 0.0, ())]
 
 
 def _polymer(design: Design, titles: Mapping[str, str]) -> Item:

@@ -289,12 +289,21 @@ def windowed_share(m: Module) -> Scalar:
 
 @quantities.helper(requires=WITH_TILES, default=None)
 def lap_on_spreader(m: Module) -> shear_lag.AnnularLap:
-    """Frozen layer between the plate and a spreader, whose inner rim takes a share of the torque."""
-    plate = np.sqrt(m.driven_share) * m.structure_shear_modulus * m.backing_depth
+    """Frozen layer between the plate and a spreader, whose inner rim takes a share of the torque.
+
+    The plate bears all around, and gives over its thickness besides.
+    """
+    plate = m.structure_shear_modulus * m.backing_depth
     metal = m.driven_share * m.spreader_shear_modulus * m.spreader_depth
-    layer = m.driven_share / (m.pcl_thickness / m.frozen_shear_modulus + m.liner_areal_compliance)
     radii = m.pcl_inner_radius, m.pcl_outer_radius
+    layer = m.driven_share * _foundation_below_plate(m)
     return shear_lag.annular_lap(layer, 1.0 / plate, 1.0 / metal, radii, m.seat_path.inward)
+
+
+def _foundation_below_plate(m: Module) -> Scalar:
+    """Return the stiffness per area of frozen layer and liner, and of the plate over its thickness [Pa/m]."""
+    over_thickness = m.backing_depth / (3.0 * m.structure_shear_modulus)
+    return 1.0 / (m.pcl_thickness / m.frozen_shear_modulus + m.liner_areal_compliance + over_thickness)
 
 
 @quantities.helper()
@@ -337,19 +346,34 @@ def under_arcs_compliance(m: Module) -> Scalar:
     return _under_pads_compliance(m) if m.heater_form == CUT else m.seat_path.floor
 
 
+@quantities.helper(requires=WITH_LINER)
+def liner_in_layer(m: Module) -> Scalar:
+    """Compliance of a liner over that of the layer, and of pads that are sheared [1]; zero without."""
+    on_tiles = m.lap_on_spreader is not None
+    others = m.pcl_thickness / m.frozen_shear_modulus if on_tiles else 1.0 / m.lap_of_arcs[0] - m.liner_areal_compliance
+    return m.liner_areal_compliance / others
+
+
+@quantities.helper(requires=WITH_LINER, default=1.0)
+def liner_wall_rise(m: Module) -> Scalar:
+    """Traction beside a wall around a liner, a mean over a thickness of the layer, over that far from it [1].
+
+    The adhesive that fills the gap around a liner holds it on the walls of its recess, so that it gives less below the
+    layer's rims.
+    """
+    return shear_lag.rim_rise(m.liner_in_layer, m.pcl_thickness / m.liner_thickness)
+
+
 @quantities.helper(requires=WITH_LINER, default=1.0)
 def liner_rim_rise(m: Module) -> Scalar:
     """Traction along the rims of the arcs over that without walls around the liners [1].
 
-    The adhesive that fills the gap around a liner holds it on the walls of its recess, so that it gives less below the
-    layer's rims. What these bear more, all of the layer bears less.
+    What these bear more, all of the layer bears less.
     """
-    on_tiles = m.lap_on_spreader is not None
-    others = m.pcl_thickness / m.frozen_shear_modulus if on_tiles else 1.0 / m.lap_of_arcs[0] - m.liner_areal_compliance
-    held, inner, outer = m.liner_areal_compliance / others, m.pcl_inner_radius, m.pcl_outer_radius
+    inner, outer = m.pcl_inner_radius, m.pcl_outer_radius
     rims = m.arc_count * (m.arc_span * (inner**3 + outer**3) + 2.0 / 3.0 * (outer**3 - inner**3))  # of r^2, all around
-    more = m.liner_thickness * shear_lag.rim_width(held) * rims / m.layer_polar_moment
-    return shear_lag.rim_rise(held, m.pcl_thickness / m.liner_thickness) / (1.0 + more)
+    more = m.liner_thickness * shear_lag.rim_width(m.liner_in_layer) * rims / m.layer_polar_moment
+    return m.liner_wall_rise / (1.0 + more)
 
 
 @quantities.output("1")
@@ -357,11 +381,16 @@ def layer_edge_rise(m: Module) -> Scalar:
     """Highest traction of the frozen layer along the rims of its arcs over T r/J at the outer, a mean over a thickness.
 
     Plate and floor stretch, so that the torque leaves at the outer rim, and what is above the windows bears little. On
-    a spreader that is stiffer than the plate it leaves at the inner rim. Beside the walls around a liner it is higher.
+    a spreader that is stiffer than the plate it leaves at the inner rim, and most at its ends. Beside the walls around
+    a liner it is higher.
     """
-    if m.lap_on_spreader is not None:
-        return m.liner_rim_rise * np.fmax(*shear_lag.edge_rises(m.lap_on_spreader))
-    held = m.held_polar_moment / m.layer_polar_moment
     radii = m.pcl_inner_radius, m.pcl_outer_radius
+    if m.lap_on_spreader is not None:
+        layer, sheet = _foundation_below_plate(m), m.structure_youngs_modulus * m.backing_depth
+        halves = [(0.5 * m.arc_span * radius, np.pi / m.arc_count * radius) for radius in radii]
+        ends = [shear_lag.end_rise(layer, sheet, arc, pitch - arc) for arc, pitch in halves]
+        rims = shear_lag.edge_rises(m.lap_on_spreader, m.pcl_thickness)
+        return m.liner_wall_rise * m.liner_rim_rise * np.fmax(rims[0] * ends[0], rims[1] * ends[1])
+    held = m.held_polar_moment / m.layer_polar_moment
     layer, plate, floor = m.lap_of_arcs
     return m.liner_rim_rise * shear_lag.arc_edge_rise(layer, plate, floor, radii, held)

@@ -169,19 +169,25 @@ def annular_lap(layer: Any, upper: Any, lower: Any, radii: tuple[Any, Any], inwa
     return AnnularLap((Mode(np.sqrt(layer * both), upper_torque - 1.0, upper_torque),), upper_torque, *radii)
 
 
-def edge_rises(lap: AnnularLap) -> tuple[Any, Any]:
-    """Return the traction at the inner and at the outer edge over T r_o/J, J the layer's polar moment [1]."""
-    a, b, inner, outer = lap.inner, lap.outer, 0.0, 0.0
-    for lag, at_inner, at_outer in lap.modes:
-        at_a, at_b = _slope(lag * a), _slope(lag * b)
-        long = _reach(lag * b) - _reach(lag * a)
-        across = np.sqrt(at_a * at_b) / np.sinh(long)
-        leaves_inner = at_a / np.tanh(long) + 0.5 * (lag * a / at_a) ** 2 - 2.0
-        leaves_outer = at_b / np.tanh(long) - 0.5 * (lag * b / at_b) ** 2 + 2.0
-        inner += at_outer * (a / b) ** 2 * across - at_inner * leaves_inner
-        outer += at_outer * leaves_outer - at_inner * (b / a) ** 2 * across
-    even = 0.25 * (b**4 - a**4)
-    return inner * even / (a**3 * b), outer * even / b**4
+def edge_rises(lap: AnnularLap, depth: Any) -> tuple[Any, Any]:
+    """Return the traction at the inner and at the outer edge over T r_o/J, J the layer's polar moment, means over a
+    `depth` in from them [1]."""
+    a, b = lap.inner, lap.outer
+    even = 0.75 * (b**4 - a**4) / b
+    inner = (_upper_torque(lap, a) - _upper_torque(lap, a + depth)) / ((a + depth) ** 3 - a**3)
+    outer = (_upper_torque(lap, b - depth) - _upper_torque(lap, b)) / (b**3 - (b - depth) ** 3)
+    return inner * even, outer * even
+
+
+def end_rise(layer: Any, sheet: Any, arc: Any, gap: Any) -> Any:
+    """Return the traction at an arc's ends over its mean along a rim [1]: s (1 + m g coth(m l)), s = l/(l + g).
+
+    A sheet that is loaded evenly all around hangs on arcs. What comes in over a gap between them goes to their ends, as
+    in a bar on a foundation: m^2 = k/(E h). `layer` is its k [Pa/m], `sheet` the E h [Pa*m], `arc` half the length l of
+    an arc and `gap` half that of a gap, g [m].
+    """
+    rate = np.sqrt(layer / sheet)
+    return (1.0 + rate * gap / np.tanh(rate * arc)) * arc / (arc + gap)
 
 
 def upper_share(lap: AnnularLap) -> Any:
@@ -206,6 +212,11 @@ def _nodes(lap: AnnularLap) -> list[tuple[Any, Any, Any, Any]]:
         torque = lap.upper_torque + sum(still for still, _ in stays)
         nodes.append((weight, radius, torque, sum(slope for _, slope in stays) / radius))
     return nodes
+
+
+def _upper_torque(lap: AnnularLap, radius: Any) -> Any:
+    """Return the share of the torque in the upper sheet at a radius [1]."""
+    return lap.upper_torque + sum(_still(mode, (lap.inner, lap.outer), radius)[0] for mode in lap.modes)
 
 
 def _still(mode: Mode, edges: tuple[Any, Any], radius: Any) -> tuple[Any, Any]:
