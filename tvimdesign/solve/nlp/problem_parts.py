@@ -75,7 +75,7 @@ class Parameters:
 
 
 class Places(NamedTuple):
-    """Where numbers stand: by name among a problem's wanted outputs, and its events among what the cycle supplies."""
+    """Places by name: of wanted outputs among each other, of events among what the cycle supplies."""
 
     outputs: Mapping[str, int]
     events: Mapping[str, int]
