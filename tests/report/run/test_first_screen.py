@@ -271,6 +271,19 @@ def test_the_frozen_link_turns_until_the_bearing_holds_its_core():
         assert f": turns {math.degrees(angle):.2g}° at " in link
 
 
+def test_the_cost_names_parts_without_a_price():
+    answered = case("paper_compression alone")
+
+    def cost(**values: float) -> str:
+        design = answered.result.design.model_copy(update={"values": answered.result.design.values | values})
+        facts = more_facts(replace(answered.result, design=design), {}, None)
+        return next(fact.text for fact in facts if fact.label == "Cost")
+
+    assert "12.3 USD" in cost(cost=12.3)
+    assert "2 parts have no listed price" in cost(unpriced_count=2.0)
+    assert "no listed price" not in cost(unpriced_count=0.0)
+
+
 def test_the_temperatures_of_a_switch_rise_along_their_line():
     answered = case("paper_compression alone")
     line = next(fact.text for fact in more_facts(answered.result, {}, None) if fact.label == "Temperatures")

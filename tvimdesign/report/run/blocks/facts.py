@@ -302,11 +302,19 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Temperatures", [_temperatures(answer)]),
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
+        Fact("Cost", list(_cost(_Values(answer, uncertainty)))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table),
         *_yield(answer, uncertainty, table),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
+
+
+def _cost(value: _Values) -> Iterator[str]:
+    """Yield what priced parts and materials cost, and how many parts have no price."""
+    yield f"{value('cost')} for priced parts and the material of the others, without work"
+    if unpriced := round(value.values["unpriced_count"]):
+        yield f"{unpriced} parts have no listed price: get quotes, and write `module: {{heater_price: 20 USD}}`"
 
 
 def _soft(answer: StudyResult) -> list[str]:
