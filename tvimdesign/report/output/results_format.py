@@ -9,6 +9,7 @@ from typing import Any, Literal, NotRequired
 from pydantic import TypeAdapter
 
 from tvimdesign.report.output.numbers import Entry, Head, NumberEntry
+from tvimdesign.solve.nlp import solution
 
 Shares = dict[str, float | None]
 
@@ -134,37 +135,6 @@ class BestConstant(Entry):
     values: dict[str, ValueEntry]
 
 
-class CurrentProfileEntry(Entry):
-    """A current that is not constant: straight between these moments."""
-
-    moments: list[float]
-    currents: list[float]
-
-
-class LostTo(Entry):
-    """A limit that too many modules break, the share that keeps it, and what carries its spread [shares]."""
-
-    text: str
-    share: float
-    carriers: dict[str, float]
-
-
-class TightenedEntry(Entry):
-    """The tolerance that needs least tightening for a requested yield; `to` is zero if none alone is enough."""
-
-    name: str
-    plus_minus: float
-    to: float
-    share: float
-
-
-class EasedEntry(Entry):
-    """A requirement with which, eased to a value, a design reaches a requested yield."""
-
-    text: str
-    to: float
-
-
 class Yield(Entry):
     """Yield of a design with margins, and of the one without margins, by random modules."""
 
@@ -172,11 +142,11 @@ class Yield(Entry):
     modules: int
     shares: dict[str, float]
     together: float
-    lost_to: list[LostTo]
+    lost_to: list[solution.LostTo]
     nominal_together: float
     nominal: dict[str, NumberEntry]
-    tightened: TightenedEntry | None
-    eased: EasedEntry | None
+    tightened: solution.TightenedTolerance | None
+    eased: solution.EasedRequirement | None
 
 
 class Listed(Entry):
@@ -207,46 +177,14 @@ class ChoosingEntry(Entry):
     cost_of_standard_sizes: dict[str, float]
 
 
-class StartEntry(Entry):
-    """One run of the solver."""
-
-    number: int
-    status: str
-    converged: bool
-    iterations: int
-    objective: float | None
-    begin: Shares
-    end: Shares
-    choices: dict[str, str | float]
-    relaxed: bool
-    second_try: bool
-    by_neighbor: bool
-    crossed: bool
-
-
-class ActiveConstraintEntry(Entry):
-    """A limit or an end of a range at the optimum, and what a step of it costs, in percent."""
-
-    name: str
-    output: str
-    text: str
-    residual: float | None
-    scale: float
-    absolute: bool
-    shadow_price: float | None
-    step: str
-    origin: str
-    sensitivity: Shares
-
-
 class Search(Entry):
-    """The search for the optimum."""
+    """The search for the optimum: its runs, and the limits and ends of ranges at the optimum with their prices."""
 
     objective: float | None
     reference: Shares
     distinct_optima: list[int]
-    starts: list[StartEntry]
-    active_constraints: list[ActiveConstraintEntry]
+    starts: list[dict[str, Any]]
+    active_constraints: list[dict[str, Any]]
 
 
 class LimitEntry(Entry):
@@ -356,7 +294,7 @@ class Answered(Head):
     accepting: list[CheckEntry]
     accepted_in_vain: list[str]
     idealizations: list[IdealizationEntry]
-    current_profiles: dict[str, CurrentProfileEntry]
+    current_profiles: dict[str, dict[str, list[float]]]  # Moments and currents, straight between them
     at_default_currents: dict[str, ValueEntry]
     cooling: CoolingEntry
     best_constant_currents: BestConstant | None

@@ -275,7 +275,7 @@ def results(answer: StudyResult, table: Table) -> Answered:
             }
             for idealization in answer.idealizations
         ],
-        "current_profiles": cast("Any", design.current_profiles),
+        "current_profiles": design.current_profiles,
         "at_default_currents": entries(answer.constant_current),
         "cooling": {
             "able": answer.cooling.able,
