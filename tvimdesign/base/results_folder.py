@@ -14,28 +14,10 @@ from types import TracebackType
 from typing import Any, Self
 
 from tvimdesign import __version__
-from tvimdesign.base.atomic_files import (
-    TABLE_ENCODING,
-    UNFINISHED,
-    atomic_write,
-    digest_of,
-    files_in,
-    link_on_the_way,
-    make_folder,
-)
+from tvimdesign.base import atomic_files, manifest
 from tvimdesign.base.claim import FORMAT, RUNNING, Claim, is_run
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import raise_pending
-from tvimdesign.base.manifest import (
-    MANIFEST,
-    Manifest,
-    discard_unfinished,
-    manifest_text,
-    read_manifest,
-    refuse_links,
-    replace_results,
-    seed,
-)
 
 PROGRESS = "front/progress"  # Folder of what a run can go on from where it was killed
 _LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh",
@@ -57,11 +39,11 @@ class ResultsFolder:
         """
         if overwrite and resume:
             raise InputError("--overwrite and --resume: choose one")
-        self.out, self.path = out, out / UNFINISHED
+        self.out, self.path = out, out / atomic_files.UNFINISHED
         """Where the results will be, and where files are written until then."""
         self._progress = PurePosixPath(progress)
         self._run, self._started = uuid.uuid4().hex, datetime.now(UTC)
-        self._results: Manifest | None = None
+        self._results: manifest.Manifest | None = None
         try:
             prepare(out)
             self._claim = Claim(out)
@@ -77,10 +59,10 @@ class ResultsFolder:
 
     def _begin(self, overwrite: bool, resume: bool) -> None:
         """Clear the folder `unfinished`, but for what the run continues from. Raises InputError."""
-        refuse_links(self.out, self._earlier.files)
-        written, results = files_in(self.path), self._earlier.files
+        manifest.refuse_links(self.out, self._earlier.files)
+        written, results = atomic_files.files_in(self.path), self._earlier.files
         if resume and any(map(self._is_continued, written)):
-            discard_unfinished(self.path, self._is_continued)
+            manifest.discard_unfinished(self.path, self._is_continued)
             return
         if resume and (self._earlier.content or written) and not any(map(self._is_continued, results)):
             raise InputError(f"{self.out}: there is nothing to resume in it; --overwrite to do it again")
@@ -94,9 +76,11 @@ class ResultsFolder:
                 f"{self.out}: holds results already; say --overwrite to replace them, or --out another folder; "
                 "--resume goes on with a front or a sweep that was stopped"
             )
-        discard_unfinished(self.path)
+        manifest.discard_unfinished(self.path)
         if resume:
-            seed(self.out, self.path, {name: results[name] for name in results if self._is_continued(name)}, say)
+            manifest.seed(
+                self.out, self.path, {name: results[name] for name in results if self._is_continued(name)}, say
+            )
 
     def _is_continued(self, name: str) -> bool:
         """Return whether a run that is resumed continues from a file."""
@@ -154,9 +138,12 @@ class ResultsFolder:
     def write_at_the_end(self, name: str, data: str | bytes) -> Path:
         """Write one file of a run that was interrupted. Raises OutputError."""
         path = self.path / name
-        make_folder(path.parent)
-        atomic_write(
-            path, data.encode(TABLE_ENCODING if path.suffix == ".csv" else "utf-8") if isinstance(data, str) else data
+        atomic_files.make_folder(path.parent)
+        atomic_files.atomic_write(
+            path,
+            data.encode(atomic_files.TABLE_ENCODING if path.suffix == ".csv" else "utf-8")
+            if isinstance(data, str)
+            else data,
         )
         return path
 
@@ -166,7 +153,7 @@ class ResultsFolder:
 
     def remove(self, folder: str) -> None:
         """Remove what this run has written into a folder within its own."""
-        if not self.path.is_symlink() and not link_on_the_way(self.path, f"{folder}/any"):
+        if not self.path.is_symlink() and not atomic_files.link_on_the_way(self.path, f"{folder}/any"):
             shutil.rmtree(self.path / folder, ignore_errors=True)
 
     def finish(
@@ -185,7 +172,7 @@ class ResultsFolder:
         if not self.has_earlier:
             self._write_manifest(status, {}, {}, {})
             self._publish()
-        elif files_in(self.path):
+        elif atomic_files.files_in(self.path):
             self._claim.write(status, self._run)
             say(f"{self.out}: the earlier results are as they were; {self.path} holds what this run has written")
 
@@ -203,11 +190,15 @@ class ResultsFolder:
             "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
             "timing": timing,
             "seed": study.get("solver", {}).get("seed"),
-            "inputs": {name: digest_of(path) for name, path in inputs.items()},
-            "files": {name: digest_of(self.path / name) for name in files_in(self.path) if name != MANIFEST},
+            "inputs": {name: atomic_files.digest_of(path) for name, path in inputs.items()},
+            "files": {
+                name: atomic_files.digest_of(self.path / name)
+                for name in atomic_files.files_in(self.path)
+                if name != manifest.MANIFEST
+            },
         }
-        self.write_at_the_end(MANIFEST, manifest_text(content))
-        self._results = read_manifest(self.path)
+        self.write_at_the_end(manifest.MANIFEST, manifest.manifest_text(content))
+        self._results = manifest.read_manifest(self.path)
 
     def _publish(self) -> None:
         """Put the results in place, and let go of the folder. Raises OutputError where they stay in `unfinished`."""
@@ -225,27 +216,27 @@ def prepare(out: Path) -> None:
         raise InputError(f"{out}: is a file; name a folder with --out")
     out.mkdir(parents=True, exist_ok=True)
     names = {path.name for path in out.iterdir()}
-    if UNFINISHED in names and not is_run(out / UNFINISHED):
-        raise InputError(f"{out / UNFINISHED}: is not the folder of a run; name another folder with --out")
-    if names and not names & {MANIFEST, UNFINISHED}:
-        raise InputError(f"{out}: not a folder of results (no {MANIFEST}); --overwrite would lose other files")
-    read_manifest(out)
+    if atomic_files.UNFINISHED in names and not is_run(out / atomic_files.UNFINISHED):
+        raise InputError(f"{out / atomic_files.UNFINISHED}: is not the folder of a run; name another folder with --out")
+    if names and not names & {manifest.MANIFEST, atomic_files.UNFINISHED}:
+        raise InputError(f"{out}: not a folder of results (no {manifest.MANIFEST}); --overwrite would lose other files")
+    manifest.read_manifest(out)
 
 
-def recovered(out: Path, claim: Claim) -> Manifest:
+def recovered(out: Path, claim: Claim) -> manifest.Manifest:
     """Put results of a run in place that was killed at its very end, and return the manifest of those that stand."""
-    earlier = read_manifest(out)
-    if (claim.folder / MANIFEST).exists():
-        publish(out, claim.folder, read_manifest(claim.folder), earlier)
-        earlier = read_manifest(out)
+    earlier = manifest.read_manifest(out)
+    if (claim.folder / manifest.MANIFEST).exists():
+        publish(out, claim.folder, manifest.read_manifest(claim.folder), earlier)
+        earlier = manifest.read_manifest(out)
     return earlier
 
 
-def publish(out: Path, new: Path, results: Manifest, earlier: Manifest) -> None:
+def publish(out: Path, new: Path, results: manifest.Manifest, earlier: manifest.Manifest) -> None:
     """Put finished results in the place of earlier ones. Raises OutputError."""
     try:
-        replace_results(out, new, results, earlier, say)
-        discard_unfinished(new)
+        manifest.replace_results(out, new, results, earlier, say)
+        manifest.discard_unfinished(new)
     except (OSError, InputError) as error:
         reason = error.strerror or error if isinstance(error, OSError) else error
         raise OutputError(

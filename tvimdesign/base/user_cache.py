@@ -143,7 +143,11 @@ def keep_code(code: bytes, *compiled: str) -> None:
     name = _name(compiled)
     with contextlib.suppress(OutputError):
         atomic_write(folder / name, _seal(name, code) + code)
-        _tidy(folder)
+        # Remove what is too much, and what a process that was killed has left half written long ago.
+        with contextlib.suppress(OSError):
+            oldest = sorted(folder.iterdir(), key=lambda path: -path.lstat().st_mtime)[_MOST:]
+            for path in oldest:
+                path.unlink(missing_ok=True)
 
 
 def _name(compiled: tuple[str, ...]) -> str:
@@ -156,11 +160,3 @@ def _name(compiled: tuple[str, ...]) -> str:
 def _seal(name: str, code: bytes) -> bytes:
     """Return the hash that a file begins with."""
     return hashlib.sha256(name.encode() + code).digest()
-
-
-def _tidy(folder: Path) -> None:
-    """Remove what is too much, and what a process that was killed has left half written long ago."""
-    with contextlib.suppress(OSError):
-        oldest = sorted(folder.iterdir(), key=lambda path: -path.lstat().st_mtime)[_MOST:]
-        for path in oldest:
-            path.unlink(missing_ok=True)

@@ -84,7 +84,12 @@ def _forget_interrupt() -> None:
 def _report_error(error: TvimError) -> int:
     sys.stderr.write(f"{error}\n")
     if "--json" in sys.argv and error.exit_code == InputError.exit_code:
-        _print_error(error)
+        # Print the error as JSON on standard output: the message, and each problem of a study with its place.
+        import json
+        from dataclasses import asdict
+
+        problems = [asdict(problem) for problem in getattr(error, "problems", ())]
+        typer.echo(json.dumps({"error": str(error), "problems": problems}, indent=2))
     return error.exit_code
 
 
@@ -94,15 +99,6 @@ def _of_the_machine(error: OSError | MemoryError) -> str:
         return "there is not enough memory; close other programs, or ask for fewer `solver.cells`"
     named = f"{error.filename}: " if error.filename else ""
     return f"{named}{error.strerror or error}; what was finished is kept"
-
-
-def _print_error(error: TvimError) -> None:
-    """Print the error as JSON on standard output: the message, and each problem of a study with its place."""
-    import json
-    from dataclasses import asdict
-
-    problems = [asdict(problem) for problem in getattr(error, "problems", ())]
-    typer.echo(json.dumps({"error": str(error), "problems": problems}, indent=2))
 
 
 _PLAIN = {"·": ".", "²": "^2", "³": "^3", "°": "deg ", "Ω": "ohm", "µ": "u", "×": "x", "–": "-", "—": "-", "→": "->",

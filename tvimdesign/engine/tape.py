@@ -120,11 +120,6 @@ class Tape:
     def _work(self) -> Array:
         return self.registers.copy()
 
-    def _room(self, lanes: int) -> Array:
-        if lanes not in self._rooms:
-            self._rooms[lanes] = tangent_registers(self.registers.size, lanes)
-        return self._rooms[lanes]
-
     def values(self, *arguments: Array) -> list[Array]:
         """Return the nonzeros of each result."""
         w = self._work
@@ -136,7 +131,9 @@ class Tape:
         """Return the nonzeros of each result, and their tangents along what the arguments move by, a column each."""
         w, count = self._work, self.arguments[-1]
         directions = moved[0].shape[1]
-        d = self._room(directions)
+        if directions not in self._rooms:
+            self._rooms[directions] = tangent_registers(self.registers.size, directions)
+        d = self._rooms[directions]
         w[:count], d[:count, :directions] = np.concatenate(arguments), np.concatenate(moved)
         push(self.code, w, d)
         return [(w[places], d[places, :directions]) for places in self.results]

@@ -19,14 +19,7 @@ from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study, no
 from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.run.uncertainty_data import Uncertainty
-from tvimdesign.solve.nlp.constraints import (
-    Constraint,
-    constraints_of,
-    impossible,
-    in_words,
-    refuse_contradictory,
-    refuse_impossible,
-)
+from tvimdesign.solve.nlp import constraints
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -77,7 +70,7 @@ def limits_shown(
     """
     stand = [
         (limit, _stands(limit, values[limit.output], study.table, limit.name in active))
-        for limit in constraints_of(study, study.table, known)
+        for limit in constraints.constraints_of(study, study.table, known)
     ]
     order = ("violated", "active", "met")
     stand.sort(key=lambda pair: (order.index(pair[1]), -float(pair[0].residual(values[pair[0].output]))))
@@ -89,16 +82,16 @@ def limits_shown(
     return [row for row in limits if row["stands"] != "met" or first[row["of"], row["sense"]] is row]
 
 
-def _stands(limit: Constraint, value: float, table: Table, presses: bool) -> str:
+def _stands(limit: constraints.Constraint, value: float, table: Table, presses: bool) -> str:
     if not is_met(limit, value, table):
         return "violated"
     return "active" if presses or -float(limit.residual(value)) <= NOTHING else "met"
 
 
-def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
+def _limit(limit: constraints.Constraint, value: float, table: Table, stands: str) -> Shown:
     margin = -float(limit.residual(value))
     check = ConstraintCheck(
-        text=in_words(limit, table), output=limit.output, value=value, margin=margin, scale=limit.scale,
+        text=constraints.in_words(limit, table), output=limit.output, value=value, margin=margin, scale=limit.scale,
         absolute=limit.absolute, met=stands != "violated", worst=margin, origin=limit.origin, part_of=limit.part_of,
     )  # fmt: skip
     unit = table.unit(limit.output)
@@ -111,7 +104,9 @@ def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
 
 def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
     """Ratings that the module is beyond."""
-    texts = [(in_labels(in_words(limit, study.table)), limit.output) for limit in exceeded(values, study.table)]
+    texts = [
+        (in_labels(constraints.in_words(limit, study.table)), limit.output) for limit in exceeded(values, study.table)
+    ]
     return [{"text": text, "label": label(name), "accepted": name in study.accept} for text, name in texts]
 
 
@@ -227,9 +222,9 @@ class Engine:
         model = self._model(study, known)
         evaluated = model.evaluate(model.inputs({**known, **optimum}))
         with np.errstate(invalid="ignore"):
-            if impossible(evaluated.values, study.table):
-                refuse_impossible(study)
-            refuse_contradictory(study, known)
+            if constraints.impossible(evaluated.values, study.table):
+                constraints.refuse_impossible(study)
+            constraints.refuse_contradictory(study, known)
         return evaluated
 
     def _model(self, study: Study, known: Mapping[str, Any]) -> QuickModel:

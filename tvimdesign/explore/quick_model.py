@@ -84,7 +84,7 @@ class QuickModel:
             cycle = self._simulator.run(inputs)
             switch, lines = cycle.values, {name: (line.times, line.states) for name, line in cycle.trajectories.items()}
         else:
-            some, courses = kernel.course(np.delete(inputs, self._fixed), pace)
+            some, courses = kernel.course(np.delete(inputs, self.model.index["rotor_cells"]), pace)
             switch = {name: some.get(name, np.inf) for name in self.model.switch_names}
             lines = {name: _line(course) for name, course in courses.items() if course}
         ends = {name: phase.phase.ends for name, phase in self.model.phases.items()}
@@ -94,11 +94,6 @@ class QuickModel:
         }  # fmt: skip
         return Evaluated({**dict(zip(self.model.names, inputs.tolist(), strict=True)),
                           **self.model.values(inputs, switch)}, curves, self._chosen)  # fmt: skip
-
-    @property
-    def _fixed(self) -> int:
-        """The place of the one number that is a shape."""
-        return self.model.index["rotor_cells"]
 
     def _record(self) -> None:
         moving = [name for name in self.model.names if name != "rotor_cells"]

@@ -56,9 +56,10 @@ class Server:
 
     def app(self) -> web.Application:
         """Return the application, with its session from its start to its end."""
-        app = web.Application(
-            middlewares=[self._guard], client_max_size=MOST_BYTES, handler_args={"logger": _server_log()}
-        )
+        # A log of this program's faults only, not of malformed requests and of pages that vanish.
+        log = logging.getLogger(__name__)
+        log.addFilter(_is_fault)
+        app = web.Application(middlewares=[self._guard], client_max_size=MOST_BYTES, handler_args={"logger": log})
         base = f"/{self.token}"
         app.router.add_get(f"{base}/", self._page)
         app.router.add_get(f"{base}/socket", self._socket)
@@ -153,13 +154,6 @@ class Server:
             self._sockets.discard(socket)
             sender.cancel()
         return socket
-
-
-def _server_log() -> logging.Logger:
-    """Return a log of this program's faults only, not of malformed requests and of pages that vanish."""
-    log = logging.getLogger(__name__)
-    log.addFilter(_is_fault)
-    return log
 
 
 def _is_fault(record: logging.LogRecord) -> bool:

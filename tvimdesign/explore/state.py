@@ -64,13 +64,9 @@ def tree_of(base: StudyTree, state: State, way: Way | None = None) -> StudyTree:
 def set_values(tree: StudyTree, values: Mapping[str, Any]) -> StudyTree:
     """Return a tree with values set, by their path; None removes one."""
     for path, value in values.items():
-        tree = _set(tree, path, value)
+        problems = Mistakes(SOURCE)
+        tree = with_value(tree, path, node_of(value, SOURCE, problems), SOURCE, tuple(problems.items))
     return tree
-
-
-def _set(tree: StudyTree, path: str, value: Any) -> StudyTree:
-    problems = Mistakes(SOURCE)
-    return with_value(tree, path, node_of(value, SOURCE, problems), SOURCE, tuple(problems.items))
 
 
 def changed(base: StudyTree, state: State, change: Change, study: Study) -> State:

@@ -143,7 +143,9 @@ def _started(row: Input, study: Study, chosen: dict[str, Any]) -> float:
     try:
         value = _or_default(row, row.name, own, chosen)
     except InputError:
-        return _middle(allowed)
+        if isinstance(allowed, Range):
+            return 0.5 * (allowed.lower + allowed.upper)
+        return float(allowed.values[len(allowed.values) // 2])
     return _nearest(allowed, value)
 
 
@@ -206,12 +208,6 @@ def _reason(row: Input, chosen: dict[str, Any]) -> str:
         except CatalogError as error:
             reason += f" ({error})"
     return reason
-
-
-def _middle(allowed: Vary) -> float:
-    if isinstance(allowed, Range):
-        return 0.5 * (allowed.lower + allowed.upper)
-    return float(allowed.values[len(allowed.values) // 2])
 
 
 def _nearest(allowed: Vary, value: float) -> float:

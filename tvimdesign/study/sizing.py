@@ -297,7 +297,10 @@ def _vary(task: JointTask, widen: float, entry: dict[str, str]) -> str:
         lines.append(f"{name}: {{from: {least}, to: {most}, start: {start}}}")
     share, start_beyond, most_beyond = _PRELOAD
     most_beyond = parse_quantity(entry["preload"], "rad") if "preload" in entry else most_beyond
-    strongest = min(task.current, _rated(task))
+    # A current [A] that the heater bears in three of four plausible cases.
+    rating = Catalog().record("peltiers", _heater(task)).entry("max_current")
+    low, high = rating.low or rating.value, rating.high or rating.value
+    strongest = min(task.current, low + 0.25 * (high - low))
     weakest = max(0.02 * strongest, rows["current"].lower)
     lines += [
         "coil_count: [3, 10]", "arc_span: {from: 20 deg, to: 75 deg, start: 65 deg}",
@@ -313,13 +316,6 @@ def _vary(task: JointTask, widen: float, entry: dict[str, str]) -> str:
 
 def _heater(task: JointTask) -> str:
     return "polyimide_foil_24v" if task.voltage >= 23.9 else "polyimide_foil_12v"
-
-
-def _rated(task: JointTask) -> float:
-    """Return a current [A] that the heater bears in three of four plausible cases."""
-    rating = Catalog().record("peltiers", _heater(task)).entry("max_current")
-    low, high = rating.low or rating.value, rating.high or rating.value
-    return low + 0.25 * (high - low)
 
 
 def _mm(length: float) -> str:

@@ -103,21 +103,17 @@ def with_settings(tree: StudyTree, settings: Sequenced[str]) -> StudyTree:
     """Return the tree after settings of the form `name=value`; a malformed one is a problem of the tree."""
     for setting in settings:
         try:
-            tree = _with_setting(tree, setting)
+            name, equals, value = setting.partition("=")
+            problems = Mistakes(_short(f"--set {setting}"))
+            if not equals or not name.strip():
+                expected = 'name=value, such as --set pcl_thickness="1.2 mm"'
+                problems.add(At(0, 0), "", "there is no '=' after a name", expected)
+                problems.stop()
+            node = _setting_node(value, problems)
+            tree = with_value(tree, name.strip(), node, problems.file, tuple(problems.items))
         except StudyError as error:
             tree = replace(tree, problems=(*tree.problems, *error.problems))
     return tree
-
-
-def _with_setting(tree: StudyTree, setting: str) -> StudyTree:
-    name, equals, value = setting.partition("=")
-    problems = Mistakes(_short(f"--set {setting}"))
-    if not equals or not name.strip():
-        expected = 'name=value, such as --set pcl_thickness="1.2 mm"'
-        problems.add(At(0, 0), "", "there is no '=' after a name", expected)
-        problems.stop()
-    node = _setting_node(value, problems)
-    return with_value(tree, name.strip(), node, problems.file, tuple(problems.items))
 
 
 def _setting_node(value: str, problems: Mistakes) -> Node:

@@ -224,7 +224,8 @@ class Pool:
         if not worker.chunk:
             return
         spent.died += 1
-        self._refuse_if_none_works(spent, code, complaint)
+        if not spent.cells and spent.died > self._count * MOST_DEATHS:
+            raise TvimError(f"no worker process comes to its first cell: the last ended with code {code}: {complaint}")
         shards = Shards(self._folder, self._job.columns)
         again = [cell for cell in worker.chunk if cell.key not in shards]
         spent.cells += len(worker.chunk) - len(again)
@@ -237,10 +238,6 @@ class Pool:
         left.put_back(again)
         if len(left):
             self._start(left)
-
-    def _refuse_if_none_works(self, spent: Usage, code: int, complaint: str) -> None:
-        if not spent.cells and spent.died > self._count * MOST_DEATHS:
-            raise TvimError(f"no worker process comes to its first cell: the last ended with code {code}: {complaint}")
 
     def _give_up(self, cell: Cell, code: int, complaint: str) -> None:
         """Keep a cell that ends whoever computes it."""

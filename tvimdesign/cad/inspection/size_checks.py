@@ -58,18 +58,15 @@ class PlacedBodies:
     def _body(self, name: str) -> Manifold | None:
         """Return the body of a part where it stands, made once: a placed body is sorted again for each question."""
         if name not in self._in_place:
-            self._in_place[name] = self._placed_body(name)
+            kind = kind_of(name)
+            if kind not in self._bodies:
+                try:
+                    self._bodies[kind] = body_of(kind, self._placed[name].mesh)
+                except GeometryError:
+                    self._bodies[kind] = None
+            body = self._bodies[kind]
+            self._in_place[name] = body.transform(self._placed[name].matrix[:3]) if body else None
         return self._in_place[name]
-
-    def _placed_body(self, name: str) -> Manifold | None:
-        kind = kind_of(name)
-        if kind not in self._bodies:
-            try:
-                self._bodies[kind] = body_of(kind, self._placed[name].mesh)
-            except GeometryError:
-                self._bodies[kind] = None
-        body = self._bodies[kind]
-        return body.transform(self._placed[name].matrix[:3]) if body else None
 
 
 MODEL_TOLERANCE = 1e-5

@@ -11,37 +11,27 @@ from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.solids.shapes import (
-    NOTHING,
-    Section,
-    disc_at,
-    inner_corner,
-    notch,
-    point_at,
-    ring,
-    spoke,
-    stacked,
-)
+from tvimdesign.physics.solids import shapes
 
 quantities = QuantityGroup("Size and weight", WITH_MOTOR)
 
 
-@quantities.helper(default=NOTHING)
-def motor_hub_moments(m: Module) -> Section:
+@quantities.helper(default=shapes.NOTHING)
+def motor_hub_moments(m: Module) -> shapes.Section:
     """Volume and its polar moment about the axis, of the motor's hub; the spokes' corners count at the disc's rim."""
-    spokes = spoke(m.mount_boss_radius, m.motor_disc_radius, m.placement_radius) - disc_at(
+    spokes = shapes.spoke(m.mount_boss_radius, m.motor_disc_radius, m.placement_radius) - shapes.disc_at(
         0.5 * m.mount_screw_pilot, m.placement_radius
     )
-    corners = 2.0 * inner_corner(m.motor_corner_radius, m.motor_disc_radius, m.mount_boss_radius)
-    return stacked(
-        (ring(0.0, m.motor_disc_radius), m.motor_plate_thickness),
+    corners = 2.0 * shapes.inner_corner(m.motor_corner_radius, m.motor_disc_radius, m.mount_boss_radius)
+    return shapes.stacked(
+        (shapes.ring(0.0, m.motor_disc_radius), m.motor_plate_thickness),
         (spokes.times(m.foot_count), m.motor_plate_thickness),
-        (Section(corners, corners * m.motor_disc_radius**2).times(m.foot_count), m.motor_plate_thickness),
-        (ring(m.motor_barrel_radius, m.motor_disc_radius), m.motor_plate_level - m.motor_rotor_bottom_level),
-        (ring(0.0, m.motor_collar_radius), m.motor_plate_level - m.stator_top_level),
-        (ring(0.0, m.motor_journal_radius), m.stator_top_level - m.motor_journal_level),
-        (ring(0.0, 0.5 * m.motor_screw_pilot), -m.motor_screw_depth),
-        (point_at(0.5 * m.motor_screw_pilot, 0.0), -m.drill_point_ratio * m.motor_screw_pilot),
+        (shapes.Section(corners, corners * m.motor_disc_radius**2).times(m.foot_count), m.motor_plate_thickness),
+        (shapes.ring(m.motor_barrel_radius, m.motor_disc_radius), m.motor_plate_level - m.motor_rotor_bottom_level),
+        (shapes.ring(0.0, m.motor_collar_radius), m.motor_plate_level - m.stator_top_level),
+        (shapes.ring(0.0, m.motor_journal_radius), m.stator_top_level - m.motor_journal_level),
+        (shapes.ring(0.0, 0.5 * m.motor_screw_pilot), -m.motor_screw_depth),
+        (shapes.point_at(0.5 * m.motor_screw_pilot, 0.0), -m.drill_point_ratio * m.motor_screw_pilot),
     )
 
 
@@ -57,31 +47,31 @@ def motor_housing_volume(m: Module) -> Scalar:
     lower = m.motor_retainer_level + m.drive_motor.bearing_width - m.motor_bottom_level
     lip = m.stator_top_level - m.drive_motor.bearing_width - m.motor_bottom_level - lower
     solid = (
-        ring(0.0, m.motor_outer_radius).area * m.motor_base_thickness
-        + ring(m.stator_seat_radius, m.motor_outer_radius).area * m.drive_motor.stator_length
-        + ring(0.0, m.motor_tube_radius).area * m.drive_motor.stator_length
+        shapes.ring(0.0, m.motor_outer_radius).area * m.motor_base_thickness
+        + shapes.ring(m.stator_seat_radius, m.motor_outer_radius).area * m.drive_motor.stator_length
+        + shapes.ring(0.0, m.motor_tube_radius).area * m.drive_motor.stator_length
     )
     bore = (
-        ring(0.0, m.motor_seat_radius).area * (lower + m.drive_motor.bearing_width)
-        + ring(0.0, m.motor_lip_radius).area * lip
+        shapes.ring(0.0, m.motor_seat_radius).area * (lower + m.drive_motor.bearing_width)
+        + shapes.ring(0.0, m.motor_lip_radius).area * lip
     )
     point = m.drill_point_ratio * m.mount_screw_pilot
-    screws = BASE_SCREWS * ring(0.0, 0.5 * m.mount_screw_pilot).area * (m.motor_base_hole_depth + point / 3.0)
-    wires = notch(0.5 * m.motor_wire_width, m.stator_seat_radius, m.motor_outer_radius).area * m.motor_wire_depth
+    screws = BASE_SCREWS * shapes.ring(0.0, 0.5 * m.mount_screw_pilot).area * (m.motor_base_hole_depth + point / 3.0)
+    wires = shapes.notch(0.5 * m.motor_wire_width, m.stator_seat_radius, m.motor_outer_radius).area * m.motor_wire_depth
     whole = solid - bore - screws - wires
     if m.angle_sensor is None:
         return whole
     radius = m.encoder_recess_radius
-    groove = notch(0.5 * m.motor_wire_width, radius, m.motor_outer_radius).area
-    return whole - (ring(m.motor_seat_radius, radius).area + groove) * m.angle_sensor.board_height
+    groove = shapes.notch(0.5 * m.motor_wire_width, radius, m.motor_outer_radius).area
+    return whole - (shapes.ring(m.motor_seat_radius, radius).area + groove) * m.angle_sensor.board_height
 
 
-@quantities.helper(default=NOTHING)
-def motor_retainer_moments(m: Module) -> Section:
+@quantities.helper(default=shapes.NOTHING)
+def motor_retainer_moments(m: Module) -> shapes.Section:
     """Volume and its polar moment about the axis, of the motor's retainer."""
-    return stacked(
-        (ring(0.5 * m.motor_screw_clearance, m.motor_collar_radius), m.motor_retainer_floor),
-        (ring(m.motor_sink_radius, m.motor_collar_radius), m.motor_retainer_thickness - m.motor_retainer_floor),
+    return shapes.stacked(
+        (shapes.ring(0.5 * m.motor_screw_clearance, m.motor_collar_radius), m.motor_retainer_floor),
+        (shapes.ring(m.motor_sink_radius, m.motor_collar_radius), m.motor_retainer_thickness - m.motor_retainer_floor),
     )
 
 
@@ -91,8 +81,8 @@ def motor_retainer_volume(m: Module) -> Scalar:
     return m.motor_retainer_moments.area
 
 
-@quantities.helper(default=NOTHING)
-def motor_screw_moments(m: Module) -> Section:
+@quantities.helper(default=shapes.NOTHING)
+def motor_screw_moments(m: Module) -> shapes.Section:
     """Volume and its polar moment about the axis, of the motor retainer's screw."""
     return screw_moments(
         1.0, 0.0, m.motor_screw_pilot, m.motor_screw_length, m.motor_screw_head, m.motor_screw_head_height
@@ -105,8 +95,8 @@ def motor_screw_volume(m: Module) -> Scalar:
     return m.motor_screw_moments.area
 
 
-@quantities.helper(default=NOTHING)
-def mount_screw_moments(m: Module) -> Section:
+@quantities.helper(default=shapes.NOTHING)
+def mount_screw_moments(m: Module) -> shapes.Section:
     """Volume and its polar moment about the axis, of the screws between housing and motor hub."""
     return screw_moments(
         m.foot_count, m.placement_radius, m.mount_screw_pilot, m.mount_screw_length, m.mount_screw_head,
@@ -123,31 +113,35 @@ def mount_screw_volume(m: Module) -> Scalar:
 @quantities.output("mm^3")
 def motor_rotor_volume(m: Module) -> Scalar:
     """Volume of the motor's rotor as a ring."""
-    return ring(m.drive_motor.rotor_bore, m.drive_motor.rotor_radius).area * m.drive_motor.rotor_length
+    return shapes.ring(m.drive_motor.rotor_bore, m.drive_motor.rotor_radius).area * m.drive_motor.rotor_length
 
 
 @quantities.output("mm^3")
 def motor_stator_volume(m: Module) -> Scalar:
     """Volume of the motor's stator with its windings as a ring."""
-    return ring(m.drive_motor.stator_bore, m.drive_motor.stator_radius).area * m.drive_motor.stator_length
+    return shapes.ring(m.drive_motor.stator_bore, m.drive_motor.stator_radius).area * m.drive_motor.stator_length
 
 
 @quantities.output("mm^3")
 def motor_bearing_volume(m: Module) -> Scalar:
     """Volume of the motor's two bearings as rings without gaps."""
-    return BEARINGS * ring(m.drive_motor.bearing_bore, m.drive_motor.bearing_radius).area * m.drive_motor.bearing_width
+    return (
+        BEARINGS
+        * shapes.ring(m.drive_motor.bearing_bore, m.drive_motor.bearing_radius).area
+        * m.drive_motor.bearing_width
+    )
 
 
 @quantities.output("mm^3", requires=WITH_ENCODER)
 def encoder_magnet_volume(m: Module) -> Scalar:
     """Volume of the encoder's magnet."""
-    return ring(0.0, m.angle_sensor.magnet_radius).area * m.angle_sensor.magnet_height
+    return shapes.ring(0.0, m.angle_sensor.magnet_radius).area * m.angle_sensor.magnet_height
 
 
 @quantities.output("mm^3", requires=WITH_ENCODER)
 def encoder_board_volume(m: Module) -> Scalar:
     """Volume of the encoder's board as a disc as high as board and chip."""
-    return ring(0.0, m.angle_sensor.board_radius).area * m.angle_sensor.board_height
+    return shapes.ring(0.0, m.angle_sensor.board_radius).area * m.angle_sensor.board_height
 
 
 @quantities.output("kg/m^3")
@@ -206,7 +200,7 @@ def drive_inertia(m: Module) -> Scalar:
     screws = m.motor_screw_moments.polar * m.motor_screw_density + m.mount_screw_moments.polar * m.mount_screw_density
     inner = inner_ring(m.drive_motor.bearing_bore, m.drive_motor.bearing_radius)
     rings = BEARINGS * m.drive_motor.bearing_width * inner.polar * m.motor_bearing_density
-    magnet = ring(0.0, m.encoder_magnet_radius).polar * m.encoder_magnet_height * m.encoder_magnet_density
+    magnet = shapes.ring(0.0, m.encoder_magnet_radius).polar * m.encoder_magnet_height * m.encoder_magnet_density
     return m.drive_motor.rotor_inertia + m.motor_hub_inertia + retainer + screws + rings + magnet
 
 

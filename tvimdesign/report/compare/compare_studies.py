@@ -12,16 +12,7 @@ from typing import Any, NamedTuple
 from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.report.compare.comparison import (
-    COMPARISONS,
-    FILES,
-    Outcome,
-    comparison_sections,
-    drawings,
-    first_blocks,
-    summary_text,
-    title_of,
-)
+from tvimdesign.report.compare import comparison
 from tvimdesign.report.compare.comparison_job import empty_answer, finished_run
 from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.output.command import Command, design_file, done_in_part
@@ -59,7 +50,7 @@ def compare_studies(
 
         def keep(label: str, answer: dict[str, Any]) -> None:
             answers_by_label[label] = answer
-            _write(command.folder, Outcome(cases, answers_by_label, unequal), texts)
+            _write(command.folder, comparison.Outcome(cases, answers_by_label, unequal), texts)
 
         if all(finished):
             which = "optimised" if all(case.study.vary for case in cases.values()) else "drawn"
@@ -71,19 +62,19 @@ def compare_studies(
             answers_by_label |= answers(
                 requests, command.folder.path, points, command.progress, start_plotter, settings, keep
             )
-        outcome = Outcome(cases, answers_by_label, unequal)
+        outcome = comparison.Outcome(cases, answers_by_label, unequal)
         outcome.seconds["all answers"] = time.perf_counter() - began
-        command.begin_plots(drawings(outcome), title_of(outcome))
+        command.begin_plots(comparison.drawings(outcome), comparison.title_of(outcome))
         outcome.seconds["whole"] = time.perf_counter() - began
         _write(command.folder, outcome, texts)
         command.failures += [TvimError(text) for text in outcome.failures]
         command.finish_plots("drawing the plots")
         studies = {label: case.study.model_dump(mode="json") for label, case in cases.items()}
         inputs = {label: design_file(path) for label, path in zip(cases, paths, strict=True)}
-        status = "PARTLY DONE" if outcome.failures else f"COMPARED {COMPARISONS[outcome.which].upper()}"
+        status = "PARTLY DONE" if outcome.failures else f"COMPARED {comparison.COMPARISONS[outcome.which].upper()}"
         page = command.page(
-            title_of(outcome), "comparison", status, first_blocks(outcome), comparison_sections(outcome, texts),
-            tone=tone_of(status.lower()), files=FILES,
+            comparison.title_of(outcome), "comparison", status, comparison.first_blocks(outcome),
+            comparison.comparison_sections(outcome, texts), tone=tone_of(status.lower()), files=comparison.FILES,
         )  # fmt: skip
         command.finish("compared", inputs, studies, outcome.seconds, page)
     codes = {trouble["exit_code"] for _, trouble in outcome.troubles}
@@ -143,16 +134,16 @@ def _study_text(case: Case, settings: Sequence[str]) -> str:
     return study_text(tree_of_file(case.path, settings))
 
 
-def _write(folder: ResultsFolder, outcome: Outcome, texts: dict[str, str]) -> None:
+def _write(folder: ResultsFolder, outcome: comparison.Outcome, texts: dict[str, str]) -> None:
     """Write what is there: each study with its designs, and the tables once two studies have a design."""
     for label, answer in outcome.answers.items():
         name = "-".join(part for part in Path(label).with_suffix("").parts if part not in {"/", ".."})
-        for which in COMPARISONS:
+        for which in comparison.COMPARISONS:
             if which in answer:
                 folder.write(f"{name}/{which}.json", design_json(Design.model_validate(answer[which]["design"])))
         folder.write(f"{name}/study.yaml", texts[label])
     folder.write("compare.csv", compare_csv(outcome.rows))
-    folder.write("summary.txt", summary_text(outcome))
+    folder.write("summary.txt", comparison.summary_text(outcome))
     folder.write_json("compare.json", outcome.plain())
     if outcome.fronts:
         folder.write("fronts.csv", outcome.fronts_csv())

@@ -254,9 +254,13 @@ def comparison_sections(outcome: Outcome, texts: Mapping[str, str]) -> list[Sect
         Drawn("fronts", "lines.js", "The fronts: each point is a whole design.", drawing.data, libraries=["echarts"])
         for drawing in drawings(outcome)
     ]
+    # Show headlines and requirements; then everything that all studies have.
+    lines = reported_rows(outcome)
+    every = [side_by_side(COMPARISONS[which], rows) for which, rows in outcome.rows.items()]
+    blocks: list[Block] = [*lines, *([Folded("Every output that all studies have", every)] if every else [])]
     return [
         *([Section("follows", "What follows", [Points(follows)])] if follows else []),
-        _side_by_side(outcome),
+        Section("side-by-side", "Side by side", blocks),
         *([Section("curves", "Fronts", fronts)] if fronts else []),
         *([Section("differ", "Different conditions", [Points(outcome.differences)])] if outcome.differences else []),
         Section("searches", "How they were found", [Points(list(_searches(outcome)))]),
@@ -288,14 +292,6 @@ def summary_text(outcome: Outcome) -> str:
             print_section(section, console, folded=False)
 
     return plain_text(show, WIDTH)
-
-
-def _side_by_side(outcome: Outcome) -> Section:
-    """Show headlines and requirements; then everything that all studies have."""
-    lines = reported_rows(outcome)
-    every = [side_by_side(COMPARISONS[which], rows) for which, rows in outcome.rows.items()]
-    blocks: list[Block] = [*lines, *([Folded("Every output that all studies have", every)] if every else [])]
-    return Section("side-by-side", "Side by side", blocks)
 
 
 def reported_rows(outcome: Outcome) -> list[Grid]:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.record import Record

@@ -8,16 +8,7 @@ from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.device import Output, Simulated, Table
 from tvimdesign.device.core.softening import CONTROL, DUTY
-from tvimdesign.study.sections.section import (
-    LIMIT,
-    NUMBER_VALUE,
-    Schema,
-    Section,
-    by_output,
-    field_schemas,
-    mapping,
-    output_name,
-)
+from tvimdesign.study.sections import section
 from tvimdesign.study.study import CONTROLLED, FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement, Study
 from tvimdesign.study.text.mistakes import one_of, quoted, step
 from tvimdesign.study.text.values import (
@@ -49,7 +40,12 @@ def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...
         if row is None:
             continue
         read = _limits(reading, value, path, name, row)
-        _contradictions(reading, value, path, row, read)
+        floors = [limit.limit for limit in read if limit.sense == ">="]
+        ceilings = [limit.limit for limit in read if limit.sense == "<="]
+        if floors and ceilings and below(min(ceilings), max(floors)):
+            floor, ceiling = format_quantity(max(floors), row.unit), format_quantity(min(ceilings), row.unit)
+            message = f"cannot be both at least {floor} and at most {ceiling}"
+            reading.problems.add(value, path, message, "limits that leave room between them")
         requirements += read
     return (*requirements, *reading.section("task")["require"])
 
@@ -218,15 +214,6 @@ def _several(word: str) -> list[str]:
     return limits if len(limits) > 1 and all(map(_LIMIT.fullmatch, limits)) else []
 
 
-def _contradictions(reading: Reading, node: Node, path: str, row: Output, read: list[Requirement]) -> None:
-    floors = [limit.limit for limit in read if limit.sense == ">="]
-    ceilings = [limit.limit for limit in read if limit.sense == "<="]
-    if floors and ceilings and below(min(ceilings), max(floors)):
-        floor, ceiling = format_quantity(max(floors), row.unit), format_quantity(min(ceilings), row.unit)
-        message = f"cannot be both at least {floor} and at most {ceiling}"
-        reading.problems.add(node, path, message, "limits that leave room between them")
-
-
 def _write_require(study: Study) -> dict[str, list[str]]:
     limits: dict[str, list[str]] = {}
     for limit in (*study.require, *study.simulated):
@@ -244,21 +231,21 @@ def _reads_as(text: str, unit: str, value: float) -> bool:
         return False
 
 
-def _require_schema(table: Table) -> Schema:
-    limits = [LIMIT, {"type": "array", "minItems": 1, "items": LIMIT}]
-    either: Schema = {"anyOf": limits}
+def _require_schema(table: Table) -> section.Schema:
+    limits = [section.LIMIT, {"type": "array", "minItems": 1, "items": section.LIMIT}]
+    either: section.Schema = {"anyOf": limits}
     of_state = {DUTY: sorted(table.behind_supplied), CONTROL: list(CONTROLLED)}
     for row in table.outputs:
         if isinstance(row, Simulated) and row.state:
             of_state[row.state].append(row.name)
     simulated = {f"^({'|'.join(names)})@{state}$": either for state, names in of_state.items()}
-    return mapping({}, by_output(table, either) | simulated)
+    return section.mapping({}, section.by_output(table, either) | simulated)
 
 
-def _front_schema(table: Table) -> Schema:
-    fields = field_schemas(FrontOptions)
-    fields["of"] |= {"uniqueItems": True, "items": output_name(table)}
-    return mapping(fields)
+def _front_schema(table: Table) -> section.Schema:
+    fields = section.field_schemas(FrontOptions)
+    fields["of"] |= {"uniqueItems": True, "items": section.output_name(table)}
+    return section.mapping(fields)
 
 
 def rating_names(table: Table) -> list[str]:
@@ -292,25 +279,27 @@ def _read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
     return tuple(accepted)
 
 
-def _accept_schema(table: Table) -> Schema:
+def _accept_schema(table: Table) -> section.Schema:
     name = {"enum": rating_names(table)}
     return {"anyOf": [{"type": "array", "uniqueItems": True, "items": name}, name, {"type": "null"}]}
 
 
-REQUIRE = Section("require", "limits on outputs", _read_require, _require_schema, _write_require)
-MINIMIZE = Section(
+REQUIRE = section.Section("require", "limits on outputs", _read_require, _require_schema, _write_require)
+MINIMIZE = section.Section(
     "minimize",
     "objective: outputs to minimise, with weights",
     _read_minimize,
-    lambda table: {"anyOf": [mapping({}, by_output(table, NUMBER_VALUE)), output_name(table)]},
+    lambda table: {
+        "anyOf": [section.mapping({}, section.by_output(table, section.NUMBER_VALUE)), section.output_name(table)]
+    },
     lambda study: study.minimize,
 )
-FRONT = Section(
+FRONT = section.Section(
     "front", "two or three outputs to trade against one another, and the number of designs",
     _read_front, _front_schema,
     lambda study: study.front and {"of": list(study.front.of), "points": study.front.points},
 )  # fmt: skip
-ACCEPT = Section(
+ACCEPT = section.Section(
     "accept", "ratings of materials and bought parts that the design may exceed",
     _read_accept, _accept_schema, lambda study: list(study.accept),
 )  # fmt: skip

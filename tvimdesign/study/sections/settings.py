@@ -6,19 +6,7 @@ from itertools import pairwise
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.device.core.task import GROUP as TASK_GROUP
-from tvimdesign.study.sections.section import (
-    POINT,
-    Schema,
-    Section,
-    changed,
-    field_schemas,
-    mapping,
-    set_schema,
-    settable,
-    settings,
-    shape,
-    unit_of,
-)
+from tvimdesign.study.sections import section
 from tvimdesign.study.study import (
     STANDARD_POINTS,
     ControlOptions,
@@ -35,7 +23,7 @@ from tvimdesign.study.text.values import Reading, choice, entries, exactly, in_u
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 
 MOST_POINTS = 20
-_POINT = re.compile(POINT)
+_POINT = re.compile(section.POINT)
 
 
 def _read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
@@ -57,7 +45,9 @@ def _read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
         elif row is not None:
             reading.problems.add(key, path, "is a result and cannot be set", "an input", "limit it under `require`")
         else:
-            reading.unknown_quantity(key, path, "input or choice", name, [row.name for row in settable(reading.table)])
+            reading.unknown_quantity(
+                key, path, "input or choice", name, [row.name for row in section.settable(reading.table)]
+            )
         if read is not None:
             module[name] = read
     return {**module, **reading.section("task")["module"]}
@@ -124,9 +114,9 @@ def _write_points(study: Study) -> dict[str, dict[str, str]]:
     }
 
 
-def _points_schema(table: Table) -> Schema:
-    point = mapping({row.name: set_schema(row) for row in table.inputs if row.per_point})
-    return mapping({}, {f"^{POINT}$": {"description": "one operating point", **point}})
+def _points_schema(table: Table) -> section.Schema:
+    point = section.mapping({row.name: section.set_schema(row) for row in table.inputs if row.per_point})
+    return section.mapping({}, {f"^{section.POINT}$": {"description": "one operating point", **point}})
 
 
 def _check_profile(reading: Reading) -> None:
@@ -145,33 +135,33 @@ def _check_profile(reading: Reading) -> None:
             reading.problems.add(node, step("profile", phase), message, f"{row}: [0.1 A, 3 A] under `vary`, for one")
 
 
-MODULE = Section(
+MODULE = section.Section(
     "module", "inputs and choices of the module", _read_module,
-    lambda table: mapping({row.name: set_schema(row) for row in settable(table)}),
+    lambda table: section.mapping({row.name: section.set_schema(row) for row in section.settable(table)}),
     lambda study: {
         name: written_value(study.table, name, value)
         for name, value in study.module.items()
         if study.table.quantity(name).group != TASK_GROUP
     },
 )  # fmt: skip
-POINTS = Section(
+POINTS = section.Section(
     "operating_points", "temperatures and frequencies for stiffness and damping; `cold` and `hot` always exist",
     _read_points, _points_schema, _write_points,
 )  # fmt: skip
-PROFILE = settings(
+PROFILE = section.settings(
     "profile",
     "straight pieces in which the current of a phase changes with time; 0 keeps it constant",
     ProfileOptions,
     _check_profile,
 )
-SOLVER = settings("solver", "effort of the search and fineness of the heat model", SolverOptions)
-DUTY = settings("duty", "repeated switching, whose periodic state and highest rate are reported", DutyOptions)
-CONTROL = settings("control", "the heater's controller, and modules drawn under it", ControlOptions)
-WRITE = settings("write", "files in the results folder besides the numbers", WriteOptions)
+SOLVER = section.settings("solver", "effort of the search and fineness of the heat model", SolverOptions)
+DUTY = section.settings("duty", "repeated switching, whose periodic state and highest rate are reported", DutyOptions)
+CONTROL = section.settings("control", "the heater's controller, and modules drawn under it", ControlOptions)
+WRITE = section.settings("write", "files in the results folder besides the numbers", WriteOptions)
 
 
 MOST_MOMENTS = 1000
-_SERIES = {name: unit_of(field) for name, field in GivenCurrent.model_fields.items()}
+_SERIES = {name: section.unit_of(field) for name, field in GivenCurrent.model_fields.items()}
 _EXPECTED = "moments: [0 s, 0.4 s, 8 s] and currents: [0 A, 4 A, 3.8 A], for one"
 
 
@@ -231,8 +221,11 @@ def _series(reading: Reading, node: Node, path: str, unit: str) -> tuple[float, 
     return values if len(values) == len(read) else None
 
 
-CURRENTS = Section(
+CURRENTS = section.Section(
     "currents", "currents of an evaluated module over time, by phase: moments from its start, and a current at each",
-    _read, mapping(dict.fromkeys(ProfileOptions.model_fields, shape(field_schemas(GivenCurrent), list(_SERIES)))),
-    lambda study: {phase: changed(current) for phase, current in study.currents.items()},
+    _read,
+    section.mapping(
+        dict.fromkeys(ProfileOptions.model_fields, section.shape(section.field_schemas(GivenCurrent), list(_SERIES)))
+    ),
+    lambda study: {phase: section.changed(current) for phase, current in study.currents.items()},
 )  # fmt: skip

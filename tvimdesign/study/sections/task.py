@@ -21,16 +21,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.device.core.task import ARM, GROUP
-from tvimdesign.study.sections.section import (
-    QUANTITY,
-    Schema,
-    Section,
-    changed,
-    field_schemas,
-    mapping,
-    set_schema,
-    shape,
-)
+from tvimdesign.study.sections import section
 from tvimdesign.study.study import GivenTrajectory, Requirement, Study
 from tvimdesign.study.text.mistakes import step
 from tvimdesign.study.text.values import (
@@ -315,17 +306,17 @@ def _write(study: Study) -> dict[str, Any]:
         if name in rows
     }
     if study.trajectory:
-        written["trajectory"] = changed(study.trajectory)
+        written["trajectory"] = section.changed(study.trajectory)
     return written
 
 
-def _schema(table: Table) -> Schema:
-    allowed = {name: {"description": meaning, "allOf": [QUANTITY]} for name, (_, meaning) in _ALLOWED.items()}
-    given = shape(field_schemas(GivenTrajectory), ["moments", "angles"])
+def _schema(table: Table) -> section.Schema:
+    allowed = {name: {"description": meaning, "allOf": [section.QUANTITY]} for name, (_, meaning) in _ALLOWED.items()}
+    given = section.shape(section.field_schemas(GivenTrajectory), ["moments", "angles"])
     trajectory = {"description": f"angles of the housing over time: {_EXPECTED}", "anyOf": [given, {"type": "string"}]}
-    return mapping(
+    return section.mapping(
         {
-            **{name: set_schema(row) for name, row in task_quantities(table).items()},
+            **{name: section.set_schema(row) for name, row in task_quantities(table).items()},
             **allowed,
             "trajectory": trajectory,
             **{name: {"description": meaning, "type": "string"} for name, meaning in _URDF.items()},
@@ -333,5 +324,6 @@ def _schema(table: Table) -> Schema:
     )
 
 
-TASK = Section("task", "arm and payload that the joint moves, and how: hold, sine, trajectory, impact", _read, _schema,
-               _write)  # fmt: skip
+TASK = section.Section(
+    "task", "arm and payload that the joint moves, and how: hold, sine, trajectory, impact", _read, _schema, _write
+)

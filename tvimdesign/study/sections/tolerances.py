@@ -11,20 +11,8 @@ from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.device import Input, Output, Table
 from tvimdesign.study.sections.section import NUMBER, NUMBER_VALUE, POINT, Schema, Section, described, mapping, shape
 from tvimdesign.study.study import Robust, Study, Tolerance
+from tvimdesign.study.text import values
 from tvimdesign.study.text.mistakes import one_of, quoted, step
-from tvimdesign.study.text.values import (
-    Reading,
-    difference_unit,
-    entries,
-    exactly,
-    flag,
-    misfit,
-    number,
-    si_value,
-    text,
-    unknown_keys,
-    word_of,
-)
 from tvimdesign.study.text.yaml_text import Mapping, Node, Text
 
 STANDARD = "standard"
@@ -50,7 +38,7 @@ def standard_tolerances(table: Table) -> dict[str, Tolerance]:
 
 
 def _standard(table: Table, name: str, entry: dict[str, Any]) -> Tolerance:
-    unit = difference_unit(table.unit(name))
+    unit = values.difference_unit(table.unit(name))
     size: dict[str, Any] = {"row": entry["row"]} if "row" in entry else _size(str(entry["plus_minus"]), unit)
     adjusted = parse_quantity(str(entry["adjusted_to"]), unit) if "adjusted_to" in entry else None
     return Tolerance(
@@ -71,14 +59,14 @@ def tolerance_rows(table: Table) -> list[str]:
     return [row.name for row in table.outputs if row.name.endswith("_tolerance") and not row.per_point]
 
 
-def _read_tolerances(reading: Reading, node: Node | None) -> dict[str, Tolerance]:
+def _read_tolerances(reading: values.Reading, node: Node | None) -> dict[str, Tolerance]:
     """Return the tolerance of each input by full name; every problem is noted."""
     if isinstance(node, Text) and node.value == STANDARD:
         return standard_tolerances(reading.table)
     expected = f"{STANDARD}, or names of inputs, each with a plus-minus value"
     tolerances: dict[str, Tolerance] = {}
-    section = entries(reading.problems, node, "tolerances", expected)
-    if STANDARD in section and flag(reading.problems, section[STANDARD][1], step("tolerances", STANDARD)):
+    section = values.entries(reading.problems, node, "tolerances", expected)
+    if STANDARD in section and values.flag(reading.problems, section[STANDARD][1], step("tolerances", STANDARD)):
         tolerances = standard_tolerances(reading.table)
     for name, (key, value) in section.items():
         if name == STANDARD:
@@ -91,7 +79,7 @@ def _read_tolerances(reading: Reading, node: Node | None) -> dict[str, Tolerance
     return tolerances
 
 
-def _input(reading: Reading, key: Text, path: str, name: str) -> Input | None:
+def _input(reading: values.Reading, key: Text, path: str, name: str) -> Input | None:
     base, _, point = name.partition("@")
     row = reading.table.by_name.get(base)
     if point and isinstance(row, Input) and row.per_point and point not in reading.points:
@@ -114,20 +102,22 @@ def _input(reading: Reading, key: Text, path: str, name: str) -> Input | None:
 
 
 def _forms(row: Input) -> str:
-    unit = difference_unit(row.unit)
+    unit = values.difference_unit(row.unit)
     share = "" if row.unit == "degC" else " or '5 %'"
     return f"a plus-minus value such as '0.1{'' if unit == '1' else ' ' + unit}'{share}, or {{plus_minus: ...}}"
 
 
-def _tolerance(reading: Reading, node: Node, path: str, row: Input, standard: Tolerance | None) -> Tolerance | None:
+def _tolerance(
+    reading: values.Reading, node: Node, path: str, row: Input, standard: Tolerance | None
+) -> Tolerance | None:
     if isinstance(node, Text):
         size = _read_size(reading, node, path, row)
         return None if size is None else Tolerance(**size, source="the study", status="stated")
     if not isinstance(node, Mapping) or not node.entries:
-        misfit(reading.problems, node, path, _forms(row))
+        values.misfit(reading.problems, node, path, _forms(row))
         return None
     before = len(reading.problems.items)
-    parts = unknown_keys(reading.problems, node.entries, path, "key", _KEYS)
+    parts = values.unknown_keys(reading.problems, node.entries, path, "key", _KEYS)
     read = _read_parts(reading, parts, path, row)
     given = [key for key in ("plus_minus", "row") if key in parts]
     if len(given) == 2 or (not given and standard is None):
@@ -141,7 +131,7 @@ def _tolerance(reading: Reading, node: Node, path: str, row: Input, standard: To
     return Tolerance(**{**fields, **read})
 
 
-def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> dict[str, Any]:
+def _read_parts(reading: values.Reading, parts: dict[str, Node], path: str, row: Input) -> dict[str, Any]:
     """Return the fields a study states, without those that are wrong, which are noted."""
     read: dict[str, Any] = {}
     if "plus_minus" in parts:
@@ -149,13 +139,13 @@ def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input)
     if "row" in parts:
         read |= _read_row(reading, parts["row"], f"{path}.row", row)
     if "distribution" in parts:
-        word = word_of(reading.problems, parts["distribution"], f"{path}.distribution", ["normal", "uniform"])
+        word = values.word_of(reading.problems, parts["distribution"], f"{path}.distribution", ["normal", "uniform"])
         read |= {"distribution": word} if word else {}
     if "sigma" in parts:
         sigma = _sigmas(reading, parts["sigma"], f"{path}.sigma")
         read |= {} if sigma is None else {"sigma": sigma}
     if "adjustable" in parts:
-        read |= {"adjustable": flag(reading.problems, parts["adjustable"], f"{path}.adjustable") or False}
+        read |= {"adjustable": values.flag(reading.problems, parts["adjustable"], f"{path}.adjustable") or False}
     if "adjusted_to" in parts:
         left = _read_size(reading, parts["adjusted_to"], f"{path}.adjusted_to", row)
         if left is not None and "share" in left:
@@ -165,14 +155,14 @@ def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input)
     return read
 
 
-def _read_size(reading: Reading, node: Node, path: str, row: Input) -> dict[str, float] | None:
+def _read_size(reading: values.Reading, node: Node, path: str, row: Input) -> dict[str, float] | None:
     """Return a plus-minus value in SI, or a share of the value if it is written in percent."""
-    word = text(reading.problems, node, path, _forms(row))
+    word = values.text(reading.problems, node, path, _forms(row))
     if word is None:
         return None
     share = _SHARE.fullmatch(word)
-    unit = "1" if share else difference_unit(row.unit)
-    value = si_value(reading.problems, node, path, share["number"] if share else word, unit)
+    unit = "1" if share else values.difference_unit(row.unit)
+    value = values.si_value(reading.problems, node, path, share["number"] if share else word, unit)
     if value is None:
         return None
     if value < 0.0 or (share and value >= 100.0):
@@ -189,36 +179,36 @@ def _read_size(reading: Reading, node: Node, path: str, row: Input) -> dict[str,
     return {"share": value / 100.0} if share else {"plus_minus": value}
 
 
-def _read_row(reading: Reading, node: Node, path: str, row: Input) -> dict[str, str]:
+def _read_row(reading: values.Reading, node: Node, path: str, row: Input) -> dict[str, str]:
     rows = tolerance_rows(reading.table)
-    word = text(reading.problems, node, path, one_of(rows))
+    word = values.text(reading.problems, node, path, one_of(rows))
     if word is None:
         return {}
     if word not in rows:
         reading.problems.unknown(node, path, f"row that gives a tolerance: {quoted(word)}", word, rows)
         return {}
     try:
-        parse_quantity(f"1 {reading.table.unit(word)}", difference_unit(row.unit))
+        parse_quantity(f"1 {reading.table.unit(word)}", values.difference_unit(row.unit))
     except UnitError:
         reading.problems.add(node, path, f"{word} is in {reading.table.unit(word)}", f"a row in {row.unit}")
         return {}
     return {"row": word}
 
 
-def _sigmas(reading: Reading, node: Node, path: str) -> float | None:
+def _sigmas(reading: values.Reading, node: Node, path: str) -> float | None:
     expected = f"a count of standard deviations, above 0 and at most {_MOST_SIGMAS:g}"
-    value = number(reading.problems, node, path, expected)
+    value = values.number(reading.problems, node, path, expected)
     if value is not None and not 0.0 < value <= _MOST_SIGMAS:
         reading.problems.add(node, path, f"{value:g} is out of range", expected)
         return None
     return value
 
 
-def _read_robust(reading: Reading, node: Node | None) -> Robust | None:
+def _read_robust(reading: values.Reading, node: Node | None) -> Robust | None:
     """Return how far within its limits a design must stay, or how many modules must keep all."""
     expected = "{sigma: 3} or {yield: 99 %}"
-    given = entries(reading.problems, node, "robust", expected)
-    parts = unknown_keys(reading.problems, given, "robust", "key", list(_ROBUST_KEYS))
+    given = values.entries(reading.problems, node, "robust", expected)
+    parts = values.unknown_keys(reading.problems, given, "robust", "key", list(_ROBUST_KEYS))
     if not parts:
         return None
     assert node is not None
@@ -242,9 +232,9 @@ def _read_robust(reading: Reading, node: Node | None) -> Robust | None:
     return None if None in shares.values() else Robust(share=shares["yield"], plausible=shares.get("plausible"))
 
 
-def _share(reading: Reading, node: Node, path: str) -> float | None:
+def _share(reading: values.Reading, node: Node, path: str) -> float | None:
     """Return a share of modules or of cases; None after a mistake."""
-    share = number(reading.problems, node, path, "a share such as 99 %")
+    share = values.number(reading.problems, node, path, "a share such as 99 %")
     if share is not None and not 0.5 < share < 1.0 - 1e-9:
         reading.problems.add(node, path, f"{share:g} is out of range", "above 50 % and below 100 %")
         return None
@@ -286,10 +276,10 @@ def _write_tolerances(study: Study) -> dict[str, Any]:
 
 def _written(table: Table, name: str, tolerance: Tolerance, usual: Tolerance | None) -> dict[str, Any]:
     row = table.by_name[name.partition("@")[0]]
-    unit = difference_unit(row.unit if isinstance(row, Input) else "1")
+    unit = values.difference_unit(row.unit if isinstance(row, Input) else "1")
     size: dict[str, Any] = {"row": tolerance.row} if tolerance.row else {"plus_minus": _written_size(tolerance, unit)}
     size = {} if usual and tolerance.source == usual.source else size
-    left = {} if tolerance.adjusted_to is None else {"adjusted_to": exactly(tolerance.adjusted_to, unit)}
+    left = {} if tolerance.adjusted_to is None else {"adjusted_to": values.exactly(tolerance.adjusted_to, unit)}
     return {
         **size,
         "distribution": tolerance.distribution,
@@ -301,8 +291,8 @@ def _written(table: Table, name: str, tolerance: Tolerance, usual: Tolerance | N
 
 def _written_size(tolerance: Tolerance, unit: str) -> str | None:
     if tolerance.share is not None:
-        return exactly(tolerance.share, "percent").replace(" percent", " %")
-    return None if tolerance.plus_minus is None else exactly(tolerance.plus_minus, unit)
+        return values.exactly(tolerance.share, "percent").replace(" percent", " %")
+    return None if tolerance.plus_minus is None else values.exactly(tolerance.plus_minus, unit)
 
 
 def _write_robust(study: Study) -> dict[str, float]:

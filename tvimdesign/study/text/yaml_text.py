@@ -123,20 +123,17 @@ class _Builder:
             case yaml.AliasEvent():
                 self._refuse(place, f"the alias {quoted(f'*{event.anchor}')}", "the value itself: write it out")
             case yaml.ScalarEvent():
-                self._scalar(event, place)
+                odd = CONTROL.search(event.value)
+                if not self._tag_allowed(event, "text", place):
+                    self._add(Broken(place.line, place.column, place.file))
+                elif odd:
+                    self._refuse(place, f"control character U+{ord(odd[0]):04X}", "plain text")
+                else:
+                    self._add(Text(place.line, place.column, event.value, not event.style, place.file))
             case yaml.CollectionStartEvent():
                 self._start(event, place)
             case yaml.CollectionEndEvent():
                 self._close(self.stack.pop())
-
-    def _scalar(self, event: Any, place: At) -> None:
-        odd = CONTROL.search(event.value)
-        if not self._tag_allowed(event, "text", place):
-            self._add(Broken(place.line, place.column, place.file))
-        elif odd:
-            self._refuse(place, f"control character U+{ord(odd[0]):04X}", "plain text")
-        else:
-            self._add(Text(place.line, place.column, event.value, not event.style, place.file))
 
     def _start(self, event: Any, place: At) -> None:
         kind = "list" if isinstance(event, yaml.SequenceStartEvent) else "map"

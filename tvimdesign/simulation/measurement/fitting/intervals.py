@@ -31,16 +31,8 @@ from scipy.linalg import block_diag
 from scipy.signal import lfilter
 from scipy.special import fdtrc, ndtri, stdtrit
 
+from tvimdesign.simulation.measurement.fitting import robust_fit
 from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Residuals
-from tvimdesign.simulation.measurement.fitting.robust_fit import (
-    MEAN_SQUARE,
-    RobustFit,
-    cost,
-    influence,
-    parameters_of,
-    solved,
-    weights_of,
-)
 
 FEWEST = 10  # Values below which their correlation cannot be estimated: they count as independent
 _MOST_ALIKE = 0.99
@@ -181,15 +173,15 @@ def effective_freedom(variances: Sequence[float], freedom: Sequence[float]) -> f
     return float(np.sum(parts)) ** 2 / squares if squares > 0.0 else min(freedom)
 
 
-def spread(residuals: Residuals, fit: RobustFit) -> Spread:
+def spread(residuals: Residuals, fit: robust_fit.RobustFit) -> Spread:
     """Return covariance H^-1 M H^-1 of the robust fit [H], M by noise that may follow itself (`serial_correlation`).
 
     The weight of each group of channels is estimated, and errs: the covariance is widened for it [KR].
     """
-    weights = weights_of(residuals, fit.noise)
+    weights = robust_fit.weights_of(residuals, fit.noise)
     z = residuals.at(fit.inner) * weights
     jacobian = residuals.jacobian(fit.inner) * weights[:, None]
-    taken = parameters_of(residuals, fit.inner, fit.noise)
+    taken = robust_fit.parameters_of(residuals, fit.inner, fit.noise)
     within = np.diag([_box(parameter) for parameter in residuals.problem.parameters])
     everything = within + jacobian.T @ jacobian
     groups = [
@@ -225,21 +217,21 @@ class Drifts(NamedTuple):
         return min(at_once, 2.0 * sqrt(max(float(by_each @ self.unseen @ by_each), 0.0)))
 
 
-def drifts(residuals: Residuals, fit: RobustFit, known: Spread) -> Drifts:
+def drifts(residuals: Residuals, fit: robust_fit.RobustFit, known: Spread) -> Drifts:
     """Return the drifts of all channels' sensors.
 
     The residuals do not show a drift that some parameters follow: up to `_MOST_DRIFT` it may be there unseen.
     """
-    weights = weights_of(residuals, fit.noise)
+    weights = robust_fit.weights_of(residuals, fit.noise)
     jacobian = residuals.jacobian(fit.inner) * weights[:, None]
-    pull, _ = influence(residuals.at(fit.inner) * weights)
+    pull, _ = robust_fit.influence(residuals.at(fit.inner) * weights)
     within = np.diag([_box(parameter) for parameter in residuals.problem.parameters])
     predicted = zip(residuals.problem.channels, residuals.predicted(fit.inner), strict=True)
     courses = block_diag(*(channel.drifts(values) for channel, values in predicted)) * weights[:, None]
     moves, seen, information = _unfolded(jacobian, courses, within)
     least = np.eye(len(information)) / _MOST_DRIFT**2
     left = pull - seen @ np.linalg.solve(information + least, seen.T @ pull)
-    taken = parameters_of(residuals, fit.inner, fit.noise)
+    taken = robust_fit.parameters_of(residuals, fit.inner, fit.noise)
     freedom = [max(part.stop - part.start - count, 2.0) for part, count in zip(residuals.parts, taken, strict=True)]
     own = np.ones(len(weights))
     for part, follows, free in zip(residuals.parts, known.follows, freedom, strict=True):
@@ -297,15 +289,17 @@ def _group(channels: Sequence[tuple[Array, Array]], everything: Array, taken: fl
     `everything` is the curvature of the sum of squares of all data.
     """
     z = np.concatenate([misfits for misfits, _ in channels])
-    pull, slope = influence(z)
+    pull, slope = robust_fit.influence(z)
     mean, left = float(np.mean(slope)), max(1.0 - taken / len(z), 0.05)
     few = 1.0 + (1.0 - left) * float(np.var(slope)) / mean**2  # [H], correction for few data
     squares = np.sum([slopes.T @ slopes for _, slopes in channels], axis=0)
     freedom = max(len(z) - taken, 1.0)
-    series = [Series(influence(channel)[0], slopes) for channel, slopes in channels]
+    series = [Series(robust_fit.influence(channel)[0], slopes) for channel, slopes in channels]
     follows = following(series, everything - squares, freedom)
     moved = np.sum([moved_by_noise(slopes, follows.rho) for _, slopes in channels], axis=0)
-    scatter = max(float(np.mean(pull**2)) / left, MEAN_SQUARE)  # more than the residuals' where a step bounds the noise
+    scatter = max(
+        float(np.mean(pull**2)) / left, robust_fit.MEAN_SQUARE
+    )  # more than the residuals' where a step bounds the noise
     size = few**2 * scatter * follows.wider
     return _Group(mean * squares, size * moved, freedom, follows)
 
@@ -341,7 +335,7 @@ def moved_by(direction: Array) -> list[int]:
     return [i for i, part in enumerate(np.abs(direction)) if part > _PART]
 
 
-def profile_end(residuals: Residuals, fit: RobustFit, known: Spread, at: int, side: Literal[-1, 1]) -> float:
+def profile_end(residuals: Residuals, fit: robust_fit.RobustFit, known: Spread, at: int, side: Literal[-1, 1]) -> float:
     """Find the end of an interval: where the best fit with the parameter held is worse by what chance explains [B].
 
     The solver's number, no farther than the parameter's bound; infinite where the data do not bound it within
@@ -358,7 +352,9 @@ def profile_end(residuals: Residuals, fit: RobustFit, known: Spread, at: int, si
     for _ in range(_TRIES):
         steps = min(steps, most)
         inner = fit.inner + side * steps * deviation * along
-        worse = cost(residuals, solved(residuals, inner, fit.noise, fixed=at), fit.noise) - fit.cost
+        worse = (
+            robust_fit.cost(residuals, robust_fit.solved(residuals, inner, fit.noise, fixed=at), fit.noise) - fit.cost
+        )
         if abs(worse / allowed - 1.0) < _NEAR:
             break
         if steps == most and worse < allowed:

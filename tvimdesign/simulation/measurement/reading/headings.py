@@ -76,7 +76,13 @@ def heading(text: str, unit: str = "") -> Heading:
 
 def _named(text: str, name: str, unit: str) -> Heading:
     """Return a heading whose quantity follows from its name; of an angular frequency 1/s are radians a second."""
-    quantity = _quantity(name, unit)
+    # The quantity of a name: of several, the one that has such a unit.
+    without = _IN_BRACKETS.fullmatch(name)
+    may_be = _by_name().get(plain(name)) or (_by_name().get(plain(without[1])) if without else None) or [""]
+    quantity = next(
+        (quantity for quantity in may_be if quantity and unit and conversion(unit, unit_of(quantity)) is not None),
+        may_be[0],
+    )
     radians = (quantity, unit) == ("angular_frequency", "1/s") and len(set(_by_name()[plain(name)])) == 1
     return Heading(text, quantity, "rad/s" if radians else unit)
 
@@ -101,16 +107,6 @@ def _with_suffix(text: str) -> Heading | None:
                 if conversion(unit, unit_of(quantity)) is not None:
                     return Heading(text, quantity, unit)
     return None
-
-
-def _quantity(text: str, unit: str) -> str:
-    """Return the quantity of a name: of several, the one that has such a unit."""
-    without = _IN_BRACKETS.fullmatch(text)
-    may_be = _by_name().get(plain(text)) or (_by_name().get(plain(without[1])) if without else None) or [""]
-    return next(
-        (quantity for quantity in may_be if quantity and unit and conversion(unit, unit_of(quantity)) is not None),
-        may_be[0],
-    )
 
 
 def read_unit(text: str) -> str:

@@ -297,24 +297,20 @@ def _sheets(tree: Any, title: str, file: str) -> Iterator[Sheet]:
         title = str(properties.get("Name", title))
     columns, values = tree.get("columns"), tree.get("values")
     if isinstance(columns, list) and isinstance(values, list):
-        yield _sheet(columns, values, title, file)
+        if not all(isinstance(column, dict) and "name" in column for column in columns):
+            raise InputError(f"{file}: {title}: a column without a `name`")
+        rows = [
+            Row(1, tuple(str(column["name"]) for column in columns)),
+            Row(2, tuple(str(column.get("unit") or "[1]") for column in columns)),
+        ]
+        for line, cells in enumerate(values, start=3):
+            if not isinstance(cells, list) or len(cells) != len(columns):
+                raise InputError(f"{file}: {title}: row {line - 2} of the values has not {len(columns)} cells")
+            rows.append(Row(line, tuple("" if cell is None else str(cell) for cell in cells)))
+        yield Sheet(tuple(rows), "sheet", "point", title)
         return
     for item in tree.values():
         yield from _sheets(item, title, file)
-
-
-def _sheet(columns: list[Any], values: list[Any], title: str, file: str) -> Sheet:
-    if not all(isinstance(column, dict) and "name" in column for column in columns):
-        raise InputError(f"{file}: {title}: a column without a `name`")
-    rows = [
-        Row(1, tuple(str(column["name"]) for column in columns)),
-        Row(2, tuple(str(column.get("unit") or "[1]") for column in columns)),
-    ]
-    for line, cells in enumerate(values, start=3):
-        if not isinstance(cells, list) or len(cells) != len(columns):
-            raise InputError(f"{file}: {title}: row {line - 2} of the values has not {len(columns)} cells")
-        rows.append(Row(line, tuple("" if cell is None else str(cell) for cell in cells)))
-    return Sheet(tuple(rows), "sheet", "point", title)
 
 
 def workbook_sheets(data: bytes, file: str) -> list[Sheet]:
