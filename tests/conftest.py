@@ -31,7 +31,7 @@ LONGEST = (
     "tests/test_studies.py",
     "tests/cad/test_cad_make.py",
     "tests/report/compare/test_compare.py",
-    "tests/report/paper/",
+    "tests/paper/",
     "tests/api/",
     "tests/report/run/",
     "tests/page/",

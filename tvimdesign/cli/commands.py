@@ -264,7 +264,7 @@ app.command()(explore)
 @app.command()
 def paper_check(json: options.AsJson = False) -> None:
     """Recompute the numbers of the paper."""
-    from tvimdesign.report.paper.paper_check import print_paper_check
+    from tvimdesign.paper.paper_check import print_paper_check
 
     print_paper_check(as_json=json)
 

@@ -1,1 +1,1 @@
-"""Reports of an answer: tables, plots, the results folder and the paper check."""
+"""Reports of an answer: tables, plots and the results folder."""

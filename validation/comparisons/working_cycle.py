@@ -8,7 +8,7 @@ from typing import Any
 
 from fe_structure.models import study_file
 
-from tvimdesign.report.paper.paper_case import published_model, published_values
+from tvimdesign.paper.paper_case import published_model, published_values
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.study import read_study

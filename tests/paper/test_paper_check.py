@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.report.paper import paper_case, paper_check
-from tvimdesign.report.paper.paper_case import claims, published_values
-from tvimdesign.report.paper.paper_check import findings
+from tvimdesign.paper import paper_case, paper_check
+from tvimdesign.paper.paper_case import claims, published_values
+from tvimdesign.paper.paper_check import findings
 from tvimdesign.study import given, read_study_text
 
 computed = cache(paper_check.computed)

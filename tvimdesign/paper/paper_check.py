@@ -13,13 +13,8 @@ from functools import cache
 import numpy as np
 
 from tvimdesign.base.units import from_si
-from tvimdesign.physics import spring
-from tvimdesign.physics.layers import layer
-from tvimdesign.report.output.numbers import label, listed
-from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.terminal import print_grid, wide_console
-from tvimdesign.report.paper import paper_case, paper_rows
-from tvimdesign.report.paper.paper_case import (
+from tvimdesign.paper import paper_case, paper_rows
+from tvimdesign.paper.paper_case import (
     claims,
     cycle_values,
     from_paper,
@@ -29,6 +24,11 @@ from tvimdesign.report.paper.paper_case import (
     published_rate,
     published_values,
 )
+from tvimdesign.physics import spring
+from tvimdesign.physics.layers import layer
+from tvimdesign.report.output.numbers import label, listed
+from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.terminal import print_grid, wide_console
 from tvimdesign.study import standard_tolerances
 
 

@@ -9,11 +9,7 @@ import math
 import numpy as np
 
 from tvimdesign.base.units import from_si, to_si
-from tvimdesign.physics import spring
-from tvimdesign.physics.layers import layer
-from tvimdesign.physics.motions import motion
-from tvimdesign.physics.polymers import polymer, viscoelasticity
-from tvimdesign.report.paper.paper_case import (
+from tvimdesign.paper.paper_case import (
     Instrument,
     from_paper,
     instrument,
@@ -22,6 +18,10 @@ from tvimdesign.report.paper.paper_case import (
     published_values,
     spring_rate,
 )
+from tvimdesign.physics import spring
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.motions import motion
+from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.simulation.working_cycle.curves import fractions_at
 
 OTHER_PIN = 38e-3  # A pin elsewhere than the ratio of one asks [m]
