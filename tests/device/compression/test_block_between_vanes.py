@@ -156,11 +156,9 @@ def test_each_gap_of_the_chamber_is_what_its_drawing_gives(squeezed):
     assert {name: value / mm for name, value in values.items()} == pytest.approx(drawn)
 
 
-def test_blocks_shrink_from_their_vanes_and_creep_at_their_sides():
-    rows = "freezing_gap freezing_travel stop_play axial_play"
+def test_blocks_have_room_to_shrink_and_creep_at_their_sides():
+    rows = "freezing_travel stop_play axial_play"
     values = values_of(rows, "compression", block_depth="7 mm", axial_preload="wave_21x25")
-    assert values["freezing_gap"] == pytest.approx(7e-3 * (1.0 - (1070.0 / 1145.0) ** (1.0 / 3.0)), rel=1e-9)
-    assert values["freezing_gap"] == pytest.approx(0.156e-3, rel=0.01)
     # Blocks have room above and below: the rotor stands still and its stop touches.
     assert values["freezing_travel"] == values["stop_play"] == values["axial_play"] == 0.0
     values = values_of("melt_creep pcl_viscosity@hot", "compression", block_depth="4 mm")

@@ -95,19 +95,6 @@ def test_the_spring_holds_some_times_the_weight_and_rubs_little():
     assert values["preload_spring_stress"] < 0.5 * 1500e6  # of spring-steel strip
 
 
-def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge():
-    rows = "layer_wedge hub_radius"
-    bare = values_of(rows, pcl_thickness="0.6 mm")
-    # A plate that leans until the retainer, 0.4 mm below the hub, meets it: 15 mrad, at 40 mm from the axis.
-    assert bare["layer_wedge"] == pytest.approx(40.0 * 0.4 / (2e3 * bare["hub_radius"]) / 0.6, rel=1e-9)
-    # Milled bearings have 1.5 um at either ring and half of 18 um, over some 4.5 mm.
-    module = {"process": "machine_6061", "bearing": "ball_6802", "hub_depth": "8 mm", "foot_height": "14 mm"}
-    borne = values_of(rows + " hub_top_level hub_bottom_level", pcl_thickness="0.6 mm", **module)
-    spread = 1e3 * (borne["hub_top_level"] - borne["hub_bottom_level"]) - 5.0
-    assert borne["layer_wedge"] < 0.3 * bare["layer_wedge"]
-    assert borne["layer_wedge"] == pytest.approx(40.0 * 2.0 * (2 * 0.0015 + 0.5 * 0.018) / spread / 0.6, rel=0.01)
-
-
 def test_melt_creeps_by_its_viscosity_along_arcs_and_out_of_edges():
     values = values_of("melt_creep pcl_viscosity@hot", melt_lip="rings")
     # As between flat faces, by hand: h^2 rho g/(12 eta), 1.07 mm high, an hour.

@@ -194,7 +194,7 @@ def test_spreaders_face_ledges_and_meet_walls_at_edges():
 RULES = ("key_margin", "key_depth_margin", "key_width_margin", "key_pitch_margin")
 
 
-def test_keys_hold_by_their_section_with_a_safety():
+def test_keys_hold_by_their_section():
     values = of_default("key_holding_torque key_depth", key_count=3, key_diameter=2.5 * MM)
     yielding = Catalog().record("polymers", "pcl_80k").value("tensile_yield")
     # Twelve of 2.5 mm on a radius of 33 mm.
@@ -204,13 +204,8 @@ def test_keys_hold_by_their_section_with_a_safety():
     shallow = of_default("key_holding_torque", rotor_thickness=2.0 * MM, key_diameter=2.5 * MM)
     # 0.8 mm deep they press into their pockets before they shear off.
     assert shallow["key_holding_torque"] == pytest.approx(12 * yielding * 2.5e-3 * 0.8e-3 * 33e-3, rel=1e-9)
-    rows = ["key_safety", "layer_torque@cold", "bond_traction@cold", "hold_torque", "layer_polar_moment",
-            "key_holding_torque"]  # fmt: skip
-    values = TABLE.evaluate(inputs_of(), rows)
-    assert values["key_safety"] == pytest.approx(values["key_holding_torque"] / values["layer_torque@cold"])
+    values = TABLE.evaluate(inputs_of(), ["layer_torque@cold", "hold_torque"])
     assert 0.9 * values["hold_torque"] < values["layer_torque@cold"] < values["hold_torque"]  # the springs are soft
-    at_rim = values["layer_torque@cold"] * 40e-3 / values["layer_polar_moment"]
-    assert values["bond_traction@cold"] == pytest.approx(at_rim)
 
 
 def test_no_keys_weigh_hold_and_forbid_nothing():

@@ -13,7 +13,6 @@ from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.polymers import transitions
 from tvimdesign.physics.solids import shapes
 from tvimdesign.physics.solids.shapes import Section
 
@@ -233,9 +232,3 @@ shrinkages = QuantityGroup("Axial play")
 def freezing_travel(m: Module) -> Scalar:
     """Axial travel of the rotor as the PCL freezes: zero, blocks have clearance above and below."""
     return 0.0 * m.melting_growth
-
-
-@shrinkages.output("mm")
-def freezing_gap(m: Module) -> Scalar:
-    """Depth that a freezing block loses, and leaves beside its vane."""
-    return m.block_depth * transitions.linear_share(m.freezing_shrinkage)

@@ -178,12 +178,6 @@ def lower_seat_holding_torque(m: Module) -> Scalar:
     return m.vane_count * each * m.pcl_mean_radius
 
 
-@loads.output("MPa", per_point=True, requires=WITH_TILES)
-def heater_pressure(m: Module) -> Scalar:
-    """Highest pressure on rigid heaters in a hold, at their upper edges: when the load has just come on."""
-    return m.block_pressure * m.block_area * m.tile_edge_rise / (m.tiles_per_block * m.tile_seat_area)
-
-
 places = QuantityGroup("Layout")
 weights = QuantityGroup("Size and weight")
 rules = QuantityGroup("Gaps")

@@ -63,15 +63,6 @@ def key_holding_torque(m: Module) -> Scalar:
     return m.arc_count * m.key_count * np.fmin(shear, bearing) * m.key_circle_radius
 
 
-@strengths.output("1")
-def key_safety(m: Module) -> Scalar:
-    """Torque that the frozen keys alone hold over the layer's torque in a hold at the cold point; zero without keys.
-
-    Of no other point: the strength is that of frozen PCL at room temperature.
-    """
-    return m.key_holding_torque / m.layer_torque_at_cold
-
-
 @play.output("rad")
 def key_play(m: Module) -> Scalar:
     """Angle the frozen keys turn in their pockets, from which they shrink, once the bond is gone; zero without keys.

@@ -252,12 +252,6 @@ def layer_torque(m: Module) -> Scalar:
     return lasting_load.first_torque(m.hold_torque, m.spring_stiffness, m.elastic_support, m.pcl_modes)
 
 
-@quantities.output("MPa", per_point=True)
-def bond_traction(m: Module) -> Scalar:
-    """Highest traction on the layer's bond in a hold: at its outer rim, when the load has just come on."""
-    return layer.traction(m.layer_torque, m.layer_polar_moment, m.pcl_outer_radius)
-
-
 places = QuantityGroup("Layout")
 plays = QuantityGroup("Axial play")
 
@@ -312,12 +306,6 @@ _MAY_PART = "the freezing layer shrinks, the rotor cannot follow, and the bond m
 def freezing_safety(m: Module) -> Scalar:
     """Strength of the bond over the tension that the freezing layer puts on it."""
     return m.bond_strength / m.freezing_traction
-
-
-@plays.output("%")
-def layer_wedge(m: Module) -> Scalar:
-    """Play of core or bearings at the layer's outer edge over its thickness: a melt may freeze as that wedge."""
-    return m.core_lean * m.pcl_outer_radius / m.pcl_thickness
 
 
 _FLOATS = "the rotor can rise by that share of the layer's thickness, and nothing holds it down (assumed, 5 to 20 %)"

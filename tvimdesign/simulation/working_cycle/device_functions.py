@@ -75,8 +75,15 @@ class DeviceFunctions:
         self.switch_names = tuple(row.name for row in table.supplied)
         self._rotor_cells = int(self.start[self.index["rotor_cells"]])
         """A shape, not a number of the model."""
-        self._built = STRUCTURES.functions_of((table, self.names, self.words, self.points, cells, self._rotor_cells))
+        self._built = STRUCTURES.functions_of(
+            (table, self.names, self.words, self.points, cells, self._rotor_cells, *self._apart)
+        )
         """What is built, by the name of its property or by the outputs of a function."""
+
+    @property
+    def _apart(self) -> tuple[Any, ...]:
+        """Return what else tells structures apart."""
+        return ()
 
     @built_once
     def _symbols(self) -> tuple[Any, Any, dict[str, Any]]:

@@ -1,7 +1,7 @@
 """From YAML text to nodes that know their place, with the caps that keep a hostile file harmless.
 
-Nothing is constructed and nothing is recursive: the parser's events are stacked into three kinds of node, and a scalar
-stays the text it was written as, so `on`, `010`, `1:30` and `1e400` have no second meaning here.
+Nothing is constructed: the parser's events become three kinds of node, no deeper than a study is, and a scalar stays
+the text it was written as, so `on`, `010`, `1:30` and `1e400` have no second meaning here.
 """
 
 import re
@@ -76,109 +76,89 @@ def compose(text: str, problems: Mistakes, place: At | None = None) -> Node:
 
     `place` is that of every node if the text stands in no file, but in an option.
     """
-    builder = _Builder(problems, place)
+    events = yaml.parse(text, Loader=LOADER)
+    builder, root = _Builder(problems, place, events), None
     try:
-        for event in _events(text):
-            builder.take(event)
+        for event in events:
+            if isinstance(event, yaml.DocumentStartEvent) and root is not None:
+                problems.add(builder.place_of(event), "", "a second YAML document starts here", "one study a file")
+                problems.stop()
+            if isinstance(event, yaml.NodeEvent):
+                root = builder.node(event, "")
     except yaml.YAMLError as error:
         _note_syntax(error, text, problems, place)
         problems.stop()
-    if builder.root is None or (isinstance(builder.root, Text) and builder.root.empty):
+    if root is None or (isinstance(root, Text) and root.empty):
         problems.add(At(0, 0), "", "the study is empty", hint="`tvimdesign new` writes a commented one")
         problems.stop()
-    assert builder.root is not None
-    return builder.root
-
-
-def _events(text: str) -> Iterator[Any]:
-    yield from yaml.parse(text, Loader=LOADER)
-
-
-@dataclass
-class _Open:
-    """A list or a mapping whose end has not come yet; a mapping's children are key, value, key, value."""
-
-    kind: str
-    place: At
-    children: list[Node] = field(default_factory=list)
+    assert root is not None
+    return root
 
 
 @dataclass
 class _Builder:
-    """Stacks events into nodes."""
+    """Builds nodes from the parser's events."""
 
     problems: Mistakes
-    place: At | None = None
-    root: Node | None = None
-    stack: list[_Open] = field(default_factory=list)
+    place: At | None  # That of every node, if it is given
+    events: Iterator[Any]
     nodes: int = 0
 
-    def take(self, event: Any) -> None:
-        """Take one event of the parser."""
-        place = self.place or At(event.start_mark.line + 1, event.start_mark.column + 1)
-        match event:
-            case yaml.DocumentStartEvent() if self.root is not None:
-                self.problems.add(place, "", "a second YAML document starts here", "one study a file")
-                self.problems.stop()
-            case yaml.AliasEvent():
-                self._refuse(place, f"the alias {quoted(f'*{event.anchor}')}", "the value itself: write it out")
-            case yaml.ScalarEvent():
-                odd = CONTROL.search(event.value)
-                if not self._tag_allowed(event, "text", place):
-                    self._add(Broken(place.line, place.column, place.file))
-                elif odd:
-                    self._refuse(place, f"control character U+{ord(odd[0]):04X}", "plain text")
+    def place_of(self, event: Any) -> At:
+        """Return the place of an event."""
+        return self.place or At(event.start_mark.line + 1, event.start_mark.column + 1)
+
+    def node(self, event: Any, path: str, depth: int = 0) -> Node:
+        """Return the node that begins with an event, under the keys of `path`."""
+        place = self.place_of(event)
+        at = place.line, place.column
+        node: Node = Broken(*at, place.file)
+        if isinstance(event, yaml.AliasEvent):
+            self.problems.add(place, path, f"the alias {quoted(f'*{event.anchor}')}", "the value itself: write it out")
+        elif isinstance(event, yaml.ScalarEvent):
+            if self._tag_allowed(event, "text", place, path):
+                if odd := CONTROL.search(event.value):
+                    self.problems.add(place, path, f"control character U+{ord(odd[0]):04X}", "plain text")
                 else:
-                    self._add(Text(place.line, place.column, event.value, not event.style, place.file))
-            case yaml.CollectionStartEvent():
-                self._start(event, place)
-            case yaml.CollectionEndEvent():
-                self._close(self.stack.pop())
-
-    def _start(self, event: Any, place: At) -> None:
-        kind = "list" if isinstance(event, yaml.SequenceStartEvent) else "map"
-        if not self._tag_allowed(event, kind, place):
-            kind = "broken"
-        self.stack.append(_Open(kind, place))
-        if len(self.stack) > DEEPEST:
-            self.problems.add(place, "", f"nested deeper than {DEEPEST} levels", "the few levels of a study")
-            self.problems.stop()
-
-    def _tag_allowed(self, event: Any, kind: str, place: At) -> bool:
-        tag = event.tag
-        if tag is None or (tag.startswith(_TAG_PREFIX) and tag.removeprefix(_TAG_PREFIX) in _TAGS[kind]):
-            return True
-        shown = tag.replace(_TAG_PREFIX, "!!", 1)
-        self.problems.add(place, self._path(), f"the tag {quoted(shown)} is not allowed", "a plain value without a tag")
-        return False
-
-    def _refuse(self, place: At, message: str, expected: str) -> None:
-        self.problems.add(place, self._path(), message, expected)
-        self._add(Broken(place.line, place.column, place.file))
-
-    def _add(self, node: Node) -> None:
+                    node = Text(*at, event.value, not event.style, place.file)
+        else:
+            kind = "list" if isinstance(event, yaml.SequenceStartEvent) else "map"
+            allowed = self._tag_allowed(event, kind, place, path)
+            if depth >= DEEPEST:
+                self.problems.add(place, "", f"nested deeper than {DEEPEST} levels", "the few levels of a study")
+                self.problems.stop()
+            if kind == "list":
+                items = list(self._items(path, depth + 1))
+                node = Sequence(*at, items, place.file) if allowed else node
+            else:
+                pairs = list(self._pairs(path, depth + 1))
+                node = Mapping(*at, self._entries(pairs, path), place.file) if allowed else node
         self.nodes += 1
         if self.nodes > MOST_NODES:
             self.problems.add(node, "", f"more than {MOST_NODES} values", "a study, which has some dozens")
             self.problems.stop()
-        if self.stack:
-            self.stack[-1].children.append(node)
-        else:
-            self.root = node
+        return node
 
-    def _close(self, done: _Open) -> None:
-        line, column, file = done.place.line, done.place.column, done.place.file
-        if done.kind == "broken":
-            self._add(Broken(line, column, file))
-        elif done.kind == "list":
-            self._add(Sequence(line, column, done.children, file))
-        else:
-            self._add(Mapping(line, column, self._entries(done.children), file))
+    def _items(self, path: str, depth: int) -> Iterator[Node]:
+        while not isinstance(event := next(self.events), yaml.CollectionEndEvent):
+            yield self.node(event, path, depth)
 
-    def _entries(self, children: list[Node]) -> dict[str, tuple[Text, Node]]:
+    def _pairs(self, path: str, depth: int) -> Iterator[tuple[Node, Node]]:
+        for key in self._items(path, depth):
+            inner = step(path, key.value) if isinstance(key, Text) else path
+            yield key, self.node(next(self.events), inner, depth)
+
+    def _tag_allowed(self, event: Any, kind: str, place: At, path: str) -> bool:
+        tag = event.tag
+        if tag is None or (tag.startswith(_TAG_PREFIX) and tag.removeprefix(_TAG_PREFIX) in _TAGS[kind]):
+            return True
+        shown = tag.replace(_TAG_PREFIX, "!!", 1)
+        self.problems.add(place, path, f"the tag {quoted(shown)} is not allowed", "a plain value without a tag")
+        return False
+
+    def _entries(self, pairs: list[tuple[Node, Node]], path: str) -> dict[str, tuple[Text, Node]]:
         entries: dict[str, tuple[Text, Node]] = {}
-        for key, value in zip(children[::2], children[1::2], strict=True):
-            path = self._path()
+        for key, value in pairs:
             if not isinstance(key, Text):
                 if not isinstance(key, Broken):
                     self.problems.add(key, path, "a list or a mapping as a key", "a name")
@@ -190,14 +170,6 @@ class _Builder:
             else:
                 entries[key.value] = (key, value)
         return entries
-
-    def _path(self) -> str:
-        """Return the keys that lead to the current event."""
-        path = ""
-        for level in self.stack:
-            last = level.children[-1] if level.kind == "map" and len(level.children) % 2 else None
-            path = step(path, last.value) if isinstance(last, Text) else path
-        return path
 
 
 _REMEDIES = (
