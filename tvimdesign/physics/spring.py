@@ -281,11 +281,6 @@ def bending_length(spring: DrawnSpring, poissons_ratio: Any) -> Any:
     return (_coil(spring) + tilt + bend) / spring.arm**2 + spring.arm / 3.0
 
 
-def drawn_coils(spring: DrawnSpring, poissons_ratio: Any) -> Any:
-    """Return the coils without a leg that are as soft as the drawn spring [1]."""
-    return bending_length(spring, poissons_ratio) / (np.pi * spring.coil_diameter)
-
-
 def coil_stress_factor(spring: DrawnSpring, curvature_factor: Any) -> Any:
     """Return the largest stress in the coil over that of the moment F a in a straight wire [1].
 

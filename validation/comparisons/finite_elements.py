@@ -33,7 +33,7 @@ def springs(_: Values) -> Values:
         shape = spring.DrawnSpring(
             wire, coil, 2.0 * np.pi * case["turns"], pitch, arm, (case["bend_ratio"] + 0.5) * wire
         )
-        coils = spring.drawn_coils(shape, stored["poissons_ratio"])
+        coils = spring.bending_length(shape, stored["poissons_ratio"]) / (np.pi * shape.coil_diameter)
         straight = spring.bending_stress(1.0, wire, 1.0) * 1e-6
         factor = spring.inner_fibre_factor(coil / wire)
         results["rate"].append(spring.rate(case["modulus"] * 1e9, wire, coil, coils))

@@ -13,11 +13,14 @@ from judging.case import CASES
 from comparisons.numbers import Array
 from tvimdesign.catalog import Catalog
 from tvimdesign.device.core.impedance.joint_impedance import solid_modes
+from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import melt, polymer, transitions, viscoelasticity
 from tvimdesign.physics.solids import structure
+from tvimdesign.simulation.joint_tests.release import release
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
-from tvimdesign.simulation.rheometer.specimen import specimens
+from tvimdesign.simulation.rheometer import transient
+from tvimdesign.simulation.rheometer.specimen import PAPER, specimens
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.study import read_study
 
@@ -130,14 +133,22 @@ def relaxation_of_a_glass(inputs: Values) -> Values:
 
 
 def frozen_in_tension(inputs: Values) -> Values:
-    """Secant modulus and strength [MPa] of a study's frozen polymer, drawn at a constant rate.
+    """Secant modulus and strength [MPa] of a study's frozen polymer, drawn at a constant rate; stress in two tests.
 
-    Stress is 3^(1/2) times and strain 3^(-1/2) times that of the ramp in shear (von Mises).
+    Stress is 3^(1/2) times and strain 3^(-1/2) times that of the ramp in shear (von Mises). The tests are `relaxation`,
+    highest stress at the paper's coldest temperature, and the cold `release`, highest stress of the layer.
     """
     resolved = resolve_study(read_study(CASES.parents[1] / inputs["study"]))
-    (at,) = specimens(resolved, [CELSIUS + inputs["temperature"]])
+    at, coldest = specimens(resolved, [CELSIUS + inputs["temperature"], PAPER[0]])
     strain = np.linspace(0.0, 0.01 * inputs["strain"], 401)[1:]
     rise, shear = strain[-1] / inputs["rate"], np.sqrt(3.0) * strain[-1]
     stress = 1e-6 * np.sqrt(3.0) * at.nominal.step_stress(strain / inputs["rate"], float(shear), float(rise))
     secant = float(np.interp(0.01 * inputs["secant"], strain, stress / strain))
-    return {"modulus": secant, "strength": float(np.max(stress))}
+    strained = coldest.nominal.step_stress(transient.HELD, transient.STRAIN, transient.RISE)
+    held = next(finding.value for finding in release(resolved).findings if finding.name == "held_torque@cold")
+    traction = layer.traction(held, *(resolved.quantity(name) for name in ("layer_polar_moment", "pcl_outer_radius")))
+    tests = {"relaxation": float(np.max(strained)), "release": traction}
+    return {
+        "modulus": secant, "strength": float(np.max(stress)),
+        **{name: 1e-6 * np.sqrt(3.0) * stress_of_test for name, stress_of_test in tests.items()},
+    }  # fmt: skip

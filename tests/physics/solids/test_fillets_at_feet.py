@@ -217,3 +217,14 @@ def test_soft_blocks_leave_vanes_alone_and_stiff_ones_hold_them():
     assert free.block < 1e-9 * free.vane
     held = vane.compliances(first, other, between(1e15))
     assert held == pytest.approx((first.aside, other.aside, 0.0), abs=1e-12)
+
+
+def test_a_pull_along_the_axis_leans_both_vanes():
+    # By hand: angles of both vanes on springs a^2/A and a cantilever of 3 E I/d^3, the way of its end found by energy.
+    first, other, block = vane.Vane(3e-7, 1e-8), vane.Vane(8e-7, 2e-8), between(140e6)
+    arm, thick = 0.4e-3 + 0.5 * HEIGHT, (3e-3, 8e-3)
+    levers = np.array([4e-3 + 1.5e-3, 1.5e-3 + 4e-3, 1.0])
+    cantilever = 3.0 * 3.0 * 140e6 * WIDTH * HEIGHT**3 / 12.0 / 4e-3**3
+    springs = np.diag([arm**2 / first.leaning, arm**2 / other.leaning, cantilever])
+    way = levers @ np.linalg.solve(springs, levers)
+    assert vane.along_axis(first, other, block, thick) == pytest.approx(way, rel=1e-9)

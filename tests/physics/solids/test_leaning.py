@@ -103,5 +103,5 @@ def test_modules_whose_cores_lean_are_as_stiff_at_the_link_as_in_fe():
             assert factor.low <= 1.0 / tilt <= factor.high, row
             assert upright > 1.04, row  # without leaning
             off[module.study.mode].append(abs(in_play - 1.0))
-    assert np.mean(np.array(off["shear"]) < 0.1) >= 0.9
-    assert max(off["compression"]) < 0.3
+    for mode, deviations in off.items():
+        assert np.mean(np.array(deviations) < 0.1) >= 0.9, mode

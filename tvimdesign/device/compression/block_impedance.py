@@ -84,7 +84,8 @@ def block_against_rotor(m: Module) -> tuple[Scalar, Scalar]:
     """Stiffness of one frozen block with its pad at 23 degC, pressed and sheared along the vane [N/m]."""
     blocks = m.frozen_shear_modulus * m.pcl_moment / m.block_depth
     pressed = structure.series(blocks / (m.vane_count * m.pcl_mean_radius**2), m.pad_press_stiffness)
-    free = [1.0 - shear_lag.held_over_window(m.peltier_thickness, 0.5 * side) for side in (m.slot_width, m.slot_height)]
+    halves = 0.5 * m.slot_width, m.slot_height  # a slot is open below
+    free = [1.0 - shear_lag.held_over_window(m.peltier_thickness, half) for half in halves]
     held = m.block_area - free[0] * free[1] * m.slot_width * m.slot_height
     pad = m.peltier_shear_modulus * held / m.peltier_thickness
     return pressed, structure.series(m.frozen_shear_modulus * m.block_area / m.block_depth, pad)
@@ -94,11 +95,13 @@ def block_against_rotor(m: Module) -> tuple[Scalar, Scalar]:
 def layer_against_leaning(m: Module) -> Scalar:
     """Stiffness of all pressed blocks and pads as the rotor leans over the floor [N*m/rad].
 
-    It shears them along the axis, and turns the vanes' faces of the height h: N (s r^2 + (p + s) h^2/12)/2.
+    It turns the vanes' faces of the height h, and pulls the blocks along the axis, which leans the vanes that these
+    stand off from: N (r^2/c + (p + s) h^2/12)/2.
     """
     pressed, sheared = m.block_against_rotor
     faces = (pressed + sheared) * m.block_height**2 / 12.0
-    return 0.5 * m.vane_count * (sheared * m.pcl_mean_radius**2 + faces)
+    along = vane.along_axis(m.rotor_vane, m.housing_vane, m.block_between, (m.vane_thickness, m.housing_vane_thickness))
+    return 0.5 * m.vane_count * (m.pcl_mean_radius**2 / (1.0 / sheared + along) + faces)
 
 
 @quantities.helper()
@@ -184,24 +187,20 @@ def block_holding_torque(m: Module) -> Scalar:
     return block.torque_at_stress(stress, m.vane_count, m.block_area, m.pcl_mean_radius)
 
 
-@quantities.helper()
-def vane_arm(m: Module) -> Scalar:
-    """Distance of the middle of a block from the root of the vane it presses on [m]."""
-    return 0.5 * m.block_height + m.running_clearance
-
-
 @quantities.output("N*m")
 def rotor_vane_holding_torque(m: Module) -> Scalar:
     """Torque at which the roots of the rotor's vanes yield, bent, sheared and twisted, cold, over `holding_safety`."""
     section = m.block_width, m.vane_web
-    force = wedge.force_at_yield(m.cold_layer_strength, section, m.vane_arm, m.block_lean_out, m.pcl_mean_radius)
+    force = wedge.force_at_yield(
+        m.cold_layer_strength, section, m.block_between.arm, m.block_lean_out, m.pcl_mean_radius
+    )
     return m.vane_count * force * m.pcl_mean_radius / m.holding_safety
 
 
 @quantities.output("N*m")
 def housing_vane_holding_torque(m: Module) -> Scalar:
     """Torque at which the roots of the housing's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = wedge.force_at_yield(m.cold_layer_strength, (m.vane_webs, m.housing_vane_thickness), m.vane_arm)
+    force = wedge.force_at_yield(m.cold_layer_strength, (m.vane_webs, m.housing_vane_thickness), m.block_between.arm)
     return m.vane_count * force * m.pcl_mean_radius / m.holding_safety
 
 

@@ -153,3 +153,17 @@ def compliances(vane: Vane, other: Vane, block: BlockBetween) -> Shares:
     lean, opposite = (block.arm * (side - between) / whole for side in (beyond + second, own + first))
     resisted = first * lean**2 + second * opposite**2 + 2.0 * between * lean * opposite
     return Shares(own * lean**2 + vane.aside, beyond * opposite**2 + other.aside, resisted)
+
+
+def along_axis(vane: Vane, other: Vane, block: BlockBetween, thicknesses: tuple[Any, Any]) -> Any:
+    """Return what vanes and block give more than shear as a force pulls them along the axis [m/N]: d^3/(3 E I) + sum
+    e^2 A/a^2.
+
+    The pad hands no moment on. So the block is a cantilever on the rotor's vane, and each vane leans by A/a^2 under the
+    force times its distance e from the vane's middle, half the thickness and what lies between [T].
+    """
+    (shear, _), (depth, pad, spreader), (width, height) = block.moduli, block.depths, block.face
+    bent = depth**3 / (9.0 * shear * width * height**3 / 12.0)
+    levers = depth + 0.5 * thicknesses[0], pad + spreader + 0.5 * thicknesses[1]
+    leaning = zip(levers, (vane.leaning, other.leaning), strict=True)
+    return bent + sum((lever / block.arm) ** 2 * lean for lever, lean in leaning)

@@ -76,16 +76,11 @@ def floor_stiffness(m: Module) -> Scalar:
         m.placement_radius,
     )
     ring = structure.ring_stiffness(m.structure_shear_modulus, left, m.pcl_outer_radius, m.placement_radius)
-    tilt = structure.foot_tilt(m.mount_boss_radius, 0.5 * m.mount_hole, m.foot_height, m.floor_thickness)
-    foot = structure.foot_stiffness(
-        m.structure_youngs_modulus, m.structure_shear_modulus, m.mount_boss_radius, 0.5 * m.mount_hole, m.foot_height,
-        tilt,
-    )  # fmt: skip
     between = np.pi * m.placement_radius / m.foot_count
     spot = structure.spot_stiffness(
         m.structure_shear_modulus, m.structure_poissons_ratio, left, m.mount_boss_radius, between
     )
-    footed = structure.footed_floor_stiffness(ring, spot, foot, m.foot_count, m.placement_radius)
+    footed = structure.footed_floor_stiffness(ring, spot, 1.0 / m.foot_sway, m.foot_count, m.placement_radius)
     return 1.0 / (m.under_arcs_compliance + 1.0 / footed)
 
 

@@ -165,18 +165,18 @@ _LOSES = {
 def _impedance(value: _Values, torque: float) -> list[Fact]:
     """Return the link's stiffness frozen, with its angle under a torque, as heating stops, and with its damping.
 
-    The core leans until the bearing's play is used up. None if heating never stops.
+    Frozen, the core leans if the torque leaves the bearing some of its play. None if heating never stops.
     """
     if math.isinf(value.values["softened_stiffness"]):
         return []
     unit = value.table.unit("softened_stiffness")
-    cold, leaning = "joint_stiffness_at_link@cold", "joint_stiffness_in_play"
+    upright, leaning = "joint_stiffness_at_link@cold", "joint_stiffness_in_play"
+    held, free = torque / value.values[upright] + value.values["bearing_play"], torque / value.values[leaning]
     frozen, soft = (
-        f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}" for name in (cold, "softened_stiffness")
+        f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
+        for name in (leaning if free < held else upright, "softened_stiffness")
     )
-    upright, free = torque / value.values[cold], torque / value.values[leaning]
-    angle = min(free, upright + value.values["bearing_play"])
-    turned = f"turns {from_si(angle, 'deg'):.2g}° at {with_unit(torque, 'N*m', 2)}"
+    turned = f"turns {from_si(min(free, held), 'deg'):.2g}° at {with_unit(torque, 'N*m', 2)}"
     damped = in_unit(value.values["softened_impedance"], unit, _DIGITS)
     return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}: {turned}", f"soft {soft}, damped {damped}"])]
 
