@@ -207,6 +207,8 @@ def test_a_small_foil_on_a_strong_supply_is_ordered_by_its_working_voltage():
     large = "; ".join(heater_leads.heater_order(design))
     assert "which the driver" not in large
     assert "flat tail" not in large
+    middle = 500.0 * (design.values["pcl_inner_radius"] + design.values["pcl_outer_radius"])
+    assert f"off one face, 2 mm or more inside the outline, side by side across R{middle:.3g} at one end" in large
     design.study["require"] = [{"output": "peak_voltage", "limit": 24.0}]
     for name in ("peltier_volume", "peltier_area"):
         design.values[name] *= 0.2

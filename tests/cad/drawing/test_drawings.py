@@ -25,7 +25,7 @@ from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawing_sheet import TITLE_WIDTH, DrawingSheet, Field, around
 from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.placed_view import apart
-from tvimdesign.cad.drawing.projection import from_above, section
+from tvimdesign.cad.drawing.projection import from_above, from_below, section
 from tvimdesign.cad.drawing.spring_sheet import SpringLine, spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.dimensions import dimensions
@@ -108,6 +108,19 @@ def test_drawings_dimension_call_out_and_title_the_design(module, drawings):
         assert (style.dimlfac, style.dimdsep, style.dimzin) == (1.0, 46, 8)
     for kind, document in drawings.items():
         no_text_lies_on_another(kind, document)
+
+
+def test_what_the_plan_hides_is_drawn_from_below(module, drawings):
+    named = {kind: [text for text in texts(drawings[kind]) if text.startswith("from below, ")] for kind in DRAWN}
+    assert {kind for kind, names in named.items() if names} == {"housing", "rotor"}
+    # Turned over about x: the floor's bores have the places of the plan with y reversed.
+    _, solids = module
+    below = from_below(solids["housing"])
+    holes = {(round(arc.centre[0], 2), round(-arc.centre[1], 2)) for arc in below.arcs if arc.end - arc.start == 360.0}
+    plan = {(round(arc.centre[0], 2), round(arc.centre[1], 2)) for arc in from_above(solids["housing"]).arcs}
+    assert len(holes) > 4
+    assert holes <= plan
+    assert below.at_scale(0.5).bounds == pytest.approx([0.5 * bound for bound in below.bounds])
 
 
 def test_a_sheet_has_number_revision_true_size_and_no_date(module):

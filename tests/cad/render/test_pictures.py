@@ -11,7 +11,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
 from tvimdesign.cad.render.pictures import _spring_outside, wedge_of
-from tvimdesign.cad.render.render import actors, look, renderer_on_white, write_field_picture, write_png
+from tvimdesign.cad.render.render import actors, look, renderer_on_white, write_field_picture, write_png, write_view
 
 GREEN = (0.0, 0.8, 0.2)
 SIZE = (200, 100)
@@ -85,6 +85,18 @@ def test_springs_are_halved_whole_or_gone_by_their_place():
     assert cut[:, 1].min() == pytest.approx(-5.0, abs=1e-2)
     assert _spring_outside(_upright(250.0), first, last).GetNumberOfPolys() == len(_upright(250.0).mesh.faces)
     assert _spring_outside(_upright(70.0), first, last).GetNumberOfPolys() == 0
+
+
+def test_numbers_of_the_bill_stand_beside_parts_and_in_the_legend(tmp_path):
+    placed = {"rotor": Instance(block(), quarter_turn(0.0)), "link": Instance(block(), quarter_turn(20.0))}
+    renderer, plain = renderer_on_white(), renderer_on_white()
+    write_view(tmp_path / "plain.png", plain, placed, (0.0, -1.0, 0.5), SIZE)
+    write_view(tmp_path / "numbered.png", renderer, placed, (0.0, -1.0, 0.5), SIZE, items={"link": 3, "rotor": 12})
+    shown = [renderer.GetViewProps().GetItemAsObject(at) for at in range(renderer.GetViewProps().GetNumberOfItems())]
+    assert [text.GetInput() for text in shown] == [" 3", " 12"]
+    assert [text.GetPositionCoordinate().GetValue()[0] for text in shown] == [23.0, 3.0]  # the right end of each
+    plain, numbered = (matplotlib.image.imread(tmp_path / f"{name}.png") for name in ("plain", "numbered"))
+    assert np.any(plain[:50] != numbered[:50])
 
 
 def test_the_picture_has_both_ends_of_the_scale_on_the_body(tmp_path):

@@ -25,10 +25,12 @@ from tvimdesign.cad.drawing.drawing_sheet import (
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
 from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView, apart
-from tvimdesign.cad.drawing.projection import View, from_above, half_section, section
+from tvimdesign.cad.drawing.projection import View, from_above, from_below, half_section, section
 from tvimdesign.cad.drawing.sheet_layout import (
     FIRST,
     NEXT,
+    SCALES,
+    Room,
     draw_balloons,
     draw_tables,
     layout,
@@ -46,6 +48,7 @@ _BESIDE = ("pocket", "raised sector", "thread", "hole", "slot")
 
 The row of a thread describes it in full; a vane, with its slots and steps, is seen only where it is cut.
 """
+_FOR_NUMBERS = 14.0  # Room between plan and underside, and below that for its name [mm]
 _AZIMUTHS = "Azimuths count from x, to the right, counter-clockwise in the plan."
 _WALLS = "Walls: distance of their plane from the axis, azimuth of the way they face."
 
@@ -82,7 +85,8 @@ def part_sheet(
     _dimension_extent(placed_front, sorted(central))
     _dimension_levels(placed_front, heights)
     draw_tables(sheet, rows, requirements)
-    draw_balloons(placed_plan, rows, place.room, marks)
+    room = _draw_underside(placed_plan, solid, place.room) if plan.hidden else place.room
+    draw_balloons(placed_plan, rows, room, marks)
     _words(sheet, kind, solid, what, module, requirements, material or what.material, rows)
     return sheet
 
@@ -107,6 +111,29 @@ def _draw_plan(
     left, right = plan.view.bounds[:2]
     marks = [plan.cutting_mark("A", 0.0, right), plan.cutting_mark("A", radians(180.0), -left)]
     return [*marks, plan.cutting_mark("D", beside, half.bounds[1], marks)] if half else marks
+
+
+def _draw_underside(plan: PlacedView, solid: cq.Solid, room: Room) -> Room:
+    """Draw the view from below right of the plan, at the largest standard scale for which there is room.
+
+    Return the room that is left around the plan.
+    """
+    sheet, whole, (left, right, bottom, top) = plan.sheet, from_below(solid), room
+    start = plan.on_paper(plan.view.bounds[1], 0.0)[0] + _FOR_NUMBERS
+    wide, high = whole.bounds[1] - whole.bounds[0], whole.bounds[3] - whole.bounds[2]
+    fits = [one for one in SCALES if one * wide <= right - start and one * high + _FOR_NUMBERS <= top - bottom]
+    if not fits:
+        return room
+    scale = min(fits[0], sheet.scale)
+    view = whole.at_scale(scale / sheet.scale)
+    middle = min(max(plan.origin[1], bottom - whole.bounds[2] * scale + _FOR_NUMBERS), top - whole.bounds[3] * scale)
+    placed = PlacedView(sheet, view, (right - whole.bounds[1] * scale, middle))
+    placed.draw()
+    name = f"from below, {ratio(scale)}"
+    sheet.text(
+        name, placed.on_paper(0.5 * sum(view.bounds[:2]), view.bounds[2] - plan.paper(6.0)), 3.5, "MIDDLE_CENTER"
+    )
+    return left, placed.on_paper(view.bounds[0], 0.0)[0] - 4.0, bottom, top
 
 
 def _screw(hole: Cylinder, requirements: DrawingRequirements) -> float:

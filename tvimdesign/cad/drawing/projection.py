@@ -67,6 +67,13 @@ class View:
         x, y = np.array(points).T
         return float(x.min()), float(x.max()), float(y.min()), float(y.max())
 
+    def at_scale(self, factor: float) -> "View":
+        """Return the visible curves, that many times as large."""
+        arcs = (Arc((factor * arc.centre[0], factor * arc.centre[1]), factor * arc.radius, arc.start, arc.end)
+                for arc in self.arcs)  # fmt: skip
+        chains = (Chain(tuple((factor * x, factor * y) for x, y in chain.points)) for chain in self.chains)
+        return View(tuple(arcs), tuple(chains))
+
 
 def from_above(solid: cq.Solid) -> View:
     """Return plan view, with what lies behind."""
@@ -76,6 +83,11 @@ def from_above(solid: cq.Solid) -> View:
     behind: tuple[Arc | Chain, ...] = (*hidden_arcs, *hidden_chains)
     in_front: set[Arc | Chain] = {*arcs, *chains}
     return View(arcs, chains, tuple(curve for curve in behind if curve not in in_front))
+
+
+def from_below(solid: cq.Solid) -> View:
+    """Return the view from below of what is turned over about x, without what lies behind."""
+    return View(*_curves(_edges(solid, (0, 0, -1))[0]))
 
 
 def section(solid: cq.Solid) -> View:

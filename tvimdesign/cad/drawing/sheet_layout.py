@@ -89,7 +89,8 @@ def with_datum(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
     return marked
 
 
-_SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)  # Of ISO 5455
+Room = tuple[float, float, float, float]
+SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)  # Of ISO 5455
 _LARGE = 2.0  # Scale from which the smaller sheet will do
 FIRST, NEXT = 8.0, 6.5  # Height of the first dimension over a section, and of each further one over that [mm]
 _LEFT, _LEVELS, _BETWEEN, _BELOW = 24.0, 36.0, 24.0, 18.0
@@ -106,7 +107,7 @@ class Layout:
     plan: tuple[float, float]
     front: tuple[float, float]
     half: tuple[float, float]  # Of the half section beside the front view
-    room: tuple[float, float, float, float]  # Where numbers may stand around the plan: least and largest x, then y
+    room: Room  # Where numbers may stand around the plan: least and largest x, then y
 
 
 def layout(plan: View, front: View, half: View | None, diameters: int, table: float) -> Layout:
@@ -114,7 +115,7 @@ def layout(plan: View, front: View, half: View | None, diameters: int, table: fl
     over = FIRST + NEXT * (diameters + 1)
     best = [(_scale_on(size, plan, front, half, over, table), name) for name, size in SIZES.items()]
     scale, form = next((fit for fit in best if fit[0] >= _LARGE), max(best, key=lambda fit: fit[0]))
-    scale = scale or _SCALES[-1]
+    scale = scale or SCALES[-1]
     wide, high = _needed(plan, front, half, over, scale)
     right, top = SIZES[form][0] - MARGIN - TITLE_WIDTH - 6.0, SIZES[form][1] - MARGIN
     start = MARGIN + 0.5 * max(right - MARGIN - wide, 0.0) + _LEFT
@@ -143,7 +144,7 @@ def _scale_on(
     width, height = size[0] - 2.0 * MARGIN - TITLE_WIDTH - 6.0, size[1] - 2.0 * MARGIN
     if _OVER_TITLE - MARGIN + table + _NOTES > height:
         return 0.0
-    for scale in _SCALES:
+    for scale in SCALES:
         wide, high = _needed(plan, front, half, over, scale)
         if wide <= width and high <= height:
             return scale
@@ -173,9 +174,7 @@ class _Placed:
     strokes: list[Line] = field(default_factory=list)  # Of the marks where sections are taken
 
 
-def draw_balloons(
-    plan: PlacedView, rows: Sequence[FeatureRow], room: tuple[float, float, float, float], marks: Sequence[CuttingMark]
-) -> None:
+def draw_balloons(plan: PlacedView, rows: Sequence[FeatureRow], room: Room, marks: Sequence[CuttingMark]) -> None:
     """Number the rows in the plan.
 
     `room` is where numbers may stand on paper: least and largest x, then y [mm]; `marks` are where sections are taken.
@@ -213,7 +212,7 @@ def _outlines(plan: PlacedView) -> cKDTree:
     return cKDTree(np.array(points) * scale + np.array(plan.origin))
 
 
-def _leaders(placed: _Placed, index: int, room: tuple[float, float, float, float]) -> Iterator[Line]:
+def _leaders(placed: _Placed, index: int, room: Room) -> Iterator[Line]:
     """Yield the leaders of a row from foot to number, those first that are short and whose number covers few lines."""
     left, right, bottom, top = room
     angles = 2.0 * pi * (np.arange(_WAYS) + 0.5) / _WAYS

@@ -19,7 +19,7 @@ from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, one_solid, place
 from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
 from tvimdesign.cad.assembly.assembly_note import assembly_note, coming, written_steps
-from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
+from tvimdesign.cad.assembly.bill_of_materials import as_ordered, beside, bill, bill_csv, fixtures
 from tvimdesign.cad.assembly.heater_leads import heater_order
 from tvimdesign.cad.assembly.module_script import module_script
 from tvimdesign.cad.assembly.wiring import wiring_svg
@@ -344,9 +344,11 @@ def _pictures(job: Job) -> list[SolidCheck]:
     solids = place(job.dims, drawn)
     placed = instances(job.dims, drawn, solids, _meshes(job.needs))
     write_preview(_place(job.folder, cad_report.PREVIEW), job.dims, drawn, placed)
-    write_exploded(_place(job.folder, cad_report.EXPLODED), placed)
+    items = bill(job.design, job.titles, solids)
+    numbers = {kind: number for number, item in enumerate(as_ordered(items), start=1) for kind in item.solids}
+    write_exploded(_place(job.folder, cad_report.EXPLODED), placed, numbers)
     write_section(_place(job.folder, cad_report.SECTION), solids, placed)
-    written = enumerate(written_steps(job.design, job.dims, bill(job.design, job.titles, solids)), start=1)
+    written = enumerate(written_steps(job.design, job.dims, items), start=1)
     steps = {
         cad_report.step_picture(number): coming(step.place, list(placed)) for number, step in written if step.place
     }

@@ -98,8 +98,8 @@ def _view(
 _EXPLODED_SIZE = (1000, 1300)
 
 
-def write_exploded(path: Path, placed: Mapping[str, Instance]) -> None:
-    """Write the picture of the parts apart from each other."""
+def write_exploded(path: Path, placed: Mapping[str, Instance], items: Mapping[str, int]) -> None:
+    """Write the picture of the parts apart from each other, with their numbers in the bill of materials by kind."""
     renderer, apart = render.renderer_on_white(), dict[str, Instance]()
     for name, lift in lifts(placed).items():
         moved = placed[name].matrix.copy()
@@ -107,7 +107,7 @@ def write_exploded(path: Path, placed: Mapping[str, Instance]) -> None:
         apart[name] = Instance(placed[name].mesh, moved)
         for actor in render.actors(placed[name].mesh, moved, KINDS[kind_of(name)].colour):
             renderer.AddActor(actor)
-    render.write_view(path, renderer, apart, VIEWED_FROM, _EXPLODED_SIZE)
+    render.write_view(path, renderer, apart, VIEWED_FROM, _EXPLODED_SIZE, items=items)
 
 
 _STEP_SIZE = (900, 600)

@@ -36,7 +36,7 @@ vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no disp
 
 _EDGE_ANGLE = 30.0
 _COMPRESSION = 1  # Of zlib, least: lines and plain faces come out no larger than with more
-_COLUMN, _LINE = 250, 45  # Least width and height of a name in the legend [pixels]
+_COLUMN, _LINE = 290, 45  # Least width and height of a name in the legend [pixels]
 
 
 def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer]) -> None:
@@ -181,8 +181,8 @@ def _lines(kinds: Sequence[str], width: int) -> int:
     return ceil(len(kinds) / min(len(kinds), max(1, width // _COLUMN)))
 
 
-def legend(kinds: Sequence[str], size: tuple[int, int]) -> vtkRenderer:
-    """Return a strip below a picture of a size in pixels, with the names of the parts in their colours."""
+def legend(kinds: Sequence[str], size: tuple[int, int], items: Mapping[str, int] | None = None) -> vtkRenderer:
+    """Return a strip below a picture of a size in pixels, with the parts' names, and numbers if given, in colours."""
     renderer = vtkRenderer()
     renderer.SetViewport(0.0, 0.0, 1.0, legend_height(kinds, size))
     renderer.SetBackground(1.0, 1.0, 1.0)
@@ -191,7 +191,8 @@ def legend(kinds: Sequence[str], size: tuple[int, int]) -> vtkRenderer:
     for index, kind in enumerate(kinds):
         x, y = round((index % columns + 0.12) * size[0] / columns), 15 + _LINE * (rows - 1 - index // columns)
         renderer.AddViewProp(_text("     ", x, y, KINDS[kind].colour))
-        renderer.AddViewProp(_text(kind.replace("_", " "), x + 42, y, None))
+        number = f"{items[kind]} " if items else ""
+        renderer.AddViewProp(_text(number + kind.replace("_", " "), x + 42, y, None))
     return renderer
 
 
@@ -208,14 +209,23 @@ def renderer_on_white() -> vtkRenderer:
 
 def write_view(
     path: Path, renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, size: tuple[int, int],
-    named: Iterable[str] = (),
+    named: Iterable[str] = (), items: Mapping[str, int] | None = None,
 ) -> None:  # fmt: skip
-    """Write what is seen of placed parts from a direction, with the legend of their kinds, or of those `named`."""
-    kinds = list(dict.fromkeys(kind_of(name) for name in named or placed))
+    """Write what is seen of placed parts from a direction, with the legend of their kinds, or of those `named`.
+
+    Numbers of `items`, by kind, stand beside the parts, to the right of all of a kind.
+    """
+    kinds = list(items or dict.fromkeys(kind_of(name) for name in named or placed))
     below = legend_height(kinds, size)
+    for kind, number in (items or {}).items():
+        points = np.vstack([instance.points() for name, instance in placed.items() if kind_of(name) == kind])
+        beside = _text(f" {number}", 0, 0, None)
+        beside.GetPositionCoordinate().SetCoordinateSystemToWorld()
+        beside.GetPositionCoordinate().SetValue(*points[np.argmax(points @ np.cross((0.0, 0.0, 1.0), from_here))])
+        renderer.AddViewProp(beside)
     renderer.SetViewport(0.0, below, 1.0, 1.0)
     look(renderer, placed, from_here, size[1] * (1.0 - below) / size[0])
-    write_png(path, size, [renderer, legend(kinds, size)])
+    write_png(path, size, [renderer, legend(kinds, size, items)])
 
 
 def look(renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, aspect: float) -> None:
