@@ -37,9 +37,13 @@ class TrustRegion:
 
     def __init__(
         self, programme: ExtendedProblem, solver: Callable[[Beginning], ProgrammeSolver], deadline: Deadline,
-        ends: Mapping[str, Array],
+        ends: Mapping[str, Array], noise: float = NOISE,
     ) -> None:  # fmt: skip
-        """Take the programme, what solves it from a beginning, and nlpsol's bounds of unknowns and rows."""
+        """Take the programme, what solves it from a beginning, and nlpsol's bounds of unknowns and rows.
+
+        A feasible step inside the region that changes the objective by less than the `noise` is the last.
+        """
+        self._noise = noise
         self._programme, self._solver, self._deadline, self._ends = programme, solver, deadline, ends
         self._problem = programme.problem
         self._curvatures = Curvatures(len(self._problem.model.switch_names), self._problem.unknown_count)
@@ -95,7 +99,7 @@ class TrustRegion:
             self.reached = x
             if stats["success"]:
                 multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
-                stands = abs(there.objective - here.objective) < NOISE and length < 0.99 * radius
+                stands = abs(there.objective - here.objective) < self._noise and length < 0.99 * radius
                 if length < STILL or self._ends_here(there, answer, near, beginning, stands=stands):
                     return {**answer, "x": to, "f": there.objective}, stats
                 beginning = beginning if beginning == "feasible" else "warm"
