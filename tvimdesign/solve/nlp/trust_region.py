@@ -18,6 +18,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
 from tvimdesign.solve.nlp.ipopt import Beginning, ProgrammeSolver
 from tvimdesign.solve.nlp.problem_parts import Curvatures, CycleModel, Point
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN
 
 Array = NDArray[np.float64]
 
@@ -26,6 +27,7 @@ FIRST_RADIUS, MOST_RADIUS, LEAST_RADIUS = 0.4, 2.0, 1e-5
 POOR, GOOD, EXACT = 0.1, 0.02, 1e-3
 """Error of a modelled limit, as a share of it, from which a step is taken back, and below which the
 region grows; error up to which a model shows how a solver fares on the cycle."""
+CERTAIN = 0.05  # Error of a model, as a share of the least breach that it finds, up to which that is the cycle's, too
 NOISE = 1e-6  # Change of the objective that says nothing
 MOST_CYCLES = 20  # A run that takes more cycles is left to IPOPT on the cycle itself
 FEASIBLE, STATIONARY, STILL = 1e-7, 1e-6, 1e-7
@@ -84,7 +86,14 @@ class TrustRegion:
             if not stats["success"] and beginning in ("near", "warm"):
                 multipliers, beginning = {}, "cold"  # a cold run detects sooner that there is no design
             fails = not stats["success"] and error <= EXACT and length < 0.99 * radius
-            if (length < LEAST_RADIUS and not stats["success"]) or (fails and not self._better(there, -NOISE)):
+            infeasible = (
+                stats["return_status"] == NO_DESIGN and length < 0.99 * radius
+                and error <= CERTAIN * self._breach(expected)
+            )  # fmt: skip
+            if (
+                (length < LEAST_RADIUS and not stats["success"]) or infeasible
+                or (fails and not self._better(there, -NOISE))
+            ):  # fmt: skip
                 return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
             if not error <= POOR or not self._better(there):
                 if length < LEAST_RADIUS or not self._better(expected):

@@ -241,8 +241,10 @@ class Optimizer:
             x = np.append(x, 0.0)
         region = None
         if not self.currents and beginning != "sharp":
-            noise = NOISE if moves is None else _SHARE * _WORTH
-            region = TrustRegion(programme, lambda start: self._solver(start, programme), self.deadline, ends, noise)
+            region = TrustRegion(
+                programme, lambda start: self._solver(start, programme), self.deadline, ends,
+                NOISE if moves is None else _SHARE * _WORTH,
+            )  # fmt: skip
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
             answer, stats = self._answer(programme, region, x, multipliers, ends, beginning)
