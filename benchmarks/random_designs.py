@@ -39,7 +39,7 @@ FRESH = {
     "wrist_compression": 13, "machined_compression": 12,
 }  # fmt: skip
 """Studies within whose ranges validation draws modules that nobody optimized, and how many of each."""
-FRESH_BY_FE = FRESH | {"ankle": 6, "wrist_joint": 6, "wrist_compression": 16, "machined_compression": 15}
+FRESH_BY_FE = FRESH | {"ankle": 6, "wrist_joint": 6, "wrist_compression": 22, "machined_compression": 17}
 """The same for the structure, which FE solves."""
 FRESH_SEED = 2026
 _CHUNK = 20_000
