@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+from contextlib import nullcontext
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -20,6 +21,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp import spread, trust_region
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
 from tvimdesign.solve.nlp.problem_parts import Curvatures, CycleModel, Point
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN
 from tvimdesign.solve.nlp.spread import Contributor, moments, sobol_points
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, draw
@@ -233,6 +235,47 @@ def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study, monkeypa
     assert on_cycle.start.converged
     assert by_models.start.objective <= on_cycle.start.objective * (1.0 + 1e-6)
     assert count < runs[0]
+
+
+def test_a_model_that_is_sure_of_no_design_ends_a_run_sooner(monkeypatch):
+    study = read_study(study_path("wrist_joint"))
+    limits = [
+        limit.model_copy(update={"limit": 0.5 * limit.limit})
+        if limit.output in ("envelope_diameter", "response_time") else limit for limit in study.require
+    ]  # fmt: skip
+    sure = Optimizer(study.model_copy(update={"require": limits})).solve()
+    monkeypatch.setattr(trust_region, "CERTAIN", 0.0)
+    unsure = Optimizer(study.model_copy(update={"require": limits})).solve()
+    assert sure.start.status == unsure.start.status == NO_DESIGN
+    assert sure.start.iterations < unsure.start.iterations
+
+
+@pytest.mark.parametrize(("worth", "steps"), [(1e-4, 1), (1e-2, trust_region.MOST_CYCLES)])
+def test_a_search_for_more_of_a_further_unknown_ends_where_it_creeps(worth, steps):
+    """Maximise a share whose model gains `worth` a step, and never ends by its slope."""
+    count, share = 1, [0.0]
+
+    def point(x: np.ndarray) -> Any:
+        return SimpleNamespace(
+            objective=-worth * round(float(x[1]) * 1e3), rows=np.zeros(1), gradient=np.array([0.0, -1.0]),
+            jacobian=np.zeros((1, 2)), cycle=np.ones(1), of_cycle=np.zeros((1, 1)),
+        )  # fmt: skip
+
+    problem = SimpleNamespace(
+        model=SimpleNamespace(switch_names=("time",)), unknown_count=count, events=["time"],
+        modelled=lambda _: nullcontext(),
+    )  # fmt: skip
+    ends = {"lbx": np.zeros(2), "ubx": np.ones(2), "lbg": np.full(1, -np.inf), "ubg": np.zeros(1)}
+
+    def solver(*_: Any, **__: Any) -> dict[str, Any]:
+        share[0] += 1e-3
+        return {"x": np.array([0.5, share[0]]), "lam_g": np.zeros(1), "lam_x": np.zeros(2)}
+
+    solver.stats = lambda: {"success": True, "return_status": "Solve_Succeeded"}  # type: ignore[attr-defined]
+    programme = cast(ExtendedProblem, SimpleNamespace(problem=problem, at=point))
+    region = trust_region.TrustRegion(programme, lambda _: cast(Any, solver), NEVER, ends)
+    region.solve(np.array([0.5, 0.0]), {}, "near")
+    assert region.iterations == steps
 
 
 @pytest.mark.parametrize(

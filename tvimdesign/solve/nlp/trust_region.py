@@ -28,7 +28,9 @@ POOR, GOOD, EXACT = 0.1, 0.02, 1e-3
 """Error of a modelled limit, as a share of it, from which a step is taken back, and below which the
 region grows; error up to which a model shows how a solver fares on the cycle."""
 CERTAIN = 0.05  # Error of a model, as a share of the least breach that it finds, up to which that is the cycle's, too
-NOISE = 1e-6  # Change of the objective that says nothing
+NOISE, CREEP = 1e-6, 3e-4
+"""Change of the objective that says nothing; change that ends the search for more of a further unknown: a step of
+margins that no design bears whole leads along valleys."""
 MOST_CYCLES = 20  # A run that takes more cycles is left to IPOPT on the cycle itself
 FEASIBLE, STATIONARY, STILL = 1e-7, 1e-6, 1e-7
 """Largest breach of a limit and slope of the Lagrangian at an optimum; step that leaves a point where it is."""
@@ -39,13 +41,9 @@ class TrustRegion:
 
     def __init__(
         self, programme: ExtendedProblem, solver: Callable[[Beginning], ProgrammeSolver], deadline: Deadline,
-        ends: Mapping[str, Array], noise: float = NOISE,
+        ends: Mapping[str, Array],
     ) -> None:  # fmt: skip
-        """Take the programme, what solves it from a beginning, and nlpsol's bounds of unknowns and rows.
-
-        A feasible step inside the region that changes the objective by less than the `noise` is the last.
-        """
-        self._noise = noise
+        """Take the programme, what solves it from a beginning, and nlpsol's bounds of unknowns and rows."""
         self._programme, self._solver, self._deadline, self._ends = programme, solver, deadline, ends
         self._problem = programme.problem
         self._curvatures = Curvatures(len(self._problem.model.switch_names), self._problem.unknown_count)
@@ -108,7 +106,9 @@ class TrustRegion:
             self.reached = x
             if stats["success"]:
                 multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
-                stands = abs(there.objective - here.objective) < self._noise and length < 0.99 * radius
+                partial = np.any(to[self._problem.unknown_count :] < self._ends["ubx"][self._problem.unknown_count :])
+                noise = CREEP if partial else NOISE
+                stands = abs(there.objective - here.objective) < noise and length < 0.99 * radius
                 if length < STILL or self._ends_here(there, answer, near, beginning, stands=stands):
                     return {**answer, "x": to, "f": there.objective}, stats
                 beginning = beginning if beginning == "feasible" else "warm"

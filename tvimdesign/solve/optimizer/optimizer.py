@@ -24,7 +24,7 @@ from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters
 from tvimdesign.solve.nlp.solution import EasedRequirement, Start
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Derivatives, Ends, Progress, Run, Trace
-from tvimdesign.solve.nlp.trust_region import NOISE, TrustRegion
+from tvimdesign.solve.nlp.trust_region import TrustRegion
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
@@ -33,9 +33,8 @@ SETTLED = 1e-4
 MOST_GRIDS = 4  # Times the steps are placed anew for one run
 _BESIDE, _TRIALS = (0.1, 0.3, 1.0), 10
 """How far beside a module whose switch never ends others are tried, as a share of the ranges, and how many each."""
-_WORTH, _SHARE = 10.0, 3e-5
-"""Worth of the whole of a step of the margins, in what is minimised over its reference: no design is dearer. Share of
-that step which ends a search for more, where the design creeps along a valley."""
+_WORTH = 10.0
+"""Worth of the whole of a step of the margins, in what is minimised over its reference; no design is dearer."""
 _APART = 1e-4  # Step of an unknown in the differences that second derivatives come from
 
 
@@ -241,10 +240,7 @@ class Optimizer:
             x = np.append(x, 0.0)
         region = None
         if not self.currents and beginning != "sharp":
-            region = TrustRegion(
-                programme, lambda start: self._solver(start, programme), self.deadline, ends,
-                NOISE if moves is None else _SHARE * _WORTH,
-            )  # fmt: skip
+            region = TrustRegion(programme, lambda start: self._solver(start, programme), self.deadline, ends)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
             answer, stats = self._answer(programme, region, x, multipliers, ends, beginning)
