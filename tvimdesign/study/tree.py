@@ -120,7 +120,7 @@ def _setting_node(value: str, problems: Mistakes) -> Node:
     """Return the node behind `=`: a list or a mapping in YAML's brackets, else text as it is."""
     if not value.lstrip().startswith(("[", "{")):
         return node_of(value, problems.file, problems)
-    place = At(0, 0, problems.file)
+    place = At(0, 0, file=problems.file)
     return compose(check_characters(value, problems, place), problems, place)
 
 
@@ -164,7 +164,7 @@ def _put(node: Mapping, steps: Sequenced[str], value: Node, source: str, path: s
     entries = dict(node.entries)
     key, old = entries.get(first, (Text(0, 0, first, file=source), None))
     if inner_steps:
-        inner = Mapping(0, 0, {}, source) if old is None or (isinstance(old, Text) and old.empty) else old
+        inner = Mapping(0, 0, {}, file=source) if old is None or (isinstance(old, Text) and old.empty) else old
         if not isinstance(inner, Mapping):
             problems = Mistakes(source)
             problems.add(At(0, 0), where, "is no mapping, so nothing stands in it", f"a value for {where} itself")
@@ -191,8 +191,8 @@ def node_of(value: Any, file: str, problems: Mistakes, path: str = "", depth: in
     `problems`.
     """
     if depth > DEEPEST:
-        problems.add(At(0, 0, file), path, f"nested deeper than {DEEPEST} levels", "the few levels of a study")
-        return Broken(0, 0, file)
+        problems.add(At(0, 0, file=file), path, f"nested deeper than {DEEPEST} levels", "the few levels of a study")
+        return Broken(0, 0, file=file)
     if isinstance(value, tuple) and len(value) == 2 and getattr(value[0], "ndim", 0) == 1:
         value = (*value[0].tolist(), value[1])
     if isinstance(value, tuple) and _has_unit(value):
@@ -203,7 +203,7 @@ def node_of(value: Any, file: str, problems: Mistakes, path: str = "", depth: in
     if isinstance(value, Mapped):
         return _mapping(value, file, problems, path, depth)
     if isinstance(value, list | tuple):
-        return Sequence(0, 0, [node_of(item, file, problems, path, depth + 1) for item in value], file)
+        return Sequence(0, 0, [node_of(item, file, problems, path, depth + 1) for item in value], file=file)
     return _scalar(value, file, problems, path)
 
 
@@ -226,7 +226,7 @@ def _mapping(value: Mapped[Any, Any], file: str, problems: Mistakes, path: str, 
         name = _scalar(key, file, problems, path)
         if isinstance(name, Text):
             entries[name.value] = (name, node_of(item, file, problems, path, depth + 1))
-    return Mapping(0, 0, entries, file)
+    return Mapping(0, 0, entries, file=file)
 
 
 def _scalar(value: Any, file: str, problems: Mistakes, path: str) -> Text | Broken:
@@ -235,12 +235,14 @@ def _scalar(value: Any, file: str, problems: Mistakes, path: str) -> Text | Brok
     text = _text(value)
     if text is None:
         message = f"a value of the type {type(value).__name__}"
-        problems.add(At(0, 0, file), path, f"{message} does not fit here", "text with a unit, or a number")
+        problems.add(At(0, 0, file=file), path, f"{message} does not fit here", "text with a unit, or a number")
     elif odd := CONTROL.search(text):
-        problems.add(At(0, 0, file), path, f"control character U+{ord(odd[0]):04X} in {quoted(text)}", "plain text")
+        problems.add(
+            At(0, 0, file=file), path, f"control character U+{ord(odd[0]):04X} in {quoted(text)}", "plain text"
+        )
     else:
         return Text(0, 0, text, file=file)
-    return Broken(0, 0, file)
+    return Broken(0, 0, file=file)
 
 
 def _text(value: Any) -> str | None:

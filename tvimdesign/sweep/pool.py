@@ -34,24 +34,6 @@ CHUNK = 0.5  # Seconds that a chunk is to take
 MOST = 1000  # Cells in one
 
 
-class ChunkAnswers:
-    """Answers chunks of some work, and says what each cell took."""
-
-    def __init__(self, job: SweptStudy) -> None:
-        from tvimdesign.sweep.answers import CellAnswers  # loads CasADi, which only workers need
-
-        self._answers = CellAnswers(job)
-
-    def answer(self, chunk: Sequence[tuple[str, Sequence[str]]]) -> list[tuple[str, CellAnswer, float]]:
-        """Return each cell's key, answer, and seconds of the processor; a cell comes as a pair, as JSON has it."""
-        answers = []
-        for key, texts in chunk:
-            began = time.process_time()
-            cell = Cell(key, tuple(texts))
-            answers.append((cell.key, self._answers.answer(cell), time.process_time() - began))
-        return answers
-
-
 class CellQueue:
     """The cells that are left, by kind: a worker stays with the kind it has compiled a module or a problem for."""
 
@@ -249,17 +231,23 @@ class Pool:
 
 def main() -> int:
     """Answer cells until there are no more."""
+    from tvimdesign.sweep.answers import CellAnswers  # loads CasADi, which only workers need
+
     follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     os.environ.update(dict.fromkeys(NAMES, "1"))  # there is a process for each core
     say = line_writer()
     job, folder = pickle.loads(base64.b64decode(sys.stdin.readline()))
-    answers = ChunkAnswers(job)
+    answers = CellAnswers(job)
     with ShardWriter(Path(folder), job.columns) as shard:
         for line in sys.stdin:
             began, spent = time.perf_counter(), time.process_time()
             try:
-                reply = answers.answer(json.loads(line))
+                reply = []
+                for key, texts in json.loads(line):
+                    start = time.process_time()
+                    answer = answers.answer(Cell(key, tuple(texts)))
+                    reply.append((key, answer, time.process_time() - start))
                 shard.append(reply)
             except TvimError as error:
                 say({"error": str(error)})

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
-from typing import Protocol
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import own_data
@@ -21,29 +20,16 @@ _LONGEST_WORD = 64
 _CLOSE, _NEAR = 0.8, 0.6  # Likeness of a misspelt name, and the least of one that is proposed if nothing else is
 
 
-class Place(Protocol):
-    """Anything with a line and a column, counted from 1."""
-
-    @property
-    def line(self) -> int:
-        """Line in the file, from 1; 0 where the file as a whole is meant."""
-
-    @property
-    def column(self) -> int:
-        """Column in the line, from 1."""
-
-    @property
-    def file(self) -> str:
-        """Option or call that holds it; empty for the study's own file."""
-
-
 @dataclass(frozen=True, slots=True)
 class At:
-    """A place in the file, counted from 1; line 0 is the file as a whole."""
+    """A place in the file, counted from 1; line 0 is the file as a whole.
+
+    It may name the option or the call that it comes from as its `file`: none is the study's own file.
+    """
 
     line: int
     column: int
-    file: str = ""
+    file: str = field(default="", kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -89,7 +75,7 @@ class Mistakes:
     file: str
     items: list[Mistake] = field(default_factory=list)
 
-    def add(self, place: Place, path: str, message: str, expected: str = "", hint: str = "") -> None:
+    def add(self, place: At, path: str, message: str, expected: str = "", hint: str = "") -> None:
         """Note one problem."""
         one_line = "; ".join(message.splitlines())
         self.items.append(Mistake(place.file or self.file, place.line, place.column, path, one_line, expected, hint))
@@ -99,7 +85,7 @@ class Mistakes:
         """True where there are as many as are shown."""
         return len(self.items) >= MOST_SHOWN
 
-    def unknown(self, place: Place, path: str, what: str, word: str, known: Iterable[str], hint: str = "") -> None:
+    def unknown(self, place: At, path: str, what: str, word: str, known: Iterable[str], hint: str = "") -> None:
         """Note a word that is none of the known ones, with the nearest of them, or with those that are used most."""
         names = list(known)
         hint = hint or ("" if self.full else did_you_mean(word, names))

@@ -14,7 +14,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity, from_si, parse_quantity, si_unit
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
-from tvimdesign.study.text.mistakes import Mistakes, Place, nearest, one_of, quoted, step, synonyms
+from tvimdesign.study.text.mistakes import At, Mistakes, nearest, one_of, quoted, step, synonyms
 from tvimdesign.study.text.yaml_text import Broken, Mapping, Node, Sequence, Text
 
 LONGEST_VALUE = 200
@@ -57,7 +57,7 @@ class Reading:
         return node is not None and not empty
 
     def unknown_quantity(
-        self, place: Place, path: str, what: str, name: str, known: Iterable[str], point: str = ""
+        self, place: At, path: str, what: str, name: str, known: Iterable[str], point: str = ""
     ) -> None:
         """Note a name that is no such quantity; of one that only another mode has, which one.
 

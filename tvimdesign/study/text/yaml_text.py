@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 import yaml
 
-from tvimdesign.study.text.mistakes import CONTROL, At, Mistakes, Place, quoted, step
+from tvimdesign.study.text.mistakes import CONTROL, At, Mistakes, quoted, step
 
 MOST_NODES = 10_000
 DEEPEST = 20
@@ -21,17 +21,11 @@ LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 @dataclass(frozen=True, slots=True)
-class Text:
-    """A scalar, as written; `plain` says it stood without quotes.
+class Text(At):
+    """A scalar, as written; `plain` says it stood without quotes."""
 
-    Every node may name the option or the call that it comes from as its `file`: none is the study's own file.
-    """
-
-    line: int
-    column: int
     value: str
     plain: bool = True
-    file: str = ""
 
     @property
     def empty(self) -> bool:
@@ -40,32 +34,22 @@ class Text:
 
 
 @dataclass(frozen=True, slots=True)
-class Sequence:
+class Sequence(At):
     """A list."""
 
-    line: int
-    column: int
     items: "list[Node]" = field(default_factory=list)
-    file: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Mapping:
+class Mapping(At):
     """Keys and values, in the file's order; no key stands twice."""
 
-    line: int
-    column: int
     entries: "dict[str, tuple[Text, Node]]" = field(default_factory=dict)
-    file: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Broken:
+class Broken(At):
     """A refused value, about which nothing more is reported."""
-
-    line: int
-    column: int
-    file: str = ""
 
 
 Node: TypeAlias = Text | Sequence | Mapping | Broken
@@ -111,8 +95,8 @@ class _Builder:
     def node(self, event: Any, path: str, depth: int = 0) -> Node:
         """Return the node that begins with an event, under the keys of `path`."""
         place = self.place_of(event)
-        at = place.line, place.column
-        node: Node = Broken(*at, place.file)
+        line, column, file = place.line, place.column, place.file
+        node: Node = Broken(line, column, file=file)
         if isinstance(event, yaml.AliasEvent):
             self.problems.add(place, path, f"the alias {quoted(f'*{event.anchor}')}", "the value itself: write it out")
         elif isinstance(event, yaml.ScalarEvent):
@@ -120,7 +104,7 @@ class _Builder:
                 if odd := CONTROL.search(event.value):
                     self.problems.add(place, path, f"control character U+{ord(odd[0]):04X}", "plain text")
                 else:
-                    node = Text(*at, event.value, not event.style, place.file)
+                    node = Text(line, column, event.value, not event.style, file=file)
         else:
             kind = "list" if isinstance(event, yaml.SequenceStartEvent) else "map"
             allowed = self._tag_allowed(event, kind, place, path)
@@ -129,10 +113,10 @@ class _Builder:
                 self.problems.stop()
             if kind == "list":
                 items = list(self._items(path, depth + 1))
-                node = Sequence(*at, items, place.file) if allowed else node
+                node = Sequence(line, column, items, file=file) if allowed else node
             else:
                 pairs = list(self._pairs(path, depth + 1))
-                node = Mapping(*at, self._entries(pairs, path), place.file) if allowed else node
+                node = Mapping(line, column, self._entries(pairs, path), file=file) if allowed else node
         self.nodes += 1
         if self.nodes > MOST_NODES:
             self.problems.add(node, "", f"more than {MOST_NODES} values", "a study, which has some dozens")
@@ -185,7 +169,7 @@ def _note_syntax(error: yaml.YAMLError, text: str, problems: Mistakes, fixed: At
     """Note the parser's complaint at its place, with what usually helps."""
     mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
     complaint = " ".join(str(part) for part in (getattr(error, "context", ""), getattr(error, "problem", "")) if part)
-    place: Place = At(mark.line + 1, mark.column + 1) if mark else At(0, 0)
+    place = At(mark.line + 1, mark.column + 1) if mark else At(0, 0)
     lines = text.splitlines()
     line = lines[place.line - 1] if 0 < place.line <= len(lines) else ""
     hint = next((remedy for sign, words, remedy in _REMEDIES if words in complaint and re.search(sign, line)), "")

@@ -6,9 +6,10 @@ lowest mode in which the core's top turns, with link and load on it.
 """
 
 import json
+from collections.abc import Callable
 from math import pi
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import elastic
 import joint_samples
@@ -202,14 +203,9 @@ SETTLED = 1e-4  # Share of the squared frequency below which a step's change end
 MOST = 12
 
 
-class Solves(Protocol):
-    """Displacement under a vector of forces with feet and core's top held."""
-
-    def __call__(self, force: Any) -> Any:
-        """Return solve; the force is changed."""
-
-
-def turning_frequency(mesh: Any, values: dict[str, float], solved: Solves, shape: Any, torque: float) -> float:
+def turning_frequency(
+    mesh: Any, values: dict[str, float], solved: Callable[[Any], Any], shape: Any, torque: float
+) -> float:
     """Return the frequency [Hz] of the lowest mode in which the core's top turns, by inverse iteration.
 
     The motion is the static shape w, turned by one radian (`torque` [N*mm]), times an angle, and what bends besides,
