@@ -121,7 +121,7 @@ def _draw_underside(plan: PlacedView, solid: cq.Solid, room: Room) -> Room:
     sheet, whole, (left, right, bottom, top) = plan.sheet, from_below(solid), room
     start = plan.on_paper(plan.view.bounds[1], 0.0)[0] + _FOR_NUMBERS
     wide, high = whole.bounds[1] - whole.bounds[0], whole.bounds[3] - whole.bounds[2]
-    fits = [one for one in SCALES if one * wide <= right - start and one * high + _FOR_NUMBERS <= top - bottom]
+    fits = [size for size in SCALES if size * wide <= right - start and size * high + _FOR_NUMBERS <= top - bottom]
     if not fits:
         return room
     scale = min(fits[0], sheet.scale)
