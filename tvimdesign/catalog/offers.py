@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from tvimdesign.base.record import Entry, own_data
-from tvimdesign.base.units import parse_quantity
+from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
 
 QUOTE = "quote"  # Price of what no dated list was read for
 
@@ -35,6 +35,7 @@ class Offer:
     like: str = ""  # Number of the neighbour whose price per piece was taken
     voltage: float = math.inf
     current: float = math.inf
+    temperature: float = math.inf  # It bears that much [K]
 
     @property
     def in_words(self) -> str:
@@ -61,7 +62,7 @@ def offers() -> tuple[Offer, ...]:
 
 
 def _offers(entries: Iterable[Mapping[str, Any]]) -> list[Offer]:
-    units = {"voltage": "V", "current": "A"}
+    units = {"voltage": "V", "current": "A", "temperature": "degC"}
     return [Offer(**{key: _plain(key, value, units) for key, value in entry.items()}) for entry in entries]
 
 
@@ -80,11 +81,17 @@ def _plain(key: str, value: Any, units: Mapping[str, str]) -> Any:
 
 
 def offer_for(kind: str, record: str, title: str, volts: float = 0.0, amperes: float = 0.0) -> Offer | None:
-    """Return the first offer for a line of the list of parts; supplies and drivers must give `volts` and `amperes`."""
+    """Return the first offer for a line of the list of parts; supplies and drivers must give `volts` and `amperes`.
+
+    A title with "for 120 °C" asks what bears that.
+    """
+    needed = re.search(r"for (\d+) °C", title)
+    kelvin = ZERO_CELSIUS + float(needed[1]) if needed else 0.0
     for offer in offers():
-        is_it = offer.record in ("", record) and offer.kind in ("", kind)
+        is_it = offer.record in ("", record) and offer.kind in ("", kind) and offer.size in f"{title} "
+        bears = offer.voltage >= volts and offer.current >= amperes and offer.temperature >= kelvin
         named = re.search(offer.pattern, title)
-        if is_it and named and offer.size in f"{title} " and offer.voltage >= volts and offer.current >= amperes:
+        if is_it and bears and named:
             return replace(offer, number=named[0]) if offer.pattern else offer
     return None
 

@@ -49,6 +49,19 @@ def test_a_screw_is_ordered_by_its_length():
     assert (eleven.supplier, eleven.number) == ("any fastener shop", "ISO 7380-1 - M3 x 11 - A2-70")
 
 
+def test_what_must_bear_a_temperature_is_ordered_where_it_does():
+    ordered = {
+        degrees: offer_for("heat_conducting_adhesive", "", f"Adhesive for {degrees} °C") for degrees in (105, 160)
+    }
+    assert ordered[105] is not None
+    assert ordered[105].number == "8329TCM-6ML (MG Chemicals)"
+    assert ordered[160] is None
+    # In the holes of a floor of PETG, which bears 60 °C, below a foil that bears more.
+    design = design_of("foil", {"peltier_module": "polyimide_foil_24v", "thermistor_diameter": 2e-3})
+    (title,) = (item.title for item in beside(design, {}) if item.kind == "heat_conducting_adhesive")
+    assert title.startswith("Heat-conducting adhesive for 60 °C")
+
+
 def test_what_is_printed_at_home_lists_its_filament():
     design = design_of("plain", {})
     made = sum(1e3 * design.value(f"{kind}_mass") for kind in ("housing", "rotor", "link", "retainer"))
