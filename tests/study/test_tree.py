@@ -126,6 +126,7 @@ def test_pints_own_words_for_units_are_read(value, unit):
         [(0.6, "mm"), (2, "mm")],
         np.array(["0.6 mm", "2 mm"]),
         (np.array([0.6, 2.0]), "mm"),
+        ([0.6, 2.0], "mm"),
         np.linspace(ureg.Quantity(600, "um"), ureg.Quantity(2, "mm"), 2),
     ],
     ids=str,

@@ -186,15 +186,15 @@ def _short(source: str) -> str:
 def node_of(value: Any, file: str, problems: Mistakes, path: str = "", depth: int = 0) -> Node:
     """Return the node a value would be in a study file; `file` names the option or the call it comes from.
 
-    Text is text with its unit, a tuple `(1.2, "mm")` a number with its unit, `(0.6, 2, "mm")` and `(array, "mm")` are
-    lists; what has a magnitude and units is a quantity, as pint's are. Notes what cannot stand in a study in
+    Text is text with its unit, a tuple `(1.2, "mm")` a number with its unit, `(0.6, 2, "mm")`, `([0.6, 2], "mm")` and
+    `(array, "mm")` are lists; what has a magnitude and units is a quantity, as pint's are. Notes what no study has in
     `problems`.
     """
     if depth > DEEPEST:
         problems.add(At(0, 0, file=file), path, f"nested deeper than {DEEPEST} levels", "the few levels of a study")
         return Broken(0, 0, file=file)
-    if isinstance(value, tuple) and len(value) == 2 and getattr(value[0], "ndim", 0) == 1:
-        value = (*value[0].tolist(), value[1])
+    if isinstance(value, tuple) and len(value) == 2 and getattr(value[0], "ndim", isinstance(value[0], list)) == 1:
+        value = (*value[0], value[1])
     if isinstance(value, tuple) and _has_unit(value):
         numbers = [f"{_number(number)} {value[-1]}" for number in value[:-1]]
         value = numbers[0] if len(numbers) == 1 else numbers

@@ -336,7 +336,9 @@ def test_a_share_asked_of_each_limit_is_compared_with_the_least():
     held = {"cover_wall_margin >=": 0.52, "module_mass <=": 0.7, "peak_power <=": 0.8}
     uncertainty = {"held": held, "ranges_hold": {"share": 0.1}, "needs": "bond >= 1 MPa"}
     (fact,) = _model(uncertainty, {"robust": {"plausible": 0.79}})
-    assert fact.text.endswith("the cover's screws needs bond >= 1 MPa, met in 52 % of cases · 1 more in under 79 %")
+    assert fact.text.endswith(
+        "the cover's screws needs bond >= 1 MPa, met in 52 % of cases · 1 more in under 79 % asked"
+    )
     (fact,) = _model(uncertainty, {"robust": {"plausible": 0.5}})
     assert fact.text.startswith("each limit is met in the 50 % of cases asked, wall around")
     (fact,) = _model(uncertainty, {"robust": None})

@@ -264,7 +264,7 @@ def keeping_best(folder: ResultsFolder) -> Iterator[Best]:
             with suppress(OutputError, OSError):  # no room, or nobody to tell: the interrupt is what counts
                 path = folder.where_if_stopped(BEST)
                 folder.write_at_the_end(BEST, study_text(study, _TITLE, path.parent))
-                sys.stderr.write(f"the best design so far is where {path} begins\n")
+                sys.stderr.write(f"{path} starts at the best design so far; go on from there: tvimdesign run {path}\n")
         raise
 
 

@@ -87,8 +87,15 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
         except InfeasibleError as error:
             raise InfeasibleError(f"{error}\n{file} has the study as it was asked; --overwrite replaces it.") from error
     atomic_write(file, text.encode())
-    if task.assumes_stroke:
-        print(f"stroke of {STROKE} to either side of rest assumed; --stroke changes it", file=sys.stderr)
+    study = read_study_text(text)
+    notes = [
+        f"stroke of {STROKE} to either side of rest assumed; --stroke changes it" if task.assumes_stroke else "",
+        "" if task.process else f"made by {study.module.get('process', 'the default process')}; --process changes it",
+        ""
+        if study.robust and study.robust.plausible
+        else "no hardware has room for the assumed values: they must hold",
+    ]
+    print(*filter(None, notes), sep="\n", file=sys.stderr)
     run_study(file, out, overwrite=overwrite, **run)
 
 

@@ -335,8 +335,8 @@ class BranchAndBound:
 
     def _say(self, relaxation: Relaxation) -> None:
         """Report the progress of the search and the best objective so far."""
-        solved, left = (f"{count} {what}{'s' if count != 1 else ''}" for count, what in
-                        ((len(self.runs), "combination"), (len(self._open), "group")))  # fmt: skip
+        counts = ((len(self.runs), "combination", "solved"), (len(self._open), "group", "of combinations left"))
+        parts = [f"{count} {what}{'s' if count != 1 else ''} {state}" for count, what, state in counts if count]
         best = min((run.start.objective for run in self.runs.values()), default=None)
         so_far = "" if best is None else f": objective {best:.5g} so far"
-        relaxation.optimizer.progress(f"{solved} solved, {left} of combinations left{so_far}")
+        relaxation.optimizer.progress(f"{', '.join(parts) or 'looking for combinations to solve'}{so_far}")

@@ -289,7 +289,8 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
         return [Fact("Model", [f"each limit is met in the {percent(target)} of cases asked, {least}"])]
     needs = f" needs {uncertainty['needs']}," if uncertainty.get("needs") else " is"
     text = f"{label(name)}{needs} met in {percent(share, 2)} of cases"
-    more = f"{count - 1} more in under {percent(target or _SELDOM)}" if count > 1 else ""
+    least = f"{percent(target or _SELDOM)}{' asked' if target else ''}"
+    more = f"{count - 1} more in under {least}" if count > 1 else ""
     return [Fact("Model", [text], more)]
 
 
