@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from results_written import FILES, finished, killed, texts
 
-from tvimdesign.base import results_folder
+from tvimdesign.base import atomic_files
 from tvimdesign.base.atomic_files import UNFINISHED, atomic_write
 from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import InputError, OutputError
@@ -225,15 +225,15 @@ def test_files_respect_the_umask(tmp_path, mask):
 
 
 def test_an_interrupt_while_the_manifest_is_made_is_noted_in_it(tmp_path, monkeypatch):
-    usual = results_folder.digest_of
+    usual = atomic_files.digest_of
 
     def interrupted(_: Path) -> str:
-        monkeypatch.setattr(results_folder, "digest_of", usual)
+        monkeypatch.setattr(atomic_files, "digest_of", usual)
         raise KeyboardInterrupt
 
     with suppress(KeyboardInterrupt), ResultsFolder(tmp_path / "out") as folder:
         folder.write("results.csv", "whole")
-        monkeypatch.setattr(results_folder, "digest_of", interrupted)
+        monkeypatch.setattr(atomic_files, "digest_of", interrupted)
         folder.finish("optimal", {}, {})
     manifest = json.loads((tmp_path / "out" / MANIFEST).read_bytes())
     assert (manifest["status"], list(manifest["files"])) == ("interrupted", ["results.csv"])
