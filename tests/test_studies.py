@@ -282,7 +282,7 @@ TO_SIZE = {
     "preload_spring": r"flat wire, [\d.]+ x [\d.]+ x [\d.]+ mm, .* waves, .* free, wound to order",
     "heater": r"to the outline of its STEP file; resistance [\d.]+ ohm each, .* W each, at [\d.]+ V",
     "liner": r"[\d.]+ mm thick, to the outline of its STEP file",
-    "cover_insert": r"M\d", "link_insert": r"M\d", "insert": r"M\d",
+    "filament": r"of 1\.75 mm", "cover_insert": r"M\d", "link_insert": r"M\d", "insert": r"M\d",
 }  # fmt: skip
 """Kinds that are made to sizes the bill tells, as no table of a maker was to be read."""
 RATED = {
