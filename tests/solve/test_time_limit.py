@@ -222,10 +222,8 @@ def test_an_interrupted_run_keeps_it_and_says_where(tmp_path, monkeypatch, capsy
     monkeypatch.setattr("tvimdesign.report.run.answered_study.answer", interrupted)
     with pytest.raises(KeyboardInterrupt):
         run_study(path, out, overwrite=False, cad=False, plots=False, as_json=False)
-    best = out / "best_so_far.yaml"
-    assert (
-        f"{best} starts at the best design so far; go on from there: tvimdesign run {best}\n" in capsys.readouterr().err
-    )
+    file, printed = out / "best_so_far.yaml", capsys.readouterr().err
+    assert f"{file} starts at the best design so far; go on from there: tvimdesign run {file}\n" in printed
     manifest = json.loads((out / "manifest.json").read_text())
     assert manifest["status"] == "interrupted"
     assert list(manifest["files"]) == ["best_so_far.yaml"]

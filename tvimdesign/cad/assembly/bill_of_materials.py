@@ -236,7 +236,8 @@ def _filament(design: Design, titles: Mapping[str, str]) -> list[Item]:
     made = [design.values.get(f"{kind}_mass", 0.0) for kind in ("housing", "rotor", "link", "retainer", "cover")]
     adjusters = design.values.get("adjuster_volume", 0.0) * design.value("structure_density")
     grams, record = 1e3 * (sum(made) + adjusters), str(design.choices["structure_material"])
-    words = f"Filament of 1.75 mm, {titles.get('structure_material', record)}: {grams:.3g} g for the parts, as much for the rest"
+    material = titles.get("structure_material", record)
+    words = f"Filament of 1.75 mm, {material}: {grams:.3g} g for the parts, as much for the rest"
     return [Item("filament", math.ceil(2.0 * grams / 1000.0), False, record, words, 0.0, ())]
 
 
