@@ -214,7 +214,7 @@ def test_curvatures_of_a_quadratic_are_exact_after_some_steps():
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize("study", ["wrist_joint", "elbow_printed"])
+@pytest.mark.parametrize("study", ["wrist_joint", "elbow_machined"])
 def test_models_lead_to_the_optimum_of_the_cycle_in_fewer_cycles(study, monkeypatch):
     runs = [0]
     run = CycleEngine.run
