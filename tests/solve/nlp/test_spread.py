@@ -253,7 +253,6 @@ def test_a_model_that_is_sure_of_no_design_ends_a_run_sooner(monkeypatch):
 @pytest.mark.parametrize(("worth", "steps"), [(1e-4, 1), (1e-2, trust_region.MOST_CYCLES)])
 def test_a_search_for_more_of_a_further_unknown_ends_where_it_creeps(worth, steps):
     """Maximise a share whose model gains `worth` a step, and never ends by its slope."""
-    count, share = 1, [0.0]
 
     def point(x: np.ndarray) -> Any:
         return SimpleNamespace(
@@ -262,16 +261,22 @@ def test_a_search_for_more_of_a_further_unknown_ends_where_it_creeps(worth, step
         )  # fmt: skip
 
     problem = SimpleNamespace(
-        model=SimpleNamespace(switch_names=("time",)), unknown_count=count, events=["time"],
+        model=SimpleNamespace(switch_names=("time",)), unknown_count=1, events=["time"],
         modelled=lambda _: nullcontext(),
     )  # fmt: skip
     ends = {"lbx": np.zeros(2), "ubx": np.ones(2), "lbg": np.full(1, -np.inf), "ubg": np.zeros(1)}
 
-    def solver(*_: Any, **__: Any) -> dict[str, Any]:
-        share[0] += 1e-3
-        return {"x": np.array([0.5, share[0]]), "lam_g": np.zeros(1), "lam_x": np.zeros(2)}
+    class Creeping:
+        share = 0.0
 
-    solver.stats = lambda: {"success": True, "return_status": "Solve_Succeeded"}  # type: ignore[attr-defined]
+        def __call__(self, *_: Any, **__: Any) -> dict[str, Any]:
+            self.share += 1e-3
+            return {"x": np.array([0.5, self.share]), "lam_g": np.zeros(1), "lam_x": np.zeros(2)}
+
+        def stats(self) -> dict[str, Any]:
+            return {"success": True, "return_status": "Solve_Succeeded"}
+
+    solver = Creeping()
     programme = cast(ExtendedProblem, SimpleNamespace(problem=problem, at=point))
     region = trust_region.TrustRegion(programme, lambda _: cast(Any, solver), NEVER, ends)
     region.solve(np.array([0.5, 0.0]), {}, "near")

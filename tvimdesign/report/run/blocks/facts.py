@@ -315,7 +315,7 @@ def _cost(value: _Values) -> Iterator[str]:
     """Yield what priced parts and materials cost, and how many parts have no price."""
     yield f"{value('cost')} for priced parts and the material of the others, without work"
     if unpriced := round(value.values["unpriced_count"]):
-        yield f"{unpriced} parts have no listed price: get quotes, and write them under module"
+        yield f"{unpriced} parts have no listed price: get quotes and enter them in the study's module section"
 
 
 def _soft(answer: StudyResult) -> list[str]:
