@@ -183,8 +183,8 @@ def end_rise(layer: Any, sheet: Any, arc: Any, gap: Any) -> Any:
     """Return the traction at an arc's ends over its mean along a rim [1]: s (1 + m g coth(m l)), s = l/(l + g).
 
     A sheet that is loaded evenly all around hangs on arcs. What comes in over a gap between them goes to their ends, as
-    in a bar on a foundation [V]: m^2 = k/(E h). `layer` is its k [Pa/m], `sheet` the E h [Pa*m], `arc` half the length l of
-    an arc and `gap` half that of a gap, g [m].
+    in a bar on a foundation [V]: m^2 = k/(E h). `layer` is its k [Pa/m], `sheet` the E h [Pa*m], `arc` half the length
+    l of an arc and `gap` half that of a gap, g [m].
     """
     rate = np.sqrt(layer / sheet)
     return (1.0 + rate * gap / np.tanh(rate * arc)) * arc / (arc + gap)
