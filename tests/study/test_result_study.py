@@ -3,17 +3,20 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from cad_designs import shipped_design
 from comparable import COMPRESSION, SHEAR, cases
 from support import ROOT, refused
 
+from tvimdesign.base.units import parse_quantity
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.result import answer
 from tvimdesign.study import Study, StudyError, read_study_text
 from tvimdesign.study.conditions import refuse_unequal
 from tvimdesign.study.design import Design
-from tvimdesign.study.study import Options, Range
+from tvimdesign.study.study import Options, Range, Robust, Tolerance
+from tvimdesign.study.text.values import exactly
 from tvimdesign.study.written_studies import evaluating, study_text
 
 SEARCHED = """
@@ -51,6 +54,9 @@ def test_a_result_as_a_study_is_answered_the_same_to_the_last_digit(tvimdesign, 
     assert result["current"] == 2.5
 
 
+SPREAD = {"pcl_thickness": Tolerance(plus_minus=5e-5).model_dump()}
+
+
 def design(**changes: object) -> Design:
     return shipped_design("paper_shear").model_copy(update=changes)
 
@@ -67,6 +73,29 @@ def test_what_the_module_lacks_is_left_out():
     assert "motor_wall" not in study.module
     assert study.module["wire_diameter"] == released.values["wire_diameter"]
     assert study.task == "evaluate"
+
+
+def test_a_yield_that_was_asked_for_is_still_asked_of_the_result():
+    released, asked = design(), {"robust": Robust(share=parse_quantity("95 %", "1"), plausible=0.8).model_dump(), "tolerances": SPREAD}
+    text = study_text(evaluating(design(study={**released.study, **asked})), "written", ROOT)
+    assert "robust: {yield: 95 %, plausible: 80 %}" in text
+    again = read_study_text(text, "again", ROOT)
+    assert again.robust is not None
+    assert (again.robust.share, again.task) == (pytest.approx(0.95), "evaluate")
+
+
+@pytest.mark.parametrize("unit", ["mm", "deg", "degC", "MPa", "g/cm^3", "%"])
+def test_a_number_is_written_in_the_unit_of_its_quantity_to_the_last_digit(unit):
+    for value in np.random.default_rng(1).uniform(200.0, 900.0, 50):
+        written = exactly(float(value), unit)
+        assert written.endswith(f" {unit}")
+        assert parse_quantity(written, unit) == value
+
+
+def test_a_copied_example_is_named_by_its_file(tvimdesign, tmp_path):
+    for file, name in (("mine.yaml", "mine"), ("finger.yaml", "Finger")):
+        assert tvimdesign("new", tmp_path / file, "--example", "finger").returncode == 0
+        assert f"\nname: {name}\n" in (tmp_path / file).read_text()
 
 
 PROFILES = {

@@ -14,6 +14,7 @@ import json
 import math
 import re
 from dataclasses import asdict, dataclass
+from decimal import Decimal
 from difflib import get_close_matches
 from functools import cache, lru_cache
 from pathlib import Path
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 
 LONGEST_TEXT = 200
 ZERO_CELSIUS = 273.15
+_ZERO = Decimal("273.15")
+_FLOAT_DIGITS = 17  # Digits beyond which a number is multiplied as a decimal, before it is rounded
 _NUMBER = re.compile(r"([+-]?[0-9]++(?:\.[0-9]++)?+(?:[eE][+-]?[0-9]++)?+)(.*)", re.DOTALL)
 # Possessive quantifiers: hostile text must not make the pattern backtrack. Exponents are one digit, and none follows a
 # parenthesis, so that no product of powers can grow without limit.
@@ -160,7 +163,8 @@ def _fail(text: str, unit: str, reason: str, unit_text: str = "") -> NoReturn:
     raise UnitError(f"{shown!r}: {reason}, expected {_named(unit)}{hint}")
 
 
-def _split(text: str, unit: str) -> tuple[float, str]:
+def _split(text: str, unit: str) -> tuple[float, str, str]:
+    """Return the number, its digits and the text of its unit."""
     match = _NUMBER.fullmatch(text)
     if match is None:
         _fail(text, unit, "this does not start with a number")
@@ -175,7 +179,7 @@ def _split(text: str, unit: str) -> tuple[float, str]:
     unit_text = unit_text.removeprefix(" ")
     if unit_text[:1].isspace():
         _fail(text, unit, "write one blank between number and unit")
-    return number, unit_text
+    return number, digits, unit_text
 
 
 def parse_quantity(text: str, unit: str) -> float:
@@ -187,7 +191,7 @@ def parse_quantity(text: str, unit: str) -> float:
     if not isinstance(text, str) or len(text) > LONGEST_TEXT:
         _fail(str(text)[:LONGEST_TEXT], unit, f"a quantity is text of at most {LONGEST_TEXT} characters")
     text = text.strip()
-    number, unit_text = _split(text, unit)
+    number, digits, unit_text = _split(text, unit)
     if not unit_text and unit != "1":
         _fail(text, unit, "say the unit")
     try:
@@ -200,11 +204,28 @@ def parse_quantity(text: str, unit: str) -> float:
     if given.celsius and not wanted.celsius:
         _fail(text, unit, _DIFFERENCE)
     value = number * (given.factor / wanted.si) + (ZERO_CELSIUS if given.celsius else 0.0)
+    if sum(map(str.isdigit, digits)) > _FLOAT_DIGITS:
+        value = float(Decimal(digits) * _factor(given, wanted) + (_ZERO if given.celsius else 0))
     if not math.isfinite(value):
         _fail(text, unit, "the number is out of range")
     if wanted.celsius and value < 0.0:
         _fail(text, unit, "that is below absolute zero")
     return value
+
+
+def _factor(given: _Unit, wanted: _Unit) -> Decimal:
+    """Return the factor between two units with the digits people know: 0.001 of the millimetre."""
+    return Decimal(repr(given.factor / wanted.si))
+
+
+def exact_digits(value: float, unit: str) -> str:
+    """Write an SI value in a unit with the digits that `parse_quantity` reads as the same number, whatever they take.
+
+    Of most numbers 17 digits of another unit read as one of the two beside it.
+    """
+    known = _read_unit(unit)
+    number = (Decimal(value) - (_ZERO if known.celsius else 0)) / _factor(known, known)
+    return f"{number:.{_FLOAT_DIGITS + 3}g}"
 
 
 def to_si(value: float, unit: str) -> float:

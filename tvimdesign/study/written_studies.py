@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 from collections.abc import Mapping
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -17,6 +18,7 @@ from tvimdesign.study.sections.section import DEFINITIONS, Schema
 from tvimdesign.study.sections.tolerances import tolerance_schema
 from tvimdesign.study.study import FORMAT, GivenCurrent, ProfileOptions, Range, Study
 from tvimdesign.study.text.mistakes import did_you_mean, one_of
+from tvimdesign.study.text.yaml_text import Text, yaml_of
 from tvimdesign.study.tree import tree_of_values, tree_yaml
 
 
@@ -59,7 +61,7 @@ def evaluating(design: Design) -> Study:
     effective = {name: value for name, value in module.items() if name not in idle}
     currents = {phase: GivenCurrent.model_validate(plain) for phase, plain in design.current_profiles.items()}
     update = {
-        "module": effective, "vary": {}, "minimize": {}, "front": None, "robust": None, "profile": ProfileOptions(),
+        "module": effective, "vary": {}, "minimize": {}, "front": None, "profile": ProfileOptions(),
         "currents": currents,
     }  # fmt: skip
     return study.model_copy(update=update)
@@ -84,12 +86,17 @@ def examples() -> dict[str, str]:
     }
 
 
-def example_text(name: str) -> str:
-    """Text of a shipped study, for a schema beside it. Raises InputError where there is none of that name."""
+def example_text(name: str, named: str = "") -> str:
+    """Return the text of a shipped study, for a schema beside it; it may be `named` otherwise than the example.
+
+    Raises InputError where there is none of that name.
+    """
     known, name = list(examples()), _RENAMED.get(name, name)
     if name not in known:
         raise InputError(f"no shipped study is named {name[:60]!r}; {did_you_mean(name, known) or one_of(known)}")
     text = _shipped().joinpath(f"{name}.yaml").read_text(encoding="utf-8")
+    if named and named != name:
+        text = re.sub(r"(?m)^name: .*$", lambda _: f"name: {yaml_of(Text(0, 0, named)).splitlines()[0]}", text)
     return text.replace(f"$schema=../{SCHEMA_FILE}", f"$schema={SCHEMA_FILE}")
 
 

@@ -135,6 +135,10 @@ def test_a_study_with_margins_is_no_nominal_optimum():
     low = SURE | {"parts_yield": {"share": TARGET - 0.05}}
     assert verdict(answer(robust={"share": 0.9}), low, []).kind == "build_one"
     assert verdict(answer(), low, []).kind == "add_margins"
+    evaluated = answer(robust={"share": 0.92})
+    evaluated.solution = None
+    assert verdict(evaluated, low, []).text == "Margins not reached: yield 90 % of 92 % asked"
+    assert verdict(evaluated, SURE, []).kind == "build_one"
 
 
 def test_a_violation_below_rounding_is_not_shown_as_none():

@@ -36,7 +36,7 @@ def write_new_study(file: Path | None, example: str = "", result: Path | None = 
     if example and result:
         raise InputError("--example and --from: choose one")
     file = file or Path(f"{example or 'study'}.yaml")
-    text = written_studies.example_text(example) if example else written_studies.template_text()
+    text = written_studies.example_text(example, file.stem) if example else written_studies.template_text()
     if result:
         source = result / "design.json" if result.is_dir() else result
         text = written_studies.result_text(read_design(source), printable(source), file.resolve().parent)

@@ -222,9 +222,6 @@ def _read_robust(reading: values.Reading, node: Node | None) -> Robust | None:
     if not reading.section("tolerances"):
         message = "there is nothing to be robust against: `tolerances` is missing"
         reading.problems.add(node, "robust", message, "`tolerances: standard`, for one")
-    if not reading.has("vary"):
-        message = "nothing may change: `vary` is missing"
-        reading.problems.add(node, "robust", message, "both or neither", "`tvimdesign tolerate` evaluates as well")
     if "sigma" in parts:
         sigma = _sigmas(reading, parts["sigma"], "robust.sigma")
         return None if sigma is None else Robust(sigma=sigma)
@@ -295,9 +292,13 @@ def _written_size(tolerance: Tolerance, unit: str) -> str | None:
     return None if tolerance.plus_minus is None else values.exactly(tolerance.plus_minus, unit)
 
 
-def _write_robust(study: Study) -> dict[str, float]:
-    sizes = (study.robust.sigma, study.robust.share, study.robust.plausible) if study.robust else ()
-    return {key: size for key, size in zip(_ROBUST_KEYS, sizes, strict=False) if size is not None}
+def _write_robust(study: Study) -> dict[str, float | str]:
+    if study.robust is None:
+        return {}
+    if study.robust.sigma is not None:
+        return {"sigma": study.robust.sigma}
+    shares = {"yield": study.robust.share, "plausible": study.robust.plausible}
+    return {key: values.exactly(share, "%") for key, share in shares.items() if share is not None}
 
 
 TOLERANCES = Section(

@@ -11,7 +11,7 @@ from typing import Any
 
 from tvimdesign.base.errors import CatalogError, UnitError
 from tvimdesign.base.record import Record
-from tvimdesign.base.units import format_quantity, from_si, parse_quantity, si_unit
+from tvimdesign.base.units import exact_digits, format_quantity, from_si, parse_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
 from tvimdesign.study.text.mistakes import At, Mistakes, nearest, one_of, quoted, step, synonyms
@@ -172,14 +172,14 @@ def si_value(problems: Mistakes, node: Node, path: str, word: str, unit: str) ->
 
 
 def exactly(value: float, unit: str) -> str:
-    """Write a quantity in a unit, or else in the SI one, with the fewest digits that read as the same number."""
+    """Write a quantity in a unit with the fewest digits that read as the same number."""
     for digits in range(1, 18):
         number = float(f"{from_si(value, unit):.{digits}g}")
         text = f"{number:.{max(digits, 6)}g} {unit}".removesuffix(" 1")
         with suppress(UnitError):  # rounded, a temperature may lie below absolute zero
             if parse_quantity(text, unit) == value:
                 return text
-    return f"{value!r} {si_unit(unit)}".removesuffix(" 1")
+    return f"{exact_digits(value, unit)} {unit}".removesuffix(" 1")
 
 
 def difference_unit(unit: str) -> str:

@@ -72,7 +72,7 @@ def search_section(answered: AnsweredStudy) -> list[Section]:
 def _robustness(answer: StudyResult) -> list[str]:
     """Say what `sigma` means, or to which limits most modules are lost."""
     robust, reached = answer.design.study.get("robust"), yield_of(answer)
-    if robust and reached is None and robust["sigma"] is not None:
+    if robust and answer.solution is not None and reached is None and robust["sigma"] is not None:
         return [
             f"Limits are met by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
             "margin they show; `tvimdesign tolerate` checks that on many modules."

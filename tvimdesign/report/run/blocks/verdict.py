@@ -3,7 +3,7 @@
 1. There is no design: *Infeasible*, with the limits that conflict or that the nearest design violates most.
 2. The joint never softens or never stiffens, or an evaluated module violates a limit: *Do not build it*.
 3. A material or bought part is beyond its rating, and the study does not accept it: *Above a rating*.
-4. The study asks for a yield, and the search did not reach it: *Margins not reached*.
+4. The study asks for a yield, and the search did not reach it: *Margins not reached*; of an evaluated module by 6.
 5. The study requires something at an operating point, heating stops more than `TEMPERATURE` below it, and the joint
    does not meet that requirement when heating stops: *Not at the temperature you asked for*.
 6. Fewer than `TARGET` of the built modules meet every limit: *Nominal optimum: add margins*.
@@ -144,9 +144,11 @@ def _margins_missed(answer: StudyResult) -> Verdict | None:
     reached = yield_of(answer)
     if reached is None:
         return Verdict("margins_missed", "Margins not reached: the time limit ended the search")
-    return Verdict(
-        "margins_missed", f"Margins not reached: yield {percent(reached.together)} of {percent(reached.target)} asked"
-    )
+    return Verdict("margins_missed", _missed(reached.together, reached.target))
+
+
+def _missed(share: float, target: float) -> str:
+    return f"Margins not reached: yield {percent(share)} of {percent(target)} asked"
 
 
 def _temperature(answer: StudyResult) -> Verdict | None:
@@ -163,9 +165,13 @@ def _temperature(answer: StudyResult) -> Verdict | None:
 
 
 def _add_margins(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict | None:
-    share = uncertainty.get("parts_yield")
-    if share is None or share["share"] >= TARGET or answer.design.study.get("robust"):
+    """Compare the yield with `TARGET`, or with what the study asks for of a module that was not searched for."""
+    share, robust = uncertainty.get("parts_yield"), answer.design.study.get("robust") or {}
+    target = robust.get("share") or TARGET
+    if share is None or share["share"] >= target or (robust and answer.solution is not None):
         return None
+    if robust.get("share"):
+        return Verdict("margins_missed", _missed(share["share"], target))
     what = "optimum: add margins" if answer.solution is not None else "design without margins"
     return Verdict("add_margins", f"Nominal {what} (yield {percent(share['share'])})")
 
