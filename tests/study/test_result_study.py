@@ -76,8 +76,9 @@ def test_what_the_module_lacks_is_left_out():
 
 
 def test_a_yield_that_was_asked_for_is_still_asked_of_the_result():
-    released, asked = design(), {"robust": Robust(share=parse_quantity("95 %", "1"), plausible=0.8).model_dump(), "tolerances": SPREAD}
-    text = study_text(evaluating(design(study={**released.study, **asked})), "written", ROOT)
+    robust = Robust(share=parse_quantity("95 %", "1"), plausible=0.8).model_dump()
+    released = design(study={**design().study, "robust": robust, "tolerances": SPREAD})
+    text = study_text(evaluating(released), "written", ROOT)
     assert "robust: {yield: 95 %, plausible: 80 %}" in text
     again = read_study_text(text, "again", ROOT)
     assert again.robust is not None

@@ -14,7 +14,7 @@ from support import ROOT, sample_text, study_path
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting
+from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting, conflict_in_words
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen, _broken, _one_design, designs_all_over
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
@@ -205,6 +205,16 @@ def test_a_limit_on_a_time_quarrels_with_the_power_it_takes():
         place = sides[name].move_to
         unit = limit.rpartition(" ")[2]
         assert _answer(HURRIED.replace(limit, f"<= {factor * place:.6g} {unit}")).design.status == "optimal"
+
+
+@pytest.mark.gate
+def test_a_robust_study_is_advised_a_time_that_has_its_margins():
+    spread = "tolerances: {wire_diameter: 0.02 mm, coil_diameter: 0.1 mm, pcl_thickness: 0.05 mm}\n"
+    text = f"{HURRIED}{spread}robust: {{yield: 95 %}}\n"
+    advice = " ".join(conflict_in_words(_answer(text).solution.conflict_set))
+    drawn, robust = (float(place) for place in re.findall(r"to <= ([\d.]+) s", advice))
+    assert _answer(text.replace("<= 150 s", f"<= {robust} s")).design.status == "optimal"
+    assert _answer(text.replace("<= 150 s", f"<= {1.001 * drawn} s")).design.status != "optimal"
 
 
 def test_a_start_restarted_from_a_feasible_design_converges():

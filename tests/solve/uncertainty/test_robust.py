@@ -224,13 +224,14 @@ def test_the_yield_is_of_limits_that_the_module_has():
     assert all(row.exists(optimizer.model.words) for row in limited)
 
 
-def test_a_conflict_of_nominal_values_says_so_where_a_yield_is_requested():
+def test_a_conflict_says_where_limits_have_to_stand_with_margins_if_a_yield_is_requested():
     text = ALGEBRAIC.replace('">= 5 N.m/rad"}', '">= 5 N.m/rad", springs_mass: "<= 1 g"}')
-    for robust_line, nominal in (("", False), ("robust: {yield: 95 %}\n", True)):
+    for robust_line, margins in (("", False), ("robust: {yield: 95 %}\n", True)):
         study = read_study_text(f"{text}{robust_line}", "a test")
         words = complaint(answer(study), study.table)
         assert "cannot hold" in words
-        assert ("The values are nominal: the margins for a yield ask for more." in words) == nominal
+        assert ("g with 2.5 deviations of margin" in words) == margins
+        assert "The values are nominal" not in words
 
 
 @pytest.mark.gate

@@ -10,7 +10,7 @@ from tvimdesign.report.output.choices_tables import choice_text
 from tvimdesign.report.output.numbers import at_its_least, csv_text, finite, label, listed
 from tvimdesign.report.output.results_format import Conflict, LimitEntry, Optimum, SideEntry, Stands, Starts, Why
 from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
-from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words
+from tvimdesign.solve.infeasibility.conflict_set import MARGIN_WORDS, conflict_in_words
 from tvimdesign.solve.nlp.solution import ActiveConstraint, ConflictSet, Side, Start
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, FLAT_GOAL, meaning
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
@@ -115,7 +115,8 @@ def complaint(answer: StudyResult, table: Table) -> str:
     lines = [f"{answer.design.name}: {missed} ({answer.design.status})."]
     if conflict_set:
         lines += conflict_in_words(conflict_set)
-        if (answer.design.study.get("robust") or {}).get("share") is not None:
+        robust = (answer.design.study.get("robust") or {}).get("share") is not None
+        if robust and not any(MARGIN_WORDS in side.move_words for side in conflict_set.sides):
             lines.append("The values are nominal: the margins for a yield ask for more.")
     between = solution.choosing.between if solution and solution.choosing and not solution.choosing.best else None
     if between:

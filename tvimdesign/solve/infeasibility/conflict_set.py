@@ -21,6 +21,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
@@ -94,8 +95,8 @@ class ElasticMode:
             ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
             lbg=np.concatenate([no_equations, np.full(len(each) + objectives + problem.own_count, -np.inf)]),
             ubg=np.concatenate([
-                no_equations, np.where(counts[each], 0.0, np.inf), np.full(objectives, np.inf),
-                np.zeros(problem.own_count),
+                no_equations, np.where(counts[each], optimizer.limits_less_margins(), np.inf),
+                np.full(objectives, np.inf), np.zeros(problem.own_count),
             ]),
         )  # fmt: skip
         return self._settled(answer, begin, parameters, time.perf_counter() - clock)
@@ -242,12 +243,15 @@ def _conflict_set(
     elastic: ElasticMode, least: ElasticSolution, members: Sequence[int], ends: Array, progress: Progress
 ) -> ConflictSet:
     optimizer, limits = elastic.optimizer, elastic.limits
+    robust = optimizer.study.robust is not None and optimizer.study.robust.share is not None
     broken = [int(k) for k in np.flatnonzero(least.slacks > FEASIBILITY_TOL)]
     sides = []
     for k in members:
         progress(f"how far {limits[k].name} must move")
-        move, beside = _alone(elastic, least, k)
+        move, beside, run = _alone(elastic, least.run, k)
         side = _moved(optimizer, limits[k], float(least.slacks[k]), move)
+        if robust and move is not None:
+            side = _with_margins(elastic, side, k, run)
         sides.append(replace(side, beside=tuple(in_words(limits[other], optimizer.table) for other in beside)))
     return ConflictSet(
         broken=tuple(
@@ -259,15 +263,44 @@ def _conflict_set(
     )
 
 
-def _alone(elastic: ElasticMode, least: ElasticSolution, member: int) -> tuple[float | None, list[int]]:
-    """Return the move of one limit, in its scale, that satisfies all others; else the violated others, if known."""
+def _with_margins(elastic: ElasticMode, side: Side, member: int, nominal: Run) -> Side:
+    """Return a limit with where it has to stand for modules that spread about the design that meets all nominally."""
+    from tvimdesign.solve.uncertainty.robust import SIGMA, margins_at  # it loads the compiler
+
+    optimizer = elastic.optimizer
+    try:
+        optimizer.margins = margins_at(optimizer, nominal, SIGMA)
+        move, *_ = _alone(elastic, nominal, member)
+    except TvimError:  # the margins cannot be computed in time, or not at this design
+        move = None
+    finally:
+        optimizer.margins = {}
+    if move is None:
+        return side
+    words = _moved(optimizer, elastic.limits[member], side.by, move).move_words
+    return replace(side, move_words=with_margins_in_words(side.move_words, words, SIGMA))
+
+
+MARGIN_WORDS = "deviations of margin"
+
+
+def with_margins_in_words(nominal: str, robust: str, sigma: float) -> str:
+    """Return where a limit has to stand as drawn, and with margins for tolerances."""
+    return f"{nominal} as drawn, to {robust} with {sigma:g} {MARGIN_WORDS}"
+
+
+def _alone(elastic: ElasticMode, begin: Run, member: int) -> tuple[float | None, list[int], Run]:
+    """Return the move of one limit, in its scale, that satisfies all others; else the violated others, if known.
+
+    The run is that of the design with the limit moved.
+    """
     weights = np.full(elastic.count, _HEAVY)
     weights[member] = 1.0
-    settled = elastic.settle(weights, least.run.inputs, least.run.unknowns)
+    settled = elastic.settle(weights, begin.inputs, begin.unknowns)
     if not settled.converged:
-        return None, []
+        return None, [], settled.run
     others = [int(k) for k in np.flatnonzero(settled.slacks > FEASIBILITY_TOL) if k != member]
-    return (None, others) if others else (float(settled.slacks[member]), [])
+    return (None, others, settled.run) if others else (float(settled.slacks[member]), [], settled.run)
 
 
 def _moved(optimizer: Optimizer, limit: Constraint, by: float, move: float | None) -> Side:

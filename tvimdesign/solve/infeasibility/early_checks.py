@@ -20,7 +20,7 @@ from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError, T
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Choice, Table
 from tvimdesign.simulation.working_cycle.symbols import ca
-from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts
+from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words, find_conflicts, with_margins_in_words
 from tvimdesign.solve.nlp.constraints import refuse_impossible
 from tvimdesign.solve.nlp.mixture import discrete_records, with_records
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
@@ -254,7 +254,7 @@ def _with_margins(study: Study, conflict_set: ConflictSet) -> ConflictSet:
         if least is None:
             return side.move_words
         robust = format_quantity(least.value, study.table.unit(output))
-        return f"{side.move_words} as drawn, to {sense} {robust} with {SIGMA:g} deviations of margin"
+        return with_margins_in_words(side.move_words, f"{sense} {robust}", SIGMA)
 
     return replace(conflict_set, sides=tuple(replace(side, move_words=moved(side)) for side in conflict_set.sides))
 

@@ -330,7 +330,7 @@ class Optimizer:
         lower, upper = self.vector.bounds(within)
         equations = np.zeros(self.problem.equation_count)
         room, own = objective.room(self.problem.objectives), np.zeros(self.problem.own_count)
-        most = np.concatenate([self._limits_less_margins(), room, own])
+        most = np.concatenate([self.limits_less_margins(), room, own])
         least, largest = self.with_room_where_decided(equations, within)
         return {
             "lbx": lower, "ubx": upper,
@@ -370,7 +370,7 @@ class Optimizer:
         grids = self.problem.grids
         return Run(start, end, current_profiles, ends, unknowns, multipliers, of_bounds, times, grids=grids)
 
-    def _limits_less_margins(self) -> Array:
+    def limits_less_margins(self) -> Array:
         """Return the bounds on the limits' residuals: zero, or less by their margins."""
         return -np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
 
@@ -400,7 +400,7 @@ class Optimizer:
             hessian[i] = (gradient(i, _APART) - gradient(i, -_APART)) / (2.0 * _APART)
         rows = here.rows.copy()
         # A limit that is to be met with a margin is active where that is used up.
-        rows[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
+        rows[self.problem.equation_count :][: len(self.problem.limits)] -= self.limits_less_margins()
         names = self.study.minimize
         values, gradients = {name: here.values[name] for name in names}, {name: here.gradients[name] for name in names}
         return Derivatives(rows, here.jacobian, 0.5 * (hessian + hessian.T), values, gradients)

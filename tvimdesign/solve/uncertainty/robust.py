@@ -205,11 +205,13 @@ def _resolved(optimizer: Optimizer, run: Run) -> ResolvedModule:
 
 def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
     """By deviations: margins of the limits on what the cycle supplies."""
+    sigma = optimizer.study.robust.sigma if optimizer.study.robust else None
+    assert sigma is not None
     for _ in range(ROUNDS):
         if not run.start.converged:
             return run
         try:
-            margins = _margins(optimizer, run)
+            margins = margins_at(optimizer, run, sigma)
         except TimeOverError:
             optimizer.deadline.leave_out(MARGINS)
             return run
@@ -238,10 +240,8 @@ def _report_unmargined(optimizer: Optimizer, margins: dict[str, float]) -> None:
         optimizer.progress(f"not robust, as a current follows a profile: {', '.join(names)}")
 
 
-def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
-    """Return the margins within its limits at a run's design, by limit [shares of its scale]."""
-    sigma = optimizer.study.robust.sigma if optimizer.study.robust else None
-    assert sigma is not None
+def margins_at(optimizer: Optimizer, run: Run, sigma: float) -> dict[str, float]:
+    """Return the margins of `sigma` deviations within its limits at a run's design [shares of each limit's scale]."""
     timed: list[Constraint] = []
     algebraic: list[Constraint] = []
     for limit in (each for each in optimizer.problem.limits if judges_modules(each, optimizer.study.tolerances)):
