@@ -28,6 +28,21 @@ def test_an_interrupt_that_was_swallowed_is_raised_again_until_all_is_over(numbe
     assert signal.getsignal(number) is before
 
 
+def test_a_library_s_warning_of_an_interrupt_is_not_printed(capsys):
+    with interrupt_handler():
+        with suppress(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGTERM)
+        for piece in (
+            "CasADi - 2026-11-30 00:57:16 ",
+            'WARNING("KeyboardInterruptException")',
+            " [ipopt_nlp.cpp:114]\n",
+        ):
+            sys.stderr.write(piece)
+        print("kept", file=sys.stderr)
+    print("CasADi - after it", file=sys.stderr)
+    assert capsys.readouterr().err == "kept\nCasADi - after it\n"
+
+
 def test_signals_received_twice_or_ignored_do_not_disturb():
     cleaned = False
     with interrupt_handler():

@@ -9,10 +9,11 @@ from functools import cache
 import pytest
 
 from tvimdesign.base.errors import InfeasibleError, InputError
-from tvimdesign.report.run.study_files import sized_text
+from tvimdesign.report.output.numbers import label
+from tvimdesign.report.run.study_files import process_of, sized_text
 from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 from tvimdesign.study import Range, Study, read_study_text
-from tvimdesign.study.sizing import JointTask, diameters, study_text
+from tvimdesign.study.sizing import JointTask, diameters, in_options, study_text
 
 WRIST = {"torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A"}
 
@@ -132,6 +133,32 @@ def test_the_process_is_the_one_asked_for(hardware):
     assert study.module["process"] == task.options()["process"] == "print_pa6_cf"
 
 
+@pytest.mark.parametrize("hardware", ["small", "middle", "heavy"])
+def test_milled_parts_have_a_liner_a_cutter_and_a_heater_below_spreaders(hardware):
+    task = JointTask.read(**WRIST, process="machine_6061")
+    study = read_study_text(study_text(replace(task, diameter=diameters()[hardware]), hardware), "joint.yaml")
+    module = {"process": "machine_6061", "liner_material": "pei_1010", "peltier_module": "ma10_063_05_1"}
+    assert module.items() <= study.module.items()
+    assert study.module["floor_thickness"] == pytest.approx(6.5e-3)
+    assert {"liner_thickness", "spreader_thickness"} < set(study.vary)
+    assert "floor_thickness" not in study.vary
+    assert study.tolerances["pcl_thickness"].plus_minus == pytest.approx(5e-5)
+
+
+def test_the_process_is_named_with_its_reason():
+    text = study_text(JointTask.read(**WRIST), "middle")
+    assert process_of(text).startswith("made by print_pc_bambu: polycarbonate bears the heat, ")
+    assert process_of(study_text(JointTask.read(**WRIST, process="print_peek"), "middle")) == "made by print_peek"
+
+
+def test_a_refusal_names_the_options_of_size():
+    text = "Lost to\n  response_time <= 60 s\nOther sizes do if diameter <= 72.1 mm or\n joint_stiffness@hot >= 1 N.m"
+    reported = "Lost to\n  --time <= 60 s\nOther sizes do if --diameter <= 72.1 mm or\n --stiffness >= 1 N.m"
+    assert in_options(text, label) == reported
+    others = "inner diameter <= 2 mm, layer_response_time <= 3 s"
+    assert in_options(others, label) == others
+
+
 @pytest.mark.parametrize(
     ("numbers", "message"),
     [
@@ -140,8 +167,7 @@ def test_the_process_is_the_one_asked_for(hardware):
         ({"diameter": "300 mm"}, "diameter: 300 mm is not from 20 mm to 200 mm"),
         ({"stroke": "50 deg"}, "stroke: 50 deg to either side of rest is beyond 28.6"),
         ({"stiff_time": "5"}, "stiff_time: .* write for instance '300 s'"),
-        ({"process": "print_pa6"}, "print_pa6 prints nothing; .*print_pa6_cf"),
-        ({"process": "machine_6061"}, "process: machine_6061 prints nothing; .*elbow_machined"),
+        ({"process": "print_pa6"}, "process: no print_pa6 in the catalogue; .*machine_6061.*print_pa6_cf"),
         ({"supply": "24 V, 3"}, "supply: .* write for instance '24 V, 3 A'"),
         ({"stiffness": "2 to 1 N.m/rad"}, "stiffness: .* is upside down"),
     ],

@@ -62,7 +62,7 @@ def size(
     stiff_time : str, optional
         Time within which the joint gets stiff again.
     process : str, optional
-        Process that prints the parts, such as ``"print_pa6_cf"``.
+        Process that makes the parts, such as ``"machine_6061"``.
     name : str
         Name of the study.
     progress : bool

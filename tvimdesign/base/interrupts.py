@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any
+from typing import Any, TextIO, cast
 
 _SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 _TWICE = 1.0  # Seconds within which the same signal counts once: `timeout` sends it to the process and to its group
@@ -25,6 +25,7 @@ def interrupt_handler(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
     """Raise every interrupt as KeyboardInterrupt, and keep it for `raise_pending`; only in the main thread.
 
     What an interrupted library raises instead is turned into the interrupt: CasADi says RuntimeError or SystemError.
+    The warning that CasADi then prints on standard error is left out.
     Where compiled code cannot raise at all, Python tells the exception and goes on, and Cython prints it besides; an
     interrupt is kept without that.
     Within an import that began in here it is raised when that is through: an exception there ends VTK, which the CAD
@@ -35,6 +36,7 @@ def interrupt_handler(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
     before = {number: handler for number, handler in every.items() if handler not in (signal.SIG_IGN, None)}
     unraisable_hook, sys.unraisablehook = sys.unraisablehook, _without_interrupts(sys.unraisablehook)
     exception_hook, sys.excepthook = sys.excepthook, _not_printed(sys.excepthook)
+    stderr, sys.stderr = sys.stderr, cast(TextIO, _WithoutWarnings(sys.stderr))
     _heeding.append(_imports(sys._getframe()))
     for number in before:
         signal.signal(number, _heed)
@@ -48,10 +50,27 @@ def interrupt_handler(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
         _heeding.pop()  # first: what comes while the outermost is left ends nothing any more
         for number, handler in before.items():
             signal.signal(number, handler)
-        sys.unraisablehook, sys.excepthook = unraisable_hook, exception_hook
+        sys.unraisablehook, sys.excepthook, sys.stderr = unraisable_hook, exception_hook, stderr
         if not _heeding:
             _received.clear()
             _times.clear()
+
+
+class _WithoutWarnings:
+    """Standard error without CasADi's warnings of an interrupt, which come in pieces."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream, self._within = stream, False
+
+    def write(self, text: str) -> int:
+        """Write it, or not."""
+        if not (self._within or (_received and text.startswith("CasADi"))):
+            return self._stream.write(text)
+        self._within = not text.endswith("\n")
+        return len(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
 
 
 def ignore_interrupts() -> None:

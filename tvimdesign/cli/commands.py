@@ -147,8 +147,9 @@ def size(
         typer.Option(
             "--process",
             metavar="RECORD",
-            help="Process that prints the parts, such as print_pa6_cf; one that suits the diameter unless given.",
-            autocompletion=options.printing,
+            help="Process that makes the parts, such as print_pei_9085 or machine_6061; one that suits the diameter "
+            "unless given.",
+            autocompletion=options.processes,
         ),
     ] = "",
     file: Annotated[Path, typer.Option("--study", help="Study file to write, and to edit afterwards.")] = Path(

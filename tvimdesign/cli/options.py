@@ -34,7 +34,7 @@ def _completing(place: str) -> Callable[[str], list[str]]:
 tests = _completing("tvimdesign.simulation.virtual_tests:TESTS")
 kinds = _completing("tvimdesign.simulation.measurement.measure_files:kind_sheets")
 examples = _completing("tvimdesign.study.written_studies:examples")
-printing = _completing("tvimdesign.study.sizing:printing")
+processes = _completing("tvimdesign.study.sizing:processes")
 modes = _completing("tvimdesign.report.rows:MODES")
 rows = _completing("tvimdesign.report.rows:row_names")
 settings = _completing("tvimdesign.report.rows:setting_names")

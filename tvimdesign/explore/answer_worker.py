@@ -5,17 +5,16 @@ under way, as a newer one stands in its place; the process goes on.
 """
 
 import hashlib
-import io
 import json
 import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
 from tvimdesign.base.child_process import follow_parent, line_writer
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.interrupts import interrupt_came, interrupt_handler, raise_pending
+from tvimdesign.base.interrupts import interrupt_handler, raise_pending
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import table_for
 from tvimdesign.explore.engine import Answer, Engine, refused
@@ -30,23 +29,11 @@ from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.sizing import JointTask
 
 
-class _Quiet(io.TextIOBase):
-    """Standard error, but for what a library says of an interrupt that was meant."""
-
-    def __init__(self, through: TextIO) -> None:
-        self._through = through
-
-    def write(self, text: str) -> int:
-        """Write it, or not."""
-        return len(text) if interrupt_came() else self._through.write(text)
-
-
 def main() -> None:
     """Answer jobs until there are no more."""
     follow_parent()
     write = line_writer()
     signal.signal(signal.SIGINT, lambda *_: None)  # between jobs there is nothing to end
-    sys.stderr = _Quiet(sys.stderr)
     source, folder, settings = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
     engine = Engine(open_source(source, settings).tree)
     write({"ready": True})

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -248,7 +249,9 @@ class Engine:
         if stage == "exact" and state.way == "optimize":
             tree = set_values(tree, _listed(free, state))
         tree = set_values(tree, {"front": None}) if tree.section("front") is not None else tree
-        answered = answer_study(tree, progress, search=self._near if stage == "exact" else optimize)
+        answered = answer_study(
+            tree, progress, search=self._near if stage == "exact" else partial(optimize, eases=True)
+        )
         result, table = answered.result, answered.study.table
         design = result.design
         known = given(answered.study)

@@ -74,6 +74,7 @@ def optimize(
     objectives: Sequence[str] = (),
     deadline: Deadline | None = None,
     checked: bool = False,
+    eases: bool = False,
 ) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
 
@@ -82,6 +83,8 @@ def optimize(
     that are `traded` can be weighed and bounded with it afterwards. An interrupt comes out as SearchInterrupted, which
     has the best design so far.
     A study that is `checked` has passed `refuse_infeasible` and `refuse_unreachable`, which are not asked again.
+    A search that `eases` seeks, where a yield is missed, the requirement that stands in its way; that takes as long as
+    the search.
     The search ends in time for its design to be verified before the `deadline`: the study's time limit from now on
     unless given. Raises TimeOverError where there is no time to search.
     """
@@ -90,7 +93,7 @@ def optimize(
         whole = deadline or Deadline(study.solver.time_limit)
         if not checked:
             refuse_unreachable(study, whole.leaving(_TO_VERIFY * whole.seconds))
-        return _optimize(study, progress, reference, keep, objectives, trees, whole, checked)
+        return _optimize(study, progress, reference, keep, objectives, trees, whole, checked, eases)
     except (KeyboardInterrupt, Exception) as error:
         if isinstance(error, KeyboardInterrupt) or interrupt_came():  # a library raises something else for one
             raise SearchInterrupted(best_so_far(study, trees)) from error
@@ -106,6 +109,7 @@ def _optimize(
     trees: list[Relaxation],
     whole: Deadline,
     checked: bool,
+    eases: bool,
 ) -> Solution:
     """Optimise up to a deadline; fill `trees` with the problems of the search."""
     deadline = whole.leaving(_TO_VERIFY * whole.seconds)
@@ -133,12 +137,12 @@ def _optimize(
     if in_time is not None:
         progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
         trees.clear()
-        return _optimize(in_time, progress, reference, keep, objectives, trees, whole, checked)
+        return _optimize(in_time, progress, reference, keep, objectives, trees, whole, checked, eases)
     relaxation, run = min(designs, key=lambda pair: order(pair[1]))
     recorded = [*free, *(designs if listed else [])]
     nominal = run
     if study.robust and run.start.converged:
-        robust = deadline.attempt(solver_run.MARGINS, partial(_robust, designs))
+        robust = deadline.attempt(solver_run.MARGINS, partial(_robust, designs, eases))
         relaxation, nominal, run = robust or (relaxation, nominal, run)
         if study.robust.share is None:
             recorded = [(entry[0], run) if entry[1] is nominal else entry for entry in recorded]
@@ -217,12 +221,13 @@ def _in_time(study: Study, designs: Sequence[tuple[Relaxation, Run]], deadline: 
     return None if deadline.passed else ending_in_time(study, relaxation.optimizer, run)
 
 
-def _robust(designs: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:
+def _robust(designs: Sequence[tuple[Relaxation, Run]], eases: bool) -> tuple[Relaxation, Run, Run]:
     """Return the best design that can be made robust: before, after, and as its start is reported."""
     from tvimdesign.solve.uncertainty.robust import most_robust  # it loads the compiler
 
     ranked = sorted(designs, key=lambda pair: order(pair[1]))
-    place, run = most_robust([(relaxation.optimizer, run, _sizes(relaxation, run)) for relaxation, run in ranked])
+    candidates = [(relaxation.optimizer, run, _sizes(relaxation, run)) for relaxation, run in ranked]
+    place, run = most_robust(candidates, eases=eases)
     relaxation, nominal = ranked[place]
     run.start = replace(run.start, choices=nominal.start.choices, begin=nominal.start.begin)
     return relaxation, nominal, run

@@ -63,7 +63,7 @@ class Atlas:
         entry = self.kinds[kind]
         task = JointTask(
             torque=1.0, stiffness=(1.0, 1.0), diameter=diameters()[hardware], time=1.0, voltage=24.0,
-            current=float("inf"), stroke=0.104, assumes_stroke=False,
+            current=float("inf"), stroke=0.104, assumes_stroke=False, process=entry.get("process", ""),
         )  # fmt: skip
         values = plain_data(study_text(task, hardware, f"{entry['title']}, {hardware}", widen=WIDER))
         for limit in ("joint_stiffness@hot", "holding_torque", "envelope_diameter", "response_time"):

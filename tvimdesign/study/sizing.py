@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
@@ -57,7 +58,7 @@ class JointTask:
     assumes_stroke: bool
     friction: float = 0.5  # Most friction over the springs' torque at full stroke
     stiff_time: float = math.inf  # Most time from the end of the heating until it is stiff again
-    process: str = ""  # Process that prints the parts; empty for the one that suits the diameter
+    process: str = ""  # Process that makes the parts; empty for the one that suits the diameter
     cautious: bool = False  # True if three of four plausible cases of the assumed values must satisfy each limit
 
     @classmethod
@@ -68,7 +69,7 @@ class JointTask:
         """Read quantities with their units, as `tvim.size` takes them; an empty stroke is `STROKE`.
 
         Raises InputError with every one of them that is missing, no such quantity, or out of range, and for a process
-        that is not in the catalogue or does not print.
+        that is not in the catalogue.
         """
         voltage, _, current = supply.partition(",")
         problems: list[str] = []
@@ -97,8 +98,8 @@ class JointTask:
             problems.append(f"stroke: {stroke} to either side of rest is beyond {most}, the most that a module turns")
         if task.diameter < SMALLEST or task.diameter > LARGEST:
             problems.append(f"diameter: {diameter} is not from 20 mm to 200 mm, which `size` is made for")
-        if process and process not in printing():
-            problems.append(f"process: {process} prints nothing; {', '.join(printing())} do. To mill, {_MILLED}")
+        if process and process not in processes():
+            problems.append(f"process: no {process[:60]} in the catalogue; it has {', '.join(processes())}")
         if problems:
             raise InputError("\n".join(problems))
         return task
@@ -120,15 +121,31 @@ class JointTask:
         return replace(self, stiffness=((1.0 - _BAND) * stiffness, (1.0 + _BAND) * stiffness))
 
 
-_MILLED = "write `tvimdesign new --example elbow_machined`"
+_ASKED_AS = {
+    "holding_torque": "torque", "joint_stiffness@hot": "stiffness", "envelope_diameter": "diameter",
+    "response_time": "time", "stiffening_time": "stiff-time", "peak_voltage": "supply", "peak_current": "supply",
+    "stroke": "stroke",
+}  # fmt: skip
+"""Option of `size` that asks for a limit, by the limit's output."""
 
 
-def printing() -> list[str]:
-    """Return the processes of the catalogue that print."""
-    catalog = Catalog()
-    return [
-        name for name in catalog.names("processes") if catalog.record("processes", name).word("method") == "printed"
-    ]
+def in_options(text: str, label: Callable[[str], str]) -> str:
+    """Return a text on limits with the options of `size` in place of the outputs that they limit, or their labels."""
+    named = {name: option for output, option in _ASKED_AS.items() for name in (output, label(output))}
+    names = "|".join(map(re.escape, sorted(named, key=len, reverse=True)))
+    before = r"(?<![\w@])(?:(?<=\bif )|(?<=\bthat )|(?<=\band )|(?<![a-z] ))"  # no end of a longer label
+    return re.sub(rf"{before}({names})(?= [<>]=)", lambda match: f"--{named[match[1]]}", text)
+
+
+def processes() -> list[str]:
+    """Return the processes of the catalogue: printing and milling."""
+    return list(Catalog().names("processes"))
+
+
+def _over(task: JointTask) -> dict[str, str]:
+    """Return what goes over a set of hardware if the parts are milled; empty if they are printed."""
+    milled = task.process and Catalog().record("processes", task.process).word("method") == "milled"
+    return dict(_sizes()["milled"]) if milled else {}
 
 
 def _positive(name: str, text: str, unit: str) -> float:
@@ -186,13 +203,12 @@ def study_text(
 
     A factor to `widen` ranges takes wire of any diameter in place of what one buys.
     """
-    entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
+    entry, shared, over = _sizes()["sets"][hardware], _sizes()["shared"], _over(task)
     low, high = task.stiffness
-    heater = (
-        f"peltier_module: {_heater(task)}   # made to the layer's outline; its driver sets its volts; the air cools\n"
-    )
+    made = "below spreaders" if over else "made to the layer's outline"
+    heater = f"peltier_module: {_heater(task)}   # {made}; its driver sets its volts; the air cools\n"
     band = min(max(high / low, _BANDS[0]), _CAUTIOUS_BAND if task.cautious else _BANDS[1])
-    caution = shared["cautious"] if task.cautious and entry["springs"] == "adjusted" else ""
+    caution = shared["cautious"] if task.cautious and entry["springs"] == "adjusted" and not over else ""
     soft = f"softening_band: {band:.3g}   # soft within the stiffness that is asked, not only near it\n"
     about = "to either side of rest" + ("; assumed, as --stroke was not given" if task.assumes_stroke else "")
     stroke = f"stroke: {task.stroke:.4g} rad  # {about}\n"
@@ -201,13 +217,15 @@ def study_text(
     supplied = "" if math.isinf(task.current) else f'  peak_current: "<= {task.current:.4g} A"\n'
     process = f"process: {task.process}\n" if task.process else ""
     module = _last_of_each(
-        f"{stroke}{shared['common']}{caution}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}{process}"
+        f"{stroke}{shared['common']}{caution}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}"
+        f"{process}{over.get('module', '')}"
     )
     if record:
         choice, other = record
         module = re.sub(
             rf"(?m)^  {choice}: (\S+).*$", rf"  {choice}: {other}   # in place of \1: limits conflict", module
         )
+    tolerances = _last_of_each("\n".join([_sizes()["tolerances"][entry["springs"]], over.get("tolerances", "")]))
     title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
     return f"""# {title}. Written by `tvimdesign size`.
 # {_caution(task, caution)}
@@ -244,7 +262,7 @@ operating_points:
 
 tolerances:
   standard: true
-{_indented(_sizes()["tolerances"][entry["springs"]])}
+{tolerances}
 robust: {{yield: 95 %{", plausible: 79 %" if task.cautious else ""}}}
 
 solver: {{starts: 1, seed: 1}}
@@ -272,9 +290,10 @@ def _indented(lines: str) -> str:
     return "".join(f"  {line}\n" for line in lines.splitlines())
 
 
-def _last_of_each(lines: str) -> str:
-    """Return indented lines without those that a later one of the same name replaces: a set's own go before shared."""
+def _last_of_each(lines: str, without: str = "") -> str:
+    """Return indented lines without one, and those that a later one of the same name replaces."""
     named = {line.partition(":")[0]: line for line in lines.splitlines()}
+    named.pop(without, None)
     return _indented("\n".join(named.values()))
 
 
@@ -311,10 +330,13 @@ def _vary(task: JointTask, widen: float, entry: dict[str, str]) -> str:
         "pin_radius_ratio: {from: 0.3, to: 0.8, start: 0.65}",
         "link_dowel_ratio: {from: 0.5, to: 0.85, start: 0.7}",
     ]  # fmt: skip
-    return _indented("\n".join(lines))
+    over = _over(task)
+    return _last_of_each("\n".join([*lines, over.get("vary", "")]), without=over.get("fixed", ""))
 
 
 def _heater(task: JointTask) -> str:
+    if over := _over(task):
+        return over["heater"]
     return "polyimide_foil_24v" if task.voltage >= 23.9 else "polyimide_foil_12v"
 
 

@@ -85,7 +85,7 @@ def answer_study(
     table = study.table
     study = drawn(study) if drawn_only else study
     deadline = deadline or Deadline(study.solver.time_limit)
-    front, search = FrontOfRun(study, table, folder), search or partial(optimize, deadline=deadline)
+    front, search = FrontOfRun(study, table, folder), search or partial(optimize, deadline=deadline, eases=True)
     result = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search, designed=designed)
     early(result)
     answered = AnsweredStudy(tree, study, result, front, _reported(result, table), deadline=deadline)

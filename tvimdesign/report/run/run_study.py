@@ -54,11 +54,12 @@ if TYPE_CHECKING:
 
 def run_study(
     path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool,
-    resume: bool = False, prove: bool = False, full: bool = False, settings: Sequence[str] = (),
+    resume: bool = False, prove: bool = False, full: bool = False, settings: Sequence[str] = (), gives_up: bool = False,
 ) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done.
 
-    A study that `check` refuses ends there, before the folder is touched.
+    A study that `check` refuses ends there, before the folder is touched. One that misses its yield ends before it is
+    reported if it `gives_up`, with BelowYieldError.
     """
     began = time.perf_counter()
     tree = tree_of_file(path, settings)
@@ -92,12 +93,14 @@ def run_study(
                 progress,
                 prove=prove,
                 folder=folder,
-                search=partial(optimize, deadline=deadline, checked=True),
+                search=partial(optimize, deadline=deadline, checked=True, eases=not gives_up),
                 early=best.note,
                 designed=_parts_of_design(making, folder),
                 deadline=deadline,
             )
         result, command.failures = answered.result, answered.failures
+        if gives_up and isinstance(missed := _ending(answered), BelowYieldError):
+            raise missed
         if result.has_design:
             vector = bool(making) or study.write.vector
             command.begin_plots(drawings(answered), study.name, vector=vector, folder="plots")

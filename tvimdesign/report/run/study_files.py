@@ -10,12 +10,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.atomic_files import atomic_write
-from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.errors import BelowYieldError, InfeasibleError, InputError
 from tvimdesign.base.units import format_quantity, pretty
-from tvimdesign.report.output.numbers import ends_text
+from tvimdesign.report.output.numbers import ends_text, label
 from tvimdesign.study import read_study_text, written_studies
 from tvimdesign.study.design import read_design
-from tvimdesign.study.sizing import LARGEST, STROKE, JointTask, diameters, hardware_by_fit, records_of, study_text
+from tvimdesign.study.sizing import (
+    LARGEST,
+    STROKE,
+    JointTask,
+    diameters,
+    hardware_by_fit,
+    in_options,
+    records_of,
+    study_text,
+)
 from tvimdesign.study.text.mistakes import printable
 
 if TYPE_CHECKING:
@@ -74,39 +83,61 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
     The study is written for editing, too, if no hardware fits. Raises InputError for a quantity that is none and a file
     that is there, InfeasibleError for a joint that no hardware fits, and what `run_study` raises.
     """
-    from tvimdesign.report.output.terminal import progress_output
     from tvimdesign.report.run.run_study import run_study
 
     task = JointTask.read(**numbers)
     if file.exists() and not overwrite:
         raise InputError(f"{file}: exists already; name another file, or say --overwrite")
     atomic_write(file, study_text(task, hardware_by_fit(task)[0], file.stem).encode())
+    notes = [f"stroke of {STROKE} to either side of rest assumed; --stroke changes it"] if task.assumes_stroke else []
+    for room in (True, False):
+        text = _chosen(file, task, room=room)
+        atomic_write(file, text.encode())
+        robust = read_study_text(text).robust
+        cautious = robust is not None and robust.plausible is not None
+        notes += [] if task.process or not room else [f"{process_of(text)}; --process changes it"]
+        notes += [] if cautious else ["no hardware has room for the assumed values: they must hold"]
+        print(*notes, sep="\n", file=sys.stderr)
+        try:
+            run_study(file, out, overwrite=overwrite or not room, gives_up=cautious, **run)
+        except InfeasibleError as error:
+            if not (cautious and isinstance(error, BelowYieldError)):
+                raise type(error)(in_options(str(error), label)) from error
+            notes = ["with room for the assumed values the yield is missed"]
+        else:
+            return
+
+
+def _chosen(file: Path, task: JointTask, *, room: bool) -> str:
+    """Return the study of a joint; a refusal names the options of `size`, and the file of the study as asked."""
+    from tvimdesign.report.output.terminal import progress_output
+
     with progress_output() as progress:
         try:
-            text = sized_text(task, file.stem, progress)
+            return sized_text(task, file.stem, progress, room=room)
         except InfeasibleError as error:
-            raise InfeasibleError(f"{error}\n{file} has the study as it was asked; --overwrite replaces it.") from error
-    atomic_write(file, text.encode())
-    study = read_study_text(text)
-    notes = [
-        f"stroke of {STROKE} to either side of rest assumed; --stroke changes it" if task.assumes_stroke else "",
-        "" if task.process else f"made by {study.module.get('process', 'the default process')}; --process changes it",
-        ""
-        if study.robust and study.robust.plausible
-        else "no hardware has room for the assumed values: they must hold",
-    ]
-    print(*filter(None, notes), sep="\n", file=sys.stderr)
-    run_study(file, out, overwrite=overwrite, **run)
+            as_asked = f"{file} has the study as it was asked; --overwrite replaces it."
+            raise InfeasibleError(f"{in_options(str(error), label)}\n{as_asked}") from error
 
 
-def sized_text(task: JointTask, name: str, progress: Callable[[str], None] = lambda _: None) -> str:
+def process_of(text: str) -> str:
+    """Return which process a study that `size` wrote takes, and why, as its line says."""
+    line = next((line.strip() for line in text.splitlines() if line.startswith("  process: ")), "process: the default")
+    process, _, why = line.removeprefix("process: ").partition("#")
+    return ": ".join(filter(None, [f"made by {process.strip()}", why.strip()]))
+
+
+def sized_text(
+    task: JointTask, name: str, progress: Callable[[str], None] = lambda _: None, *, room: bool = True
+) -> str:
     """Return the study of a joint, with the first hardware whose limits can hold with margins for its tolerances.
 
+    Hardware with `room` for the assumed values comes first.
     Raises InfeasibleError, with the nearest numbers that were tried and have such hardware.
     """
     more_friction = replace(task, friction=_MORE_FRICTION)
     for allowed, words in (
-        (replace(task, cautious=True), ", with room for the assumed values"), (task, ""),
+        *([(replace(task, cautious=True), ", with room for the assumed values")] if room else []), (task, ""),
         (more_friction, f", friction up to {_MORE_FRICTION:g} of the springs' torque"),
     ):  # fmt: skip
         progress(f"choosing the hardware{words}")

@@ -40,11 +40,11 @@ Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
 """A design that is not robust: its problem, its run, and the sizes it is kept at."""
 
 
-def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
+def most_robust(candidates: Sequence[Candidate], *, eases: bool = False) -> tuple[int, Run]:
     """Return the place of the best of some designs with what the study asks for, and its robust run.
 
     Once one reaches it, the others are first solved with its margins: one that is no better there is left. Where none
-    reaches it, the one that comes nearest is returned; its problem has the requirement in the way, eased.
+    reaches it, the one that comes nearest is returned; with `eases` its problem has the requirement in the way, eased.
 
     Raises TimeOverError where the time is over before any is known to come near.
     """
@@ -68,7 +68,7 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
             break
     place, robust = min(tried, key=_rank)
     candidates[place][0].margins = robust.margins
-    if not robust.reached:
+    if eases and not robust.reached:
         candidates[place][0].eased = _eased(candidates[place], robust.run)
     return place, robust.run
 
