@@ -274,8 +274,8 @@ def test_a_study_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path):
 
 STANDARDS = r"ISO \d{3,}|EN \d{5}|ASTM A\d+|JIS G \d{4}|AWG \d+|\b606\d\b"
 MAKERS = (
-    r"ball bearing 6[78]\d\d|\b1MA10-|\bCP30\d{3}|\b9AR\b|\b5MA3SPF|\bG4A01\d{3}C|\bT[12]0\d{3}|Capa 6\d00|DP760"
-    r"|\bB57(?:540G|862S)\d+|\bAMF58B-\d+|\bILM\d\d|\bAS50\d\d|ULTEM \d+"
+    r"ball bearing 6[78]\d\d|\b1MA10-|\bCP30\d{3}|\b9AR\b|\b5MA3SPF|\bG4A01\d{3}C|\bDF\d{3}S: |\bT[12]0\d{3}|Capa 6\d00"
+    r"|DP760|\bB57(?:540G|862S)\d+|\bAMF58B-\d+|\bILM\d\d|\bAS50\d\d|ULTEM \d+"
 )
 NUMBERED = re.compile(f"{STANDARDS}|{MAKERS}")
 TO_SIZE = {

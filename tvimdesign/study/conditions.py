@@ -22,7 +22,7 @@ from tvimdesign.study.text.values import ROUNDING
 from tvimdesign.study.text.yaml_text import Mapping, compose
 
 _OWN_GROUPS = ("Layout", "Springs", "Cost")
-_OWN_CHOICES = ("spring_material",)
+_OWN_CHOICES = ("spring_material", "heater_fuse")  # a fuse goes by its design's temperatures
 _ASKED_OF_THE_LAYOUT = ("stroke",)
 """Inputs that stand with the layout and are no dimension of it: what the joint must do."""
 

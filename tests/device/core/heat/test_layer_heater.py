@@ -91,15 +91,17 @@ def test_the_cut_out_opens_before_the_least_rating(hottest, current, bears, desi
 
 
 @pytest.mark.parametrize(
-    ("hottest", "structure", "designation", "above"),
+    ("name", "hottest", "structure", "designation", "above"),
     [  # in degC; what opens at 104 may open from 94, by IEC 60691
-        (89.0, 105.0, "G4A01104C", ()),
-        (88.0, 103.0, "G4A01104C", ("structure",)),  # what opens at 98 may open from 88
-        (89.1, 105.0, "G4A01216C", ("structure",)),
+        ("microtemp_g4a", 89.0, 105.0, "G4A01104C", ()),
+        ("microtemp_g4a", 88.0, 103.0, "G4A01104C", ("structure",)),  # what opens at 98 may open from 88
+        ("microtemp_g4a", 89.1, 105.0, "G4A01216C", ("structure",)),
+        ("thermtrol_df", 98.7, 120.0, "DF119S", ()),  # aluminium
+        ("thermtrol_df", 95.0, 110.0, "DF110S", ()),
     ],
 )
-def test_a_second_maker_has_a_type_for_polycarbonate(hottest, structure, designation, above):
-    record = Catalog().record("thermal_fuses", "microtemp_g4a")
+def test_other_makers_have_types_for_polycarbonate_and_aluminium(name, hottest, structure, designation, above):
+    record = Catalog().record("thermal_fuses", name)
     fuse = heater_fuse(record, hottest + ZERO_CELSIUS, 2.5, {"structure": structure + ZERO_CELSIUS})
     assert (fuse.designation, fuse.above) == (designation, above)
     with pytest.raises(InputError, match=r"no type bears the heater's 10\.1 A, the strongest 10 A"):
