@@ -217,8 +217,8 @@ BY_HAND = {
     # A leg leaves its pin at 4 N, 408 g, at 8.59 +- 2 degrees of preload; DIN 2194: 18.7 deg, erf(3 x 5/18.7/2^0.5).
     "printed": ("4 N (408 g)", "3.07 to 4.93 N", "±5°: 58 % of what is bought", "lines of 0.4 mm", "wound up by 8.59"),
     "milled": ("a preload that is set within ±1°", "thread-locking compound", "Machining"),
-    # (1145/1070 - 1) times PCL of 0.95 or 1 mm.
-    "sprung": ("0.0666",), "sprung bearings": ("0.0701",),
+    # (1145/1070 - 1) times PCL of 0.95 or 1 mm, to a hundredth.
+    "sprung": ("nearest to 0.07 mm",), "sprung bearings": ("0.07",),
 }  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from support import ROOT
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import si_unit, to_si
 from tvimdesign.device import Choice, table_for
-from tvimdesign.report.output.numbers import FORMAT, curves_csv, number_entry
+from tvimdesign.report.output.numbers import FORMAT, curves_csv, number_entry, with_unit
 from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.report.output.tables import meaning, results, results_csv, soft_in_words, stiff_in_words
 from tvimdesign.solve.result import StudyResult, answer
@@ -31,6 +31,15 @@ minimize: {module_mass: 1, response_time: 1}
 profile: {softening: 2}
 solver: {starts: 1, cells: 6, fineness: 0.67}
 """
+
+
+@pytest.mark.parametrize(
+    ("metres", "words"),
+    [(5.18e-5, "0.052 mm"), (7.799e-4, "0.78 mm"), (6.197e-3, "6.2 mm"), (2.5694e-2, "25.69 mm"), (0.1095, "109.5 mm"),
+     (-5.783e-5, "-0.058 mm"), (3e-7, "0.0003 mm"), (0.0, "0 mm")],
+)  # fmt: skip
+def test_lengths_are_no_finer_than_a_workshop_measures(metres, words):
+    assert with_unit(metres, "mm") == words
 
 
 @pytest.fixture(scope="module")

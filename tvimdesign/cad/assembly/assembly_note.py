@@ -213,7 +213,9 @@ def _words(kind: str) -> str:
 
 
 ANGLES = ("rad", "deg")
+_MEASURED = 0.01  # Length [mm] to which one measures in a workshop
 TORQUE = "N*m"
+_CAST = 5e-5  # Thickness [m] by which cast PCL is off, to either side
 _GRAMS = 1e3 / 9.80665  # Reading of a balance in grams for one newton, by standard gravity (ISO 80000-3)
 _HEATED = ("current", "response_time", "hold_current")
 
@@ -236,6 +238,8 @@ class Figures(dict[str, Any]):
         if unit == TORQUE:
             return f"{self._design.value(name):.2g}"
         value: float = getattr(self._dims, name)
+        if unit == "mm" and value >= _MEASURED:
+            value = round(value, 2)
         return f"{degrees(value) if unit in ANGLES else value:.3g}"
 
 
@@ -327,6 +331,14 @@ def _proof_torque(design: Design, _: Dimensions) -> str:
     return f"{torque:.3g} N·m" if math.isfinite(torque) else "the study's `holding_torque`"
 
 
+def _gap_spread(design: Design, _: Dimensions) -> str:
+    """Return what the study counts the gap for the PCL off by, where that is more than the cast PCL is off by."""
+    size = ((design.study.get("tolerances") or {}).get("pcl_thickness") or {}).get("plus_minus") or 0.0
+    if size <= _CAST:
+        return ""
+    return f". The study's ±{1e3 * size:.2g} mm is not for the PCL but for the gap between the parts that it fills"
+
+
 def _play(design: Design, _: Dimensions) -> str:
     """Return the angle that the link moves without notice, from end to end; empty where the study was not evaluated."""
     play = 2.0 * design.values.get("lost_motion", math.nan)
@@ -345,6 +357,8 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "bonding_heat": _bonding_heat,
     "most_current": _most_current,
     "proof_torque": _proof_torque,
+    "gap_spread": _gap_spread,
+    "link_width": lambda _, dims: f"{2.0 * dims.link_half_width:.3g}",
     "play": _play,
     "set_points": lambda design, _: set_points_in_words(design),
     "cutout_place": _cutout_place,

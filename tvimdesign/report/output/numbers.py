@@ -149,9 +149,17 @@ def number(value: float | None, digits: int = 4) -> str:
     return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
 
 
+_FINEST, _LEAST_DIGITS, _ROUNDING = {"mm": 0.01}, 2, 1e-9
+"""What one measures to in a workshop, by unit; of a smaller number the first digits show where it comes from."""
+
+
 def in_unit(value: float, unit: str, digits: int = 4) -> str:
-    """Return a number (SI) for people, in a unit."""
-    return number(from_si(value, unit), digits)
+    """Return a number (SI) for people, in a unit: no finer than a workshop measures, but to two digits."""
+    shown = from_si(value, unit)
+    if unit in _FINEST and shown and math.isfinite(shown):
+        measured = 1 + math.floor(math.log10(abs(shown)) + _ROUNDING) - round(math.log10(_FINEST[unit]))
+        digits = min(digits, max(measured, _LEAST_DIGITS))
+    return number(shown, digits)
 
 
 def with_unit(value: float, unit: str, digits: int = 4) -> str:

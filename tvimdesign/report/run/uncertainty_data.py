@@ -38,7 +38,7 @@ _LEAST = 5e-3  # Change of an output, as a share of it, below which it does not 
 FIRST_SCREEN = (
     "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
     "softened_stiffness", "softened_damping", "softened_impedance", "softened_temperature",
-    "joint_stiffness_at_link@cold", "joint_stiffness_in_play", "frozen_time",
+    "joint_stiffness_at_link@cold", "joint_stiffness_in_play", "creep_stiffness", "frozen_time",
     "lost_motion", "lost_motion_share", "friction_torque", "friction_share", "drag_torque",
     "peak_voltage", "stiffening_peak_voltage", "peak_current", "stiffening_peak_current", "peak_power",
     "switch_energy", "cycle_energy",

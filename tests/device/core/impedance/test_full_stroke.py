@@ -145,6 +145,23 @@ def test_bonded_layer_relaxes_and_cannot_part(inputs, point):
     assert parted["relaxation_loss"] > 0.0
 
 
+def test_frozen_joint_creeps_by_structure_and_pcl_in_series(inputs):
+    stiff = {
+        "elastic_support@cold": 80.0,
+        "link_stiffness": 200.0,
+        "structure_creep_share": 0.1,
+        "spring_stiffness": 0.0,
+    }
+    elastic = stiff | {"pcl_modes@cold": [(1e16, 1e7)], "joint_stiffness@cold": 80.0, "structure_creep_energy": 0.0}
+    # Findley's law gives 0.1 of the elastic angle in the first hour, of support and link.
+    crept = SHEAR.evaluate({**inputs, **elastic}, ["creep_stiffness"])["creep_stiffness"]
+    assert 1.0 / crept == pytest.approx(0.1 * (1.0 / 80.0 + 1.0 / 200.0), rel=2e-3)
+    # A Maxwell body flows by T t / eta besides, with eta = k tau.
+    flows = elastic | {"pcl_modes@cold": [(1e6, 4e3)]}
+    further = SHEAR.evaluate({**inputs, **flows}, ["creep_stiffness"])["creep_stiffness"]
+    assert 1.0 / further - 1.0 / crept == pytest.approx(1.0 / 4e3 + 3600.0 / (4e3 * 1e6), rel=5e-3)
+
+
 def test_same_spectrum_and_support_leave_the_same_set_in_either_mode(inputs, squeezed):
     from_template = {
         "pcl_modes@hot": [(3.0, 200.0), (0.1, 900.0)],

@@ -21,7 +21,7 @@ from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, lasting_load, layer
 from tvimdesign.physics.motions import motion, one_sided
-from tvimdesign.physics.polymers import polymer, transitions
+from tvimdesign.physics.polymers import plastics, polymer, transitions, viscoelasticity
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Impedance")
@@ -265,6 +265,20 @@ def held(m: Module) -> lasting_load.Held:
 def hold_angle(m: Module) -> Scalar:
     """Angle to which the load has turned the joint at the end of the hold."""
     return m.held.angle
+
+
+@holds.output("N*m/rad")
+def creep_stiffness(m: Module) -> Scalar:
+    """Torque on the frozen link over the angle that it turns further in an hour, as structure and PCL creep.
+
+    The PCL's creep compliance is at most the reciprocal of its relaxed stiffness, which is taken for it.
+    """
+    law = plastics.Creep(m.structure_creep_share, m.structure_creep_exponent, m.structure_creep_energy)
+    crept = plastics.growth(plastics.aged(plastics.HOUR, m.temperature_at_cold, law), law)
+    relaxed = viscoelasticity.relaxation_modulus(plastics.HOUR, m.pcl_modes_at_cold)
+    branch = 1.0 / (1.0 / relaxed + (1.0 + crept) / m.elastic_support_at_cold)
+    after = 1.0 / (m.spring_stiffness + branch)
+    return 1.0 / (after - 1.0 / m.joint_stiffness_at_cold + crept / m.link_stiffness)
 
 
 @holds.output("1", per_point=True)

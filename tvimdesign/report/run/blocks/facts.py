@@ -301,6 +301,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Soft", _soft(answer)),
         Fact("Stiff", list(_stiff(answer, uncertainty))),
         Fact("Temperatures", [_temperatures(answer)]),
+        Fact("Held", list(_creep(_Values(answer, uncertainty), answer))),
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
         Fact("Cost", list(_cost(_Values(answer, uncertainty)))),
@@ -309,6 +310,21 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         *_yield(answer, uncertainty, table),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
+
+
+def _creep(value: _Values, answer: StudyResult) -> Iterator[str]:
+    """Yield how far the frozen link creeps under a torque that lasts, with its range."""
+    torque = min(requested_torque(answer.design), value.values["holding_torque"])
+    entry = value.intervals.get("creep_stiffness") or {}
+    low, crept, high = (
+        from_si(torque / stiffness, "deg") if (stiffness := of) else None
+        for of in (entry.get("high"), value.values["creep_stiffness"], entry.get("low"))
+    )
+    ends = "" if crept is None else range_text({"low": low, "value": crept, "high": high} if low and high else None)
+    if crept is not None:
+        further = f"{number(crept, 2)}°{f' ({ends})' if ends else ''}"
+        yield f"the frozen link creeps by {further} in an hour under {with_unit(torque, 'N*m', 2)}, structure and PCL"
+        yield "adhesives and pins are taken to creep as the structure does"
 
 
 def _cost(value: _Values) -> Iterator[str]:
