@@ -1,11 +1,12 @@
 """Random choices of what a module is made of and bought from: refused by a named rule, or sound parts.
 
-    python benchmarks/random_choices.py [--draws 200] [--seed 1] [--hands 2] [--inspect] [--out FILE]
+    python benchmarks/random_choices.py [--draws 200] [--seed 1] [--hands 2] [--inspect | --slivers] [--out FILE]
 
 Each draw takes a shipped study and chooses heater, process, spring, fixtures and so on at random. Either the reader
 refuses that in words, or all of 20,000 designs within the study's bounds break rules, which are counted, or the first
-that keeps them all is built and checked as in random_designs.py. Ends with code 1 where one of those fails. With
-`--out FILE` each draw is a line of the file as it ends, and a call that was ended goes on from there.
+that keeps them all is built and checked as in random_designs.py, with `--slivers` for walls and slots alone. Ends with
+code 1 where one of those fails. With `--out FILE` each draw is a line of the file as it ends, and a call that was ended
+goes on from there.
 """
 
 from __future__ import annotations
@@ -16,13 +17,14 @@ import os
 import random
 import re
 import sys
+import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import yaml
-from random_designs import Draws, Tally, built
+from random_designs import Draws, Tally, built, slivers
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog.catalog import Catalog
@@ -49,7 +51,8 @@ class Ended(NamedTuple):
 
     draw: int
     seed: int
-    inspected: bool
+    inspected: bool | str
+    """True with everything that the process wants, `slivers` with walls and slots alone."""
     how: Literal["refused", "ruled", "built"]
     """By the reader; no design kept the rules; or a design was built."""
     by: str = ""
@@ -82,7 +85,7 @@ def drawn_study(draw: random.Random) -> Study:
     return read_study_text(yaml.safe_dump(text, allow_unicode=True), name)
 
 
-def drawn(index: int, seed: int, inspect: bool) -> Design | Ended:
+def drawn(index: int, seed: int, inspect: bool | str) -> Design | Ended:
     """Return the design to build of a draw, or why there is none."""
     try:
         draws = Draws(drawn_study(random.Random(1000 * seed + index)), seed=index)
@@ -117,6 +120,18 @@ def run(draws: Iterable[int], seed: int, inspect: bool, hands: int) -> Iterator[
     yield from unbuilt
 
 
+def measured(draws: Iterable[int], seed: int) -> Iterator[Ended]:
+    """Draw, refuse, draw the parts and measure their walls and slots; yields what came of each draw."""
+    for index in draws:
+        draw = drawn(index, seed, "slivers")
+        if isinstance(draw, Ended):
+            yield draw
+        else:
+            began, thin = time.process_time(), slivers(draw)
+            print(f"{draw.name}: {'; '.join(thin) or 'no sliver'}", file=sys.stderr, flush=True)
+            yield Ended(index, seed, "slivers", "built", "", thin, [], time.process_time() - began)
+
+
 def ended_before(path: Path | None) -> list[Ended]:
     """Return what earlier calls wrote to a file."""
     lines = path.read_text(encoding="utf-8").splitlines() if path and path.exists() else []
@@ -146,15 +161,17 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--hands", type=int, default=os.cpu_count() or 1, help="designs that are built at once")
     parser.add_argument("--inspect", action="store_true", help="also walls, overhang, order of assembly ...")
+    parser.add_argument("--slivers", action="store_true", help="walls and slots of made parts alone")
     parser.add_argument("--out", type=Path, help="file to which each draw is appended; those in it are not drawn again")
     options = parser.parse_args(arguments)
     if options.out:
         options.out.parent.mkdir(parents=True, exist_ok=True)
     ended = ended_before(options.out)
-    done = {past.draw for past in ended if (past.seed, past.inspected) == (options.seed, options.inspect)}
-    for draw in run(
-        (index for index in range(options.draws) if index not in done), options.seed, options.inspect, options.hands
-    ):
+    enough = (True, "slivers") if options.slivers else (options.inspect,)
+    done = {past.draw for past in ended if past.seed == options.seed and past.inspected in enough}
+    left = (index for index in range(options.draws) if index not in done)
+    ends = measured(left, options.seed) if options.slivers else run(left, options.seed, options.inspect, options.hands)
+    for draw in ends:
         ended.append(draw)
         if options.out:
             with options.out.open("a", encoding="utf-8") as file:
