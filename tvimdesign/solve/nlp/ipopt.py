@@ -29,7 +29,7 @@ _MOST_POINTS = {"cold": 700, "warm": 75, "near": 95}
 family of the atlas; any other searches along steps in vain."""
 
 TIME_OVER = "Maximum_WallTime_Exceeded"  # Status of a run that a deadline ended, whatever its clock
-_ITERATIONS_OVER = "Maximum_Iterations_Exceeded"
+ITERATIONS_OVER = "Maximum_Iterations_Exceeded"
 
 
 class Programme(Protocol):
@@ -218,7 +218,7 @@ class _Stop(ca.Callback):
         if not self.status and self.deadline.passed:
             self.status = TIME_OVER
         elif not self.status and self.points > self._most_points:
-            self.status = _ITERATIONS_OVER
+            self.status = ITERATIONS_OVER
         np.frombuffer(results[0])[:] = bool(self.status)
         return 0
 

@@ -72,6 +72,7 @@ SIMULATED_MISSED = "infeasible: a limit on what is simulated of the design is vi
 """Status of a search whose design violates a limit on a duty or on the controller, tightened as often as is tried."""
 FLAT_GOAL = "no optimum: nothing under `vary` moves the goal"
 """Status of a search whose objective has no derivative at any start: all designs within the limits are as good."""
+SOLVED = "Solve_Succeeded"  # IPOPT's word for an optimum
 NO_DESIGN = "Infeasible_Problem_Detected"  # IPOPT's word for a point from which no step brings the limits nearer
 
 FEASIBLE = "Feasible_Point_Found"  # Status of a run with a feasible design but no optimum

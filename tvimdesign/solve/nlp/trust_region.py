@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
-from tvimdesign.solve.nlp.ipopt import Beginning, ProgrammeSolver
+from tvimdesign.solve.nlp.ipopt import Beginning
 from tvimdesign.solve.nlp.problem_parts import Curvatures, CycleModel, Point
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN
+from tvimdesign.solve.nlp.sqp import SqpSolver
 
 Array = NDArray[np.float64]
 
@@ -40,7 +41,7 @@ class TrustRegion:
     """Run of a programme by models of its cycle."""
 
     def __init__(
-        self, programme: ExtendedProblem, solver: Callable[[Beginning], ProgrammeSolver], deadline: Deadline,
+        self, programme: ExtendedProblem, solver: Callable[[Beginning], SqpSolver], deadline: Deadline,
         ends: Mapping[str, Array],
     ) -> None:  # fmt: skip
         """Take the programme, what solves it from a beginning, and nlpsol's bounds of unknowns and rows."""

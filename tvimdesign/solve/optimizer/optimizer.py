@@ -23,7 +23,8 @@ from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters
 from tvimdesign.solve.nlp.solution import EasedRequirement, Start
-from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Derivatives, Ends, Progress, Run, Trace
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, SOLVED, Array, Derivatives, Ends, Progress, Run, Trace
+from tvimdesign.solve.nlp.sqp import SqpSolver
 from tvimdesign.solve.nlp.trust_region import TrustRegion
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
@@ -83,6 +84,7 @@ class Optimizer:
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[tuple[Beginning, int], ProgrammeSolver] = {}
+        self._quick: dict[tuple[bool, int], SqpSolver] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def _device(self) -> DeviceFunctions:
@@ -189,6 +191,14 @@ class Optimizer:
             self._solvers[key] = solver_of(*key[1:], programme.row_count, self.study.solver, beginning)
         return self._solvers[key]
 
+    def _quick_solver(self, beginning: Beginning, programme: ExtendedProblem) -> SqpSolver:
+        """Return the solver for a programme of this size that costs little to evaluate."""
+        key = (beginning == "feasible", programme.unknown_count)
+        if key not in self._quick:
+            options, sizes = self.study.solver, (programme.row_count, self.problem.equation_count)
+            self._quick[key] = SqpSolver(key[1], *sizes, options.tolerance, options.max_iterations, feasible=key[0])
+        return self._quick[key]
+
     def solve(
         self,
         within: Mapping[str, Ends] | None = None,
@@ -240,7 +250,7 @@ class Optimizer:
             x = np.append(x, 0.0)
         region = None
         if not self.currents and beginning != "sharp":
-            region = TrustRegion(programme, lambda start: self._solver(start, programme), self.deadline, ends)
+            region = TrustRegion(programme, lambda start: self._quick_solver(start, programme), self.deadline, ends)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
             answer, stats = self._answer(programme, region, x, multipliers, ends, beginning)
@@ -316,7 +326,7 @@ class Optimizer:
         point = self.problem.at(x, parameters)
         good = bool(np.all(point.rows <= most + self.study.solver.tolerance))
         answer = {"x": x, "f": point.objective, "lam_g": np.zeros(len(point.rows)), "lam_x": np.zeros(0)}
-        return answer, {"return_status": "Solve_Succeeded" if good else NO_DESIGN, "success": good, "iter_count": 0}
+        return answer, {"return_status": SOLVED if good else NO_DESIGN, "success": good, "iter_count": 0}
 
     def _not_started(self, x: Array, inputs: Array, parameters: Parameters) -> Run:
         """Return a run that ended where it was to start, as the time was over."""
