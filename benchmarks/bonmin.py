@@ -10,19 +10,19 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
-from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.nlp.ipopt import ProgrammeSolver
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.problem_parts import Objective, Parameters, Point
 from tvimdesign.solve.nlp.solution import SolverEffort
@@ -84,7 +84,8 @@ def _search(optimizer: Optimizer, sizes: Sizes, near: Run) -> Chosen:
         "pass_nonlinear_variables": False, "pass_nonlinear_constraints": False,
         "discrete": [False] * count + [True] * binaries,
     }  # fmt: skip
-    solver = ProgrammeSolver(listed.unknown_count, listed.row_count, settings, "bonmin")
+    held = _Held()
+    solver, _calls = _solver(listed, held, settings)
     begin = [
         near.unknowns,
         *(_shares_at(near.unknowns[place], value) for place, value in zip(chosen, values, strict=True)),
@@ -93,7 +94,7 @@ def _search(optimizer: Optimizer, sizes: Sizes, near: Run) -> Chosen:
     optimizer.problem.grids = near.grids
     clock = time.process_time()
     solution = solver(
-        listed, NEVER, x0=np.concatenate(begin),
+        x0=np.concatenate(begin),
         lbx=np.append(ends["lbx"], np.zeros(binaries)), ubx=np.append(ends["ubx"], np.ones(binaries)),
         lbg=np.append(ends["lbg"], zeros), ubg=np.append(ends["ubg"], zeros),
     )  # fmt: skip
@@ -139,3 +140,75 @@ def _shares_at(value: float, values: np.ndarray[Any, Any]) -> np.ndarray[Any, An
     else:
         shares[0] = 1.0
     return shares
+
+
+def _solver(listed: _Listed, held: _Held, settings: dict[str, Any]) -> tuple[Any, list[_Part]]:
+    """Return nlpsol's Bonmin for a programme, and what it calls, which lives as long."""
+    unknowns, rows = listed.unknown_count, listed.row_count
+    held.programme = listed
+    x, p = ca.MX.sym("x", unknowns), ca.MX.sym("p", 0)
+    calls = [
+        _Part(held, unknowns, size, sloped=sloped, part=part)
+        for sloped in (False, True)
+        for part, size in (("objective", 1), ("rows", rows))
+    ]
+    f, g, (same_f, gradient), (same_g, jacobian) = (call(x) for call in calls)
+    derivatives = {
+        "grad_f": ca.Function("grad_f", [x, p], [same_f, gradient], ["x", "p"], ["f", "grad_f_x"]),
+        "jac_g": ca.Function("jac_g", [x, p], [same_g, jacobian], ["x", "p"], ["g", "jac_g_x"]),
+        "no_nlp_grad": True, "calc_lam_p": False,
+    }  # fmt: skip
+    problem = {"x": x, "p": p, "f": f, "g": g}
+    return ca.nlpsol("listed", "bonmin", problem, {**settings, **derivatives}), calls
+
+
+class _Held:
+    """The programme of the run."""
+
+    programme: _Listed
+    at = b""  # Unknowns of the last point, and the programme there: Bonmin takes it in four parts
+    point: Point
+    error: BaseException | None = None
+
+
+class _Part(ca.Callback):
+    """Objective or constraints at a point, to CasADi; with their derivatives where `sloped`."""
+
+    def __init__(self, held: _Held, unknowns: int, size: int, *, sloped: bool, part: str) -> None:
+        super().__init__()
+        self._held, self._unknowns, self._size, self._sloped, self._part = held, unknowns, size, sloped, part
+        self.construct(f"{part}{int(sloped)}", {})
+
+    def get_n_in(self) -> int:
+        return 1
+
+    def get_n_out(self) -> int:
+        return 2 if self._sloped else 1
+
+    def get_sparsity_in(self, _: int) -> Any:
+        return ca.Sparsity.dense(self._unknowns)
+
+    def get_sparsity_out(self, place: int) -> Any:
+        return ca.Sparsity.dense(self._size, self._unknowns if place else 1)
+
+    def has_eval_buffer(self) -> bool:
+        return True  # a matrix of CasADi's takes ten times as long to make
+
+    def eval_buffer(self, arguments: Sequence[memoryview], results: Sequence[memoryview | None]) -> int:
+        """Write the results; anything but zero says that there are none."""
+        held, at = self._held, arguments[0].tobytes()
+        try:
+            if at != held.at:
+                held.point, held.at = held.programme.at(np.frombuffer(at)), at
+        except BaseException as error:  # CasADi would swallow it
+            held.error = error
+            return 1
+        point = held.point
+        of_objective = self._part == "objective"
+        computed: tuple[Any, Any] = (point.rows, point.jacobian)
+        if of_objective:
+            computed = (point.objective, point.gradient)
+        for result, values in zip(results, computed, strict=False):
+            if result is not None:
+                np.frombuffer(result)[:] = values.ravel(order="F") if isinstance(values, np.ndarray) else values
+        return 0

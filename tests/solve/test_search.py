@@ -245,7 +245,7 @@ def _frozen(name: str) -> tuple[Optimizer, np.ndarray, dict[str, Any]]:
 
 def test_a_frozen_optimum_is_found_from_beside_it():
     optimizer, inputs, optimum = _frozen("paper_shear")
-    run = optimizer.solve(begin=inputs, beginning="near")
+    run = optimizer.solve(begin=inputs, near=True)
     assert run.start.converged
     assert run.start.objective == pytest.approx(optimum["objective"], rel=1e-4)
     for free in optimizer.free:

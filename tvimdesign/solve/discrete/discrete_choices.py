@@ -14,7 +14,7 @@ Box = tuple[tuple[int, int], ...]
 
 SAME_SIZE = 1e-6  # Share of a size within which a number has it
 _ONE_RECORD = 1e-4
-"""Share of other records up to which a design is that of one: IPOPT leaves as much of what it does not want."""
+"""Share of other records up to which a design is that of one: a solver leaves as much of what it does not want."""
 _RECORDS_LAST = 0.1
 """Distance [shares of a size] at which half of another record lies, twice: records that are as good as one another stay
 mixed while sizes are divided, for their boxes would all be divided alike."""

@@ -12,10 +12,9 @@ from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
 from tvimdesign.solve.infeasibility import feasibility_screen
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
-from tvimdesign.solve.nlp.ipopt import TIME_OVER
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
-from tvimdesign.solve.nlp.solver_run import FEASIBLE, NO_DESIGN, NO_MODULE, Array, Ends, Run
+from tvimdesign.solve.nlp.solver_run import FEASIBLE, NO_DESIGN, NO_MODULE, TIME_OVER, Array, Ends, Run
 from tvimdesign.solve.optimizer.multistart import FEW
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.refinements import ConstantCurrentOptimum, NeighboringOptima, ending_in_time
@@ -133,7 +132,7 @@ class Relaxation:
     def _from_one_of_each(self, begin: Array) -> Run:
         """Return the best design from a start: first with the records of the largest shares, then with all.
 
-        A mixture that IPOPT begins in the middle of takes several times as long, and ends in worse optima.
+        A search that begins in the middle of a mixture takes several times as long, and ends in worse optima.
         """
         optimizer = self.optimizer
         if not self.sizes.mixtures:
@@ -149,7 +148,7 @@ class Relaxation:
         alone = optimizer.solve(ends, begin=point)
         if not alone.start.converged:
             return optimizer.solve(begin=begin)
-        run = optimizer.solve(begin=alone.inputs, unknowns=alone.unknowns, beginning="near")
+        run = optimizer.solve(begin=alone.inputs, unknowns=alone.unknowns, near=True)
         return run if run.start.converged else optimizer.solve(begin=alone.inputs)
 
     def _sort_records(self) -> None:
@@ -318,7 +317,7 @@ class Relaxation:
         unknowns = near.unknowns.copy()
         for i, free in enumerate(self.optimizer.free):
             unknowns[i] = free.to_unknown(point[index[free.name]])
-        run = self.optimizer.solve(ends, begin=point, unknowns=unknowns, beginning="near")
+        run = self.optimizer.solve(ends, begin=point, unknowns=unknowns, near=True)
         self.work.count(run.start, warm=True)
         return run
 

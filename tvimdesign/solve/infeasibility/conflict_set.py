@@ -25,10 +25,10 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
-from tvimdesign.solve.nlp.ipopt import ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
 from tvimdesign.solve.nlp.solver_run import FEASIBLE, Array, Progress, Run
+from tvimdesign.solve.nlp.sqp import SqpSolver
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 TRACE = 1e-4  # Weight of the study's own objective beside the slacks
@@ -101,18 +101,17 @@ class ElasticMode:
         )  # fmt: skip
         return self._settled(answer, begin, parameters, time.perf_counter() - clock)
 
-    @cached_property
-    def _solver(self) -> ProgrammeSolver:
-        problem = self.optimizer.problem
-        return solver_of(problem.unknown_count + self.count, problem.row_count, self.optimizer.study.solver)
+    @property
+    def _solver(self) -> SqpSolver:
+        return self.optimizer.solver(self.optimizer.problem.unknown_count + self.count)
 
     def _settled(self, answer: dict[str, Any], begin: Array, parameters: Parameters, seconds: float) -> ElasticSolution:
         problem = self.optimizer.problem
-        size, unknowns = problem.unknown_count, np.asarray(answer["x"]).ravel()
+        size, unknowns = problem.unknown_count, answer["x"]
         first, last = self.equations, self.equations + len(self._slack_of)
         pressing = np.zeros(self.count)
-        np.add.at(pressing, self._slack_of, np.asarray(answer["lam_g"]).ravel()[first:last])
-        ends = np.asarray(answer["lam_x"]).ravel()[: len(self.optimizer.free)]
+        np.add.at(pressing, self._slack_of, answer["lam_g"][first:last])
+        ends = answer["lam_x"][: len(self.optimizer.free)]
         bare = {"x": unknowns[:size], "f": answer["f"], "lam_g": np.zeros(problem.row_count), "lam_x": np.zeros(size)}
         run = self.optimizer.record(bare, self._solver.stats(), begin, seconds, parameters)
         return ElasticSolution(run, np.maximum(unknowns[size:], 0.0), pressing, ends)

@@ -112,7 +112,7 @@ def _has_design(study: Study, optimizer: Optimizer, nearest: Run) -> bool:
         other = Optimizer(study, without_cycle=True, deadline=optimizer.deadline)
     except TvimError:  # no module at its start, or a limit that nothing free can mend
         return False
-    return other.solve(unknowns=nearest.unknowns, beginning="feasible").start.converged
+    return other.solve(unknowns=nearest.unknowns, feasible=True).start.converged
 
 
 _ENDS = {
@@ -234,7 +234,7 @@ def _conflict_search(study: Study, deadline: Deadline | None) -> tuple[Optimizer
         return None
     runs = []
     for begin in optimizer.multistart.points():
-        runs.append(optimizer.solve(begin=begin, beginning="feasible"))
+        runs.append(optimizer.solve(begin=begin, feasible=True))
         if runs[-1].start.converged:
             return None
     search = find_conflicts(optimizer, runs, lambda _: None)

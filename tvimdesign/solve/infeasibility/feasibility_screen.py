@@ -1,10 +1,7 @@
 """Feasibility screen: a small problem tells early if any design within some ends satisfies the static limits.
 
-The switch makes nearly all of the unknowns of a study's problem, and IPOPT takes longest where there is no design. The
-limits of arithmetic alone are a few dozen functions of the free numbers; what cannot keep those keeps no more of them.
-
-Two measures are made small, as either alone ends in valleys: the sum of what each limit gives, and the worst. In the
-worst a dozen limits give alike, at edges where the geometry's own rules change, and IPOPT often goes to and fro there.
+The limits of arithmetic alone need no working cycle: they are a few dozen functions of the free numbers. What violates
+those violates all.
 
 Designs all over the ranges that keep what depends on no working cycle: where to look before a study is infeasible.
 
@@ -15,21 +12,29 @@ Source: R. Storn, K. Price, Differential evolution, Journal of Global Optimizati
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tvimdesign.base.interrupts import raise_pending
+from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
-from tvimdesign.solve.nlp.ipopt import Solver
 from tvimdesign.solve.nlp.mixture import shared
-from tvimdesign.solve.nlp.solver_run import Array, Ends
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Ends
+from tvimdesign.solve.nlp.sqp import SqpSolver
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
-_IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
-_ROOM = 1e-2  # Start of slacks beyond what the first point needs
 NOWHERE = 1e3  # Violation of each limit at a point without a module
+
+
+class _Rows(NamedTuple):
+    """Limits at a point."""
+
+    objective: float
+    gradient: Array
+    rows: Array
+    jacobian: Array
 
 
 class FeasibilityScreen:
@@ -39,29 +44,31 @@ class FeasibilityScreen:
         """Write the problem; nothing is solved yet."""
         self._optimizer = optimizer
         self._unknowns = ca.MX.sym("free", len(optimizer.free))
-        self._limits = self._residuals(self._unknowns)
-        self._count = self._limits.numel()
-        self._at: Any = ca.Function("residuals", [self._unknowns], [self._limits]).expand()
+        limits = self._residuals(self._unknowns)
+        self._count = limits.numel()
+        self._at: Any = ca.Function("residuals", [self._unknowns], [limits]).expand()
+        self._sums = optimizer.problem.shares_less_one(self._inputs(self._unknowns))
+
+    def _inputs(self, unknowns: Any) -> Any:
+        """Return the study's inputs with the free numbers in their places (MX)."""
+        return self._optimizer.problem.with_unknowns(ca.MX(ca.DM(self._optimizer.model.start)), unknowns)
 
     @cached_property
-    def _sum(self) -> Solver:
-        return self._solver(max(self._count, 1))
+    def _rows(self) -> Tape:
+        """Record the sums of mixtures' shares less one, and the limits' residuals."""
+        rows = ca.vertcat(self._sums, self._at(self._unknowns))
+        return Tape.of_function(ca.Function("rows", [self._unknowns], [ca.densify(rows)]).expand())
 
     @cached_property
-    def _worst(self) -> Solver:
-        return self._solver(1)
+    def _solver(self) -> SqpSolver:
+        equations = len(self._optimizer.mixtures)
+        sizes = len(self._optimizer.free), equations + self._count, equations
+        return SqpSolver(*sizes, ALGEBRAIC_TOLERANCE, feasible=True)
 
-    def _solver(self, count: int) -> Solver:
-        """IPOPT for the least sum of so many slacks: one for each limit, or one for all."""
-        slacks, problem = ca.MX.sym("slacks", count), self._optimizer.problem
-        inputs = problem.with_unknowns(ca.MX(ca.DM(self._optimizer.model.start)), self._unknowns)
-        broken = self._limits - (slacks if count == self._count else ca.repmat(slacks, self._count, 1))
-        known = [ca.vertcat(self._unknowns, slacks), ca.MX.sym("none", 0)]
-        rows = ca.vertcat(problem.shares_less_one(inputs), broken)
-        function = ca.Function("screen", known, [ca.sum1(slacks), rows], ["x", "p"], ["f", "g"])
-        options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
-        sizes = (function.size1_in(0), function.size1_out(1))
-        return Solver("screen", function.expand(), options, sizes)
+    def at(self, x: Array) -> _Rows:
+        """Evaluate the limits at some unknowns; nothing is minimised."""
+        ((rows, slopes),) = self._rows.tangents([x], [np.eye(len(x))])
+        return _Rows(0.0, np.zeros(len(x)), rows, slopes)
 
     def broken(self, inputs: Array) -> float:
         """Return the largest violation of a limit at some inputs, as a share of scale; infinite without geometry."""
@@ -90,40 +97,30 @@ class FeasibilityScreen:
         wanted = list(dict.fromkeys(limit.output for limit in limits))
         if not wanted:
             return ca.MX(0, 1)
-        inputs = problem.with_unknowns(ca.MX(ca.DM(model.start)), unknowns)
-        values = model.outputs(wanted)(inputs, np.full(len(model.switch_names), np.nan))  # read by none of them
+        values = model.outputs(wanted)(
+            self._inputs(unknowns), np.full(len(model.switch_names), np.nan)
+        )  # read by none of them
         return ca.vertcat(*(limit.residual(values[wanted.index(limit.output)]) for limit in limits))
 
     def impossible(self, within: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
-        """Return whether no search from some inputs finds a point that satisfies the limits.
+        """Return whether searches from some inputs all end where no step brings the limits nearer, within some ends.
 
-        That is so where the sum of breaches has a least value above nothing from each of them, and where the worst
-        breach is not brought to nothing from the first and the last either. It is False if a search for
-        the sum does not converge. Raise KeyboardInterrupt if an interrupt ended one.
+        Raises KeyboardInterrupt if an interrupt ended one.
         """
-        if not all(self._least(self._sum, within, begin) > ALGEBRAIC_TOLERANCE for begin in begins):
-            return False
-        ends = begins[:: max(len(begins) - 1, 1)]
-        return not any(self._least(self._worst, within, begin) <= ALGEBRAIC_TOLERANCE for begin in ends)
+        return all(self._status(within, begin) == NO_DESIGN for begin in begins)
 
-    def _least(self, solver: Solver, within: Mapping[str, Ends], begin: Array) -> float:
-        """Return the least worst violation, or sum of them, that a search from some inputs reaches; NaN if it fails."""
-        optimizer = self._optimizer
-        free, count = len(optimizer.free), solver.unknown_count - len(optimizer.free)
-        lower, upper = (ends[:free] for ends in optimizer.vector.bounds(within))
-        start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
-        start = np.clip(start, lower, upper)
-        broken = np.nan_to_num(np.maximum(np.asarray(self._at(start)).ravel(), 0.0))
-        slacks = (broken if count == self._count else np.max(broken, initial=0.0, keepdims=True)) + _ROOM
-        least, largest = optimizer.with_room_where_decided(np.zeros(len(optimizer.mixtures)), within)
-        answer = solver(
-            optimizer.deadline, x0=np.append(start, slacks), lbg=np.append(least, np.full(self._count, -np.inf)),
-            ubg=np.append(largest, np.zeros(self._count)), lbx=np.append(lower, np.zeros(count)),
-            ubx=np.append(upper, np.full(count, np.inf)),
-        )  # fmt: skip
+    def _status(self, within: Mapping[str, Ends], begin: Array) -> str:
+        """Return how a search for a point that satisfies the limits ends."""
         raise_pending()
-        left = np.max(np.asarray(answer["x"]).ravel()[free:], initial=0.0)
-        return float(left) if solver.stats()["success"] else np.nan
+        optimizer, count = self._optimizer, len(self._optimizer.free)
+        lower, upper = (ends[:count] for ends in optimizer.vector.bounds(within))
+        start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
+        least, largest = optimizer.with_room_where_decided(np.zeros(len(optimizer.mixtures)), within)
+        self._solver(
+            self, optimizer.deadline, x0=start, lbx=lower, ubx=upper,
+            lbg=np.append(least, np.full(self._count, -np.inf)), ubg=np.append(largest, np.zeros(self._count)),
+        )  # fmt: skip
+        return str(self._solver.stats()["return_status"])
 
 
 _DRAWN, _DESIGNS = 12, 3  # Designs whose working cycle is simulated, and those of them that break their limits least

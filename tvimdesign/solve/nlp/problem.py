@@ -1,4 +1,4 @@
-"""The optimisation problem of a study in the space of its free numbers: objective and named constraints for IPOPT.
+"""The optimisation problem of a study in the space of its free numbers: objective and named constraints.
 
 The table's quantities and the working cycle are evaluated with exact derivatives at any point of that space; nothing
 of what happens in time is an unknown. Unknowns that are positive throughout are logarithms of their ratio to the

@@ -27,7 +27,7 @@ class Trace(NamedTuple):
 
 @dataclass
 class Run:
-    """Result of IPOPT at one start."""
+    """Result of the solver at one start."""
 
     start: Start
     inputs: Array
@@ -72,16 +72,14 @@ SIMULATED_MISSED = "infeasible: a limit on what is simulated of the design is vi
 """Status of a search whose design violates a limit on a duty or on the controller, tightened as often as is tried."""
 FLAT_GOAL = "no optimum: nothing under `vary` moves the goal"
 """Status of a search whose objective has no derivative at any start: all designs within the limits are as good."""
-SOLVED = "Solve_Succeeded"  # IPOPT's word for an optimum
-NO_DESIGN = "Infeasible_Problem_Detected"  # IPOPT's word for a point from which no step brings the limits nearer
-
-FEASIBLE = "Feasible_Point_Found"  # Status of a run with a feasible design but no optimum
-NO_MODULE = "Invalid_Number_Detected"
-"""IPOPT's word for a point at which there is no module: an output is no number there."""
-
-
-INFEASIBLE = "Infeasible_Problem_Detected"
-"""IPOPT's word for a point from which no small change brings the violated limits closer to being met."""
+# Statuses of runs, in IPOPT's words:
+SOLVED = "Solve_Succeeded"
+NO_DESIGN = "Infeasible_Problem_Detected"  # At a point from which no step brings the limits nearer
+FEASIBLE = "Feasible_Point_Found"  # With a feasible design but no optimum
+NO_MODULE = "Invalid_Number_Detected"  # At a point where there is no module: an output is no number there
+NO_STEP = "Error_In_Step_Computation"
+TIME_OVER = "Maximum_WallTime_Exceeded"
+ITERATIONS_OVER = "Maximum_Iterations_Exceeded"
 
 
 class Meaning(NamedTuple):
@@ -96,5 +94,5 @@ MEANINGS = {status: Meaning(**listed) for status, listed in own_data(__file__, "
 
 
 def meaning(status: str) -> Meaning:
-    """Return the meaning of a status; one of a later IPOPT is shown as it is."""
+    """Return the meaning of a status; an unknown one is shown as it is."""
     return MEANINGS.get(status, Meaning(f"ended with {status.replace('_', ' ').lower()}", _REPORT))

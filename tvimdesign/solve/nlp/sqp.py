@@ -10,15 +10,14 @@ Arnstroem, Bemporad, Axehill, IEEE Trans. Autom. Control 67 (2022), 4362]
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.simulation.working_cycle.symbols import ca
-from tvimdesign.solve.nlp.ipopt import ITERATIONS_OVER, TIME_OVER, Evaluated, Programme
-from tvimdesign.solve.nlp.solver_run import NO_DESIGN, NO_MODULE, SOLVED
+from tvimdesign.solve.nlp.solver_run import ITERATIONS_OVER, NO_DESIGN, NO_MODULE, NO_STEP, SOLVED, TIME_OVER
 
 Array = NDArray[np.float64]
 
@@ -40,6 +39,33 @@ second step is tried, and below the last a step is taken back."""
 ROUNDING = 1e-14
 _DAMPED = 0.2  # Least curvature along a step after an update, as a share of that before
 _QP: dict[str, Any] = {"error_on_fail": False, "daqp": {"primal_tol": 1e-11, "dual_tol": 1e-12, "iter_limit": 2000}}
+
+
+class Evaluated(Protocol):
+    """A nonlinear programme at a point."""
+
+    @property
+    def objective(self) -> float:
+        """Return the value to minimise."""
+
+    @property
+    def gradient(self) -> Array:
+        """Of the objective."""
+
+    @property
+    def rows(self) -> Array:
+        """The constraints."""
+
+    @property
+    def jacobian(self) -> Array:
+        """Of the constraints."""
+
+
+class Programme(Protocol):
+    """A nonlinear programme that a solver can be given."""
+
+    def at(self, x: Array) -> Evaluated:
+        """Evaluate the programme at a point."""
 
 
 class Step(NamedTuple):
@@ -187,7 +213,7 @@ class _Search:
             self.iterations += 1
             step, nearest = self._step()
             if step is None:
-                status = "" if self._learned else "Error_In_Step_Computation"
+                status = "" if self._learned else NO_STEP
                 self._curvature, self._learned = FLAT * np.eye(len(x)), False
                 continue
             self.last, stuck = step, False

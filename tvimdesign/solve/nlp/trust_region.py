@@ -1,13 +1,13 @@
 """Solve a programme by local models of its working cycle, within a trust region.
 
-A cycle costs ten times what everything else does. Between two cycles IPOPT therefore solves the programme with the
+A cycle costs ten times what everything else does. Between two cycles the programme is therefore solved with the
 table's exact equations and a second-order model of what the cycle supplies. Values and slopes of the model are those
 of the last cycle; its curvature is learned from the slopes of all before (symmetric rank one). Where the model's
 optimum is the cycle's, the multipliers are, too.
 [Conn, Gould, Toint, Trust-region methods, 2000; Nocedal, Wright, Numerical optimization, 2006, eq. 6.24]
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
-from tvimdesign.solve.nlp.ipopt import Beginning
 from tvimdesign.solve.nlp.problem_parts import Curvatures, CycleModel, Point
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN
 from tvimdesign.solve.nlp.sqp import SqpSolver
@@ -32,7 +31,7 @@ CERTAIN = 0.05  # Error of a model, as a share of the least breach that it finds
 NOISE, CREEP = 1e-6, 3e-4
 """Change of the objective that says nothing; change that ends the search for more of a further unknown: a step of
 margins that no design bears whole leads along valleys."""
-MOST_CYCLES = 20  # A run that takes more cycles is left to IPOPT on the cycle itself
+MOST_CYCLES = 20  # A run that takes more cycles goes on with the cycle itself
 FEASIBLE, STATIONARY, STILL = 1e-7, 1e-6, 1e-7
 """Largest breach of a limit and slope of the Lagrangian at an optimum; step that leaves a point where it is."""
 
@@ -41,10 +40,9 @@ class TrustRegion:
     """Run of a programme by models of its cycle."""
 
     def __init__(
-        self, programme: ExtendedProblem, solver: Callable[[Beginning], SqpSolver], deadline: Deadline,
-        ends: Mapping[str, Array],
-    ) -> None:  # fmt: skip
-        """Take the programme, what solves it from a beginning, and nlpsol's bounds of unknowns and rows."""
+        self, programme: ExtendedProblem, solver: SqpSolver, deadline: Deadline, ends: Mapping[str, Array]
+    ) -> None:
+        """Take the programme, its solver, and nlpsol's bounds of unknowns and rows."""
         self._programme, self._solver, self._deadline, self._ends = programme, solver, deadline, ends
         self._problem = programme.problem
         self._curvatures = Curvatures(len(self._problem.model.switch_names), self._problem.unknown_count)
@@ -56,25 +54,22 @@ class TrustRegion:
         self.reached = np.zeros(0)
         """Unknowns of the last point that was taken."""
 
-    def solve(
-        self, x: Array, multipliers: Mapping[str, Any], beginning: Beginning
-    ) -> tuple[dict[str, Any], dict[str, Any]] | None:
+    def solve(self, x: Array, *, near: bool) -> tuple[dict[str, Any], dict[str, Any]] | None:
         """Return the solver's answer and statistics at an optimum from x; None where models do not lead to one.
 
-        A run that begins "feasible" ends at the first point that satisfies the limits. One that begins near an optimum,
-        or warm, is returned as it failed where no step of its models is better.
+        A run `near` an optimum is returned as it failed where no step of its models is better: the cycle itself seldom
+        leads on there.
         """
         x = self.reached = np.clip(x, self._ends["lbx"], self._ends["ubx"])
         self._radius, self._filter, self.iterations = FIRST_RADIUS if self._problem.events else np.inf, [], 0
-        may_fail = beginning in ("near", "warm")  # where models fail such a run, the cycle itself seldom leads on
         model = self._model(x)
         if model is not None:
             self._filter.append((self._programme.at(x).objective, self._breach(self._programme.at(x))))
         for _ in range(MOST_CYCLES):
             if model is None or self._deadline.remaining <= 0.0:
                 return None
-            near, radius = self._near(x), self._radius
-            answer, stats, to, expected = self._step(model, x, near, multipliers, beginning)
+            region, radius = self._region(x), self._radius
+            answer, stats, to, expected = self._step(model, x, region)
             self.iterations += 1
             here, there, reached = self._programme.at(x), self._programme.at(to), self._model(to)
             length = float(np.max(np.abs(to - x), initial=0.0))
@@ -82,8 +77,6 @@ class TrustRegion:
                 self._curvatures.learn(model, reached)
             error = np.inf if reached is None else _error(expected, there)
             stats = {**stats, "iter_count": self.iterations}
-            if not stats["success"] and beginning in ("near", "warm"):
-                multipliers, beginning = {}, "cold"  # a cold run detects sooner that there is no design
             fails = not stats["success"] and error <= EXACT and length < 0.99 * radius
             infeasible = (
                 stats["return_status"] == NO_DESIGN and length < 0.99 * radius
@@ -96,7 +89,7 @@ class TrustRegion:
                 return {**answer, "x": to, "f": there.objective}, stats  # the solver fails on the cycle as it does here
             if not error <= POOR or not self._better(there):
                 if length < LEAST_RADIUS or not self._better(expected):
-                    if may_fail and not stats["success"]:
+                    if near and not stats["success"]:
                         return {**answer, "x": x, "f": here.objective}, stats
                     return None
                 self._radius, model = 0.3 * min(radius, length), replace(model, curvatures=self._curvatures.matrices)
@@ -106,13 +99,11 @@ class TrustRegion:
             x, model = to, self._model(to)
             self.reached = x
             if stats["success"]:
-                multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
                 partial = np.any(to[self._problem.unknown_count :] < self._ends["ubx"][self._problem.unknown_count :])
                 noise = CREEP if partial else NOISE
                 stands = abs(there.objective - here.objective) < noise and length < 0.99 * radius
-                if length < STILL or self._ends_here(there, answer, near, beginning, stands=stands):
+                if length < STILL or self._ends_here(there, answer, region, stands=stands):
                     return {**answer, "x": to, "f": there.objective}, stats
-                beginning = beginning if beginning == "feasible" else "warm"
         return None
 
     def _better(self, point: Point, slack: float = NOISE) -> bool:
@@ -134,7 +125,7 @@ class TrustRegion:
         size = self._problem.unknown_count
         return CycleModel.of(x[:size], point.cycle, point.of_cycle, self._curvatures.matrices)
 
-    def _near(self, x: Array) -> dict[str, Array]:
+    def _region(self, x: Array) -> dict[str, Array]:
         """Return the bounds of the unknowns within the trust region."""
         size, radius = self._problem.unknown_count, self._radius
         lower, upper = self._ends["lbx"].copy(), self._ends["ubx"].copy()
@@ -143,30 +134,25 @@ class TrustRegion:
         return {"lbx": lower, "ubx": upper}
 
     def _step(
-        self, model: CycleModel, x: Array, near: Mapping[str, Array], multipliers: Mapping[str, Any],
-        beginning: Beginning,
-    ) -> tuple[dict[str, Any], dict[str, Any], Array, Point]:  # fmt: skip
+        self, model: CycleModel, x: Array, region: Mapping[str, Array]
+    ) -> tuple[dict[str, Any], dict[str, Any], Array, Point]:
         """Solve the programme with the cycle's model; return where that ends, and what is expected there."""
-        solver, rows = self._solver(beginning), {name: self._ends[name] for name in ("lbg", "ubg")}
         with self._problem.modelled(model):
-            answer = solver(self._programme, self._deadline, x0=x, **multipliers, **rows, **near)
-            to = np.clip(np.asarray(answer["x"]).ravel(), near["lbx"], near["ubx"])
-            return answer, solver.stats(), to, self._programme.at(to)
+            answer = self._solver(self._programme, self._deadline, x0=x, **{**self._ends, **region})
+            return answer, self._solver.stats(), answer["x"], self._programme.at(answer["x"])
 
-    def _ends_here(
-        self, point: Point, answer: Mapping[str, Any], near: Mapping[str, Array], beginning: Beginning, *, stands: bool
-    ) -> bool:
+    def _ends_here(self, point: Point, answer: Mapping[str, Any], region: Mapping[str, Array], *, stands: bool) -> bool:
         """Return whether the cycle's own rows and slopes say that an optimum of the models is one."""
         if self._breach(point) > 0.0:
             return False
-        if beginning == "feasible" or stands:
+        if self._solver.feasible or stands:
             return True
-        of_bounds = np.asarray(answer["lam_x"]).ravel()
+        of_bounds = answer["lam_x"]
         # The trust region is no limit of the programme: where it presses, the search goes on.
-        real = (near["lbx"] == self._ends["lbx"]) & (of_bounds < 0.0) | (near["ubx"] == self._ends["ubx"]) & (
+        real = (region["lbx"] == self._ends["lbx"]) & (of_bounds < 0.0) | (region["ubx"] == self._ends["ubx"]) & (
             of_bounds > 0.0
         )
-        slope = point.gradient + np.asarray(answer["lam_g"]).ravel() @ point.jacobian + np.where(real, of_bounds, 0.0)
+        slope = point.gradient + answer["lam_g"] @ point.jacobian + np.where(real, of_bounds, 0.0)
         return bool(np.max(np.abs(slope), initial=0.0) <= STATIONARY)
 
 

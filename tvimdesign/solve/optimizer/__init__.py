@@ -1,1 +1,1 @@
-"""The problem solved: starts, IPOPT's runs, the optimum verified outside it, and its shadow prices."""
+"""The problem solved: starts, runs of the solver, the optimum verified outside it, and its shadow prices."""

@@ -18,12 +18,11 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.decision_vector import DecisionVector, ExtendedProblem
-from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters
 from tvimdesign.solve.nlp.solution import EasedRequirement, Start
-from tvimdesign.solve.nlp.solver_run import NO_DESIGN, SOLVED, Array, Derivatives, Ends, Progress, Run, Trace
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, SOLVED, TIME_OVER, Array, Derivatives, Ends, Progress, Run, Trace
 from tvimdesign.solve.nlp.sqp import SqpSolver
 from tvimdesign.solve.nlp.trust_region import TrustRegion
 from tvimdesign.solve.optimizer.multistart import Multistart
@@ -83,8 +82,7 @@ class Optimizer:
         self.problem = self._problem(self.kept_constraints(limits), objectives)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
-        self._solvers: dict[tuple[Beginning, int], ProgrammeSolver] = {}
-        self._quick: dict[tuple[bool, int], SqpSolver] = {}
+        self._solvers: dict[tuple[bool, int], SqpSolver] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def _device(self) -> DeviceFunctions:
@@ -184,20 +182,15 @@ class Optimizer:
             return float(horizon)
         return value if value != 0.0 else 1.0
 
-    def _solver(self, beginning: Beginning, programme: ExtendedProblem) -> ProgrammeSolver:
-        """Return the solver for a programme of this size, built when it is first needed."""
-        key = (beginning, programme.unknown_count)
+    def solver(self, unknowns: int, *, feasible: bool = False) -> SqpSolver:
+        """Return the solver for programmes of so many unknowns and the problem's rows; see `SqpSolver`."""
+        key = (feasible, unknowns)
         if key not in self._solvers:
-            self._solvers[key] = solver_of(*key[1:], programme.row_count, self.study.solver, beginning)
+            options, sizes = self.study.solver, (self.problem.row_count, self.problem.equation_count)
+            self._solvers[key] = SqpSolver(
+                unknowns, *sizes, options.tolerance, options.max_iterations, feasible=feasible
+            )  # fmt: skip
         return self._solvers[key]
-
-    def _quick_solver(self, beginning: Beginning, programme: ExtendedProblem) -> SqpSolver:
-        """Return the solver for a programme of this size that costs little to evaluate."""
-        key = (beginning == "feasible", programme.unknown_count)
-        if key not in self._quick:
-            options, sizes = self.study.solver, (programme.row_count, self.problem.equation_count)
-            self._quick[key] = SqpSolver(key[1], *sizes, options.tolerance, options.max_iterations, feasible=key[0])
-        return self._quick[key]
 
     def solve(
         self,
@@ -207,61 +200,54 @@ class Optimizer:
         objective: Objective | None = None,
         unknowns: Array | None = None,
         *,
-        beginning: Beginning | None = None,
+        near: bool = False,
+        feasible: bool = False,
         moves: Mapping[str, float] | None = None,
     ) -> Run:
-        """Run IPOPT from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within` ends
-        of their own.
+        """Search from `begin` (the study's start), from `unknowns`, or warm from where an earlier run ended, with some
+        numbers kept `within` ends of their own.
 
-        `unknowns` stand in place of `begin`; `beginning` says what is neither cold nor warm. An `objective` stands in
-        place of the study's weights and bounds what is traded. As large a share of `moves` as a design bears, all of
-        them if possible, is added to the margins. Steps in time are placed where the run begins, and anew
-        where it ends, until that moves the optimum no more; an optimum that is sharpened keeps its own. Raises
-        KeyboardInterrupt where an interrupt came, also one that CasADi has swallowed. The run ends at the deadline.
+        A warm run, or one `near` an optimum, may fail soon; a `feasible` one ends where all limits are met. An
+        `objective` stands in place of the study's weights and bounds what is traded. As large a share of `moves` as a
+        design bears, all of them if possible, is added to the margins. Steps in time are placed where the run begins,
+        and anew where it ends, until that moves the optimum no more. Raises KeyboardInterrupt where an interrupt came,
+        also one that CasADi has swallowed. The run ends at the deadline.
         """
         raise_pending()
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
         if warm is not None:
-            unknowns = warm.unknowns
-        beginning = beginning or ("cold" if warm is None else "warm")
+            unknowns, near = warm.unknowns, True
         x = self.guess(inputs) if unknowns is None else unknowns
         objective = objective or Objective(self.study.minimize)
         parameters = self.parameters(objective)
         if self.deadline.remaining <= 0.0:
             self.deadline.met = True
             return replace(self._not_started(x, inputs, parameters), within=within or {})
-        multipliers = {} if warm is None else {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         ends, count = self.ends(within or {}, objective), len(x)
         if not len(x):
             answer, stats = self._checked(x, parameters, ends["ubg"])
             return self.record(answer, stats, inputs, time.perf_counter() - clock, parameters)
-        iterations = 0
-        sharp = warm.grids if isinstance(warm, Run) and beginning == "sharp" else {}
-        if sharp:
-            self.problem.grids = sharp
-        else:
-            x = self._where_it_ends(x, parameters, ends)
+        x = self._where_it_ends(x, parameters, ends)
         programme = ExtendedProblem(self.problem, parameters)
         if moves is not None:
             steps = np.array([[moves.get(limit.name, 0.0)] for limit in self.problem.limits])
             programme = ExtendedProblem(self.problem, parameters, steps, np.array([-_WORTH]))
             ends |= {"lbx": np.append(ends["lbx"], 0.0), "ubx": np.append(ends["ubx"], 1.0)}
             x = np.append(x, 0.0)
-        region = None
-        if not self.currents and beginning != "sharp":
-            region = TrustRegion(programme, lambda start: self._quick_solver(start, programme), self.deadline, ends)
+        iterations, solver = 0, self.solver(programme.unknown_count, feasible=feasible)
+        region = None if self.currents else TrustRegion(programme, solver, self.deadline, ends)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
-            answer, stats = self._answer(programme, region, x, multipliers, ends, beginning)
+            modelled = region.solve(x, near=near) if region else None
+            if modelled is None:  # there are no models, or they lead nowhere
+                x, iterations = (region.reached, iterations + region.iterations) if region else (x, iterations)
+                modelled = solver(programme, self.deadline, x0=x, **ends), solver.stats()
+            answer, stats = modelled
             iterations += int(stats["iter_count"])
-            x = np.asarray(answer["x"]).ravel()
-            if sharp or not stats["success"] or not self.problem.events:
+            x, near = answer["x"], True
+            if not stats["success"] or not self.problem.events or self._settled(programme, x, ends["ubg"]):
                 break
-            if self._settled(programme, x, ends["ubg"]):
-                break
-            multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
-            beginning = "warm"
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
         self.problem.grids = grids
@@ -269,24 +255,9 @@ class Optimizer:
             names = {**self.margins, **moves}
             self.margins = {name: self.margins.get(name, 0.0) + x[-1] * moves.get(name, 0.0) for name in names}
             own = self.problem.at(x[:count], parameters).objective
-            answer = {**answer, "x": x[:count], "lam_x": np.asarray(answer["lam_x"]).ravel()[:count], "f": own}
+            answer = {**answer, "x": x[:count], "lam_x": answer["lam_x"][:count], "f": own}
         run = self.record(answer, {**stats, "iter_count": iterations}, inputs, seconds, parameters)
         return replace(run, within=within or {})
-
-    def _answer(
-        self, programme: ExtendedProblem, region: TrustRegion | None, x: Array, multipliers: Mapping[str, Any],
-        ends: Mapping[str, Array], beginning: Beginning,
-    ) -> tuple[dict[str, Any], dict[str, Any]]:  # fmt: skip
-        """Return a solver's answer and statistics: by models of the cycle, or on it where those lead nowhere."""
-        tried = 0
-        if region is not None:
-            if (modelled := region.solve(x, multipliers, beginning)) is not None:
-                return modelled
-            x, tried = region.reached, region.iterations
-        solver = self._solver(beginning, programme)
-        answer = solver(programme, self.deadline, x0=x, **multipliers, **ends)
-        stats = solver.stats()
-        return answer, {**stats, "iter_count": tried + stats["iter_count"]}
 
     def _where_it_ends(self, x: Array, parameters: Parameters, ends: Mapping[str, Array]) -> Array:
         """Return the unknowns with steps placed there; where a switch never ends, those of a module beside whose does.
@@ -364,8 +335,6 @@ class Optimizer:
         CasADi takes an interrupt that comes while it evaluates a function for a failure of that.
         """
         raise_pending()
-        if stats["return_status"] == "User_Requested_Stop":
-            raise KeyboardInterrupt
         unknowns = np.asarray(answer["x"]).ravel()
         end = self.vector.inputs(unknowns)
         start = Start(

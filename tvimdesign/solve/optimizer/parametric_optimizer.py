@@ -31,7 +31,7 @@ class Moved:
 
     @property
     def converged(self) -> bool:
-        """IPOPT's verdict that this is an optimum."""
+        """Return the solver's verdict that this is an optimum."""
         return self.run.start.converged
 
 
@@ -69,13 +69,13 @@ class ParametricOptimizer:
         goal = Objective(study.minimize)
         if last is None and near:
             begin = self._clipped(near, optimizer, ranges)
-            run = optimizer.solve(within, objective=goal, begin=begin, beginning="near")
+            run = optimizer.solve(within, objective=goal, begin=begin, near=True)
             if run.start.converged:
                 return Moved(run, self._binding(run, optimizer), _ends(run, optimizer))
         run = optimizer.solve(within, last, objective=goal)
         if last is not None and not run.start.converged:
             begin = self._clipped(last.start.end, optimizer, ranges)
-            run = optimizer.solve(within, objective=goal, begin=begin, beginning="near")
+            run = optimizer.solve(within, objective=goal, begin=begin, near=True)
         return Moved(run, self._binding(run, optimizer), _ends(run, optimizer))
 
     @staticmethod

@@ -158,7 +158,7 @@ class NeighboringOptima:
                 break
             unknowns = optimizer.vector.shaken(better.unknowns, best.within, SHAKE, random)
             begin = optimizer.vector.inputs(unknowns)
-            run = optimizer.solve(best.within, begin=begin, unknowns=unknowns, beginning="near")
+            run = optimizer.solve(best.within, begin=begin, unknowns=unknowns, near=True)
             if _better(run, better):
                 better = _with_work(run, better, better.start, run.start)
         return None if better is best else better
@@ -189,7 +189,7 @@ class NeighboringOptima:
                 continue
             unknowns = run.unknowns.copy()
             unknowns[place] = self._optimizer.free[place].to_unknown(value)
-            tried = self._optimizer.solve(begin=run.inputs, unknowns=unknowns, beginning="near")
+            tried = self._optimizer.solve(begin=run.inputs, unknowns=unknowns, near=True)
             if _better(tried, run):
                 return _with_work(tried, run, run.start, tried.start)
         return self._ramped_further(run)
@@ -248,7 +248,7 @@ class NeighboringOptima:
         unknowns = whole.unknowns.copy()
         unknowns[places] = lender.unknowns[places]
         begin = self._optimizer.vector.inputs(unknowns)
-        run = self._optimizer.solve(begin=begin, unknowns=unknowns, beginning="near")
+        run = self._optimizer.solve(begin=begin, unknowns=unknowns, near=True)
         run.start = replace(run.start, crossed=True)
         return run
 

@@ -1,4 +1,4 @@
-"""The account of a solution: simulated and checked again outside IPOPT, and what holds it with what that costs.
+"""The account of a solution: simulated and checked again outside the solver, and what holds it with what that costs.
 
 Ratings of materials and bought parts that a design exceeds, and the consequence for an optimum.
 
@@ -30,9 +30,6 @@ Place: TypeAlias = tuple[Literal["row", "upper", "lower"], int]
 """Thing that moves: a row of the problem's constraints, or an end of the range of one of its unknowns."""
 
 _FAINT = 1e-6  # Multiplier below which a limit presses on nothing, however near it is
-_CLEAR = 100.0
-"""Times the one of multiplier and room must be the other for a limit to count as active, or as slack: their product
-is the barrier where IPOPT ended."""
 _DEPENDENT = 1e-10  # Singular value, as a share of the greatest, below which rows depend on each other
 _UNDETERMINED = 1e-6  # Share of an output's gradient that may be left over where the optimum determines the output
 
@@ -44,8 +41,6 @@ class Response:
         """Linearise the optimality conditions of a converged run."""
         self._optimizer, self._run = optimizer, run
         derivatives = optimizer.derivatives(run)
-        if self._unclear(derivatives):
-            derivatives = self._sharpened(derivatives)
         self._values = derivatives.values
         self._decided = self._decisions()
         tied = optimizer.problem.tied(self._run.multipliers * self._pressing(derivatives), derivatives.rows)
@@ -64,28 +59,6 @@ class Response:
             for name, value in self._values.items()
             if name in self._adjoints and value != 0.0
         }
-
-    def _unclear(self, derivatives: Derivatives) -> bool:
-        """Return whether some limit or bound is not clearly active: it hardly presses and has hardly any room.
-
-        Where the objective is flat along a limit, one that is wrongly taken for slack changes every saving.
-        """
-        run, first = self._run, self._optimizer.problem.equation_count
-        lower, upper = self._optimizer.vector.bounds(run.within)
-        multipliers = np.concatenate([run.multipliers[first:], run.bound_multipliers, -run.bound_multipliers])
-        room = np.concatenate([-derivatives.rows[first:], upper - run.unknowns, run.unknowns - lower])
-        room = np.maximum(room, 0.0)
-        likely = (multipliers > _FAINT) & (multipliers < _CLEAR * room)
-        return bool(np.any(likely & (room < _CLEAR * multipliers)))
-
-    def _sharpened(self, derivatives: Derivatives) -> Derivatives:
-        """Derivatives where the same optimum is found more exactly; those there are where it is not."""
-        run = self._optimizer.solve(self._run.within, warm=self._run, beginning="sharp")
-        if not run.start.converged:
-            return derivatives
-        run.start = replace(run.start, choices=self._run.start.choices)
-        self._run = run
-        return self._optimizer.derivatives(run)
 
     def _decisions(self) -> list[int]:
         """Places among the unknowns of what the optimiser decides: free numbers not held to a listed size, currents."""
@@ -136,7 +109,7 @@ class Response:
 
     @staticmethod
     def _presses(multiplier: float, room: float) -> bool:
-        """Return whether a limit is active: at IPOPT's end, multiplier times room is one small number for all."""
+        """Return whether a limit is active: it presses, and has no more room than that."""
         return bool(multiplier > max(room, _FAINT))
 
     def _solve(self, derivatives: Derivatives, along: Array, rows: Array) -> dict[str, Array]:

@@ -14,7 +14,7 @@ from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, in_words, make_constraint, on_cycle
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.nlp.solver_run import INFEASIBLE, Progress, Run, Trace, meaning
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Progress, Run, Trace, meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import Options, Study
@@ -237,7 +237,7 @@ class Tradeoff:
             if isinstance(checked, Point):
                 return checked
             reason = checked
-        return Failure(where, reason, last == INFEASIBLE)
+        return Failure(where, reason, last == NO_DESIGN)
 
     def _robust(self, runs: Sequence[Run], objective: Objective) -> Iterator[Run]:
         """Runs as they are; of a robust study sought again, from the optimum's margins to their own."""

@@ -91,7 +91,7 @@ def _eased(candidate: Candidate, missed: Run) -> EasedRequirement | None:
             require = tuple(moved if each is requirement else each for each in optimizer.study.require)
             study = optimizer.study.model_copy(update={"require": require})
             other = Optimizer(study, optimizer.reference, deadline=deadline, mixtures=optimizer.mixtures)
-            optimum = other.solve(within, begin=run.inputs, beginning="near")
+            optimum = other.solve(within, begin=run.inputs, near=True)
             try:
                 if not (optimum.start.converged and reach_yield(other, optimum, within, options.share).reached):
                     break
@@ -134,7 +134,7 @@ def _with_margins(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], ot
     if run.start.objective >= other.run.start.objective:
         return run
     optimizer.margins = dict(other.margins)
-    return optimizer.solve(within, begin=run.inputs, unknowns=run.unknowns, beginning="near")
+    return optimizer.solve(within, begin=run.inputs, unknowns=run.unknowns, near=True)
 
 
 def _worth_trying(candidates: Sequence[Candidate]) -> list[int]:

@@ -144,7 +144,7 @@ def tightened(
     for attempt in range(1 + shakes):
         unknowns = optimizer.vector.shaken(run.unknowns, within, _SHAKE, random) if attempt else run.unknowns
         optimizer.margins = margins
-        tried = optimizer.solve(within, unknowns=unknowns, objective=objective, moves=moves, beginning="near")
+        tried = optimizer.solve(within, unknowns=unknowns, objective=objective, moves=moves, near=True)
         taken = max((optimizer.margins.get(name, 0.0) - margins.get(name, 0.0)) / move for name, move in moves.items())
         if tried.start.converged and taken > (best[0] if best else _NO_ROOM):
             best = taken, tried, optimizer.margins
@@ -153,7 +153,7 @@ def tightened(
     else:
         if shakes:  # the share may stop at a kink near none, where the whole step has an optimum of its own
             optimizer.margins = {name: margins.get(name, 0.0) + moves.get(name, 0.0) for name in {**margins, **moves}}
-            tried = optimizer.solve(within, begin=run.inputs, objective=objective, beginning="near")
+            tried = optimizer.solve(within, begin=run.inputs, objective=objective, near=True)
             best = (1.0, tried, optimizer.margins) if tried.start.converged else best
     optimizer.margins = best[2] if best else margins
     return best and best[1]

@@ -131,7 +131,7 @@ def core_dowels_holding_torque(m: Module) -> Scalar:
 
 CORE_PARTS = ("core_foot_holding_torque", "core_screws_holding_torque", "core_dowels_holding_torque")
 """`core_holding_torque` is the least of them. A limit on it is one on each: where the least changes from
-one to another it has a kink, and IPOPT goes from side to side of it until its iterations are over."""
+one to another it has a kink, and a solver goes from side to side of it until its iterations are over."""
 
 
 @quantities.output("N*m", least_of=CORE_PARTS)
