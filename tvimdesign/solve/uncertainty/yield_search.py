@@ -82,7 +82,7 @@ def reach_yield(
         margins = dict(optimizer.margins)
         candidates.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
         multipliers = pressing(optimizer, run)
-        moves = _moves(drawn, aim, margins, multipliers, optimizer.floors)
+        moves = _moves(drawn, aim, margins, multipliers, optimizer.floors, room_of(optimizer, run))
         gain = -sum(multipliers.get(name, 0.0) * move for name, move in moves.items())
         if not moves or (candidates[-1].reached and gain < _GAIN * abs(run.start.objective)) or _no_better(candidates):
             break
@@ -125,7 +125,8 @@ def _settled(
             predicted = yields.beside(run.inputs, first.inputs, drawn)
         except SimulationError:
             break
-        moves = _moves(predicted, aim, optimizer.margins, pressing(optimizer, run), optimizer.floors)
+        active, room = pressing(optimizer, run), room_of(optimizer, run)
+        moves = _moves(predicted, aim, optimizer.margins, active, optimizer.floors, room)
         if not moves:
             break
     return run
@@ -173,10 +174,12 @@ def _moves(
     margins: Mapping[str, float],
     active: Collection[str],
     floors: Mapping[str, float] | None = None,
+    room: Mapping[str, float] | None = None,
 ) -> dict[str, float]:
     """By how much to move the margin of each limit; empty where all are settled.
 
-    A limit that holds the design, or has a margin, gives back what it has too much, down to its floor or zero.
+    A limit that holds the design, or has a margin, gives back what it has too much, down to its floor or zero. One that
+    needs more gets it beyond the `room` that it has: less would not move the design.
     """
     ordered = np.sort(np.where(np.isnan(drawn.residuals), np.inf, drawn.residuals), axis=1)
     before = np.array([margins.get(limit.name, 0.0) for limit in drawn.limits])
@@ -189,7 +192,9 @@ def _moves(
         else:
             first = middle + 1
     shifts = np.where(np.isinf(shifts := _shifts(ordered, last, may_give)), _UNKNOWN, shifts)
-    moved = np.maximum(before + shifts, [(floors or {}).get(limit.name, 0.0) for limit in drawn.limits]) - before
+    used = np.array([(room or {}).get(limit.name, 0.0) for limit in drawn.limits])
+    after = np.where(shifts > 0.0, np.maximum(before, used), before) + shifts
+    moved = np.maximum(after, [(floors or {}).get(limit.name, 0.0) for limit in drawn.limits]) - before
     middle, beyond = (ordered[:, int(share_of * (ordered.shape[1] - 1))] for share_of in (_MEDIAN, _DEVIATION))
     settled = _SETTLED if drawn.together.low >= share else _SHORT
     deviations = np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
@@ -212,3 +217,11 @@ def pressing(optimizer: Optimizer, run: Run) -> dict[str, float]:
     of_limits = run.multipliers[first : first + len(limits)].tolist()
     active = [(limit.name, value) for limit, value in zip(limits, of_limits, strict=True) if value > PRESSING]
     return dict(sorted(active, key=lambda limit: -limit[1]))
+
+
+def room_of(optimizer: Optimizer, run: Run) -> dict[str, float]:
+    """Return how far within each limit a design is, by name [shares of its scale]."""
+    problem = optimizer.problem
+    problem.grids = run.grids
+    rows = problem.at(run.unknowns, optimizer.parameters(Objective(optimizer.study.minimize))).rows
+    return {limit.name: -float(row) for limit, row in zip(problem.limits, rows[problem.equation_count :], strict=False)}
