@@ -2,7 +2,6 @@
 
 import math
 import re
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from types import SimpleNamespace
@@ -17,7 +16,7 @@ from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting, conflict_in_words
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen, _broken, _one_design, designs_all_over
-from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
+from tvimdesign.solve.nlp.solver_run import ITERATIONS_OVER, NO_DESIGN, SOLVED, Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import optimize
@@ -317,26 +316,25 @@ solver: {cells: 6, starts: 1}
 """
 
 
-@pytest.fixture(scope="module")
-def screen() -> FeasibilityScreen:
-    return FeasibilityScreen(Optimizer(read_study_text(STUDY, "test")))
-
-
 @pytest.mark.parametrize(
-    ("sums", "worsts", "impossible", "count"),
-    [([0.1, 0.2, 0.1], [0.1, 0.3], True, 5), ([0.1, 0.0, 0.1], [], False, 2), ([0.1, np.nan, 0.1], [], False, 2),
-     ([0.1, 0.2, 0.1], [0.1, 0.0], False, 5), ([0.1, 0.2, 0.1], [np.nan, np.nan], True, 5)],
-    ids=["neither finds one", "the sum finds one", "a sum has no least", "a worst finds one", "a worst has no least"],
+    ("statuses", "impossible", "count"),
+    [([NO_DESIGN, NO_DESIGN], True, 2), ([SOLVED], False, 1), ([NO_DESIGN, ITERATIONS_OVER], False, 2)],
+    ids=["none has a point", "one has", "one does not end"],
 )  # fmt: skip
-def test_limits_are_infeasible_if_neither_measure_finds_a_point(screen, monkeypatch, sums, worsts, impossible, count):
-    begins = [np.full(2, float(place)) for place in range(3)]
-    left = {"sum": iter(sums), "worst": iter(worsts)}
-    places: list[float] = []
+def test_limits_are_infeasible_if_every_search_ends_without_a_point(monkeypatch, statuses, impossible, count):
+    screen, ends = FeasibilityScreen(Optimizer(read_study_text(STUDY, "test"))), list[str]()
 
-    def least(solver: Any, _within: Mapping[str, Ends], begin: Array) -> float:
-        places.append(float(begin[0]))
-        return next(left["sum" if solver is screen._sum else "worst"])
+    def status(*_: Any) -> str:
+        ends.append(statuses[len(ends)])
+        return ends[-1]
 
-    monkeypatch.setattr(screen, "_least", least)
-    assert screen.impossible({}, begins) is impossible
-    assert places == [0.0, 1.0, 2.0, 0.0, 2.0][:count]
+    monkeypatch.setattr(screen, "_status", status)
+    assert screen.impossible({}, [np.zeros(2)] * 2) is impossible
+    assert len(ends) == count
+
+
+def test_screen_tells_limits_that_can_be_met_from_those_that_cannot():
+    light = STUDY.replace("minimize", 'require: {module_mass: "<= 1 g"}\nminimize')
+    for text, impossible in ((STUDY, False), (light, True)):
+        optimizer = Optimizer(read_study_text(text, "test"))
+        assert FeasibilityScreen(optimizer).impossible({}, [optimizer.model.start]) is impossible

@@ -267,7 +267,7 @@ def test_a_search_for_more_of_a_further_unknown_ends_where_it_creeps(worth, step
     ends = {"lbx": np.zeros(2), "ubx": np.ones(2), "lbg": np.full(1, -np.inf), "ubg": np.zeros(1)}
 
     class Creeping:
-        share = 0.0
+        share, feasible = 0.0, False
 
         def __call__(self, *_: Any, **__: Any) -> dict[str, Any]:
             self.share += 1e-3
@@ -278,8 +278,8 @@ def test_a_search_for_more_of_a_further_unknown_ends_where_it_creeps(worth, step
 
     solver = Creeping()
     programme = cast(ExtendedProblem, SimpleNamespace(problem=problem, at=point))
-    region = trust_region.TrustRegion(programme, lambda _: cast(Any, solver), NEVER, ends)
-    region.solve(np.array([0.5, 0.0]), {}, "near")
+    region = trust_region.TrustRegion(programme, cast(Any, solver), NEVER, ends)
+    region.solve(np.array([0.5, 0.0]), near=True)
     assert region.iterations == steps
 
 
@@ -293,6 +293,6 @@ def test_a_step_is_taken_if_it_beats_each_point_in_one_way(objective, breach, *,
     problem = SimpleNamespace(model=model, unknown_count=1)
     programme = cast(ExtendedProblem, SimpleNamespace(problem=problem))
     ends = {"lbg": np.array([-np.inf]), "ubg": np.zeros(1)}
-    region = trust_region.TrustRegion(programme, lambda _: cast(Any, None), NEVER, ends)
+    region = trust_region.TrustRegion(programme, cast(Any, None), NEVER, ends)
     region._filter = [(1.0, 0.1), (2.0, 0.0)]
     assert region._better(cast(Point, SimpleNamespace(objective=objective, rows=np.array([breach])))) is taken

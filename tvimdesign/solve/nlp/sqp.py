@@ -32,7 +32,7 @@ FLAT, FLATTEST, STEEPEST = 1e-2, 1e-5, 1e4
 """Curvature before any is known, what is added to it, and the largest that is believed, for multipliers up to one."""
 SLACKS = 16
 SHORT = 1e-6  # Step along which gradients change by too little to learn from
-FIRST_RADIUS, LARGEST, LEAST = 1.0, 10.0, 1e-11
+FIRST_RADIUS, LARGEST, LEAST = 1.0, 10.0, 1e-8
 GOOD, FAIR, LITTLE, POOR = 0.75, 0.25, 0.1, 0.01
 """Shares of the expected gain: from the first on the region grows, below the second it shrinks, below the third a
 second step is tried, and below the last a step is taken back."""
@@ -275,6 +275,8 @@ class _Search:
         """Return whether a feasible point is an optimum, as far as steps can be computed."""
         here = self.here
         change = here.point.gradient @ step.by + 0.5 * step.by @ self._curvature @ step.by
+        if here.toll == 0.0 and step.length <= LEAST:
+            return True
         if here.toll > 0.0 or change < -SETTLED * (1.0 + abs(here.point.objective)):
             return False
         if step.length >= 0.999 * self._radius > SHORT:
