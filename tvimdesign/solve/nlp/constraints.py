@@ -15,7 +15,7 @@ from tvimdesign.study import Range, Study, brought_along_by, given
 from tvimdesign.study.resolve import missing_geometry
 
 ALGEBRAIC_TOLERANCE = 1e-6
-"""Share of its scale by which a limit that needs no simulation may be violated: the solver's tolerance with a margin."""
+"""Share of its scale by which a limit without simulation may be violated: the solver's tolerance with a margin."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Sequential quadratic programming for programmes of few unknowns and many limits, most of which are slack.
+"""Sequential quadratic programming for programmes of few unknowns and many limits, nearly all of them slack.
 
 Each step minimises a quadratic model of the Lagrangian, whose curvature is learned from its gradients (BFGS, damped),
 within a trust region and the limits' linear models. Where these have no point in common, every limit yields at a price,
