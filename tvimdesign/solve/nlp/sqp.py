@@ -30,6 +30,8 @@ STATIONARY, SETTLED = 5e-7, 1e-9
 """Slope of the Lagrangian at an optimum, and the fall of the objective that is still expected there."""
 FLAT, FLATTEST, STEEPEST = 1e-2, 1e-5, 1e4
 """Curvature before any is known, what is added to it, and the largest that is believed, for multipliers up to one."""
+CREEP, PATIENCE = 1e-6, 5
+"""Change of a feasible objective that is next to none; steps in a row without more that end a run."""
 SLACKS = 16
 SHORT = 1e-6  # Step along which gradients change by too little to learn from
 FIRST_RADIUS, LARGEST, LEAST = 1.0, 10.0, 1e-8
@@ -202,6 +204,8 @@ class _Search:
         self._solver, self._programme, self._ends = solver, programme, ends
         self._price, self._radius, self.iterations = FIRST_PRICE, FIRST_RADIUS, 0
         self._curvature, self._learned = FLAT * np.eye(len(ends["lbx"])), False
+        self._creeping = 0
+        """Steps in a row that hardly change anything."""
         self.here: _Here
         self.last: Step | None = None
 
@@ -228,8 +232,13 @@ class _Search:
                 status = ITERATIONS_OVER
             elif deadline.passed:
                 status = TIME_OVER
+            elif self._creeping >= PATIENCE and self.here.toll == 0.0:
+                status = SOLVED
             else:
+                before = self.here.point.objective
                 self._take(step)
+                still = abs(self.here.point.objective - before) <= CREEP
+                self._creeping = self._creeping + 1 if still and self.here.toll <= CREEP else 0
                 if (self._solver.feasible and self.here.toll == 0.0) or self._radius < LEAST:
                     status = SOLVED if self.here.toll == 0.0 else NO_DESIGN
         return status

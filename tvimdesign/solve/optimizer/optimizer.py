@@ -23,7 +23,7 @@ from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters
 from tvimdesign.solve.nlp.solution import EasedRequirement, Start
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, SOLVED, TIME_OVER, Array, Derivatives, Ends, Progress, Run, Trace
-from tvimdesign.solve.nlp.sqp import SqpSolver
+from tvimdesign.solve.nlp.sqp import MOST_ITERATIONS, SqpSolver
 from tvimdesign.solve.nlp.trust_region import TrustRegion
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
@@ -187,9 +187,8 @@ class Optimizer:
         key = (feasible, unknowns)
         if key not in self._solvers:
             options, sizes = self.study.solver, (self.problem.row_count, self.problem.equation_count)
-            self._solvers[key] = SqpSolver(
-                unknowns, *sizes, options.tolerance, options.max_iterations, feasible=feasible
-            )  # fmt: skip
+            most = min(options.max_iterations, MOST_ITERATIONS)
+            self._solvers[key] = SqpSolver(unknowns, *sizes, options.tolerance, most, feasible=feasible)
         return self._solvers[key]
 
     def solve(
