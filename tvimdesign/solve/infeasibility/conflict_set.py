@@ -224,7 +224,7 @@ def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int
     if settled is None:
         candidates, settled = list(range(elastic.count)), least
     else:
-        candidates = [k for k in candidates if settled.pressing[k] > _FAINT]
+        candidates = [k for k in candidates if settled.pressing[k] > _FAINT] or candidates
     # The machine's rules leave first, and the study's requirements last: those are what a user can move.
     for k in sorted(
         candidates, key=lambda place: (limits[place].origin == "require", least.slacks[place] > FEASIBILITY_TOL)
@@ -234,7 +234,7 @@ def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int
         if unknown > _MOST_UNKNOWN:
             return [int(k) for k in np.flatnonzero(least.slacks > FEASIBILITY_TOL)], least.ends
         if without is not None:
-            candidates, settled = [other for other in fewer if without.pressing[other] > _FAINT], without
+            candidates, settled = [other for other in fewer if without.pressing[other] > _FAINT] or fewer, without
     return candidates, settled.ends
 
 

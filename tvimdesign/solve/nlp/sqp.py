@@ -30,7 +30,7 @@ STATIONARY, SETTLED = 5e-7, 1e-9
 """Slope of the Lagrangian at an optimum, and the fall of the objective that is still expected there."""
 FLAT, FLATTEST, STEEPEST = 1e-2, 1e-5, 1e4
 """Curvature before any is known, what is added to it, and the largest that is believed, for multipliers up to one."""
-CREEP, PATIENCE = 1e-6, 5
+CREEP, PATIENCE = 1e-7, 5
 """Change of a feasible objective that is next to none; steps in a row without more that end a run."""
 SLACKS = 16
 SHORT = 1e-6  # Step along which gradients change by too little to learn from
@@ -238,7 +238,7 @@ class _Search:
                 before = self.here.point.objective
                 self._take(step)
                 still = abs(self.here.point.objective - before) <= CREEP
-                self._creeping = self._creeping + 1 if still and self.here.toll <= CREEP else 0
+                self._creeping = self._creeping + 1 if still and self.here.toll <= 10.0 * CREEP else 0
                 if (self._solver.feasible and self.here.toll == 0.0) or self._radius < LEAST:
                     status = SOLVED if self.here.toll == 0.0 else NO_DESIGN
         return status

@@ -99,7 +99,7 @@ def _infeasible(answer: StudyResult) -> str:
     solution = answer.solution
     if solution is not None and solution.conflict_set:
         sides = [in_labels(side.text) for side in solution.conflict_set.sides]
-        both = " and ".join(sides[:2]) + (f" and {len(sides) - 2} more limits" if len(sides) > 2 else "")
+        both = " and ".join(sides[:2]) + (f" and {len(sides) - 2} more" if len(sides) > 2 else "")
         return f"Infeasible because {both} cannot {'hold' if len(sides) == 1 else 'hold together'}"
     if solution is not None and solution.out_of_time is not None:
         return "No design found in time: raise solver.time_limit"
