@@ -75,7 +75,7 @@ def over_stroke(m: Module) -> list[Wound]:
     return [pair_turned(angle, m.preload_angle, m.pin_radius, m.placement_radius, m.leg_offset) for angle in angles]
 
 
-@quantities.output("N*m")
+@quantities.output("N*m", at_least(0.0, "the springs push the soft joint away: less preload_angle, or a longer leg"))
 def spring_torque_full_stroke(m: Module) -> Scalar:
     """Torque of all springs about the axis at full stroke."""
     return m.spring_pairs * m.held_spring_rate * m.over_stroke[3][0]

@@ -6,9 +6,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 from scipy.special import erf
+from support import study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
+from tvimdesign.simulation.working_cycle.device_functions import resolve_study
+from tvimdesign.solve.nlp.constraints import constraints_of
+from tvimdesign.study import read_study
 
 TABLE = table_for("shear")
 ROWS = [
@@ -185,3 +189,18 @@ def test_bond_and_blocks_bear_the_load_when_it_has_just_come_on(inputs, squeezed
     pressure, torque = borne(COMPRESSION, squeezed, "block_pressure@hot")
     # Six blocks of 14 x 3.5 mm at 33 mm.
     assert pressure == pytest.approx(torque / (6 * 49e-6 * 33e-3), rel=1e-9)
+
+
+def test_springs_that_push_the_joint_away_violate_a_rule():
+    """Wind the finger's springs by 2 rad: their torque at full stroke is below zero, as friction over it is."""
+    study = read_study(study_path("finger"))
+    model = resolve_study(study).functions
+    (limit,) = (
+        limit for limit in constraints_of(study, study.table, model.words)
+        if limit.output == "spring_torque_full_stroke" and limit.sense == ">="
+    )  # fmt: skip
+    for preload, violated in ((model.start[model.index["preload_angle"]], False), (2.0, True)):
+        inputs = model.start.copy()
+        inputs[model.index["preload_angle"]] = preload
+        values = model.some_values([limit.output], inputs, dict.fromkeys(model.switch_names, np.inf))
+        assert (limit.residual(values[limit.output]) > 0.0) is violated
