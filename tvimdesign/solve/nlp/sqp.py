@@ -33,6 +33,7 @@ FLAT, FLATTEST, STEEPEST = 1e-2, 1e-5, 1e4
 CREEP, PATIENCE = 1e-7, 5
 """Change of a feasible objective that is next to none; steps in a row without more that end a run."""
 SLACKS = 16
+SAME = 1e-9  # Difference of slopes and rooms up to which two limits are one
 SHORT = 1e-6  # Step along which gradients change by too little to learn from
 FIRST_RADIUS, LARGEST, LEAST = 1.0, 10.0, 1e-8
 GOOD, FAIR, LITTLE, POOR = 0.75, 0.25, 0.1, 0.01
@@ -173,6 +174,11 @@ class SqpSolver:
         of_bounds = np.zeros(len(here.x))
         if search.last is not None:
             of_limits, of_bounds = search.last.of_limits, search.last.of_bounds
+        for i in np.flatnonzero(of_limits > 0.0):  # a limit that is written twice presses once with each
+            apart = np.max(
+                np.abs(np.column_stack([here.slopes, here.passed]) - [*here.slopes[i], here.passed[i]]), axis=1
+            )
+            of_limits[apart < SAME] = np.mean(of_limits[apart < SAME])
         of_rows = of_limits[: self.rows].copy()
         of_rows[: self.equations] -= of_limits[self.rows :]
         return {"x": here.x, "f": here.point.objective, "lam_g": of_rows, "lam_x": of_bounds}
