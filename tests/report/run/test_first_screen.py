@@ -280,6 +280,16 @@ def test_the_frozen_link_leans_until_the_bearing_holds_its_core():
     assert branches == {leaning, upright}
 
 
+@pytest.mark.parametrize(
+    ("cold", "text"), [(386.0, "stiff 182 s later, full load after 386 s"), (90.0, "stiff 182 s later")]
+)
+def test_the_times_name_when_the_joint_may_be_loaded_fully(cold, text):
+    design = case("paper_compression alone").result.design
+    values = design.values | {"stiffening_time": 182.0, "far_face_cooling_time": cold}
+    answered = replace(case("paper_compression alone").result, design=design.model_copy(update={"values": values}))
+    assert next(fact for fact in main_facts(answered, {}) if fact.label == "Times").parts[1] == text
+
+
 def test_the_cost_names_parts_without_a_price():
     answered = case("paper_compression alone")
 

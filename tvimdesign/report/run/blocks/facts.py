@@ -97,7 +97,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     peaks = f"at most {value('peak_power')}, {value(current)}, {heater_voltage(answer, uncertainty)}"
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
-        Fact("Times", list(_times(value)), _frozen(value)),
+        Fact("Times", list(_times(value)), _coldest(value)),
         *_impedance(value, min(requested_torque(answer.design), answer.design.values["holding_torque"])),
         *_drag(value),
         *_task(value, answer.design.choices),
@@ -118,18 +118,15 @@ def heater_voltage(answer: StudyResult, uncertainty: Mapping[str, Any]) -> str:
 
 
 def _times(value: _Values) -> Iterator[str]:
-    soft, stiff = (value.values[name] for name in ("softening_time", "stiffening_time"))
-    yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}{_coldest(value)}"
+    """Yield when the joint is soft, and, from the end of heating, when it is stiff and when it may be loaded fully."""
+    names = ("softening_time", "stiffening_time", "far_face_cooling_time")
+    soft, stiff, cold = (value.values[name] for name in names)
+    yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}"
     if math.isfinite(stiff):
-        yield f"stiff {value('stiffening_time')} later"
+        loaded = f", full load after {with_unit(cold, 's', _DIGITS)}" if stiff < cold < math.inf else ""
+        yield f"stiff {value('stiffening_time')} later{loaded}"
     elif math.isfinite(soft):
         yield "never stiff again"
-
-
-def _frozen(value: _Values) -> str:
-    """Return when the PCL is frozen, where the joint is stiff before; else empty."""
-    later = value.values["stiffening_time"] < value.values["frozen_time"] < math.inf
-    return f"frozen {with_unit(value.values['frozen_time'], 's', _DIGITS)}" if later else ""
 
 
 def _coldest(value: _Values) -> str:
@@ -140,7 +137,7 @@ def _coldest(value: _Values) -> str:
     entry = value.intervals.get("softened_temperature")
     known = entry is not None and None not in (entry["low"], entry["high"])
     ends = range_text({end: round(entry[end]) for end in ("low", "value", "high")}) if known else ""
-    return f", PCL above {reached:.0f} {pretty('degC')}{f' ({ends})' if ends else ''}"
+    return f"PCL above {reached:.0f} {pretty('degC')}{f' ({ends})' if ends else ''}"
 
 
 def _stroke(value: _Values) -> Fact:
