@@ -112,6 +112,7 @@ def test_a_printed_seat_of_a_bearing_has_a_class_about_its_size_as_drawn(kind, a
     seat = next(seat for seat in requirements.seats if seat.about == about)
     assert (seat.form, seat.frames) == (f"{tool} or eased to size", ())
     assert not any("run-out" in note for note in requirements.notes)
+    assert any("dial bore gauge" in note for note in requirements.notes)
     solid, what = drawn_part(dims, kind), product(design, kind)
     document = part_sheet(kind, solid, what, design.name, requirements).document
     no_text_lies_on_another(kind, document)

@@ -163,6 +163,14 @@ def test_the_fork_s_sheet_has_its_legs_as_drawn_with_their_tolerance():
     assert "Printing: turned over; print/ has it so, with wider holes." in sheet_texts
 
 
+def test_a_long_note_stays_within_the_frame():
+    sheet = DrawingSheet(2.0)
+    sheet.column(["two leads of some gauge, side by side " * 8, "short"], (220.0, 280.0))
+    written = list(sheet.document.modelspace().query("TEXT"))
+    assert len(written) > 3
+    assert max(text_size(entity).width for entity in written) * sheet.scale <= TITLE_WIDTH
+
+
 def no_text_lies_on_another(kind: str, document: Drawing) -> None:
     boxes = []
     for entity in document.modelspace().query("TEXT"):

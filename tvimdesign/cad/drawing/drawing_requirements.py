@@ -77,6 +77,7 @@ DATUM = "B"  # Letter of the datum; A is the section's
 GROUND = "C"  # Letter of the lowest face
 _POINTS = "Depths of blind holes are without the drill's point, {angle:.0f}°."
 _FEET = "Fillets at the feet of core and pins R{radius}."
+_EASED_SEATS = "Check a seat eased to size by its mating part; a hole also by a dial bore gauge."
 _BEARINGS = "At bearings: run-out of the shoulder; its fillet R 0.1 at most."
 """0.1 mm is the least chamfer of the rings in the catalogue, with which every bearing comes to its shoulder."""
 
@@ -190,6 +191,7 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
             general["edges"],
             *([_BEARINGS] if is_milled and any("bearing" in seat for seat in seats) else []),
             *([_POINTS.format(angle=degrees(dims.drill_point_angle))] if is_milled and threads else []),
+            *([_EASED_SEATS] if not is_milled and any(seat["printed"] is not True for seat in seats) else []),
             *([_FEET.format(radius=figure(dims.foot_fillet))] if kind == "rotor" else []),
             *_remarks(kind, dims, choices),
         ],

@@ -3,7 +3,7 @@
 import io
 import random
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
@@ -116,6 +116,15 @@ class Field:
     share: float = 0.5  # Of the block's width
 
 
+def _within(text: str, room: float, width: Callable[[str], float]) -> list[str]:
+    """Return a text in lines whose width is at most some room."""
+    lines = [""]
+    for word in text.split():
+        longer = f"{lines[-1]} {word}".lstrip()
+        lines = [*lines[:-1], longer] if not lines[-1] or width(longer) <= room else [*lines, word]
+    return lines
+
+
 class DrawingSheet:
     """A sheet at a scale. Places are in mm on paper; geometry keeps its size, and the frame is scaled."""
 
@@ -167,8 +176,9 @@ class DrawingSheet:
         entity.set_placement(self.at(at), align=TextEntityAlignment[align])
 
     def column(self, lines: Sequence[str], at: Point, pitch: float = 4.6, height: float = _TEXT) -> None:
-        """Write lines of text below one another, the first below a place on paper."""
-        for index, line in enumerate(lines):
+        """Write texts below one another, the first below a place on paper, each within the width of the title block."""
+        width = fonts.make_font(_FONT, height).text_width
+        for index, line in enumerate(line for text in lines for line in _within(text, TITLE_WIDTH, width)):
             self.text(line, (at[0], at[1] - (index + 1) * pitch), height)
 
     def title_block(self, title: str, rows: Sequence[Sequence[Field]]) -> None:
