@@ -260,6 +260,8 @@ def test_steps_that_open_bring_no_part_and_each_says_who_holds_what():
         needs = step["needs"]
         assert needs["hands"] in (1, 2), step["text"]
         assert all(needs[name] for name in ("fixture", "tools", "access", "checked")), step["text"]
+        gauges = [tool for tool in ("micrometer", "calliper", "gauge") if tool in needs["checked"]]
+        assert all(tool in needs["tools"] for tool in gauges), step["text"]
         # Whoever holds a part with a screwdriver while another tool turns its screw is not alone.
         if "to hold the adjuster" in step["text"]:
             assert needs["hands"] == 2

@@ -172,7 +172,8 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures():
     (item,) = bill(design, _titles(design), {"heater_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
     each = 45.0 * design.values["peltier_volume"] / (1.6e-3 * 1600e-6) / 4.0  # 45 ohm of 1600 mm2, four pads
     amperes, area = 2.1, 1e4 * design.values["peltier_volume"] / 1.6e-3 / 4.0  # in series; cm2
-    power = f"{each * amperes**2:.3g} W each, at {each * amperes:.3g} V and 2.1 A, {each * amperes**2 / area:.2g} W/cm²"
+    works = f"{each * amperes:.3g} V and 2.1 A, {each * amperes**2 / area:.2g} W/cm²"
+    power = f"rated for at least {each * amperes**2:.3g} W each, at {works}"
     # 2.1 A want AWG 22; the leads leave within the window, behind ledges of 2 mm.
     for words in (
         f"{each:.3g} ohm each, ± 10 %",

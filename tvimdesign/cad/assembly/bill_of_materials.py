@@ -336,7 +336,7 @@ def _of_the_heater(design: Design) -> list[Item]:
         count = round(design.value("arc_count")) if hole else 1
         items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
     if design.values.get("cutout_diameter", 0.0) > 0.0:
-        film = f"Polyimide film with adhesive for {rating(design)}, to wrap the thermal cut-out"
+        film = f"Polyimide film with adhesive for {rating(design)}, to wrap the thermal cut-out and to hold it"
         items.append(Item("polyimide_film", 1, False, "", film, 0.0, ()))
         covers += 2
     sleeves = f"Sleeve of PTFE or glass fibre for {rating(design)}, over each bare wire of thermistors and cut-out"

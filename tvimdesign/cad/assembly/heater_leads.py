@@ -270,7 +270,7 @@ def _wire(current: float) -> "Wire | None":
 
 
 def heater_order(design: Design) -> list[str]:
-    """Return what a heater that only heats is ordered by: resistance, watts at its voltage, and its leads.
+    """Return what a heater that only heats is ordered by: resistance, the rating that the design needs, and leads.
 
     Nothing for Peltier modules, which are bought by their number.
     """
@@ -287,7 +287,7 @@ def heater_order(design: Design) -> list[str]:
         works = f"{amperes * ohms:.3g} V and {amperes:.3g} A"
         works += f", which the driver makes from {design.supply_voltage:.4g} V" if design.supply_voltage else ""
         order += [
-            f"at most {watts:.3g} W each, at {works}, {dense:.2g} W/cm²",
+            f"rated for at least {watts:.3g} W each, at {works}, {dense:.2g} W/cm²",
             "only behind the driver, which limits the current",
         ]
         leads += f" of {wire.gauge} or thicker" if (wire := _wire(amperes)) else f" for {up(amperes)} A"
