@@ -147,3 +147,10 @@ def test_warnings_are_of_the_same_designs(outcome):
     assert mass["si_unit"] == "kg"
     mine = {"s": outcome.answers["s"]}
     assert Outcome({"s": outcome.cases["s"]}, mine).which == "optimised"
+
+
+def test_a_comparison_says_first_which_design_is_infeasible():
+    answers = {label: {"optimised": {"broken": broken}} for label, broken in (("a", []), ("b", ["diameter <= 70 mm"]))}
+    outcome = Outcome({}, answers, ["one"])
+    outcome.designs = {"optimised": {"a": None, "b": None}}
+    assert outcome._violated("optimised") == ["b is infeasible: not diameter <= 70 mm"]

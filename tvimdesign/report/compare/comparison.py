@@ -154,10 +154,7 @@ class Outcome:
         sentences = [self.sentence, *self._verdicts()]
         for which in self.rows:
             texts = self._against(which) if which != self.which else []
-            broken = [
-                f"{label} as drawn does not meet {', '.join(self.answers[label][which]['broken'])}"
-                for label in self.designs[which] if self.answers[label][which]["broken"]
-            ]  # fmt: skip
+            broken = self._violated(which) if which != self.which else []
             sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in (*texts, *broken)]
         return [*sentences, *(standing(contest) for contest in self.contests)]
 
@@ -169,7 +166,7 @@ class Outcome:
     @property
     def sentence(self) -> str:
         """The answer with its conditions: how the others stand against the first."""
-        reported = [*self._without_design(), *self._against(self.which)]
+        reported = [*self._without_design(), *self._violated(self.which), *self._against(self.which)]
         alike = ", ".join(conditions(self.cases))
         count = f"{len(self.differences)} different conditions (below)"
         return f"With {count if self.differences else alike}, {COMPARISONS[self.which]}: {'; '.join(reported)}."
@@ -182,6 +179,10 @@ class Outcome:
             for label, trouble in self.troubles
             if trouble["step"] == "optimised"
         ]
+
+    def _violated(self, which: str) -> list[str]:
+        answers = {label: self.answers[label][which]["broken"] for label in self.designs[which]}
+        return [f"{label} is infeasible: not {', '.join(broken)}" for label, broken in answers.items() if broken]
 
     def _against(self, which: str) -> list[str]:
         labels = list(self.designs[which])
@@ -344,7 +345,7 @@ def _searches(outcome: Outcome) -> Iterator[str]:
             took = "" if seconds is None else f"; {seconds:.1f} s"
             yield (
                 f"{label}: {search['converged']} of {search['starts']} starts converged, {agree}, objective "
-                f"{', '.join(optima)} over what is drawn on average{took}."
+                f"{', '.join(optima)}{took}."
             )
         if names := answer.get(which, {}).get("accepting"):
             yield f"{label} is beyond its rating, as its study accepts: {', '.join(names)}."
