@@ -290,6 +290,16 @@ def test_the_times_name_when_the_joint_may_be_loaded_fully(cold, text):
     assert next(fact for fact in main_facts(answered, {}) if fact.label == "Times").parts[1] == text
 
 
+def test_the_three_frozen_stiffnesses_have_their_names():
+    answered = case("paper_compression alone")
+    values = answered.result.design.values
+    fact = next(fact for fact in more_facts(answered.result, {}, None) if fact.label == "Frozen")
+    figures = [float(part.split()[0]) for part in fact.parts]
+    names = ("joint_stiffness_in_play", "joint_stiffness_at_link@cold", "joint_stiffness@cold")
+    assert figures == [pytest.approx(values[name], rel=0.01) for name in names]
+    assert all(word in part for word, part in zip(("leaning", "upright", "hub"), fact.parts, strict=True))
+
+
 def test_the_cost_names_parts_without_a_price():
     answered = case("paper_compression alone")
 
@@ -299,8 +309,8 @@ def test_the_cost_names_parts_without_a_price():
         return next(fact.text for fact in facts if fact.label == "Cost")
 
     assert "12.3 USD" in cost(cost=12.3)
-    assert "2 parts have no listed price" in cost(unpriced_count=2.0)
-    assert "no listed price" not in cost(unpriced_count=0.0)
+    assert "2 of its parts have no price and count nothing" in cost(unpriced_count=2.0)
+    assert "count nothing" not in cost(unpriced_count=0.0)
 
 
 def test_the_temperatures_of_a_switch_rise_along_their_line():

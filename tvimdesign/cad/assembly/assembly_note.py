@@ -36,7 +36,7 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{cad_report.BILL_OF_MATERIALS}`.", ""]
     lines += ["| also needed | |", "|---|---|"] if extra else []
     lines += [f"| {_words(item.kind)} | {item.title}{_about(item.mass)} |" for item in extra]
-    lines += ["", _cost([*items, *extra])]
+    lines += ["", _cost([*items, *extra], design.values.get("cost", 0.0))]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [item for item in items if item.made]), "## Steps", ""]
     steps = written_steps(design, dims, items)
@@ -53,12 +53,13 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     return "\n".join(lines).encode()
 
 
-def _cost(items: Sequence[Item]) -> str:
-    """Return the sum of what has a price, and how much has none."""
+def _cost(items: Sequence[Item], used: float) -> str:
+    """Return the sum of what has a price, what of it [USD] one module uses, and how much has none."""
     sums = cost(items)
+    uses = f"One module uses {used:.3g} USD of material and of shares of packs. " if used > 0.0 else ""
     return (
         f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list, some of them a neighbour's: "
-        f"{between(sums.low, sums.high)} for whole packs. "
+        f"{between(sums.low, sums.high)} for whole packs. {uses}"
         f"Ask suppliers for quotes of the others.{_made_to_order(items)}"
     )
 

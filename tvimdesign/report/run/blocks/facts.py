@@ -298,6 +298,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Soft", _soft(answer)),
         Fact("Stiff", list(_stiff(answer, uncertainty))),
         Fact("Temperatures", [_temperatures(answer)]),
+        Fact("Frozen", _frozen_stiffnesses(_Values(answer, uncertainty))),
         Fact("Held", list(_creep(_Values(answer, uncertainty), answer))),
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
@@ -307,6 +308,16 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         *_yield(answer, uncertainty, table),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
+
+
+def _frozen_stiffnesses(value: _Values) -> list[str]:
+    """Name the three stiffnesses of the frozen joint at its cold point."""
+    names = {
+        "joint_stiffness_in_play": "at the link, its core leaning in the bearing's play",
+        "joint_stiffness_at_link@cold": "at the link, its core upright",
+        "joint_stiffness@cold": "at the hub, without the link",
+    }
+    return [f"{value(name)} {words}" for name, words in names.items() if name in value.values]
 
 
 def _creep(value: _Values, answer: StudyResult) -> Iterator[str]:
@@ -325,10 +336,11 @@ def _creep(value: _Values, answer: StudyResult) -> Iterator[str]:
 
 
 def _cost(value: _Values) -> Iterator[str]:
-    """Yield what priced parts and materials cost, and how many parts have no price."""
-    yield f"{value('cost')} for priced parts and the material of the others, without work"
+    """Yield what one module uses, and how many of its parts that leaves out; whole packs are counted by the bill."""
+    yield f"{value('cost')} of material and of shares of packs in one module, without work"
+    yield "whole packs, supply and electronics to buy: cad/assembly.md"
     if unpriced := round(value.values["unpriced_count"]):
-        yield f"{unpriced} parts have no listed price: get quotes and enter them in the study's module section"
+        yield f"{unpriced} of its parts have no price and count nothing: enter quotes in the study's module section"
 
 
 def _soft(answer: StudyResult) -> list[str]:
