@@ -65,6 +65,10 @@ def print_schema() -> None:
     print(written_studies.schema_text(), end="")
 
 
+_NO_ROOM = (
+    "no listed hardware leaves room for errors of assumed values: where one is worse than assumed, the module may miss "
+    "a limit; a larger --diameter, a longer --time or less --torque makes room"
+)
 _CANDIDATES = 3  # Sets of hardware that are tried, the best fit first
 _BESIDE = 2  # Sets of hardware that are tried with other numbers
 _WIDER, _ROOM = (1.1, 1.25), 1.03
@@ -96,7 +100,7 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
         robust = read_study_text(text).robust
         cautious = robust is not None and robust.plausible is not None
         notes += [] if task.process or not room else [f"{process_of(text)}; --process changes it"]
-        notes += [] if cautious else ["no hardware has room for the assumed values: they must hold"]
+        notes += [] if cautious else [_NO_ROOM]
         print(*notes, sep="\n", file=sys.stderr)
         try:
             run_study(file, out, overwrite=overwrite or not room, gives_up=cautious, **run)

@@ -240,6 +240,8 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
     ]  # fmt: skip
     heads = ("measure first", "assumed", "range", "limits met in a share of cases", "test")
     note = (
+        "Before the first module: tests by docs/how-to/my-printer.md, small prints that you draw. The others: on that "
+        "module, or by the maker's sheet. "
         "`tvimdesign new built.yaml --from FOLDER` keeps all chosen sizes: set what was measured there and "
         "run it. A measured wall or gap still redraws what follows from it; a new search draws other parts."
     )
