@@ -17,9 +17,11 @@ SEAT = ("thermistor_window_gap", "thermistor_arc_gap")
 """Of a thermistor that this module does not have."""
 CONSTANT = (
     "soft_reach", "stiff_reach", "key_width_margin", "key_pitch_margin", "hub_recess_margin", "free_angle_margin",
+    "spring_torque_full_stroke",
 )  # fmt: skip
 """Limits that are one for all designs of this problem, or that none can break: on impedance, keys that it has none of,
-the hub's recess, and the free angle of springs, which are all sorted to 1 degree."""
+the hub's recess, the free angle of springs, which are all sorted to 1 degree, and their torque, which turns with the
+rotor."""
 BY_STOP_WIDTH = ("stop_face_safety", "stop_post_safety", "stop_width_margin")
 """Limits that by hand go on where stops have no room: the table keeps them at a sliver, where SLSQP is lost."""
 
