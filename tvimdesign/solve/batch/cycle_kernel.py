@@ -16,7 +16,7 @@ from tvimdesign.solve.batch.phase_kernel import Course, Fit, Passage, PhaseKerne
 
 Array = NDArray[np.float64]
 
-BLOCK = 512  # Designs that go through the cycle together
+BLOCK = 128  # Designs that go through the cycle together; smaller ones share threads evenly
 STEPS = Steps(40, 1.0 / 32.0, 1.15)
 COARSE = (
     Steps(8, 0.25, 2.0), Steps(10, 0.125, 2.0), Steps(12, 0.125, 2.0), Steps(16, 0.0625, 1.5), Steps(20, 0.03125, 1.5),

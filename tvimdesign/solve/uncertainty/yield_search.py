@@ -138,7 +138,8 @@ def tightened(
 ) -> Run | None:  # fmt: skip
     """Return the optimum with moved margins, or with the largest share of the moves that a design nearby bears.
 
-    Where the design itself leads to no optimum with all moves, others a little beside it may: those are shaken.
+    Where the design itself leads to no optimum with all moves, others a little beside it may: those are shaken, until
+    one leads to the same optimum.
     """
     margins, random = dict(optimizer.margins), np.random.default_rng(optimizer.study.solver.seed)
     best: tuple[float, Run, dict[str, float]] | None = None
@@ -147,9 +148,10 @@ def tightened(
         optimizer.margins = margins
         tried = optimizer.solve(within, unknowns=unknowns, objective=objective, moves=moves, near=True)
         taken = max((optimizer.margins.get(name, 0.0) - margins.get(name, 0.0)) / move for name, move in moves.items())
+        again = best is not None and same_optimum(best[1].start, tried.start)
         if tried.start.converged and taken > (best[0] if best else _NO_ROOM):
             best = taken, tried, optimizer.margins
-        if taken > 1.0 - _NO_ROOM or optimizer.deadline.passed:
+        if again or taken > 1.0 - _NO_ROOM or optimizer.deadline.passed:
             break
     else:
         if shakes:  # the share may stop at a kink near none, where the whole step has an optimum of its own
