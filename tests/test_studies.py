@@ -297,7 +297,7 @@ FIGURE = re.compile(r"\d+(\.\d+)? (°C|V|A)\b")
 def bought(path: Path) -> list[Item]:
     """Return the lines of the bill that are bought, of a study as it starts, as if it had been through its cycle."""
     design = as_it_starts(read_study(path))
-    design.values.update(peak_peltier_temperature=356.0, peak_cold_side_temperature=340.0, peak_current=2.0)
+    design.values.update(peak_heater_temperature=356.0, peak_cold_side_temperature=340.0, peak_current=2.0)
     design.values.update(stiffening_peak_current=0.5, peak_voltage=9.0, stiffening_peak_voltage=1.0)
     titles = _titles(design)
     kinds = MODULES[design.mode].kinds(dimensions(design))

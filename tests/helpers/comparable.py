@@ -8,7 +8,7 @@ from tvimdesign.study.conditions import Case
 _TASK = """require:
   spring_stiffness: ">= 5 N.m/rad"
   holding_torque: ">= 5 N.m"
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin,
+accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin,
          cold_side_temperature_margin]
 minimize: {module_mass: 1, response_time: 1}
 operating_points:

@@ -17,7 +17,7 @@ mode: shear
 module: {transmission: unity, placement_radius: 60 mm, pin_diameter: 6 mm}
 vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
 require: {spring_stiffness: ">= 5 N.m/rad"}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
 minimize: springs_mass
 tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
 solver: {starts: 1}
@@ -33,7 +33,7 @@ require:
   spring_stiffness: ">= 5 N.m/rad"
   holding_torque: ">= 5 N.m"
   peak_power: "<= 9 W"
-accept: [peltier_temperature_margin]
+accept: [heater_temperature_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 """
 """What varies in a block of a compression module, and what is asked of it; begins within `vary`."""

@@ -44,6 +44,7 @@ def test_every_word_and_every_term_finds_rows(mode):
         ("Power  Supply", "peak_power"), ("bolt", "link_screw"), ("plastic", "pcl_thickness"),
         ("play", "backlash"), ("lifetime", "spring_fatigue_safety"), ("travel", "stroke"),
         ("heat sink", "sink_capacity"), ("wire diameter", "wire_diameter"),
+        ("peltier_temperature_margin", "heater_temperature_margin"),
     ],
 )  # fmt: skip
 def test_what_an_engineer_looks_for_is_found(word, name):

@@ -114,7 +114,7 @@ def test_the_first_cycle_is_the_one_of_a_run():
     cycle = Duty(duty.model, duty.inputs, {}, 0.0).cycle(duty.ambient, 0.0)
     assert cycle is not None
     # It melts `melting_time` behind the equilibrium curve, which a run follows.
-    for name in ("response_time", "return_time", "peak_peltier_temperature", "peak_cold_side_temperature"):
+    for name in ("response_time", "return_time", "peak_heater_temperature", "peak_cold_side_temperature"):
         assert cycle.values[name] == pytest.approx(duty.cold.values[name], rel=0.01)
 
 

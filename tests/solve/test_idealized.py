@@ -112,7 +112,7 @@ minimize: module_mass
 solver: {starts: 1, cells: 8}
 """
 BOTH = ("structure_temperature_margin", "stiffening_structure_margin")
-PADS = "peltier_temperature_margin"  # of the default module, 7 K above their 120 degC
+PADS = "heater_temperature_margin"  # of the default module, 7 K above their 120 degC
 ACCEPTED = f"accept: [{', '.join((*BOTH, PADS))}]\n"
 
 

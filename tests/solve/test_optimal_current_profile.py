@@ -107,7 +107,7 @@ def test_a_cycle_with_profiles_is_not_longer_than_with_constants():
     # A constant current must be small from the start, for the pads' temperature at the end.
     constant, profile = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", "")), solve(CYCLE)
     for solution in (constant, profile):
-        assert solution.values["peak_peltier_temperature"] == pytest.approx(393.15, abs=100.0 * TOLERANCE)
+        assert solution.values["peak_heater_temperature"] == pytest.approx(393.15, abs=100.0 * TOLERANCE)
     assert constant.values["peak_power"] < 0.8 * 20.0
     assert profile.values["peak_power"] == pytest.approx(20.0, rel=TOLERANCE)
     assert profile.values["cycle_time"] < 0.95 * constant.values["cycle_time"]
@@ -135,9 +135,9 @@ def active(solution: Solution, name: str) -> ActiveConstraint:
 @pytest.mark.parametrize(
     ("text", "name", "written", "step", "shares"),
     [
-        (with_pieces(8), "peak_peltier_temperature <=", "120 degC", 1.0, 1.0),
+        (with_pieces(8), "peak_heater_temperature <=", "120 degC", 1.0, 1.0),
         (with_pieces(8), "peak_power <=", "15 W", 0.03, 0.2),
-        pytest.param(CYCLE, "peak_peltier_temperature <=", "120 degC", 1.0, 1.0, marks=pytest.mark.slow),
+        pytest.param(CYCLE, "peak_heater_temperature <=", "120 degC", 1.0, 1.0, marks=pytest.mark.slow),
         pytest.param(CYCLE, "peak_power <=", "20 W", 0.2, 1.0, marks=pytest.mark.slow),
         pytest.param(CYCLE, "stiffening_peak_voltage <=", "6 V", 0.06, 1.0, marks=pytest.mark.slow),
     ],

@@ -91,7 +91,7 @@ vary:
   wall_thickness: [0.8 mm, 5 mm]
   rotor_thickness: [1 mm, 6 mm]
   floor_thickness: [2.5 mm, 6 mm]
-accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin]
+accept: [heater_temperature_margin, structure_temperature_margin, stiffening_structure_margin]
 minimize: {{module_mass: 1}}
 solver: {{starts: 1}}
 """

@@ -34,7 +34,7 @@ vary:
   pcl_thickness: [0.6 mm, 2 mm]
   current: [0.5 A, 2.5 A]
 require: {holding_torque: ">= 2 N.m"}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
 minimize: {module_mass: 1, response_time: 1}
 solver: {starts: 6, cells: 6, fineness: 0.67, time_limit: 5 min}
 """

@@ -27,7 +27,7 @@ vary:
   pcl_thickness: [0.6 mm, 2 mm]
   current: [0.5 A, 2.5 A]
 require: {holding_torque: ">= 2 N.m"}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
 minimize: {module_mass: 1, response_time: 1}
 solver: {starts: 1, cells: 8}
 """

@@ -125,7 +125,7 @@ def _housing() -> str:
     service = material.entry("service_temperature")
     ends = (service.value, service.low or service.value, service.high or service.value)
     shown = [from_si(end, "degC") for end in ends]
-    peaks = [from_si(values[name], "degC") for name in ("peak_peltier_temperature", "peak_rotor_temperature")]
+    peaks = [from_si(values[name], "degC") for name in ("peak_heater_temperature", "peak_rotor_temperature")]
     return (
         f"{material.title}: {shown[0]:.0f} °C in continuous service ({shown[1]:.0f} to {shown[2]:.0f}, "
         f"{service.status}), with a glass transition at 75-85 °C; with the far face of the PCL at 100 °C the pads have "

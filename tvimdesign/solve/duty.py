@@ -34,7 +34,7 @@ REACHED = 1e-2
 """Distance of the scaled temperatures from the periodic state, one kelvin, from which on it counts as reached."""
 MOST_CYCLES, DEPTH = 200, 4  # Cycles at most, and of how many the next start is extrapolated (Anderson)
 FINE = 0.01  # Share to which the highest duty is found
-SHOWN = ("response_time", "return_time", "peak_peltier_temperature", "peak_cold_side_temperature",
+SHOWN = ("response_time", "return_time", "peak_heater_temperature", "peak_cold_side_temperature",
          "peak_pcl_temperature", "peak_liner_temperature", "peak_rotor_temperature")  # fmt: skip
 """What is reported of the periodic cycle."""
 

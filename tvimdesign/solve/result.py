@@ -255,7 +255,7 @@ def _seen(resolved: ResolvedModule, *, exists: bool) -> dict[str, tuple[float, f
 
 _COMPARED = {
     "softening": ("response_time", "softening_time", "switch_energy", "peak_power", "peak_voltage",
-                  "peak_peltier_temperature"),
+                  "peak_heater_temperature"),
     "stiffening": ("stiffening_time", "frozen_time", "stiffening_energy", "peak_cold_side_temperature"),
 }  # fmt: skip
 

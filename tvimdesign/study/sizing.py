@@ -247,7 +247,7 @@ require:
   response_time: "<= {task.time:.4g} s"
 {stiff}  peak_voltage: "<= {task.voltage:.4g} V"
 {supplied}  current_margin: ">= 0 A"             # of the heater
-  peltier_temperature_margin: ">= 5 K"
+  heater_temperature_margin: ">= 5 K"
   structure_temperature_margin: ">= 0 K"
   friction_share: "<= {task.friction:.1f}"             # over the springs' torque at full stroke
   spring_fatigue_safety: ">= 1.2"      # for 1e6 full strokes

@@ -265,7 +265,7 @@ class Study(_Part):
         return "optimize" if self.vary else "evaluate"
 
 
-CONTROLLED = ("response_time", "peak_peltier_temperature")  # Outputs that are simulated under the controller
+CONTROLLED = ("response_time", "peak_heater_temperature")  # Outputs that are simulated under the controller
 _SAME_TEMPERATURE = 1e-6  # Kelvin by which two temperatures may differ by rounding
 _CACHED = {"catalog": "catalog_folder", "table": "mode"}
 """What a study keeps once it is asked for, by the field it follows from."""

@@ -196,7 +196,7 @@ def test_a_draft_has_normals_outwards_and_the_edges_of_its_parts():
 
 NOTES = Path(__file__).with_name("notes")
 SWITCHED = {"current": 2.5, "response_time": 37.6, "hold_current": 0.75, "pin_force": 4.0,
-            "sensed_temperature": 325.15, "peak_peltier_temperature": 326.15}  # fmt: skip
+            "sensed_temperature": 325.15, "peak_heater_temperature": 326.15}  # fmt: skip
 TOLERANCE = {"plus_minus": radians(2.0)}
 ADJUSTED = {"row": "free_angle_tolerance", "adjustable": True, "adjusted_to": radians(1.0)}
 LOOSE: dict[str, Any] = {"tang_hold": "hole", "link_fit": "clearance"}

@@ -24,7 +24,7 @@ FUSE = Catalog().record("thermal_fuses", "ultimheat_5ma3")
 def switched(changes: dict[str, Any], hottest: float = 105.2, mode: str = "shear") -> Design:
     """Return a design that was taken through its cycle: its heater's highest temperature [degC] at 2.1 A."""
     design = design_of("switched", changes, mode)
-    design.values.update(peak_peltier_temperature=hottest + ZERO_CELSIUS, peak_cold_side_temperature=330.0)
+    design.values.update(peak_heater_temperature=hottest + ZERO_CELSIUS, peak_cold_side_temperature=330.0)
     design.values.update(peak_current=2.1, stiffening_peak_current=0.2, peak_voltage=9.0, stiffening_peak_voltage=1.0)
     return design
 
@@ -100,7 +100,7 @@ def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(parts, hottest
     changes = {"peltier_module": "silicone_9ar_08_24v", **parts}
     module = ", ".join(f"{name}: {word}" for name, word in changes.items())
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n")
-    peaks = {"peak_peltier_temperature": hottest + ZERO_CELSIUS, "peak_cold_side_temperature": 330.0}
+    peaks = {"peak_heater_temperature": hottest + ZERO_CELSIUS, "peak_cold_side_temperature": 330.0}
     margins = table_for("shear").evaluate(given(study) | peaks, ["cutout_margin", "cutout_holding_margin"])
     assert margins == pytest.approx({"cutout_margin": margin, "cutout_holding_margin": holding})
     cutout = listed(switched(changes, hottest))["thermal_cutout"]
@@ -137,7 +137,7 @@ def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out():
     bare = switched(foil | {"heater_fuse": "none"}, hottest=85.6)
     bare.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
     assert heater_leads.set_points_in_words(bare).endswith("below the 105 °C that the structure bears")
-    bare.values["peak_peltier_temperature"] = 103.4 + ZERO_CELSIUS
+    bare.values["peak_heater_temperature"] = 103.4 + ZERO_CELSIUS
     assert "no emergency stop fits between that and the 105 °C that the structure" in heater_leads.set_points_in_words(
         bare
     )

@@ -212,7 +212,7 @@ def test_what_is_asked_and_got_and_what_costs_most_are_the_answer_s():
     assert rows["holding_torque"].stands == "at the limit"
     assert rows["impedance_range"].stands == "at the limit"
     assert rows["peak_power"].stands == f"{100.0 * (1.0 - values['peak_power'] / 15.0):.2g} %"
-    assert rows["peltier_temperature_margin"].got == "0"
+    assert rows["heater_temperature_margin"].got == "0"
     (line,) = [line for line in first_screen(answered, 140) if line.startswith("Active constraints: ")]
     first = max(active(answered.result), key=lambda held: held.shadow_price)
     assert line.startswith(f"Active constraints: {label(first.output)} ")
@@ -345,7 +345,7 @@ def test_a_limit_in_doubt_stands_beside_what_to_measure_for_it():
 def test_a_margin_that_must_not_be_negative_is_at_its_least():
     shown = {
         "hub_step_margin >= 0 mm": "step between floor and end of the hub at its least",
-        "peltier_temperature_margin >= 5 K": "heaters' heat margin >= 5 K",
+        "heater_temperature_margin >= 5 K": "heaters' heat margin >= 5 K",
         "friction_share >= 0": "friction over spring torque at its least",
         "envelope_diameter <= 70 mm": "diameter <= 70 mm",
     }
@@ -406,7 +406,7 @@ INFEASIBLE = (
     "vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], current: [0.5 A, 2 A]}\n"
     'require: {response_time: "<= 150 s", peak_power: "<= 9 W", spring_stiffness: ">= 5 N.m/rad"}\n'
     "minimize: module_mass\nsolver: {cells: 8, starts: 1}\n"
-    "accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]\n"
+    "accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]\n"
 )
 """Only the search can say that these limits conflict: `check` passes them."""
 

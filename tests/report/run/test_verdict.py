@@ -148,7 +148,7 @@ def test_a_violation_below_rounding_is_not_shown_as_none():
     )
     assert margin_text(gap, table) == "-0.0004 mm"
     assert margin_text(replace(gap, absolute=False), table) == "-0.004 %"
-    heat = replace(gap, output="peltier_temperature_margin", margin=4.7, scale=5.0, absolute=False)
+    heat = replace(gap, output="heater_temperature_margin", margin=4.7, scale=5.0, absolute=False)
     assert margin_text(heat, table) == "23.5 K"  # a difference is no size that a share could be taken of
     assert margin_text(replace(gap, met=True), table) == "0 mm"  # within the solver's tolerance
     assert verdict(answer(checks=(gap,)), SURE, []).text.endswith("by 0.0004 mm")

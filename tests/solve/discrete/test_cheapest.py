@@ -19,7 +19,7 @@ vary:
   wire_diameter: [1.5 mm, 3.2 mm]
   floor_thickness: [3 mm, 6 mm]
 require: {spring_stiffness: ">= 5 N.m/rad"}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
 minimize: cost
 solver: {starts: 1, alternatives: 2}
 """

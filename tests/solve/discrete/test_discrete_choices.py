@@ -162,7 +162,7 @@ def test_a_design_between_listed_sizes_is_infeasible_with_advice():
         "mode: shear\n"
         "vary: {wire_diameter: {choose: [2.4 mm, 2.6 mm]}, pcl_thickness: [0.6 mm, 2 mm]}\n"
         "require: {spring_stiffness: ['>= 2.65 N.m/rad', '<= 3.1 N.m/rad']}\n"
-        "accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]\n"
+        "accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]\n"
         "minimize: module_mass\nsolver: {starts: 1, cells: 6}\n"
     )
     result = answer(study)

@@ -37,7 +37,7 @@ mode: shear
 vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], current: [0.5 A, 2 A]}
 require: {response_time: "<= 150 s", peak_power: "<= 9 W", spring_stiffness: ">= 5 N.m/rad"}
 minimize: module_mass
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
 solver: {cells: 8, starts: 1}
 """
 

@@ -25,7 +25,7 @@ REQUIRED = """
 require:
   spring_stiffness: ">= 5 N.m/rad"
   peak_power: "<= 9 W"
-  peak_peltier_temperature: "<= 120 degC"
+  peak_heater_temperature: "<= 120 degC"
   softened_stiffness: "<= 20 N.m/rad"
 minimize: {module_mass: 1, cycle_time: 2}
 solver: {cells: 8, starts: 1}

@@ -41,7 +41,7 @@ mode: shear
 module: {transmission: unity}
 vary: {current: [0.5 A, 2.5 A], pcl_thickness: [0.8 mm, 2 mm]}
 require: {response_time: "<= 300 s", pcl_stiffness@hot: "<= 3.5 N.m/rad"}
-accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
 minimize: peak_power
 tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
 solver: {starts: 1, cells: 12}

@@ -12,7 +12,7 @@ from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
 from tvimdesign.device.core.heater_form import HeaterFuse, heater_fuse
 from tvimdesign.study.design import Design, catalog_of
 
-_HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")
+_HOTTEST = ("peak_heater_temperature", "peak_cold_side_temperature")
 _STRONGEST = ("peak_current", "stiffening_peak_current")
 _LINER = "liner_service_temperature"
 _BEARS = {

@@ -275,7 +275,7 @@ def _borne(m: Module) -> Scalar:
 
 def _peak(m: Module) -> Scalar:
     """Return the highest temperature of the heater."""
-    return np.fmax(m.peak_peltier_temperature, m.peak_cold_side_temperature)
+    return np.fmax(m.peak_heater_temperature, m.peak_cold_side_temperature)
 
 
 def _best_room(record: Record, stays: str, borne: Scalar, peak: Scalar) -> Scalar:

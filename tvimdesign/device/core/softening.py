@@ -162,8 +162,8 @@ def peak_pcl_temperature(m: Module) -> Scalar:
 
 
 @quantities.path(SOFTENING, "degC", "maximum")
-def peak_peltier_temperature(m: Module) -> Scalar:
-    """Highest temperature of the pads' hot side during the switch."""
+def peak_heater_temperature(m: Module) -> Scalar:
+    """Highest temperature of the heaters' inner side, towards the PCL, during the switch."""
     return m.stack_profile.hot
 
 
@@ -174,9 +174,9 @@ def peak_rotor_temperature(m: Module) -> Scalar:
 
 
 @quantities.output("K", ratings=(at_least(0.0, "the heater is above the temperature it is rated for"),))
-def peltier_temperature_margin(m: Module) -> Scalar:
+def heater_temperature_margin(m: Module) -> Scalar:
     """Rated temperature of the heater less the highest it sees."""
-    return m.peltier_max_temperature - m.peak_peltier_temperature
+    return m.peltier_max_temperature - m.peak_heater_temperature
 
 
 @quantities.output("K", ratings=(at_least(0.0, "the PCL decomposes"),))
@@ -188,7 +188,7 @@ def pcl_temperature_margin(m: Module) -> Scalar:
 @quantities.output("K", ratings=(at_least(0.0, "the structure is above its continuous service temperature"),))
 def structure_temperature_margin(m: Module) -> Scalar:
     """Service temperature of the structure less the highest temperature of the pads that touch it."""
-    return m.structure_service_temperature - m.peak_peltier_temperature
+    return m.structure_service_temperature - m.peak_heater_temperature
 
 
 # --- to stay soft ----------------------------------------------------------------------------------------------------

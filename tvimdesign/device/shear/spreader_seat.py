@@ -136,4 +136,4 @@ ratings = QuantityGroup("Switch")
 @ratings.output("K", ratings=(at_least(0.0, _HOT),), requires=WITH_TILES)
 def heater_adhesive_margin(m: Module) -> Scalar:
     """Rating of the adhesive around the spreaders less the highest temperature of the modules; zero without."""
-    return m.heater_adhesive_rating - m.peak_peltier_temperature
+    return m.heater_adhesive_rating - m.peak_heater_temperature

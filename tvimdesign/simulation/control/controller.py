@@ -221,7 +221,7 @@ class ControlledModule:
 
         def seen(current: float) -> tuple[float, float]:
             near = self.target + heat.TEMPERATURE_SCALE * run.value("near_face_time", y[:size], current)
-            return near, run.value("peak_peltier_temperature", y[:size], current)
+            return near, run.value("peak_heater_temperature", y[:size], current)
 
         near, _ = seen(0.0)
         thermistor, current, controller = near, 0.0, RunningController(constants, near)

@@ -164,7 +164,7 @@ def _simulated(reading: Reading, key: Text, path: str, name: str) -> Output | No
         reading.problems.add(key, path, f"the study has no {state}", wanted)
     elif not own and base not in (reading.table.behind_supplied if state == DUTY else CONTROLLED):
         expected = (
-            "an output of the switch, such as peak_peltier_temperature" if state == DUTY else one_of(list(CONTROLLED))
+            "an output of the switch, such as peak_heater_temperature" if state == DUTY else one_of(list(CONTROLLED))
         )
         reading.problems.add(key, path, f"is not simulated in a {state}", expected)
     else:

@@ -204,7 +204,7 @@ def _duty(answer: StudyResult) -> list[Fact]:
     most = f"at most {number(duty.most, _DIGITS)} (limit: {limit})"
     if not duty.values:
         return [Fact("Duty", [f"{number(rate, _DIGITS)} switches an hour leave too little time", most])]
-    pads = with_unit(duty.values["peak_peltier_temperature"], "degC", _DIGITS)
+    pads = with_unit(duty.values["peak_heater_temperature"], "degC", _DIGITS)
     above = [f"exceeds {', '.join(map(label, duty.exceeded))}"] if duty.exceeded else []
     times = " and back ".join(with_unit(duty.values[name], "s", _DIGITS) for name in ("response_time", "return_time"))
     energy = f"{with_unit(duty.energy_a_day, 'kJ', _DIGITS)} a day"
