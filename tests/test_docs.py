@@ -81,7 +81,7 @@ def _numbers(study: str) -> dict[str, str]:
         "torque held, frozen": f"{values['holding_torque']:.1f} N·m",
         "torque held when frozen": f"{values['holding_torque']:.0f} N·m",
         "far face at 100 °C": f"{values['far_face_time']:.0f} s",
-        "soft after": f"{values['softening_time']:.0f} s",
+        "softening time": f"{values['softening_time']:.0f} s",
         "stiff again after": f"{values['stiffening_time']:.0f} s",
         "peak power": f"{values['peak_power']:.1f} W",
         "joint soft, assumed ranges": f"{soft['low']:.0f} to {soft['high']:.0f} s",

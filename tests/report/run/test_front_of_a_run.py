@@ -42,7 +42,7 @@ def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
     done = tvimdesign("run", study, "--no-cad", "--full", "--out", folder / "out")
     assert done.returncode == 0, done.stderr
     screen = done.stdout.partition("\n\n")[0].splitlines()
-    assert any(re.match(r"Front: \d designs · time of one switch \S+ to \S+ s · mass ", line) for line in screen)
+    assert any(re.match(r"Front: \d designs · softening time \S+ to \S+ s · mass ", line) for line in screen)
     assert "Points of the front" in done.stdout
     return folder / "out"
 

@@ -94,21 +94,23 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
          "Build it"),
         (answer(), SURE, [],
-         "Build it, one module first: measure the structure layer strength before more"),
+         "Build it, one module first: measure the structure layer strength before you build more"),
         (answer(), SURE, [RunWarning("cutout margin is -8 K", but="no listed cut-out fits")],
-         "Build it, one module first: measure the structure layer strength before more; no listed cut-out fits"),
+         "Build it, one module first: measure the structure layer strength before you build more; "
+         "no listed cut-out fits"),
         (answer(), SURE, [RunWarning("-8 K", but="no cut-out fits"), RunWarning("14.1", but="friction holds it")],
-         "Build it, one module first: measure the structure layer strength before more; no cut-out fits and friction "
-         "holds it"),
-        (answer(), SURE | {"intervals": {}}, [], "Build it, one module first: check the retainer thread before more"),
+         "Build it, one module first: measure the structure layer strength before you build more; "
+         "no cut-out fits and friction holds it"),
+        (answer(), SURE | {"intervals": {}}, [],
+         "Build it, one module first: check the retainer thread before you build more"),
         (answer(), SURE | BOTH, [],
-         "Build it, one module first: measure the structure layer strength and the pin friction before more"),
+         "Build it, one module first: measure the structure layer strength and the pin friction before you build more"),
         (answer(), SURE | THREE, [],
          "Build it, one module first: measure the structure layer strength, the pin friction and the bond strength "
-         "before more"),
+         "before you build more"),
         (answer(), SURE | FOUR, [],
-         "Build it, one module first: measure the structure layer strength, the pin friction and 2 others before more "
-         "(summary.txt: Measure first)"),
+         "Build it, one module first: measure the structure layer strength, the pin friction and 2 others before "
+         "you build more (summary.txt: Measure first)"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip
@@ -225,7 +227,8 @@ def test_a_layer_that_stalls_cools_again_or_never_softens():
 
 
 @pytest.mark.parametrize(
-    ("volts", "words"), [(7.151, "7.15 V (7 to 8) from 24"), (22.0, "22 V (7 to 8)"), (24.0, "24 V (7 to 8)")]
+    ("volts", "words"),
+    [(7.151, "7.15 V (7 to 8) of the supply's 24 V"), (22.0, "22 V (7 to 8)"), (24.0, "24 V (7 to 8)")],
 )
 def test_a_heater_that_needs_far_less_than_the_supply_is_stepped_down(volts, words):
     limits = [{"output": "peak_voltage", "sense": "<=", "limit": 24.0}]

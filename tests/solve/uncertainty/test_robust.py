@@ -156,8 +156,8 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance():
 
 @pytest.mark.parametrize(
     ("text", "to", "words"),
-    [("response_time <= 1200 s", 1241.0, "time of one switch <= 1250 s (1200 s asked)"),
-     ("response_time <= 36 s", 36.0 * 1.6, "time of one switch <= 57.6 s (36 s asked)"),
+    [("response_time <= 1200 s", 1241.0, "softening time <= 1250 s (1200 s asked)"),
+     ("response_time <= 36 s", 36.0 * 1.6, "softening time <= 57.6 s (36 s asked)"),
      ("holding_torque >= 8 N.m", 7.437, "torque held when frozen >= 7.43 N·m (8 N.m asked)")],
 )  # fmt: skip
 def test_an_eased_requirement_is_rounded_to_what_is_easier(text, to, words):

@@ -57,7 +57,7 @@ def softening_time(m: Module) -> Scalar:
 
 @quantities.event(SOFTENING)
 def response_time(m: Module) -> Scalar:
-    """Time of one switch, by the criterion the study chose."""
+    """Softening time, from the start of heating to its end, by the criterion the study chose."""
     if m.response_criterion == "softening":
         return softening_time(m)
     if m.response_criterion == "mean":

@@ -113,15 +113,16 @@ def heater_voltage(answer: StudyResult, uncertainty: Mapping[str, Any]) -> str:
     """Return the heater's largest voltage with its range, and the supply's if a driver must step it down."""
     value, supplied = _Values(answer, uncertainty), answer.design.supply_voltage
     if supplied:
-        return f"{value('peak_voltage')} from {number(supplied, _DIGITS)}"
+        return f"{value('peak_voltage')} of the supply's {with_unit(supplied, 'V', _DIGITS)}"
     return value(value.most("peak_voltage", "stiffening_peak_voltage"))
 
 
 def _times(value: _Values) -> Iterator[str]:
     """Yield when the joint is soft, and, from the end of heating, when it is stiff and when it may be loaded fully."""
-    names = ("softening_time", "stiffening_time", "far_face_cooling_time")
-    soft, stiff, cold = (value.values[name] for name in names)
-    yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}"
+    names = ("response_time", "softening_time", "stiffening_time", "far_face_cooling_time")
+    heated, soft, stiff, cold = (value.values[name] for name in names)
+    by_criterion = "" if soft == heated else f"{value('response_time')}, by impedance "
+    yield "never soft" if math.isinf(soft) else f"softening time {by_criterion}{value('softening_time')}"
     if math.isfinite(stiff):
         loaded = f", full load after {with_unit(cold, 's', _DIGITS)}" if stiff < cold < math.inf else ""
         yield f"stiff {value('stiffening_time')} later{loaded}"
@@ -221,7 +222,7 @@ def _control(answer: StudyResult) -> list[Fact]:
     times = [f"{number(time, _DIGITS)}" for time in (control.settling, control.settling_of_nominal)]
     parts = [
         f"overshoot {number(control.overshoot, _DIGITS)} K",
-        f"soft after {times[0]} of the module's own time, {times[1]} of the nominal one",
+        f"softening time {times[0]} of the module's own, {times[1]} of the nominal one",
         f"pads {with_unit(control.hottest_pads, 'degC', _DIGITS)}",
         f"{percent(control.controlled.share)} below {number(OVERSHOOT)} K and {number(LATE)}",
     ]
