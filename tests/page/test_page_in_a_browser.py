@@ -92,7 +92,7 @@ def test_a_page_fits_a_phone_and_is_read_without_its_code(opened, report):
     assert "needs JavaScript" in page.locator("#figure-cycle").inner_text()
 
 
-@pytest.mark.parametrize("size", [(1400, 900), (390, 844)], ids=["desktop", "phone"])
+@pytest.mark.parametrize("size", [(1400, 900), (1200, 900), (390, 844)], ids=["desktop", "laptop", "phone"])
 def test_the_answer_is_seen_without_scrolling(opened, report, size):
     page = opened(report, viewport={"width": size[0], "height": size[1]}).page
     table = page.get_by_role("table", name="Requirements")
@@ -116,7 +116,7 @@ def test_a_page_is_read_in_minutes_and_links_unfold_the_rest(screen):
     screen.page.evaluate("history.replaceState(null, '', location.pathname)")
 
 
-@pytest.mark.parametrize("wide", [1400, 375])  # a phone of 390 less a scroll bar
+@pytest.mark.parametrize("wide", [1400, 1200, 375])  # a phone of 390 less a scroll bar
 def test_no_table_is_cut_and_hidden_columns_are_named(opened, report, wide):
     page = opened(report, viewport={"width": wide, "height": 844}).page
     page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
