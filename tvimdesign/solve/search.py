@@ -22,7 +22,7 @@ from tvimdesign.solve.discrete.combinations import (
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
-from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
+from tvimdesign.solve.infeasibility.conflict_set import find_conflicts, tried_with_margins
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible, refuse_unreachable
 from tvimdesign.solve.nlp import solver_run
 from tvimdesign.solve.nlp.constraints import on_cycle
@@ -83,8 +83,8 @@ def optimize(
     that are `traded` can be weighed and bounded with it afterwards. An interrupt comes out as SearchInterrupted, which
     has the best design so far.
     A study that is `checked` has passed `refuse_infeasible` and `refuse_unreachable`, which are not asked again.
-    A search that `eases` seeks, where a yield is missed, the requirement that stands in its way; that takes as long as
-    the search.
+    A search that `eases` seeks, where a yield is missed, the requirement that stands in its way, and tries with margins
+    where conflicting limits must move to; either takes as long as the search.
     The search ends in time for its design to be verified before the `deadline`: the study's time limit from now on
     unless given. Raises TimeOverError where there is no time to search.
     """
@@ -150,6 +150,10 @@ def _optimize(
     run, conflict_set = _reconciled(
         relaxation, run, [candidate for other, candidate in recorded if other is relaxation], progress
     )
+    if conflict_set and eases:
+        again = partial(optimize, progress=progress, deadline=Deadline(deadline.remaining), checked=True)
+        tried = (tried_with_margins(study, side, again, progress) for side in conflict_set.sides)
+        conflict_set = replace(conflict_set, sides=tuple(tried))
     if start_infeasible and conflict_set is None and not (checked or run.start.converged or deadline.passed):
         refuse_infeasible(study, deadline)
     settled = put_at_bounds(relaxation.optimizer, run)

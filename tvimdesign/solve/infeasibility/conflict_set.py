@@ -14,22 +14,23 @@ Optimization, 2nd ed. (2006), section 18.5 (the elastic mode).
 """
 
 import time
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
 
-from tvimdesign.base.errors import TvimError
-from tvimdesign.base.units import format_quantity
+from tvimdesign.base.errors import InfeasibleError, TimeOverError, TvimError
+from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
 from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
-from tvimdesign.solve.nlp.solution import ConflictSet, Side
-from tvimdesign.solve.nlp.solver_run import FEASIBLE, Array, Progress, Run
+from tvimdesign.solve.nlp.solution import ConflictSet, Side, Solution
+from tvimdesign.solve.nlp.solver_run import FEASIBLE, OPTIMAL, Array, Progress, Run
 from tvimdesign.solve.nlp.sqp import SqpSolver
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study import Study
 
 TRACE = 1e-4  # Weight of the study's own objective beside the slacks
 FEASIBILITY_TOL = 1e-5  # Slack, as a share of a limit's scale, below which it counts as none
@@ -276,16 +277,45 @@ def _with_margins(elastic: ElasticMode, side: Side, member: int, nominal: Run) -
         optimizer.margins = {}
     if move is None:
         return side
-    words = _moved(optimizer, elastic.limits[member], side.by, move).move_words
-    return replace(side, move_words=with_margins_in_words(side.move_words, words, SIGMA))
+    robust = _moved(optimizer, elastic.limits[member], side.by, move)
+    words = with_margins_in_words(side.move_words, robust.move_words, SIGMA)
+    return replace(side, move_words=words, robust_to=robust.move_to)
 
 
-MARGIN_WORDS = "deviations of margin"
+MARGIN_WORDS = "margin"
 
 
 def with_margins_in_words(nominal: str, robust: str, sigma: float) -> str:
-    """Return where a limit has to stand as drawn, and with margins for tolerances."""
-    return f"{nominal} as drawn, to {robust} with {sigma:g} {MARGIN_WORDS}"
+    """Return where a limit has to stand as drawn, and by an estimate of the margins for tolerances."""
+    return f"{nominal} as drawn, to {robust} with {sigma:g} deviations of {MARGIN_WORDS}, an estimate"
+
+
+_BEYOND = (0.0, 0.25, 0.75)  # Shares of the margin of a conflicting limit, by estimate, that are added to it in turn
+
+
+def tried_with_margins(study: Study, side: Side, search: Callable[[Study], Solution], progress: Progress) -> Side:
+    """Return a conflicting limit with the value beside which a search reaches the yield, or how near that comes."""
+    if side.robust_to is None or side.move_to is None:
+        return side
+    output, sense = side.text.split(" ")[:2]
+    unit, drawn, share = study.table.unit(output), side.move_words.partition(" as drawn")[0], ""
+    for number, beyond in enumerate(_BEYOND, start=1):
+        place = format_quantity(side.robust_to + beyond * (side.robust_to - side.move_to), unit)
+        progress(f"trying {output} {sense} {place} with margins, {number} of at most {len(_BEYOND)}")
+        moved = [
+            limit.model_copy(update={"limit": parse_quantity(place, unit)})
+            if (limit.output, limit.sense) == (output, sense) else limit for limit in study.require
+        ]  # fmt: skip
+        try:
+            solution = search(study.model_copy(update={"require": tuple(moved)}))
+        except (InfeasibleError, TimeOverError):
+            return side
+        share = f"{100.0 * (solution.yield_reached.together if solution.yield_reached else 0.0):.3g} %"
+        if solution.status == OPTIMAL:
+            words = f"{drawn} as drawn, to {sense} {place} with {MARGIN_WORDS}s: tried, yield {share}"
+            return replace(side, move_words=words)
+    words = f"{drawn} as drawn; with {MARGIN_WORDS}s, {sense} {place} gives a yield of {share} only"
+    return replace(side, move_words=words)
 
 
 def _alone(elastic: ElasticMode, begin: Run, member: int) -> tuple[float | None, list[int], Run]:

@@ -131,6 +131,7 @@ class Side:
     move_to: float | None = None
     """Where it would have to stand (SI) for all others to hold; None where no place of it alone was found."""
     move_words: str = ""
+    robust_to: float | None = None  # Where it would have to stand with margins (SI), by estimate
     beside: tuple[str, ...] = ()  # The other limits that cannot hold either, however far this one moves
 
 
