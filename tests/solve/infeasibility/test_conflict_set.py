@@ -133,8 +133,11 @@ def test_where_runs_end_nowhere_what_is_broken_stands_for_the_conflict():
         return SimpleNamespace(converged=len(runs) == 1, conflict_search=False, pressing=np.ones(9), ends=ends)
 
     elastic = SimpleNamespace(limits=limits, count=9, settle=settle)
-    assert _conflicting(cast(Any, elastic), cast(Any, least)) == ([4], ends)
+    texts: list[str] = []
+    assert _conflicting(cast(Any, elastic), cast(Any, least), texts.append) == ([4], ends)
     assert len(runs) < 9
+    counted = [f"looking for the fewest limits that conflict, {i + 1} of 9: without {i}" for i in (0, 1, 2)]
+    assert texts[:3] == counted
 
 
 def test_every_limit_that_the_fixed_inputs_violate_is_named_at_once():

@@ -85,7 +85,6 @@ class Relaxation:
     def from_all_over(self) -> list[Run]:
         """Return runs from designs all over the ranges that keep the arithmetic limits, until two end alike."""
         runs: list[Run] = []
-        self.optimizer.progress("no start satisfies the limits: searching the whole ranges")
         designs = feasibility_screen.designs_all_over(self.optimizer, lambda inputs: self._mixed(inputs, {}))
         for begin in designs:
             optima = [run.start for run in runs if run.start.converged]

@@ -137,9 +137,8 @@ class ConflictSearch:
 
 def find_conflicts(optimizer: Optimizer, failed: Sequence[Run], progress: Progress) -> ConflictSearch | None:
     """Find the conflict of a problem without a converged start; None if not even its switch can be simulated."""
-    progress("no start satisfies the limits: searching for the design of least violation")
     elastic = ElasticMode(optimizer)
-    least = _least_violation(elastic, failed)
+    least = _least_violation(elastic, failed[:_MOST_STARTS], progress)
     if least is None:
         return None
     if least.conflict_search:
@@ -148,8 +147,7 @@ def find_conflicts(optimizer: Optimizer, failed: Sequence[Run], progress: Progre
             run = least.run
             run.start = replace(run.start, status=FEASIBLE, converged=False)
         return ConflictSearch(run, None)
-    progress("looking for the smallest set of limits that conflict")
-    members, ends = _conflicting(elastic, least)
+    members, ends = _conflicting(elastic, least, progress)
     least.run.start = replace(least.run.start, status="Infeasible_Problem_Detected", converged=False)
     return ConflictSearch(least.run, _conflict_set(elastic, least, members, ends, progress))
 
@@ -184,11 +182,12 @@ def _weights(elastic: ElasticMode) -> Array:
     return np.array([1.0 if limit.origin == "require" else _HEAVY for limit in elastic.limits])
 
 
-def _least_violation(elastic: ElasticMode, failed: Sequence[Run]) -> ElasticSolution | None:
+def _least_violation(elastic: ElasticMode, failed: Sequence[Run], progress: Progress) -> ElasticSolution | None:
     """Return the least sum of slacks from the ends of the starts, or else from their beginnings."""
     weights = _weights(elastic)
     solutions: list[ElasticSolution] = []
-    for run in failed[:_MOST_STARTS]:
+    for number, run in enumerate(failed, start=1):
+        progress(f"searching for the design of least violation, from start {number} of {len(failed)}")
         settled = elastic.settle(weights, run.inputs, run.unknowns)
         if not settled.converged:
             settled = elastic.settle(weights, _begin(elastic.optimizer, run))
@@ -206,7 +205,7 @@ def _begin(optimizer: Optimizer, run: Run) -> Array:
     return inputs
 
 
-def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int], Array]:
+def _conflicting(elastic: ElasticMode, least: ElasticSolution, progress: Progress) -> tuple[list[int], Array]:
     """Return an irreducible set of limits that conflict, and the part that the ends of ranges have in it.
 
     Where too many runs end nowhere the set would not be small: what is broken then stands for it.
@@ -227,9 +226,11 @@ def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int
     else:
         candidates = [k for k in candidates if settled.pressing[k] > _FAINT] or candidates
     # The machine's rules leave first, and the study's requirements last: those are what a user can move.
-    for k in sorted(
+    ordered = sorted(
         candidates, key=lambda place: (limits[place].origin == "require", least.slacks[place] > FEASIBILITY_TOL)
-    ):
+    )
+    for number, k in enumerate(ordered, start=1):
+        progress(f"looking for the fewest limits that conflict, {number} of {len(ordered)}: without {limits[k].name}")
         fewer = [other for other in candidates if other != k]
         without = kept_apart(fewer) if fewer and k in candidates else None
         if unknown > _MOST_UNKNOWN:
@@ -246,8 +247,8 @@ def _conflict_set(
     robust = optimizer.study.robust is not None and optimizer.study.robust.share is not None
     broken = [int(k) for k in np.flatnonzero(least.slacks > FEASIBILITY_TOL)]
     sides = []
-    for k in members:
-        progress(f"how far {limits[k].name} must move")
+    for number, k in enumerate(members, start=1):
+        progress(f"how far limits must move, {number} of {len(members)}: {limits[k].name}")
         move, beside, run = _alone(elastic, least.run, k)
         side = _moved(optimizer, limits[k], float(least.slacks[k]), move)
         if robust and move is not None:

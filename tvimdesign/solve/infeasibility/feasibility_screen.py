@@ -140,6 +140,7 @@ def designs_all_over(optimizer: Optimizer, mixed: Callable[[Array], Array] = lam
     for number in range(_DRAWN):
         if optimizer.deadline.passed:
             break
+        optimizer.progress(f"searching the whole ranges, {number + 1} of {_DRAWN}: no start satisfies the limits")
         inputs = _one_design(optimizer, screen, seed + number)
         if inputs is None:
             break
