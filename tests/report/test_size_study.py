@@ -10,7 +10,7 @@ import pytest
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.report.output.numbers import label
-from tvimdesign.report.run.study_files import process_of, sized_text
+from tvimdesign.report.run.study_files import process_of, sized_text, sized_texts
 from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 from tvimdesign.study import Range, Study, read_study_text
 from tvimdesign.study.sizing import JointTask, diameters, in_options, study_text
@@ -62,6 +62,13 @@ def test_a_study_names_what_gives_room_for_the_assumed_values():
     assert line.startswith("# Room for assumed values: minimum_feature, slip_clearance, ")
     assert line.endswith(", softening_band, plausible.")
     assert study_text(task, "middle").splitlines()[1].startswith("# No room for assumed values")
+
+
+def test_a_study_without_room_follows_one_that_has_it_and_none_follows_that():
+    task = JointTask.read(**WRIST)
+    with_room, without = (study_text(replace(task, cautious=cautious), "middle") for cautious in (True, False))
+    assert list(sized_texts(lambda room: with_room if room else without)) == [(with_room, True), (without, False)]
+    assert list(sized_texts(lambda _: without)) == [(without, False)]
 
 
 @pytest.mark.gate

@@ -82,13 +82,15 @@ def size(
     NoDesignError
         If the search finds no design.
     """
-    from tvimdesign.report.run.study_files import sized_text
+    from tvimdesign.api.result import Result
+    from tvimdesign.report.run.study_files import choose_sized
     from tvimdesign.study.sizing import JointTask
 
     task = JointTask.read(torque, stiffness, diameter, time, supply, stroke, stiff_time, process)
     with shown_progress(progress) as say:
-        text = sized_text(task, name, say)
-    return Study._of(tree_of_text(text, f"{name}.yaml", name, Path())).run(progress=progress)
+        tree, answered = choose_sized(task, name, say)
+    study = Study._of(tree)
+    return Result.of(answered, study) if answered else study.run(progress=progress)
 
 
 class Study:

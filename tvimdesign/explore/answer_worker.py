@@ -24,9 +24,10 @@ from tvimdesign.page.page_file import page_fragment
 from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.run_page import run_page
-from tvimdesign.report.run.study_files import sized_text
+from tvimdesign.report.run.study_files import choose_sized
 from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.sizing import JointTask
+from tvimdesign.study.tree import tree_yaml
 
 
 def main() -> None:
@@ -53,7 +54,7 @@ def _done(engine: Engine, job: dict[str, Any], folder: Path, write: Callable[[An
         with interrupt_handler((signal.SIGINT,)):
             try:
                 if job["stage"] == "size":
-                    return {"study": sized_text(JointTask.read(**job["numbers"]), "Joint", progress)}
+                    return {"study": tree_yaml(choose_sized(JointTask.read(**job["numbers"]), "Joint", progress)[0])}
                 reply = engine.answer(State.model_validate(job["state"]), job["stage"], progress)
                 data = _reply_data(reply, folder)
             except TvimError as error:

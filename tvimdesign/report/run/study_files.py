@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,9 +27,12 @@ from tvimdesign.study.sizing import (
     study_text,
 )
 from tvimdesign.study.text.mistakes import printable
+from tvimdesign.study.tree import tree_of_text
 
 if TYPE_CHECKING:
+    from tvimdesign.report.run.answered_study import AnsweredStudy
     from tvimdesign.solve.uncertainty.robust import Extreme
+    from tvimdesign.study.tree import StudyTree
 
 
 def list_examples() -> None:
@@ -94,25 +98,51 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
         raise InputError(f"{file}: exists already; name another file, or say --overwrite")
     atomic_write(file, study_text(task, hardware_by_fit(task)[0], file.stem).encode())
     notes = [f"stroke of {STROKE} to either side of rest assumed; --stroke changes it"] if task.assumes_stroke else []
-    for room in (True, False):
-        text = _chosen(file, task, room=room)
+    first = True
+    for text, cautious in sized_texts(partial(_chosen, file, task)):
         atomic_write(file, text.encode())
-        robust = read_study_text(text).robust
-        cautious = robust is not None and robust.plausible is not None
-        notes += [] if task.process or not room else [f"{process_of(text)}; --process changes it"]
+        notes += [] if task.process or not first else [f"{process_of(text)}; --process changes it"]
         notes += [] if cautious else [_NO_ROOM]
         print(*notes, sep="\n", file=sys.stderr)
         try:
-            run_study(file, out, overwrite=overwrite or not room, gives_up=cautious, **run)
+            run_study(file, out, overwrite=overwrite or not first, gives_up=cautious, **run)
         except InfeasibleError as error:
             if not (cautious and isinstance(error, BelowYieldError)):
                 raise type(error)(in_options(str(error), label)) from error
-            notes = ["with room for the assumed values the yield is missed"]
+            notes, first = ["with room for the assumed values the yield is missed"], False
         else:
             return
 
 
-def _chosen(file: Path, task: JointTask, *, room: bool) -> str:
+def sized_texts(choose: Callable[[bool], str]) -> Iterator[tuple[str, bool]]:
+    """Yield the studies of a joint that are to be tried until one reaches its yield, each with whether it has room.
+
+    The first has room for the assumed values if some hardware does; `choose` returns a study with room or without.
+    """
+    for room in (True, False):
+        text = choose(room)
+        robust = read_study_text(text).robust
+        cautious = robust is not None and robust.plausible is not None
+        yield text, cautious
+        if not cautious:
+            return
+
+
+def choose_sized(task: JointTask, name: str, progress: Callable[[str], None]) -> tuple[StudyTree, AnsweredStudy | None]:
+    """Return the study with room for the assumed values, with its answer, or the one without if the yield is missed."""
+    from tvimdesign.report.run.answered_study import answer_study
+    from tvimdesign.report.run.uncertainty_data import below_yield
+    from tvimdesign.solve.search import optimize
+
+    for text, cautious in sized_texts(lambda room: sized_text(task, name, progress, room=room)):
+        tree = tree_of_text(text, f"{name}.yaml", name, Path())
+        answered = answer_study(tree, progress, search=optimize) if cautious else None
+        if answered is not None and not below_yield(answered.result):
+            break
+    return tree, answered
+
+
+def _chosen(file: Path, task: JointTask, room: bool) -> str:
     """Return the study of a joint; a refusal names the options of `size`, and the file of the study as asked."""
     from tvimdesign.report.output.terminal import progress_output
 
