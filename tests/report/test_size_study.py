@@ -64,7 +64,7 @@ def test_a_study_names_what_gives_room_for_the_assumed_values():
     assert study_text(task, "middle").splitlines()[1].startswith("# No room for assumed values")
 
 
-def test_a_study_without_room_follows_one_that_has_it_and_none_follows_that():
+def test_a_study_without_room_follows_one_with_room():
     task = JointTask.read(**WRIST)
     with_room, without = (study_text(replace(task, cautious=cautious), "middle") for cautious in (True, False))
     assert list(sized_texts(lambda room: with_room if room else without)) == [(with_room, True), (without, False)]

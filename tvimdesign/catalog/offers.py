@@ -28,6 +28,7 @@ class Offer:
     size: str = ""
     link: str = ""
     note: str = ""
+    inputs: str = ""  # By which inputs a controller sets a driver
     date: str = ""
     price: float | None = None
     high: float | None = None

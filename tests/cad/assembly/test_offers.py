@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 from cad_designs import DRIVEN, TILES, design_of
 
-from tvimdesign.cad.assembly.bill_of_materials import Item, beside
+from tvimdesign.cad.assembly.bill_of_materials import Item, beside, driver_inputs
 from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
 from tvimdesign.cad.assembly.wiring import strings, wiring_svg
 from tvimdesign.catalog import Catalog
@@ -191,10 +191,23 @@ def words(picture: ElementTree.Element) -> set[str]:
 def test_the_diagram_names_what_is_bought():
     bought = {"IRM-90-12ST (MEAN WELL)", "2992 (G2 24v13)", "thermal cut-out", "heater 6", "3 thermistors"}
     bought |= {"3 resistors", "10 kohm, 1 %", "step-down converter", "Seeed XIAO ESP32C6"}
+    bought |= {"PWM, DIR", "3 ADC inputs, a divider each"}
     assert bought <= words(drawn(TILES))
     design = design_of("wired", TILES)
     misfit = Item("thermal_cutout", 1, False, "", f"Does not fit. {NOT_TO_BE_ORDERED}: 5MA3", 0.6, ())
     assert "to be chosen" in words(ElementTree.fromstring(wiring_svg(design, [misfit])))
+
+
+@pytest.mark.parametrize(
+    ("volts", "supply", "inputs"),
+    [(9.0, None, "PWM, DIR: at most 100 kHz to PWM"), (9.0, 24.0, "MeCom: its maker's protocol"),
+     (60.0, None, "PWM, direction: outputs at the driver's logic level to its PWM and direction inputs")],
+)  # fmt: skip
+def test_the_inputs_of_the_driver_are_those_of_its_sheet_or_of_any(volts, supply, inputs):
+    design = design_of("wired", TILES)
+    design.values.update(peak_voltage=volts, peak_current=2.6)
+    design.study["require"] = [{"output": "peak_voltage", "sense": "<=", "limit": supply}] if supply else []
+    assert driver_inputs(design).startswith(inputs)
 
 
 def test_only_peltiers_come_with_a_note_on_cooling():

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.record import own_data
 from tvimdesign.cad import cad_report
-from tvimdesign.cad.assembly.bill_of_materials import MADE_TO_ORDER, Item, cost, greased
+from tvimdesign.cad.assembly.bill_of_materials import DIVIDER, MADE_TO_ORDER, Item, cost, driver_inputs, greased
 from tvimdesign.cad.assembly.heater_leads import set_points_in_words
 from tvimdesign.cad.export.print_files import LINE, walls
 from tvimdesign.cad.geometry.dimensions import Dimensions
@@ -357,6 +357,8 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "sorting": _sorting,
     "bonding_heat": _bonding_heat,
     "most_current": _most_current,
+    "driver_inputs": lambda design, _: driver_inputs(design),
+    "divider": lambda *_: DIVIDER,
     "proof_torque": _proof_torque,
     "gap_spread": _gap_spread,
     "link_width": lambda _, dims: f"{2.0 * dims.link_half_width:.3g}",

@@ -382,6 +382,17 @@ def _supply(design: Design) -> list[Item]:
     ]
 
 
+def driver_inputs(design: Design) -> str:
+    """Return by which inputs the controller sets the driver: by its maker's sheet if a listed one is enough."""
+    chosen = next((item.offer for item in _supply(design) if item.kind == "driver"), None)
+    ways = (
+        ("PWM, direction", " and direction inputs")
+        if design.values.get("cooling_current", 0.0) > 0.0
+        else ("PWM", " input")
+    )
+    return (chosen and chosen.inputs) or f"{ways[0]}: outputs at the driver's logic level to its PWM{ways[1]}"
+
+
 def _motor_driver(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return the driver of the motor, with the voltage that feeds it; none where the study names none."""
     record = str(design.choices.get("motor_driver", "none"))

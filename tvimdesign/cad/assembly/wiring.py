@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from html import escape
 
-from tvimdesign.cad.assembly.bill_of_materials import DIVIDER, Item
+from tvimdesign.cad.assembly.bill_of_materials import DIVIDER, Item, driver_inputs
 from tvimdesign.cad.assembly.heater_leads import pad_count
 from tvimdesign.study.design import Design
 
@@ -52,6 +52,7 @@ def wiring_svg(design: Design, items: Sequence[Item]) -> bytes:
         shapes.append(_line([(first + len(heaters) * step - _GAP, at), (right, at), (right, back)], _BLACK))
     shapes.append(_line([(right, back), (driver + 100, back), (driver + 100, top + _HIGH)], _BLACK))
     shapes.append(_line([(driver + 30, top + _HIGH), (driver + 30, low)], _GREY))
+    shapes.append(_words(driver + 36, low - 8, driver_inputs(design).partition(":")[0], "start"))
     for beside, across, colour in ((30, 14, _RED), (100, 30, _BLACK)):
         shapes.append(_line([(_LEFT + beside, top + _HIGH), (_LEFT + beside, low)], colour))
         shapes.append(_line([(_LEFT + _BOX, low + across), (driver, low + across)], colour))
@@ -71,7 +72,7 @@ def wiring_svg(design: Design, items: Sequence[Item]) -> bytes:
 def _dividers(design: Design, left: float, low: float) -> list[str]:
     """Return a thermistor's divider, right of the controller: 3.3 V, resistor, input, thermistor, ground."""
     sensors = round(design.values.get("thermistor_count", 1.0))
-    plural, each = ("s", f"{sensors} inputs, a divider each") if sensors > 1 else ("", "input")
+    plural, each = ("s", f"{sensors} ADC inputs, a divider each") if sensors > 1 else ("", "ADC input")
     x, deep, middle, half = left + 60, _HIGH + 30, left + 60 + 0.5 * _BOX, 0.5 * _HIGH
     return [
         *_box(x, low, f"{sensors} resistor{plural}", DIVIDER),
