@@ -120,14 +120,11 @@ def _stands(answered: AnsweredStudy) -> dict[str, str]:
         stand = "violated" if not check.met else "active" if check.margin <= NOTHING else "met"
         states[check.output] = max(stand, states.get(check.output, "met"), key=order.index)
     for limit in answered.study.require:  # a limit on what is the least of several is put on each of them
-        several = [states[name] for name in _all_of(limit.output, answered.study) if name in states]
+        also = answered.study.limited_with(limit.output)
+        parts = answered.study.table.output(limit.output).least_of or ((limit.output, *also) if also else ())
+        several = [states[name] for name in parts if name in states]
         states |= {limit.output: max(several, key=order.index)} if several else {}
     return states
-
-
-def _all_of(name: str, study: Study) -> list[str]:
-    also = study.limited_with(name)
-    return [*(study.table.output(name).least_of or ((name, *also) if also else ()))]
 
 
 def _status(name: str, design: Design, study: Study) -> str:

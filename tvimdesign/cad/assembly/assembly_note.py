@@ -154,7 +154,8 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     steps = [
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
-            step.get("place", ()), _needs(step["needs"]).format_map(known), _tools(step["needs"], known),
+            step.get("place", ()), _needs(step["needs"]).format_map(known),
+            [tool for tool in str(step["needs"]["tools"]).format_map(known).split(", ") if tool != "none"],
             step.get("opens", False),
         )
         for step in wanted
@@ -184,11 +185,6 @@ def _needs(needs: Mapping[str, Any]) -> str:
         f"{people} · held by: {needs['fixture']} · tools: {needs['tools']} · access: {needs['access']} · "
         f"checked: {needs['checked']}"
     )
-
-
-def _tools(needs: Mapping[str, Any], known: "Figures") -> list[str]:
-    """Return the tools of a step by name."""
-    return [tool for tool in str(needs["tools"]).format_map(known).split(", ") if tool != "none"]
 
 
 def _is_for(step: Mapping[str, Any], design: Design, dims: Dimensions) -> bool:

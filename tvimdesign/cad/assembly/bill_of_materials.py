@@ -331,7 +331,8 @@ def _of_the_heater(design: Design) -> list[Item]:
     items = []
     covers = 2 * round(design.values.get("thermistor_count", 1.0))
     if design.values.get("thermistor_diameter", 0.0) <= 0.0:
-        hole = design.values.get("lead_hole_diameter", 0.0) if _has_lead_holes(design) else 0.0
+        below_arcs = design.mode != "compression" and design.values.get("spreader_depth", 0.0) > 0.0
+        hole = design.values.get("lead_hole_diameter", 0.0) if below_arcs else 0.0
         through = f", through a hole of {1e3 * hole:.3g} mm" if hole else ""
         count = round(design.value("arc_count")) if hole else 1
         items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
@@ -347,11 +348,6 @@ def _of_the_heater(design: Design) -> list[Item]:
     joints = 2 * pad_count(design) + (2 if design.values.get("cutout_diameter", 0.0) > 0.0 else 0)
     words = f"Uninsulated crimp splice for the wires it joins, for {rating(design)}, with a shrink sleeve over it"
     return [*items, Item("crimp_splice", joints, False, "", words, 0.0, ())]
-
-
-def _has_lead_holes(design: Design) -> bool:
-    """Return whether the floor has a hole for a thermistor at each spreader: below arcs, not beside vanes."""
-    return design.mode != "compression" and design.values.get("spreader_depth", 0.0) > 0.0
 
 
 def _supply(design: Design) -> list[Item]:

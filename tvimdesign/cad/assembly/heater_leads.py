@@ -138,7 +138,8 @@ def thermistor_in_words(design: Design) -> str:
 
 def set_points_in_words(design: Design) -> str:
     """Return what the thermistor reads as the joint is soft, and where the controller stops before a cut-out opens."""
-    soft, hottest = (largest(design, names) for names in (("sensed_temperature",), _heating_peaks(design)))
+    peaks = _HOTTEST[:1] if design.values.get("peltier_seebeck") else _HOTTEST  # a Peltier cools its outer side
+    soft, hottest = (largest(design, names) for names in (("sensed_temperature",), peaks))
     if soft is None or hottest is None:
         return "Take the controller's set-points from a run of the study: it was not switched"
     sensor = _thermistor(design)
@@ -150,11 +151,6 @@ def set_points_in_words(design: Design) -> str:
     if stop - soft < _ACCURACY:
         return f"{points} and no emergency stop fits between that and the {end}: limit the time of heating"
     return f"{points} and an emergency stop at {_reads(sensor, stop)}, below the {end}"
-
-
-def _heating_peaks(design: Design) -> tuple[str, ...]:
-    """Return the quantities with the heater's highest temperatures while it heats; a Peltier cools its outer side."""
-    return _HOTTEST[:1] if design.values.get("peltier_seebeck") else _HOTTEST
 
 
 def _reads(sensor: "Thermistor | None", kelvin: float) -> str:

@@ -45,7 +45,6 @@ from tvimdesign.sweep.plan import swept_cells
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from tvimdesign.cad.cad_report import CadReport
     from tvimdesign.report.run.answered_study import AnsweredStudy
     from tvimdesign.solve.nlp.solution import Solution
     from tvimdesign.solve.result import Designed
@@ -226,16 +225,12 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         with noting(command.failures), BackgroundPartsJob(design.mode, gives_way=False) as making:
             making.begin_with(written, command.folder.path)
             report = making.finish(command.progress)
-            data, command.shown = plain_report(report), [parts_section(report)]
+            data = plain_report(report)
+            command.shown = [Section("parts", "", [Words([f"Parts: {in_short(report.checks)}"])])]
             refuse_failed(report)
         status = "parts failed" if command.failures else design.status
         command.folder.finish(status, {"design": source}, design.study)
     command.report(data, "Parts are")
-
-
-def parts_section(report: CadReport) -> Section:
-    """Return how many checks passed, and which was missed most; checks.json has all."""
-    return Section("parts", "", [Words([f"Parts: {in_short(report.checks)}"])])
 
 
 DESIGN = "design.json"

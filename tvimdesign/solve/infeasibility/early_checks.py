@@ -1,8 +1,4 @@
-"""Checks of a study before its search starts: by arithmetic alone.
-
-Reach of a study's variables: whether its target impedances lie within it, asked before the search starts.
-
-Limits that arithmetic alone cannot keep together, looked for before a working cycle is simulated.
+"""Checks of a study before its search starts, by arithmetic alone: conflicting limits, and impedances out of reach.
 
 The limits that depend on no cycle are a problem of a dozen unknowns. It is solved from several starts; where none of
 them satisfies the limits, no start of the whole problem does, and the elastic problem says which limits conflict.

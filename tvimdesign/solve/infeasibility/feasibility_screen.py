@@ -1,9 +1,7 @@
 """Feasibility screen: a small problem tells early if any design within some ends satisfies the static limits.
 
 The limits of arithmetic alone need no working cycle: they are a few dozen functions of the free numbers. What violates
-those violates all.
-
-Designs all over the ranges that keep what depends on no working cycle: where to look before a study is infeasible.
+those violates all. Designs all over the ranges that keep them say where to look before a study is infeasible.
 
 Searches that begin at a few starts can end in a valley in which some limits cannot be met, though they can elsewhere.
 For this reason two of 200 random studies were reported infeasible; eighty random designs held a feasible one.

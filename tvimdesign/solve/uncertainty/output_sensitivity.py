@@ -55,7 +55,8 @@ class OutputDerivatives:
 
     def __init__(self, model: DeviceFunctions, outputs: Sequence[str], fineness: float = FINER) -> None:
         self.model, self.outputs = model, tuple(outputs)
-        self.supplied = {name: _supplied_behind(model, name) for name in outputs}
+        above = {name: {name.partition("@")[0], *model.table.ancestors(name)} for name in outputs}
+        self.supplied = {name: behind & set(model.switch_names) for name, behind in above.items()}
         """What each output needs of the cycle."""
         inputs, cycle = ca.SX.sym("inputs", len(model.names)), ca.SX.sym("cycle", len(model.switch_names))
         values = model.outputs(self.outputs).call([inputs, cycle], True, False)[0]
@@ -87,11 +88,6 @@ def _is_variable(resolved: ResolvedModule, model: DeviceFunctions, name: str) ->
     """Return whether a study may vary a number and this module has it; a count is no variable."""
     row = resolved.table.quantity(name)
     return name in model.index and getattr(row, "variable", False) and not getattr(row, "integer", False)
-
-
-def _supplied_behind(model: DeviceFunctions, name: str) -> set[str]:
-    above = {name.partition("@")[0], *model.table.ancestors(name)}
-    return above & set(model.switch_names)
 
 
 def behind_profiles(table: Table, driven: Collection[str]) -> set[str]:
