@@ -104,7 +104,7 @@ def test_the_time_to_stiffen_is_required_where_it_is_asked():
 @pytest.mark.slow
 @pytest.mark.parametrize("numbers", [{"diameter": "66 mm"}, {"torque": "10 N.m"}])
 def test_a_joint_that_is_too_small_names_a_diameter_that_is_not(numbers):
-    with pytest.raises(InfeasibleError, match="fit at nominal sizes, with margins by estimate only") as refusal:
+    with pytest.raises(InfeasibleError, match="fit by arithmetic, with margins by estimate") as refusal:
         sized(**numbers)
     enough = re.search(r"--diameter '(\d+) mm'", str(refusal.value))
     assert enough
