@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 CELLS = 8  # Cells of the estimated layer at most; fewer where explicit steps would not be stable
 ROWS = 32  # Rows of the layer's tables over the melting window, and over all temperatures
 COLDEST, HOTTEST = -40.0, 200.0  # Temperatures of the tables' ends [degC]
-_RATINGS = ("peltier", "structure", "pcl", "liner")
+_RATINGS = ("heater", "structure", "pcl", "liner")
 _LEAST = 1e-12
 
 
