@@ -124,9 +124,9 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name, width):
     value, text = case(name).result.design.value, " ".join(line.strip() for line in first_screen(case(name), width))
     lost = value("lost_motion") / value("stroke")
     rubs = value("friction_torque") / value("spring_torque_full_stroke")
-    for share, whole in ((lost, "it lost to play"), (rubs, "spring torque")):
-        shown = re.search(rf"(\d+) % (\(\d+ to \d+\) )?of {whole}", text)
-        assert shown, (whole, share)
+    for share, words in ((lost, r"of play, (\d+) %"), (rubs, r"(\d+) % (\(\d+ to \d+\) )?of spring torque")):
+        shown = re.search(words, text)
+        assert shown, (words, share)
         assert float(shown[1]) / 100.0 == pytest.approx(share, abs=0.006)
     rows, text = requirements(answered.result, answered.uncertainty), "\n".join(first_screen(answered, width))
     shown = [row for row in rows if re.search(rf"^{re.escape(label(row.name))}(\s|$)", text, re.MULTILINE)]
@@ -236,7 +236,7 @@ def test_headlines_and_requirements_have_their_ranges():
     stroke = answered.result.design.value("stroke") / 100.0
     for output, unit in (("lost_motion", stroke), ("friction_share", 0.01)):
         ends = [f"{intervals[output][end] / unit:.0f}" for end in ("low", "high")]
-        assert f"% ({' to '.join(ends)}) of" in text, output
+        assert f"% ({' to '.join(ends)})" in text, output
     # A limit on the stiffness holds at every angle; at rest it is stiffest, at full stroke softest.
     (row,) = [row for row in requirements(answered.result, answered.uncertainty) if row.name == "spring_stiffness"]
     low, high = (float(end) for end in row.range.split(" to "))
@@ -309,7 +309,7 @@ def test_the_cost_names_parts_without_a_price():
         return next(fact.text for fact in facts if fact.label == "Cost")
 
     assert "12.3 USD" in cost(cost=12.3)
-    assert "2 of its parts have no price and count nothing" in cost(unpriced_count=2.0)
+    assert "2 of its pieces have no price and count nothing" in cost(unpriced_count=2.0)
     assert "count nothing" not in cost(unpriced_count=0.0)
 
 

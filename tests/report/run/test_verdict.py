@@ -94,23 +94,22 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
          "Build it"),
         (answer(), SURE, [],
-         "Build it, one module first: measure the structure layer strength before you build more"),
+         "Build it, one module first: measure the structure layer strength"),
         (answer(), SURE, [RunWarning("cutout margin is -8 K", but="no listed cut-out fits")],
-         "Build it, one module first: measure the structure layer strength before you build more; "
+         "Build it, one module first: measure the structure layer strength; "
          "no listed cut-out fits"),
         (answer(), SURE, [RunWarning("-8 K", but="no cut-out fits"), RunWarning("14.1", but="friction holds it")],
-         "Build it, one module first: measure the structure layer strength before you build more; "
+         "Build it, one module first: measure the structure layer strength; "
          "no cut-out fits and friction holds it"),
         (answer(), SURE | {"intervals": {}}, [],
-         "Build it, one module first: check the retainer thread before you build more"),
+         "Build it, one module first: check the retainer thread"),
         (answer(), SURE | BOTH, [],
-         "Build it, one module first: measure the structure layer strength and the pin friction before you build more"),
+         "Build it, one module first: measure the structure layer strength and the pin friction"),
         (answer(), SURE | THREE, [],
-         "Build it, one module first: measure the structure layer strength, the pin friction and the bond strength "
-         "before you build more"),
+         "Build it, one module first: measure the structure layer strength, the pin friction and the bond strength"),
         (answer(), SURE | FOUR, [],
-         "Build it, one module first: measure the structure layer strength, the pin friction and 2 others before "
-         "you build more (summary.txt: Measure first)"),
+         "Build it, one module first: measure the structure layer strength, the pin friction and 2 others "
+         "(summary.txt: Measure first)"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip

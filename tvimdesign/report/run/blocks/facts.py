@@ -148,10 +148,14 @@ def _stroke(value: _Values) -> Fact:
     """
     names = [name for name in _LOSES if name in value.values]
     lost, *others = (value.in_percent(name, value.values[name]) for name in names)
-    stroke = f"±{from_si(value.values['stroke'], 'deg'):.3g}°, {lost} of it lost to play"
+    stroke, play = (f"±{from_si(value.values[name], 'deg'):.3g}°" for name in ("stroke", "lost_motion"))
     most = [label(max(_LOSES[name], key=lambda source: value.values[source])) for name in names]
     note = f"most by {' and '.join(dict.fromkeys(most))}"
-    return Fact("Stroke", [stroke, *(f"friction {share} of spring torque" for share in others)], note)
+    return Fact(
+        "Stroke",
+        [f"{stroke}, less {play} of play, {lost}", *(f"friction {share} of spring torque" for share in others)],
+        note,
+    )
 
 
 _LOSES = {
@@ -174,7 +178,8 @@ def _impedance(value: _Values, torque: float) -> list[Fact]:
         f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
         for name in (leaning if free < held else upright, "softened_stiffness")
     )
-    turned = f"turns {from_si(min(free, held), 'deg'):.2g}° at {with_unit(torque, 'N*m', 2)}"
+    play = "" if free < held or not value.values["bearing_play"] else " with the bearing's play"
+    turned = f"turns {from_si(min(free, held), 'deg'):.2g}°{play} at {with_unit(torque, 'N*m', 2)}"
     damped = in_unit(value.values["softened_impedance"], unit, _DIGITS)
     return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}: {turned}", f"soft {soft}, damped {damped}"])]
 
@@ -341,7 +346,7 @@ def _cost(value: _Values) -> Iterator[str]:
     yield f"{value('cost')} of material and of shares of packs in one module, without work"
     yield "whole packs, supply and electronics to buy: cad/assembly.md"
     if unpriced := round(value.values["unpriced_count"]):
-        yield f"{unpriced} of its parts have no price and count nothing: enter quotes in the study's module section"
+        yield f"{unpriced} of its pieces have no price and count nothing: enter quotes in the study's module section"
 
 
 def _soft(answer: StudyResult) -> list[str]:

@@ -11,7 +11,7 @@
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
 9. Limits are met in less than `DOUBTFUL` of the cases, or the share that the study asks: *Build it, one module first:
-   measure X and Y before you build more*.
+   measure X and Y*.
 10. *Build it*; here and in 9 with a bought part that is not to be had.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
@@ -215,7 +215,7 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     if not name or share >= least:
         return Verdict("build", f"Build it{but}")
     first = _to_measure(uncertainty, least)
-    what = f"measure {first}" if first else f"check the {label(name)} before you build more"
+    what = f"measure {first}" if first else f"check the {label(name)}"
     return Verdict("build_one", f"Build it, one module first: {what}{f'; {what_else}' if what_else else ''}")
 
 
@@ -227,9 +227,9 @@ def _to_measure(uncertainty: Mapping[str, Any], least: float) -> str:
     if not inputs:
         return ""
     if len(inputs) <= _MOST_NAMED + 1:
-        return f"{', '.join(inputs[:-1])}{' and ' if inputs[1:] else ''}{inputs[-1]} before you build more"
+        return f"{', '.join(inputs[:-1])}{' and ' if inputs[1:] else ''}{inputs[-1]}"
     named, more = ", ".join(inputs[:_MOST_NAMED]), len(inputs) - _MOST_NAMED
-    return f"{named} and {more} others before you build more (summary.txt: {TO_MEASURE})"
+    return f"{named} and {more} others (summary.txt: {TO_MEASURE})"
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:
