@@ -35,7 +35,7 @@ from tvimdesign.study.study import Options
 
 STUDIES = Path(__file__).resolve().parents[1] / "studies"
 FRESH = {
-    "elbow_printed": 6, "elbow_machined": 5, "ankle": 5, "finger": 4, "wrist_joint": 5,
+    "elbow_of_polycarbonate": 6, "elbow_machined": 5, "ankle": 5, "finger": 4, "wrist_joint": 5,
     "wrist_compression": 13, "machined_compression": 12,
 }  # fmt: skip
 """Studies within whose ranges validation draws modules that nobody optimized, and how many of each."""

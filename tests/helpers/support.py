@@ -34,9 +34,12 @@ TRANSFORMED = {"hold_angle", "set_angle", "backlash", "relaxation_loss"}
 """Rows read off a Laplace transform, whose weights cancel: other rounding shows in the tenth digit."""
 
 
+PAST = "validation/fe_structure/studies"
+
+
 def study_path(name: str) -> Path:
-    """Return the path of a study by name: shipped, or kept for tests."""
-    places = (ROOT / folder / f"{name}.yaml" for folder in ("studies", "studies/tasks", "tests/studies"))
+    """Return the path of a study by name: shipped, or kept for tests or for its parts by FE."""
+    places = (ROOT / folder / f"{name}.yaml" for folder in ("studies", "studies/tasks", "tests/studies", PAST))
     return next((path for path in places if path.exists()), ROOT / f"tests/studies/{name}.yaml")
 
 

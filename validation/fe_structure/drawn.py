@@ -29,8 +29,9 @@ from tvimdesign.study.design import Design
 CASES = Path(__file__).with_name("drawn.yaml")
 SEED = 7
 COUNTS = {
-    "wrist_joint": 11, "finger_of_stock_springs": 8, "elbow_machined": 3, "elbow_printed": 3, "driven_joint": 2,
-    "paper_shear": 2, "ankle": 3, "machined_compression": 12, "wrist_compression": 26, "compare_compression": 8,
+    "wrist_joint": 11, "finger_of_stock_springs": 8, "elbow_machined": 3, "elbow_of_polycarbonate": 3,
+    "driven_joint": 2, "paper_shear": 2, "ankle": 3, "machined_compression": 12, "wrist_compression": 26,
+    "compare_compression": 8,
 }  # fmt: skip
 """Modules drawn within the ranges of each study."""
 

@@ -22,6 +22,7 @@ from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
 from tvimdesign.study import given, read_study
 
 RESULTS = Path(__file__).with_name("fresh.csv")
+PAST = Path(__file__).parents[1] / "fe_structure/studies"
 STATED = ("least [s]", "greatest [s]")
 MOST = 40
 """Draws that keep the rules; the first of them that soften are taken."""
@@ -36,9 +37,14 @@ class Fresh(NamedTuple):
     """What was drawn."""
 
 
+def path_of(study: str) -> Path:
+    """Return the file of a study: shipped, of the tests, or past."""
+    return studies().get(study, PAST / f"{study}.yaml")
+
+
 def designs(study: str, count: int) -> Iterator[Fresh]:
     """Return the first random designs that soften."""
-    path = studies()[study]
+    path = path_of(study)
     read, count_drawn = read_study(path), 0
     for place, design in enumerate(Draws(read, FRESH_SEED).keeping_rules(MOST, Tally())):
         drawn = {name: design.values[name] for name in read.vary if name in design.values}
@@ -52,7 +58,7 @@ def designs(study: str, count: int) -> Iterator[Fresh]:
 
 def intervals(study: str, module: dict[str, float]) -> dict[str, tuple[float, float]]:
     """Return between what the product says that the times of a design lie, over the ranges of assumed values [s]."""
-    read = read_study(studies()[study])
+    read = read_study(path_of(study))
     resolved = ResolvedModule(read, {**given(read), **module})
     ranges = UncertaintyModel(resolved, TIMES).at(resolved, 0).intervals
     return {name: (ranges[name].low, ranges[name].high) for name in TIMES}
