@@ -152,8 +152,9 @@ def _optimize(
     )
     if conflict_set and eases:
         again = partial(optimize, progress=progress, deadline=Deadline(deadline.remaining), checked=True)
-        tried = (tried_with_margins(study, side, again, progress) for side in conflict_set.sides)
-        conflict_set = replace(conflict_set, sides=tuple(tried))
+        # Each trial is a whole search: only the limit that is easiest to move is tried.
+        tried = [tried_with_margins(study, side, again, progress) for side in conflict_set.sides[:1]]
+        conflict_set = replace(conflict_set, sides=(*tried, *conflict_set.sides[1:]))
     if start_infeasible and conflict_set is None and not (checked or run.start.converged or deadline.passed):
         refuse_infeasible(study, deadline)
     settled = put_at_bounds(relaxation.optimizer, run)

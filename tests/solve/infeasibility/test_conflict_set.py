@@ -13,9 +13,10 @@ from support import ROOT, sample_text, study_path
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting, conflict_in_words
+from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting, conflict_in_words, tried_with_margins
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen, _broken, _one_design, designs_all_over
+from tvimdesign.solve.nlp.solution import Side
 from tvimdesign.solve.nlp.solver_run import ITERATIONS_OVER, NO_DESIGN, SOLVED, Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import StudyResult, answer
@@ -220,6 +221,14 @@ def test_a_robust_study_is_advised_a_time_that_has_its_margins():
     assert re.search(rf"to <= {robust} s with margins: tried, yield 9[5-9]", advice)
     assert _answer(text.replace("<= 150 s", f"<= {robust} s")).design.status == "optimal"
     assert _answer(text.replace("<= 150 s", f"<= {1.001 * drawn} s")).design.status != "optimal"
+
+
+def test_a_rule_that_conflicts_is_not_tried_with_margins():
+    rule = Side("wire_gap >= 0 mm", "rule", 1e-4, move_to=-1e-4, move_words="to >= -0.1 mm as drawn", robust_to=-2e-4)
+    searched: list[Any] = []
+    study = read_study_text(HURRIED)
+    assert tried_with_margins(study, rule, cast("Any", searched.append), lambda _: None) is rule
+    assert not searched
 
 
 def test_a_start_restarted_from_a_feasible_design_converges():

@@ -221,7 +221,7 @@ def test_a_start_is_led_to_what_is_as_good_as_the_best_of_all_turns():
     study = read_study(study_path("wrist_compression"))
     optimizer = Optimizer(study)
     run = optimizer.solve()
-    (improved,) = NeighboringOptima(optimizer).improve([run])
+    improved, *_ = NeighboringOptima(optimizer).improve([run])
     alone = [_kept_within(study, optimizer, turn, turn + 1.0) for turn in (3.0, 4.0, 5.0)]
     assert improved.start.objective <= (1.0 + 1e-4) * min(alone)
     assert improved.start.objective < (1.0 - 1e-3) * run.start.objective

@@ -29,6 +29,7 @@ from ezdxf.npshapes import to_matplotlib_path
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
+from typing_extensions import override
 
 _HUNDREDTH = Decimal("0.01")
 _POINTS = 72.0 / 25.4  # In a millimetre
@@ -266,11 +267,13 @@ class _Strokes(MatplotlibBackend):
         if len(path):
             self._lines[self.get_lineweight(properties)].append(to_matplotlib_path([path]))
 
-    def draw_filled_paths(self, paths: Iterable[BkPath2d], properties: BackendProperties) -> None:  # noqa: ARG002 - the backend passes it
+    @override
+    def draw_filled_paths(self, paths: Iterable[BkPath2d], properties: BackendProperties) -> None:
         """Draw a letter: the sense in which an outline runs says whether it is filled, as fonts mean it."""
         self._filled += [to_matplotlib_path([path]) for path in paths if len(path)]
 
-    def draw_filled_polygon(self, points: BkPoints2d, properties: BackendProperties) -> None:  # noqa: ARG002 - the backend passes it
+    @override
+    def draw_filled_polygon(self, points: BkPoints2d, properties: BackendProperties) -> None:
         """Draw an arrowhead, or what else has straight sides."""
         self._filled.append(Outline([(point.x, point.y) for point in points.vertices()]))
 

@@ -88,7 +88,7 @@ def intervals(
     """Return every output's least and largest value (SI) that a point in the melting range leaves open, by name.
 
     Damping peaks between the least and the largest solid fraction, so fractions between are tried too. Where the point
-    says what soft or stiff means, the cycle is simulated for each of them.
+    says what soft or stiff means, the cycle is simulated for each of these targets; how it heats is the same.
     """
     ranges: dict[str, tuple[float, float]] = {}
     for point in resolved.points:
@@ -96,13 +96,10 @@ def intervals(
         if low == high:
             continue
         runs, here = [], np.array([name.endswith(f"@{point}") for name in model.output_names])
-        sets_a_target = any(f"joint_impedance@{point}" in row.needs for row in model.table.outputs)
         for share in (nominal, *np.linspace(low, high, HISTORIES)):
-            seen = (
-                _as_left(resolved, model, left_at(resolved.values, point, float(share), nominal), current_profiles)
-                if sets_a_target
-                else cycle
-            )
+            values_left = left_at(resolved.values, point, float(share), nominal)
+            target = _target_as_left(resolved, point, values_left)
+            seen = _cycle_to(resolved, model, target, current_profiles) if target else cycle
             outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
             supplied = [seen[name] for name in model.switch_names]
             values = np.asarray(outputs(inputs, supplied)).ravel()
@@ -129,14 +126,29 @@ def left_at(values: Mapping[str, Any], point: str, share: Any, nominal: Any) -> 
     return left | ({MEMORY: np.where(share < nominal, 1.0, values[MEMORY])} if MEMORY in values else {})
 
 
-def _as_left(
+_TARGETS = {"hot": "soft_impedance", "cold": "stiff_impedance"}
+
+
+def _target_as_left(resolved: ResolvedModule, point: str, left: Mapping[str, Any]) -> dict[str, float]:
+    """Return both targets [N*m/rad] with the one of a point as a history leaves it; none if the point sets none."""
+    if point not in _TARGETS or resolved.values["impedance_targets"] == "stated":
+        return {}
+    values = {end: left if end == point else resolved.values for end in _TARGETS}
+    return {
+        name: float(resolved.table.evaluate(values[end], [f"joint_impedance@{end}"])[f"joint_impedance@{end}"])
+        for end, name in _TARGETS.items()
+    }
+
+
+def _cycle_to(
     resolved: ResolvedModule,
     model: DeviceFunctions,
-    left: Mapping[str, Any],
+    targets: Mapping[str, float],
     current_profiles: Mapping[str, CurrentProfile] | None,
 ) -> Mapping[str, float]:
-    """Return the cycle's values of a module as a history leaves it."""
-    other = DeviceFunctions(resolved.table, left, resolved.points, model.cells)
+    """Return the cycle's values of a module whose soft and stiff impedances are stated."""
+    stated = {**resolved.values, "impedance_targets": "stated", **targets}
+    other = DeviceFunctions(resolved.table, stated, resolved.points, model.cells)
     return Simulator(other).run(other.start, current_profiles).values
 
 

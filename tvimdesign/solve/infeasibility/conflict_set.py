@@ -295,8 +295,11 @@ _BEYOND = (0.0, 0.25, 0.75)  # Shares of the margin of a conflicting limit, by e
 
 
 def tried_with_margins(study: Study, side: Side, search: Callable[[Study], Solution], progress: Progress) -> Side:
-    """Return a conflicting limit with the value beside which a search reaches the yield, or how near that comes."""
-    if side.robust_to is None or side.move_to is None:
+    """Return a conflicting requirement with the value at which a search reaches the yield, or how near that comes.
+
+    A rule, which a study cannot move, is returned as it is.
+    """
+    if side.origin != "require" or side.robust_to is None or side.move_to is None:
         return side
     output, sense = side.text.split(" ")[:2]
     unit, drawn, share = study.table.unit(output), side.move_words.partition(" as drawn")[0], ""
