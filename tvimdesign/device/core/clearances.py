@@ -16,11 +16,6 @@ POCKET_WIDTH = 2.1
 has no way to go to its size, and two round corners that meet leave no edge between them to draw."""
 
 
-def none_or_least(gap: Scalar, least: Scalar) -> Scalar:
-    """Return a length [m] that is not below zero where a gap, itself not below zero, is none or at least so wide."""
-    return gap * (gap - least) / least
-
-
 @quantities.output("mm", at_least(0.0, "the springs must clear the rotor plate"), sprung=True)
 def rotor_spring_gap(m: Module) -> Scalar:
     """Room between the rotor plate and the springs beyond the radial clearance."""

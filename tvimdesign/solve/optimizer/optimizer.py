@@ -28,7 +28,7 @@ from tvimdesign.solve.nlp.trust_region import TrustRegion
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
-SETTLED = 1e-4
+SETTLED = 1e-6
 """Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
 MOST_GRIDS = 4  # Times the steps are placed anew for one run
 _BESIDE, _TRIALS = (0.1, 0.3, 1.0), 10

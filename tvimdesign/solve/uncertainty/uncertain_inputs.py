@@ -147,14 +147,11 @@ def _within(
 FREE_ANGLE = "preload_angle"  # The input that a spring's free angle adds to
 _ALLOWS_FOR = {"free_angle_margin": FREE_ANGLE}
 """Rules of a design that allow for the spread of an input: no limits of modules in which that input is drawn."""
-_OF_THE_DRAWING = frozenset(("adjuster_ledge_margin",))
-"""Rules against steps and slivers that are drawn: what a module as made has there is its spread."""
 
 
 def judges_modules(limit: Constraint, spreading: Collection[str]) -> bool:
     """Return whether a limit is one of modules as made, in which some inputs spread, and not of the drawing alone."""
-    drawn_alone = limit.output in _OF_THE_DRAWING or _ALLOWS_FOR.get(limit.output) in spreading
-    return limit.origin == "require" or not drawn_alone
+    return limit.origin == "require" or _ALLOWS_FOR.get(limit.output) not in spreading
 
 
 def contributors_of(resolved: ResolvedModule, adjusted: bool | None = None) -> list[spread.Contributor]:
