@@ -130,13 +130,15 @@ def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out():
     assert "heating ends at 100 °C (0.68 kohm, 0.21 V at the divider), as in the simulation, and" in message
     # What stays closed at 101 °C opens from 112 °C: half the 11 K that the heater has, above the bead.
     assert "emergency stop at 106 °C (" in message
-    assert message.endswith("below the 112 °C where the cut-out may open")
+    # By hand: 598 ohm at 104.5 °C, 582 at 105.5, 4.8 mV between them; 3.3 V over half of that are 2^10.4 steps.
+    assert "below the 112 °C where the cut-out may open. The two are 29 mV apart: read them " in message
+    assert message.endswith("to 1 K, 4.8 mV, which wants an ADC of 11 bits or more over 3.3 V, calibrated")
     design = switched(foil, hottest=85.6)  # opens from 94 °C
     design.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
     assert "emergency stop at 88.4 °C (" in heater_leads.set_points_in_words(design)
     bare = switched(foil | {"heater_fuse": "none"}, hottest=85.6)
     bare.values["sensed_temperature"] = 84.2 + ZERO_CELSIUS
-    assert heater_leads.set_points_in_words(bare).endswith("below the 105 °C that the structure bears")
+    assert "below the 105 °C that the structure bears. The two" in heater_leads.set_points_in_words(bare)
     bare.values["peak_heater_temperature"] = 103.4 + ZERO_CELSIUS
     assert "no emergency stop fits between that and the 105 °C that the structure" in heater_leads.set_points_in_words(
         bare

@@ -150,7 +150,19 @@ def set_points_in_words(design: Design) -> str:
     stop, end = soft + 0.5 * (ends[what] - hottest), f"{ends[what] - ZERO_CELSIUS:.3g} °C {what}"
     if stop - soft < _ACCURACY:
         return f"{points} and no emergency stop fits between that and the {end}: limit the time of heating"
-    return f"{points} and an emergency stop at {_reads(sensor, stop)}, below the {end}"
+    return f"{points} and an emergency stop at {_reads(sensor, stop)}, below the {end}{_resolution(sensor, soft, stop)}"
+
+
+def _resolution(sensor: "Thermistor | None", soft: float, stop: float) -> str:
+    """Return how far apart two temperatures [K] are at the divider, and the ADC whose steps are half of 1 K there."""
+    if sensor is None:
+        return ""
+    apart, kelvin = (sensor.divided(low) - sensor.divided(stop) for low in (soft, stop - _ACCURACY))
+    bits = math.ceil(math.log2(_DIVIDED / (0.5 * kelvin)))
+    return (
+        f". The two are {1e3 * apart:.2g} mV apart: read them to {_ACCURACY:g} K, {1e3 * kelvin:.2g} mV, which wants "
+        f"an ADC of {bits} bits or more over {_DIVIDED:g} V, calibrated"
+    )
 
 
 def _reads(sensor: "Thermistor | None", kelvin: float) -> str:
@@ -158,8 +170,7 @@ def _reads(sensor: "Thermistor | None", kelvin: float) -> str:
     text = f"{kelvin - ZERO_CELSIUS:.3g} °C"
     if sensor is None:
         return text
-    ohms = sensor.resistance(kelvin)
-    return f"{text} ({1e-3 * ohms:.3g} kohm, {_DIVIDED * ohms / (ohms + NOMINAL):.3g} V at the divider)"
+    return f"{text} ({1e-3 * sensor.resistance(kelvin):.3g} kohm, {sensor.divided(kelvin):.3g} V at the divider)"
 
 
 def _opening(design: Design) -> dict[str, float]:
@@ -210,6 +221,11 @@ class Thermistor(NamedTuple):
     def resistance(self, kelvin: float) -> float:
         """Return resistance [ohm] by the law R = R25 exp(B (1/T - 1/T25))."""
         return NOMINAL * math.exp(self.beta * (1.0 / kelvin - 1.0 / (ZERO_CELSIUS + 25.0)))
+
+    def divided(self, kelvin: float) -> float:
+        """Return the voltage [V] over it where a resistor as large as its nominal one divides the supply's with it."""
+        ohms = self.resistance(kelvin)
+        return _DIVIDED * ohms / (ohms + NOMINAL)
 
     def fits(self, bead: Bead | None, rated: float) -> bool:
         """Return whether it bears a temperature [K] and goes where a bead of that size is drawn.
