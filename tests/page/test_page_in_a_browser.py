@@ -127,7 +127,7 @@ def test_no_table_is_cut_and_hidden_columns_are_named(opened, report, wide):
     table.evaluate("(one) => { [...one.rows[1].cells].at(-1).innerHTML = '<b>0.24 %, active</b>'; }")
     assert table.evaluate("(one) => one.parentElement.scrollWidth - one.parentElement.clientWidth") <= 0
     hidden = table.get_by_role("columnheader", name="plausible range")
-    box = page.get_by_role("checkbox", name="Also show: plausible range, range depends most on")
+    box = page.get_by_role("checkbox", name="Also show: plausible range, depends most on")
     assert hidden.is_visible() == (wide > 1000)
     assert box.is_visible() == (wide < 1000)
     if wide < 1000:

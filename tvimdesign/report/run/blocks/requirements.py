@@ -30,7 +30,8 @@ class Requirement:
     least: float  # The least margin over what history leaves open, as a share of the limit's scale
     met_in: float | None = None  # Share of the plausible cases that meet the limits; none if it was not computed
 
-    depends_on: str = ""  # `pcl_bond_strength 2 MPa (1 to 5)`, the assumed input that matters most; empty if none does
+    depends_on: str = ""
+    """The assumed input to measure first for the limit met in the fewest cases, else for the range; empty if none."""
 
     state: str = ""
     """`51 to 80 °C` if the limit is also on the state in which heating ends; it stands for the point's name."""
@@ -67,12 +68,13 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
         ]
         if not checks:  # of a search without a design nothing was simulated
             continue
-        first = measure_first(name, uncertainty)
+        doubtful, met_in = _least_met(checks, uncertainty)
+        first = measure_first(doubtful or name, uncertainty)
         row = _requirement(answer, table, name, _limit_text(limits, table.unit(name)), checks)
         spread = range_text(_interval(_limited(checks, name, table), intervals))
         state = _hot_states(answer) if table.output(name).at_end in {check.output for check in checks} else ""
         depends = label(first) if first else ""
-        rows.append(replace(row, range=spread, met_in=_met_in(checks, uncertainty), depends_on=depends, state=state))
+        rows.append(replace(row, range=spread, met_in=met_in, depends_on=depends, state=state))
     violated = [check for check in answer.checks if check.origin != "require" and not check.met]
     for check in sorted(violated, key=lambda check: check.worst):
         rows.append(_requirement(answer, table, check.output, check.text.removeprefix(check.output).strip(), [check]))
@@ -81,7 +83,7 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
 
 def requirements_grid(rows: Sequence[Requirement]) -> Grid:
     """Return the table that a page shows."""
-    texts = ("requirement", *HEADS[1:], "range depends most on")
+    texts = ("requirement", *HEADS[1:], "depends most on")
     heads = [Head(text, i == 2, i in _WIDE) for i, text in enumerate(texts)]
     cells = [
         [
@@ -103,13 +105,15 @@ def _limit_text(limits: Sequence[Mapping[str, Any]], unit: str) -> str:
     return f"{text} {pretty(unit)}".rstrip()
 
 
-def _met_in(checks: Sequence[ConstraintCheck], uncertainty: Mapping[str, Any]) -> float | None:
-    """Return the share of cases in which the checks hold, that of the limit met in the fewest."""
+def _least_met(checks: Sequence[ConstraintCheck], uncertainty: Mapping[str, Any]) -> tuple[str, float | None]:
+    """Return the output whose limit is met in the fewest cases, and their share; no output where all cases meet all."""
     shares = uncertainty.get("held")
     if shares is None:
-        return None
+        return "", None
     outputs = {check.output for check in checks}
-    return min((share for limit, share in shares.items() if limit.partition(" ")[0] in outputs), default=1.0)
+    met = [(share, output) for limit, share in shares.items() if (output := limit.partition(" ")[0]) in outputs]
+    share, output = min(met, default=(1.0, ""))
+    return output, share
 
 
 def _limited(checks: Sequence[ConstraintCheck], name: str, table: Table) -> list[str]:
