@@ -16,11 +16,12 @@ import pytest
 from comparable import COARSE
 from support import Command, sample_text, study_path
 
+from tvimdesign.device import table_for
 from tvimdesign.report.output.numbers import at_its_least, ends_text, label, percent
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.facts import _model, main_facts, more_facts
 from tvimdesign.report.run.blocks.requirements import Requirement, requirements
-from tvimdesign.report.run.blocks.tables import held_grid
+from tvimdesign.report.run.blocks.tables import doubts_grid, held_grid, intervals_grid
 from tvimdesign.report.run.first_screen import (
     LINES,
     NARROW_LINES,
@@ -340,6 +341,31 @@ def test_a_limit_in_doubt_stands_beside_what_to_measure_for_it():
         ["minimum_wall", "1.2", "0.8 to 1.6 mm", "pin_margin 50 %, key_margin 75 %", "comb of walls"],
         ["no single input", "", "", "core_web 90 %", "the built part"],
     ]
+    doubts = doubts_grid(uncertainty, table_for("shear")).rows
+    assert [row[0].text for row in doubts] == ["pin_margin", "key_margin", "core_web"]
+    assert doubts[0][2].text == "Diameter of the rotor's pins beyond the process's least"
+
+
+def test_a_requirement_depends_on_what_decides_its_limit_most_in_doubt():
+    answered = case("many alone").result
+    parts = [check.output for check in answered.checks if check.part_of == "holding_torque"]
+    assert len(parts) > 1
+    shares = {"holding_torque": "pcl_bond_strength", parts[-1]: "link_clamp_stress"}
+    intervals = {
+        name: {"value": 1.0, "low": 0.5, "high": 2.0, "shares": {first: 0.5}} for name, first in shares.items()
+    }
+    for held, first in (({}, "pcl_bond_strength"), ({f"{parts[-1]} >=": 0.75}, "link_clamp_stress")):
+        rows = requirements(answered, {"held": held, "intervals": intervals})
+        (row,) = (row for row in rows if row.name == "holding_torque")
+        assert row.depends_on == label(first)
+
+
+def test_the_ranges_say_why_one_input_alone_may_reach_further():
+    ends = {"low": 0.8, "high": 1.6}
+    entry = {"value": 1.0, "unit": "", **ends, "one_at_a_time": {"low": 0.7, "high": 1.7}, "shares": {}, "to_halve": ()}
+    note = intervals_grid({"core_web": entry}).note
+    assert "at the very end of its range" in note
+    assert "95 %" in note
 
 
 def test_a_margin_that_must_not_be_negative_is_at_its_least():

@@ -86,7 +86,7 @@ def test_an_input_is_named_with_the_outputs_it_moves(answered):
     assert moves("wire_diameter", intervals) == []  # a hundredth is nothing to report
     unmeasured = [{"name": name, "value": 9.0, "low": 8.0, "high": 10.0, "unit": "mm", "status": "assumed"}
                   for name in ("wire_diameter", "core_radius")]  # fmt: skip
-    uncertainty = {"intervals": intervals, "unmeasured": unmeasured, "held": {"x >=": 0.5}}
+    uncertainty = {"intervals": intervals, "unmeasured": unmeasured, "held": {"core_web >=": 0.5}}
     folded = assumptions_section(replace(answered, uncertainty=uncertainty)).blocks[-1]
     assert isinstance(folded, Folded)
     (grid,) = folded.blocks

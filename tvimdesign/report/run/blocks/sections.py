@@ -104,6 +104,7 @@ def assumptions_section(answered: AnsweredStudy) -> Section:
         return Section("assumptions", "Assumptions", [Words([words])])
     more = [
         (tables.held_grid(uncertainty, answered.reported["values"]), ""),
+        (tables.doubts_grid(uncertainty, answered.study.table), ""),
         (tables.assumptions_grid(uncertainty.get("assumptions", {})), PAGE),
         (tables.unmeasured_grid(uncertainty, answered.reported["values"]), f"results.csv, results.json and {PAGE}"),
     ]

@@ -184,7 +184,12 @@ def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
         rows.append((output, *texts, ends_text(alone["low"], alone["high"], 4), interval["unit"], first, share, half,
                      *earlier))  # fmt: skip
     title = "Ranges of outputs over unmeasured inputs (95 %, all together)"
-    return grid(title, (*heads, *(["before measuring"] if measured else [])), rows, right=(1, 2, 3, 7), code=(0, 6))
+    note = (
+        "From `low` to `high` lie 95 % of cases with all inputs anywhere in their ranges. `one at a time` has one "
+        "input at the very end of its range, however seldom that is, and the others as assumed: it may reach further."
+    )
+    heads = (*heads, *(["before measuring"] if measured else []))
+    return grid(title, heads, rows, right=(1, 2, 3, 7), code=(0, 6), note=note)
 
 
 def assumptions_grid(assumptions: Mapping[str, Sequence[Mapping[str, Any]]]) -> Grid:
@@ -247,6 +252,15 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
     )
     return grid(f"{TO_MEASURE}: what decides on limits that are met in a part of the ranges only", heads, rows,
                 right=(1,), note=note)  # fmt: skip
+
+
+def doubts_grid(uncertainty: Mapping[str, Any], table: Table) -> Grid:
+    """Return what each limit in doubt is about, such as between which two parts a gap is, the least met first."""
+    shares: dict[str, float] = {}
+    for limit, share in sorted(uncertainty["held"].items(), key=lambda entry: entry[1]):
+        shares.setdefault(limit.partition(" ")[0], share)
+    rows = [(name, f"{100.0 * share:.3g} %", table.output(name).description) for name, share in shares.items()]
+    return grid("What these limits are about", ("limit on", "met in", "meaning"), rows, right=(1,))
 
 
 def _counted(limits: Sequence[str]) -> str:
