@@ -267,22 +267,26 @@ def asks_cost(study: Study) -> bool:
 
 def _unpriced(study: Study, values: Mapping[str, Any]) -> list[str]:
     """Return a warning that names what a cost leaves out where a study asks for one."""
-    if not asks_cost(study):
+    kinds = unpriced_kinds(study.table, values, values)
+    if not (asks_cost(study) and kinds):
         return []
-    prices = [row for row in study.table.inputs if row.group == COST_GROUP and row.record and row.exists(values)]
-    missing = [row for row in prices if not values[row.name] and _is_bought(row, values)]
-    if not missing:
-        return []
-    kinds = ", ".join(row.name.removesuffix("_price").replace("_", " ") for row in missing)
     return [
-        f"cost leaves out what has no price: {kinds}; ask for a quote and set {missing[0].name} and the like under "
-        "`module`, or `price` in a record"
+        f"cost leaves out what has no price: {', '.join(kinds)}; ask for a quote and set "
+        f"{kinds[0].replace(' ', '_')}_price and the like under `module`, or `price` in a record"
     ]
 
 
-def _is_bought(row: Input, values: Mapping[str, Any]) -> bool:
-    """Return whether a module buys by a price: springs wound to order have no record."""
-    return row.name == "spring_price" or not (row.record and isinstance(values[row.record[0]], str))
+def unpriced_kinds(table: Table, values: Mapping[str, Any], chosen: Mapping[str, Any]) -> list[str]:
+    """Return the kinds of a module that its cost leaves out, by `chosen` records or their names.
+
+    Springs wound to order have no record.
+    """
+    return [
+        row.name.removesuffix("_price").replace("_", " ")
+        for row in table.inputs
+        if row.group == COST_GROUP and row.record and row.exists(chosen) and not values[row.name]
+        and (row.name == "spring_price" or chosen[row.record[0]] != "none")
+    ]  # fmt: skip
 
 
 def _pressed(study: Study, values: Mapping[str, Any]) -> list[str]:

@@ -38,6 +38,7 @@ from tvimdesign.catalog.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.blocks.warnings import hints
 from tvimdesign.study.design import Design
+from tvimdesign.study.resolve import unpriced_kinds
 
 DESIGNS = [
     pytest.param("shear", BEARINGS, id="bearings"),
@@ -46,6 +47,19 @@ DESIGNS = [
     pytest.param("shear", TILES, id="tiles", marks=pytest.mark.slow),
     pytest.param("compression", BEARING_BLOCKS, id="bearing blocks", marks=pytest.mark.slow),
 ]
+
+
+def test_note_and_bill_leave_the_same_kinds_out_of_the_cost():
+    design = design_of("listed", {"process": "print_pc_bambu"}, "shear")
+    design = design.model_copy(update={"values": design.values | {"cost": 2.97}})
+    items = bill(design, {}, place(dimensions(design), drawn_parts(dimensions(design))))
+    note = assembly_note(design, dimensions(design), items).decode()
+    missing = note.partition("without a price, so not in it: ")[2].partition(". Ask")[0].split(", ")
+    assert missing == unpriced_kinds(table_for("shear"), design.values, design.choices)
+    rows = csv.DictReader(io.StringIO(bill_csv(items).decode("utf-8-sig")))
+    named = {"spring_right": "spring", "spring_left": "spring", "pcl_arc": "pcl"}
+    free = {named.get(row["part"], row["part"].replace("_", " ")) for row in rows if not row["cost_all_usd"]}
+    assert free - {"thermistor", "heater lead"} == set(missing)  # sensors and what comes with a heater are not counted
 
 
 @pytest.mark.parametrize(("mode", "changes"), DESIGNS)

@@ -310,8 +310,10 @@ def test_the_cost_names_parts_without_a_price():
         return next(fact.text for fact in facts if fact.label == "Cost")
 
     assert "12.3 USD" in cost(cost=12.3)
-    assert "2 of its pieces have no price and count nothing" in cost(unpriced_count=2.0)
-    assert "count nothing" not in cost(unpriced_count=0.0)
+    assert "without a price, so not in it: spring, heater, thermal cutout, structure, pcl; " in cost()
+    prices = {"spring_price": 4.0, "heater_price": 18.0}
+    assert "without a price, so not in it: thermal cutout, structure, pcl; enter quotes" in cost(**prices)
+    assert "not in it" not in cost(**prices, structure_price=40.0, pcl_price=50.0, thermal_cutout_price=4.0)
 
 
 def test_the_temperatures_of_a_switch_rise_along_their_line():

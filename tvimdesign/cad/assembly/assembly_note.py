@@ -17,6 +17,7 @@ from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.catalog.offers import between
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
+from tvimdesign.study.resolve import unpriced_kinds
 
 
 def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra: Sequence[Item] = ()) -> bytes:
@@ -36,7 +37,7 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{cad_report.BILL_OF_MATERIALS}`.", ""]
     lines += ["| also needed | |", "|---|---|"] if extra else []
     lines += [f"| {_words(item.kind)} | {item.title}{_about(item.mass)} |" for item in extra]
-    lines += ["", _cost([*items, *extra], design.values.get("cost", 0.0))]
+    lines += ["", _cost([*items, *extra], design)]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [item for item in items if item.made]), "## Steps", ""]
     steps = written_steps(design, dims, items)
@@ -53,13 +54,14 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     return "\n".join(lines).encode()
 
 
-def _cost(items: Sequence[Item], used: float) -> str:
-    """Return the sum of what has a price, what of it [USD] one module uses, and how much has none."""
-    sums = cost(items)
-    uses = f"One module uses {used:.3g} USD of material and of shares of packs. " if used > 0.0 else ""
+def _cost(items: Sequence[Item], design: Design) -> str:
+    """Return the sum of what has a price, what of it one module uses, and what has none."""
+    sums, used = cost(items), design.values.get("cost", 0.0)
+    kinds = ", ".join(unpriced_kinds(table_for(design.mode), design.values, design.choices)) or "nothing"
+    uses = f"One module uses {used:.3g} USD of priced material and shares of packs; without a price, so not in it: "
     return (
         f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list, some of them a neighbour's: "
-        f"{between(sums.low, sums.high)} for whole packs. {uses}"
+        f"{between(sums.low, sums.high)} for whole packs. {f'{uses}{kinds}. ' if used > 0.0 else ''}"
         f"Ask suppliers for quotes of the others.{_made_to_order(items)}"
     )
 

@@ -104,7 +104,7 @@ def _of_record(
         status, _, source = row.source.partition(": ")
         return Provenance(status, source)
     if entry is None:
-        return Provenance("chosen", f"{record.category}/{record.name} has no {field}; such a module needs none")
+        return Provenance("chosen", f"{record.category}/{record.name} has no {field}")
     return Provenance(entry.status, f"{record.category}/{record.name}: {entry.source}", entry.low, entry.high)
 
 

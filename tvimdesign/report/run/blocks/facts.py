@@ -31,6 +31,7 @@ from tvimdesign.report.run.uncertainty_data import changes, lever, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE
 from tvimdesign.solve.result import StudyResult
+from tvimdesign.study.resolve import unpriced_kinds
 
 _DIGITS = 3
 _GOOD = 0.9973  # Yield from which a module is no concern: three standard deviations to either side
@@ -308,7 +309,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Held", list(_creep(_Values(answer, uncertainty), answer))),
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
-        Fact("Cost", list(_cost(_Values(answer, uncertainty)))),
+        Fact("Cost", list(_cost(_Values(answer, uncertainty), answer.design.choices))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table),
         *_yield(answer, uncertainty, table),
@@ -341,12 +342,12 @@ def _creep(value: _Values, answer: StudyResult) -> Iterator[str]:
         yield "adhesives and pins are taken to creep as the structure does"
 
 
-def _cost(value: _Values) -> Iterator[str]:
-    """Yield what one module uses, and how many of its parts that leaves out; whole packs are counted by the bill."""
-    yield f"{value('cost')} of material and of shares of packs in one module, without work"
+def _cost(value: _Values, choices: Mapping[str, str]) -> Iterator[str]:
+    """Yield what one module uses, as far as it has a price, and what has none; whole packs are counted by the bill."""
+    yield f"{value('cost')} of priced material and shares of packs in one module, without work"
+    if missing := unpriced_kinds(value.table, value.values, choices):
+        yield f"without a price, so not in it: {', '.join(missing)}; enter quotes in the study's module section"
     yield "whole packs, supply and electronics to buy: cad/assembly.md"
-    if unpriced := round(value.values["unpriced_count"]):
-        yield f"{unpriced} of its pieces have no price and count nothing: enter quotes in the study's module section"
 
 
 def _soft(answer: StudyResult) -> list[str]:

@@ -169,7 +169,7 @@ def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
     `for half` counts the fewest inputs to measure for half the width; results.json names them.
     """
     measured = any(interval.get("before") for interval in intervals.values())
-    heads = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    heads: tuple[str, ...] = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
     rows = []
     for output, interval in intervals.items():
         if interval["low"] == interval["high"]:
@@ -188,7 +188,7 @@ def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
         "From `low` to `high` lie 95 % of cases with all inputs anywhere in their ranges. `one at a time` has one "
         "input at the very end of its range, however seldom that is, and the others as assumed: it may reach further."
     )
-    heads = (*heads, *(["before measuring"] if measured else []))
+    heads += ("before measuring",) if measured else ()
     return grid(title, heads, rows, right=(1, 2, 3, 7), code=(0, 6), note=note)
 
 
