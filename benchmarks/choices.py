@@ -19,7 +19,7 @@ from reference_problem import study_of_sizes
 
 from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.combinations import Begin, enumerated_here
+from tvimdesign.solve.discrete.combinations import every_combination
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import SolverEffort
@@ -71,9 +71,8 @@ def clocked(relaxation: Relaxation, how: str) -> Clocked:
     relaxation.work = SolverEffort()
     begin = time.process_time()
     if how == "each":
-        start = Begin(relaxation.optimizer.study, None, (), [relaxation])
-        runs = [run for _, block in enumerated_here(start) for run in block.runs.values()]
-        objectives = sorted(run.start.objective for run in runs)
+        runs, _ = every_combination([relaxation], {})
+        objectives = sorted(run.start.objective for run in runs.values())
     elif how == "bonmin":
         chosen = best_by_bonmin(relaxation.optimizer.study, relaxation.optimizer.reference)
         return Clocked([chosen.objective], relaxation.work, chosen.seconds)

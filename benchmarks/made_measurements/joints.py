@@ -14,7 +14,7 @@ def torque_angle_data(noise: np.random.Generator) -> Made:
     truth = {"stiffness": 5.0, "friction": 0.05, "backlash": 0.01, "zero_angle": 0.02}
     steps = np.linspace(0.1, 1.0, 10)
     torque = np.concatenate([steps, steps[::-1], -steps, -steps[::-1], steps])
-    angle = torque_angle.angle_of(torque, truth) + noise.normal(0.0, 1e-3, len(torque))
+    angle = np.asarray(torque_angle.angle_of(torque)(truth)).ravel() + noise.normal(0.0, 1e-3, len(torque))
     return [block(torque=torque, angle=angle)], {}, truth
 
 

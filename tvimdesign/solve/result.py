@@ -12,7 +12,7 @@ from tvimdesign.device import Input, Table
 from tvimdesign.device.core.softening import CONTROL, DUTY
 from tvimdesign.simulation.joint_tests.release import contact_seen
 from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, intervals, phase_history
-from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule, given_profiles
 from tvimdesign.solve.duty import HOUR, ControlResult, DutyResult, control_of, duty_of
 from tvimdesign.solve.nlp import constraints
@@ -187,7 +187,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
         status, current_profiles = "evaluated", given_profiles(study)
-        cycle = Simulator(model).run_to_show(inputs, current_profiles)
+        cycle = Simulator(model).run(inputs, current_profiles)
         values = model.values(inputs, cycle.values)
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
     resolved = ResolvedModule(study, {**given(study), **model.words, **numbers}, current_profiles)
@@ -235,7 +235,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         design=design, checks=checks, warnings=(*(ratings[name] for name in above), *ignored),
         accepted=tuple(ratings[name] for name in accepting),
         idealizations=idealizations(resolved, inputs, values, current_profiles),
-        histories=_histories(model, inputs, cycle),
+        histories={phase: phase_history(model, inputs, line, phase) for phase, line in cycle.trajectories.items()},
         sweep=impedance_sweep(resolved), solution=solution,
         intervals=open_values,
         constant_current=_at_constant_current(model, inputs, set(current_profiles)),
@@ -270,10 +270,6 @@ def _at_constant_current(model: DeviceFunctions, inputs: NDArray[np.float64], ph
         changed[model.index[row.name]] = row.default
     values = Simulator(model).run(changed).values
     return {name: values[name] for phase in _COMPARED if phase in phases for name in _COMPARED[phase]}
-
-
-def _histories(model: DeviceFunctions, inputs: NDArray[np.float64], cycle: Cycle) -> dict[str, Curves]:
-    return {phase: phase_history(model, inputs, line, phase) for phase, line in cycle.trajectories.items()}
 
 
 def _choices(model: DeviceFunctions, table: Table) -> dict[str, str]:

@@ -10,15 +10,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
 from tvimdesign.base.interrupts import interrupt_came
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
-from tvimdesign.solve.discrete.combinations import (
-    Begin,
-    Block,
-    ExactCombinations,
-    SolvedBlock,
-    Trees,
-    enumerated_here,
-    refuse_too_many,
-)
+from tvimdesign.solve.discrete.combinations import ExactCombinations, Trees, every_combination, refuse_too_many
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
@@ -129,8 +121,7 @@ def _optimize(
     choosing: Choosing | None = None
     designs, shown, exact = free, list[tuple[Relaxation, Run]](), building.exact()
     if listed and in_time is None:
-        begin = Begin(study, reference, objectives, trees)
-        choosing, designs, shown = _choose(search, exact, combinations, begin)
+        choosing, designs, shown = _choose(search, exact, combinations, study.solver)
         in_time = _in_time(study, designs, deadline)
     elif combinations > 1:
         choosing, shown = _chosen(free, combinations, study.solver)
@@ -285,17 +276,17 @@ def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline
 
 
 def _choose(
-    search: BranchAndBound, exact: ExactCombinations, combinations: int, begin: Begin
+    search: BranchAndBound, exact: ExactCombinations, combinations: int, options: SolverOptions
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]], list[tuple[Relaxation, Run]]]:
     """Return the best combinations, by branch and bound and on request by solving all.
     The answer holds the account, the designs, and those to report, which are not simulated yet.
     """
-    trees, options = begin.trees, begin.study.solver
+    trees = search.trees
     stopped = trees[0].optimizer.deadline.met
     solved, proof = dict(search.runs), SolverEffort()
     pruned, improved = search.pruned, 0.0
     if options.prove and not stopped:
-        solved, proof = _each(search.runs, enumerated_here(begin))
+        solved, proof = every_combination(trees, search.runs)
         pruned = 0
         improved = _improvement(search.runs, solved)
     ranked = sorted(solved, key=lambda key: (order(solved[key]), key))
@@ -355,18 +346,6 @@ def _chosen(
     return choosing, list(best.values())[: options.alternatives]
 
 
-def _each(known: _Runs, blocks: Iterable[tuple[Block, SolvedBlock]]) -> tuple[_Runs, SolverEffort]:
-    """Designs of all combinations that have one, the better of two where one is known; and what the blocks took."""
-    every, work = dict(known), SolverEffort()
-    for block, (runs, took) in blocks:
-        work = SolverEffort.total([work, took])
-        for box, run in runs.items():
-            key = (block.place, box)
-            if key not in every or order(run) < order(every[key]):
-                every[key] = run
-    return every, work
-
-
 def _improvement(branched: _Runs, every: _Runs) -> float:
     """Share by which the best of all combinations is better than what branch and bound found."""
     best, least = (min((run.start.objective for run in runs.values()), default=None) for runs in (branched, every))
@@ -403,7 +382,7 @@ def _standard(relaxation: Relaxation, run: Run) -> Standard:
     """Return a simulated design for the report."""
     optimizer, minimized = relaxation.optimizer, list(relaxation.optimizer.study.minimize)
     if any(on_cycle(optimizer.table, name) for name in minimized):
-        cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles).values
+        cycle = optimizer.simulator.run(run.inputs, run.current_profiles).values
     else:
         cycle = dict.fromkeys(optimizer.model.switch_names, math.inf)
     choices: dict[str, str | float] = {**relaxation.records, **relaxation.values(run)}

@@ -56,7 +56,7 @@ class CellAnswers:
         study = drawn(study)
         numbers = given(study)
         model = DeviceFunctions(study.table, numbers, tuple(study.operating_points), study.solver.cells)
-        values = model.values(model.start, Simulator(model).run_to_show(model.start, given_profiles(study)).values)
+        values = model.values(model.start, Simulator(model).run(model.start, given_profiles(study)).values)
         stated = {name: float(model.start[i]) for name, i in model.index.items()}
         return self._answer_of("evaluated", study, {**stated, **values}, {**numbers, **model.words})
 

@@ -32,7 +32,7 @@ STEP = 0.5
 def _run(mode: str) -> tuple[DeviceFunctions, Mapping[str, float], dict[str, Curves]]:
     resolved = module_of(mode)
     model = resolved.functions
-    cycle = Simulator(model).run_to_show(model.start)
+    cycle = Simulator(model).run(model.start)
     phases = ("softening", "stiffening")
     return model, cycle.values, {n: phase_history(model, model.start, cycle.trajectories[n], n) for n in phases}
 

@@ -84,7 +84,7 @@ def test_a_phase_that_never_ends_has_maxima_and_nothing_else(build):
 @pytest.mark.parametrize("design", ["as it is", "thin", "sink"])
 def test_a_trajectory_has_samples_enough_and_runs_as_cvodes_does(design, build):
     model = build(design)
-    shipped, judge = Simulator(model).run_to_show(model.start), fine(model).run(model.start)
+    shipped, judge = Simulator(model).run(model.start), fine(model).run(model.start)
     for name, line in shipped.trajectories.items():
         other = judge.trajectories[name]
         assert line.times[0] == 0.0
@@ -108,7 +108,7 @@ def seen(model: DeviceFunctions, phase: str, states: Array, current: float) -> A
 
 def test_what_is_shown_is_what_is_simulated(build):
     model = build()
-    full, other = Simulator(model).run_to_show(model.start), Simulator(model).run(model.start)
+    full, other = Simulator(model).run(model.start), Simulator(model).run(model.start)
     assert full.values == other.values
     assert all(np.array_equal(line.states, other.trajectories[name].states) for name, line in full.trajectories.items())
 

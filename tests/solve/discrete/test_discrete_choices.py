@@ -12,7 +12,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.solve.discrete.combinations import Begin, enumerated_here
+from tvimdesign.solve.discrete.combinations import every_combination
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
@@ -95,8 +95,7 @@ def test_every_combination_is_as_good_as_solved_alone_and_cold(solution, alone):
     relaxation.optimizer.progress = messages.append
     each = {
         tuple(low for low, _ in relaxation.sizes.ends(box).values()): run.start.objective
-        for _, block in enumerated_here(Begin(listed(), None, (), [relaxation]))
-        for box, run in block.runs.items()
+        for (_, box), run in every_combination([relaxation], {})[0].items()
     }
     assert set(each) == set(alone)
     for sizes, objective in alone.items():

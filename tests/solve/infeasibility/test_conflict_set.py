@@ -15,7 +15,7 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting, conflict_in_words, tried_with_margins
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
-from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen, _broken, _one_design, designs_all_over
+from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen, _broken, designs_all_over, least_broken
 from tvimdesign.solve.nlp.solution import Side
 from tvimdesign.solve.nlp.solver_run import ITERATIONS_OVER, NO_DESIGN, SOLVED, Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -302,7 +302,7 @@ def test_where_no_limit_is_of_arithmetic_every_design_keeps_them():
     optimizer = Optimizer(study)
     screen = FeasibilityScreen(optimizer)
     assert screen.worst(np.zeros((1, 4))).tolist() == [-1.0] * 4
-    assert _one_design(optimizer, screen, 1) is not None
+    assert least_broken(optimizer, screen, 1, {})[1] < 0.0
 
 
 @pytest.mark.slow

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.spatial import ConvexHull
 
 from tvimdesign.solve.pareto import front_shape as shape
 from tvimdesign.solve.pareto.front_shape import Frame, leads, reached
@@ -84,13 +83,14 @@ def test_candidates_lie_in_the_hull_of_the_ends_and_reach_its_corners():
 
 
 @given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=6, max_size=12, unique=True))
-def test_the_corners_of_a_hull_are_those_of_qhull(points):
+def test_the_corners_of_a_hull_turn_left_around_all_points(points):
     places = np.array(points, dtype=float)
     assume(np.linalg.matrix_rank(places - places[0]) == 2)
-    expected = {points[i] for i in ConvexHull(places).vertices}
-    corners = [(int(x), int(y)) for x, y in shape._hull(places)]
-    assert set(corners) == expected
-    assert len(corners) == len(expected)
+    corners = np.array(shape._corners(places))
+    assert tuple(corners[0]) == min(points)
+    sides, ways = np.roll(corners, -1, axis=0) - corners, places[:, None] - corners
+    assert (sides[:, 0] * ways[..., 1] - sides[:, 1] * ways[..., 0] >= 0.0).all()
+    assert len(np.unique(corners, axis=0)) == len(corners)
 
 
 FALLING = [(1.0, 10.0), (5.0, 2.0)]  # y = 12 - 2 x

@@ -146,16 +146,16 @@ def by_point(results: Sequence[_Tested]) -> list[tuple[str, list[_Tested]]]:
     return [(point, [result for result in results if result.case.point == point]) for point in points]
 
 
-def finding(name: str, unit: str, meaning: str, numbers: Sequence[float]) -> Finding:
-    """Return one number of a point from its histories', the nominal first; an interval where there are several."""
-    if len(numbers) == 1:
-        return Finding(name, numbers[0], unit, meaning)
-    return Finding(name, numbers[0], unit, meaning, low=min(numbers), high=max(numbers))
-
-
 def findings_at(point: str, rows: Iterable[tuple[str, str, str, Sequence[float]]]) -> list[Finding]:
-    """Return findings of a point from rows of name, unit, meaning and the numbers of its histories."""
-    return [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
+    """Return findings of a point from rows of name, unit, meaning and the numbers of its histories.
+
+    The nominal number comes first; where there are several, the others make an interval.
+    """
+    findings = []
+    for name, unit, meaning, numbers in rows:
+        ends = (min(numbers), max(numbers)) if len(numbers) > 1 else (None, None)
+        findings.append(Finding(f"{name}@{point}", numbers[0], unit, meaning, *ends))
+    return findings
 
 
 def contact_columns(case: Case, course: OneSided) -> tuple[Column, ...]:

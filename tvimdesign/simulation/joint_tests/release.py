@@ -92,49 +92,36 @@ def release(
         notes=(
             f"The PCL was free of strain, was turned to {angle:g} rad at once and held there for {hold:g} s: of a hold "
             "of seconds the melt keeps nothing, frozen PCL nearly all.",
-            "Torque is that of the module on the link, friction of the springs' legs on their pins counted.",
-            *_friction_note(releases),
-            *_slip_note(resolved, releases),
-            *notes_for([swing.case for swing in releases]),
-            *overload_notes(resolved, [(swing.case, float(abs(swing.motion.torque[0]))) for swing in releases]),
-            *_unsettled(releases),
+            *_notes(resolved, releases),
         ),
     )  # fmt: skip
 
 
-def _friction_note(releases: Sequence[Released]) -> tuple[str, ...]:
-    """Return a sentence on what friction does to the curves; nothing where there is none."""
+def _notes(resolved: ResolvedModule, releases: Sequence[Released]) -> list[str]:
+    """Return sentences on friction, slip, what is assumed, and links that were not followed until they settle."""
+    notes = ["Torque is that of the module on the link, friction of the springs' legs on their pins counted."]
     friction = max(released.case.friction for released in releases)
-    if not friction:
-        return ()
-    band = friction / releases[0].case.joint.spring_stiffness
-    return (
-        f"Friction of {1e3 * friction:.3g} mN.m is a constant torque against the motion: the loop is twice that wide, "
-        f"and the springs alone leave the link up to {1e3 * band:.3g} mrad off its rest.",
-    )
-
-
-def _slip_note(resolved: ResolvedModule, releases: Sequence[Released]) -> tuple[str, ...]:
-    """Return a sentence on the points at which the layer slipped or yielded."""
+    if friction:
+        band = friction / releases[0].case.joint.spring_stiffness
+        notes.append(
+            f"Friction of {1e3 * friction:.3g} mN.m is a constant torque against the motion: the loop is twice that "
+            f"wide, and the springs alone leave the link up to {1e3 * band:.3g} mrad off its rest."
+        )
     slips = {swing.case.point: abs(swing.slip) for swing in releases if swing.slip}
-    if not slips:
-        return ()
-    most = float(resolved.quantity("holding_torque"))
-    return (
-        f"At {' and '.join(slips)} the joint bears {most:.3g} N·m and no more: the weakest on its way (see the "
-        f"run's table of frozen torque) slips or yields by "
-        f"{1e3 * max(slips.values()):.3g} mrad while the link is held, and the link stays turned.",
-    )
-
-
-def _unsettled(releases: Sequence[Released]) -> tuple[str, ...]:
-    """Return a sentence on the points where a link was not followed until it settles."""
-    points = " and ".join(
-        dict.fromkeys(released.case.point for released in releases if not np.isfinite(released.settling))
-    )
-    if not points:
-        return ()
-    return (f"At {points} the link still swings where its curve ends: it settles later, if it does.",)
+    if slips:
+        notes.append(
+            f"At {' and '.join(slips)} the joint bears {float(resolved.quantity('holding_torque')):.3g} N·m and no "
+            "more: the weakest on its way (see the run's table of frozen torque) slips or yields by "
+            f"{1e3 * max(slips.values()):.3g} mrad while the link is held, and the link stays turned."
+        )
+    notes += notes_for([swing.case for swing in releases])
+    notes += overload_notes(resolved, [(swing.case, float(abs(swing.motion.torque[0]))) for swing in releases])
+    points = dict.fromkeys(released.case.point for released in releases if not np.isfinite(released.settling))
+    if points:
+        notes.append(
+            f"At {' and '.join(points)} the link still swings where its curve ends: it settles later, if it does."
+        )
+    return notes
 
 
 def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tuple[float, float, float]]:
@@ -144,23 +131,19 @@ def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tu
         return {f"{name}@{point}": (float(x),) * 3 for point in resolved.points for name, x in values.items()}
     seen: dict[str, list[float]] = {}
     for case in cases(resolved):
-        for name, value in _first_swing_of(resolved, case, angle).items():
-            seen.setdefault(f"{name}@{case.point}", []).append(value)
-    return {name: (values[0], min(values), max(values)) for name, values in seen.items()}
+        internal = link.held(case.plant, angle, float(resolved.quantity("hold_time")))
+        motion = link.released(case.plant, angle, internal, case.friction, TURNS_OF_A_SWING)
+        instants = _rows_of_a_swing(resolved, Touching(*motion.touching.astype(float)))
+        for name, values in instants.items():
+            mean = motion.average(values, 0.0, motion.first_swing())
+            seen.setdefault(f"{name}@{case.point}", []).append(mean)
+    return {name: (means[0], min(means), max(means)) for name, means in seen.items()}
 
 
 def _rows_of_a_swing(resolved: ResolvedModule, touching: Touching) -> dict[str, Any]:
     """Evaluate every quantity that a swing shows, where the blocks touch as given; a bonded layer always does."""
     names = [row.name for row in resolved.table.first_oscillations]
     return resolved.table.evaluate_instant({**resolved.values, TOUCHING: touching}, names)
-
-
-def _first_swing_of(resolved: ResolvedModule, case: Case, angle: float) -> dict[str, float]:
-    """Return the mean of every row of a swing over the first one."""
-    internal = link.held(case.plant, angle, float(resolved.quantity("hold_time")))
-    motion = link.released(case.plant, angle, internal, case.friction, TURNS_OF_A_SWING)
-    instants = _rows_of_a_swing(resolved, Touching(*motion.touching.astype(float)))
-    return {name: motion.average(values, 0.0, motion.first_swing()) for name, values in instants.items()}
 
 
 def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
@@ -219,25 +202,16 @@ def _sheets(released: Released) -> tuple[CurveTable, ...]:
             Column("torque_kelvin_voigt", "N*m", released.simple.torque),
         ]
     events = event_sheets(name, released.response)
-    return (CurveTable(name, tuple(columns)), *_first_swing(released, columns), *events)
-
-
-def _first_swing(released: Released, columns: Sequence[Column]) -> tuple[CurveTable]:
-    """Return the first swing alone, whose loop shows loss and backlash; later ones lie over it."""
-    count = int(np.searchsorted(released.motion.times, released.response.first_swing(), side="right"))
-    return (
-        CurveTable(_loop_name(released), tuple(replace(column, values=column.values[:count]) for column in columns)),
-    )
-
-
-def _loop_name(released: Released) -> str:
-    return f"release_{released.case.name}_first_swing"
+    # The first swing alone shows loss and backlash; later ones lie over it.
+    count = int(np.searchsorted(moved.times, released.response.first_swing(), side="right"))
+    first = tuple(replace(column, values=column.values[:count]) for column in columns)
+    return (CurveTable(name, tuple(columns)), CurveTable(f"{name}_first_swing", first), *events)
 
 
 def _lines(releases: Sequence[Released], x: str, y: str) -> tuple[PlottedLine, ...]:
     lines = []
     for released in releases:
-        sheet = _loop_name(released) if x == "angle" else f"release_{released.case.name}"
+        sheet = f"release_{released.case.name}" + ("_first_swing" if x == "angle" else "")
         lines.append(PlottedLine(sheet, x, y, released.case.label))
         if released.simple and not released.case.history.name:
             across = "angle_kelvin_voigt" if x == "angle" else x

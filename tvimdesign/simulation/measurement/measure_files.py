@@ -274,14 +274,12 @@ def _likely_kind(blocks: Sequence[Block]) -> KindSheet:
             for sheet in likely
         )
         raise InputError(f"{columns} may be {kinds}; name the column so, or say which with --as{ends}")
-    near = sorted(sheets, key=lambda sheet: min(_lacks(block, sheet) for block in blocks))
+    near = sorted(
+        sheets,
+        key=lambda sheet: min(sum(sheet.column(block, need) is None for need in sheet.needs) for block in blocks),
+    )
     needs = "; ".join(f"{sheet.name} needs {_needed(sheet)}" for sheet in near[:_NEAREST])
     raise InputError(f"{columns} are of no kind there is ({', '.join(kind_sheets())}). The nearest: {needs}{ends}")
-
-
-def _lacks(block: Block, sheet: KindSheet) -> int:
-    """Count the columns of a kind that a table lacks."""
-    return sum(sheet.column(block, need) is None for need in sheet.needs)
 
 
 def _needed(sheet: KindSheet) -> str:

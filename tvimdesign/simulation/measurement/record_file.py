@@ -45,7 +45,10 @@ def record_text(measured: Measured, name: str, based_on: str) -> str:
     lines = list(_value_lines(measured, measurement.record_values))
     if not measured.kind.category or not (lines or measurement.record_tables):
         raise NoRecordError(_nothing(measured))
-    lines += _condition_lines(measured)
+    source = _quoted(measured.source)
+    for condition, (chosen, unit) in measurement.record_conditions.items():
+        lines.append(f'  {condition}: {{value: {_number(from_si(chosen, unit))}, unit: "{unit}", status: calibrated,')
+        lines.append(f'    source: "chosen, and goes with the values {source}"}}')
     text = [*_head(name, based_on), *(["values:", *lines] if lines else [])]
     for table, sheet in measurement.record_tables.items():
         columns = ", ".join(f'{column}: "{unit}"' for column, unit in sheet.columns.items())
@@ -55,7 +58,7 @@ def record_text(measured: Measured, name: str, based_on: str) -> str:
             f"      - [{', '.join(_number(from_si(cell, unit)) for cell, unit in zip(row, units, strict=True))}]"
             for row in sheet.rows
         ]
-        text += [f'    source: "{_quoted(measured.source)}"', "    status: measured"]
+        text += [f'    source: "{source}"', "    status: measured"]
     return "\n".join(text) + "\n"
 
 
@@ -161,13 +164,6 @@ def as_recorded(estimate: Estimate) -> Estimate:
         below, above = (np.hypot(abs(end - value) + estimate.drift, own) for end in ends)
         low, high = max(value - below, 0.0) if estimate.low >= 0.0 else value - below, value + above
     return replace(estimate, low=float(low), high=float(high))
-
-
-def _condition_lines(measured: Measured) -> Iterator[str]:
-    source = _quoted(measured.source)
-    for name, (chosen, unit) in measured.measurement.record_conditions.items():
-        yield f'  {name}: {{value: {_number(from_si(chosen, unit))}, unit: "{unit}", status: calibrated,'
-        yield f'    source: "chosen, and goes with the values {source}"}}'
 
 
 def _number(value: float) -> str:

@@ -8,7 +8,6 @@ from tvimdesign.physics.polymers import viscoelasticity
 from tvimdesign.physics.polymers.polymer import LINEAR_DROP, ZERO_CELSIUS, maxwell_moduli
 from tvimdesign.physics.polymers.viscoelasticity import Body
 from tvimdesign.simulation.rheometer.specimen import (
-    TITLES,
     Comparison,
     Specimen,
     State,
@@ -52,11 +51,16 @@ def frequency(resolved: ResolvedModule, temperatures: Sequence[float] | None = N
     findings: list[Finding] = []
     for at, fitted in zip(tested, compared, strict=True):
         findings += [*_moduli_at_1_hertz(at), *fitted.findings()]
+    labels = ("Angular frequency (rad/s)", "Complex modulus |G*| (Pa)")
+    bodies = (
+        at.bodies_panel("Simple bodies", labels, f"frequency_{at.point}", "angular_frequency", "complex_modulus")
+        for at in tested
+    )
     return Trial(
         test="frequency",
         title="Frequency sweep at 0.01 % strain",
         sheets=(*sheets, parameters(compared)),
-        panels=(*_frequency_panels(tested), *(_fit_panel(at) for at in tested)),
+        panels=(*_frequency_panels(tested), *bodies),
         findings=tuple(findings),
         notes=(history_note(resolved), "The simple bodies are drawn for the equilibrium curve on heating."),
     )
@@ -102,14 +106,6 @@ def _frequency_panels(tested: Sequence[Specimen]) -> tuple[Panel, ...]:
         ),
         Panel("Loss factor", x, "Loss factor tan δ (–)", tuple(lines("loss_factor")), log_x=True, log_y=True),
     )
-
-
-def _fit_panel(at: Specimen) -> Panel:
-    sheet, x = f"frequency_{at.point}", "angular_frequency"
-    bodies = (PlottedLine(sheet, x, f"complex_modulus_{kind}", title, dashed=True) for kind, title in TITLES.items())
-    lines = (at.line(sheet, x, "complex_modulus", "full spectrum"), *bodies)
-    title = f"Simple bodies at {at.label}"
-    return Panel(title, "Angular frequency (rad/s)", "Complex modulus |G*| (Pa)", lines, log_x=True, log_y=True)
 
 
 def _moduli_at_1_hertz(at: Specimen) -> tuple[Finding, ...]:

@@ -19,7 +19,7 @@ from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
 from tvimdesign.physics.polymers.viscoelasticity import Body, KelvinVoigt, Maxwell, StandardLinearSolid
 from tvimdesign.physics.solids.structure import shear_yield
-from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, PlottedLine
+from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine
 from tvimdesign.simulation.working_cycle.curves import HISTORIES, fractions_at, melting_range
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
@@ -104,6 +104,14 @@ class Specimen:
         """Return a quantity of `columns` drawn over another, with its band where it has one."""
         band = (f"{y}_low", f"{y}_high") if self.others else None
         return PlottedLine(sheet, x, y, self.label if label is None else label, band, dashed)
+
+    def bodies_panel(
+        self, title: str, labels: tuple[str, str], sheet: str, x: str, y: str, *, log_x: bool = True, log_y: bool = True
+    ) -> Panel:
+        """Return a quantity of `columns` beside that of the simple bodies' `curves`, on axes with `labels`."""
+        bodies = (PlottedLine(sheet, x, f"{y}_{kind}", name, dashed=True) for kind, name in TITLES.items())
+        lines = (self.line(sheet, x, y, "full spectrum"), *bodies)
+        return Panel(f"{title} at {self.label}", *labels, lines, log_x=log_x, log_y=log_y)
 
 
 def at_fraction(resolved: ResolvedModule, temperature: float, fraction: float, *, cooled: bool = False) -> State:

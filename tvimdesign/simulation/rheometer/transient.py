@@ -1,6 +1,5 @@
 """The virtual rheometer holding still: creep with recovery, and stress relaxation."""
 
-from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
@@ -17,7 +16,7 @@ from tvimdesign.simulation.rheometer.specimen import (
     parameters,
     specimens,
 )
-from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, Trial
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
 STRESS = 50.0  # Pa, the paper's
@@ -33,14 +32,18 @@ HELD = np.geomspace(1e-3, 1e3, 121)  # s
 DAY = 86400.0  # s
 
 
-def creep(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
+def creep(resolved: ResolvedModule) -> Trial:
     """Load with a constant stress, take it off, and watch the strain; the simple bodies are fitted under load."""
-    tested = specimens(resolved, temperatures)
+    tested = specimens(resolved)
     compared = [compare(at, _compliance, lambda body: body.creep(UNDER_LOAD), (UNDER_LOAD[0], LOADED)) for at in tested]
     pairs = list(zip(tested, compared, strict=True))
     lines = tuple(at.line(f"creep_{at.point}", "time", "compliance") for at in tested)
     panels = [Panel("Creep compliance", "Time (s)", "Compliance J (1/Pa)", lines, log_x=True, log_y=True)]
-    panels += [_creep_panel(at) for at in tested]
+    panels += [
+        at.bodies_panel("Creep and recovery", ("Time (s)", "Strain (%)"), f"creep_{at.point}", "time", "strain",
+                        log_x=False, log_y=bool(at.others))
+        for at in tested
+    ]  # fmt: skip
     return Trial(
         test="creep",
         title=f"Creep under {STRESS:g} Pa for {LOADED:g} s, and {RECOVERY:g} s of recovery",
@@ -89,13 +92,6 @@ def _creep_sheet(at: Specimen, fitted: Comparison) -> CurveTable:
     return CurveTable(f"creep_{at.point}", columns)
 
 
-def _creep_panel(at: Specimen) -> Panel:
-    sheet = f"creep_{at.point}"
-    bodies = (PlottedLine(sheet, "time", f"strain_{kind}", title, dashed=True) for kind, title in TITLES.items())
-    lines = (at.line(sheet, "time", "strain", "full spectrum"), *bodies)
-    return Panel(f"Creep and recovery at {at.label}", "Time (s)", "Strain (%)", lines, log_y=bool(at.others))
-
-
 def _creep_findings(at: Specimen) -> tuple[Finding, ...]:
     end, last = np.array([LAST_LOADED]), np.array([LOADED + RECOVERY])
 
@@ -126,15 +122,19 @@ def _static_load(at: Specimen, fitted: Comparison) -> tuple[Finding, ...]:
     return tuple(findings)
 
 
-def relaxation(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
+def relaxation(resolved: ResolvedModule) -> Trial:
     """Strain within a short rise, hold, and watch the stress; the simple bodies are fitted to G(t) of an ideal step."""
-    tested = specimens(resolved, temperatures)
+    tested = specimens(resolved)
     compared = [compare(at, _relaxed, lambda body: body.relaxation(HELD), (HELD[0], HELD[-1])) for at in tested]
     pairs = list(zip(tested, compared, strict=True))
     lines = tuple(at.line(f"relaxation_{at.point}", "time", "stress") for at in tested)
     title = f"Stress, strained within {RISE:g} s"
     panels = [Panel(title, "Time (s)", "Stress (Pa)", lines, log_x=True, log_y=True)]
-    panels += [_relaxation_panel(at) for at in tested]
+    labels = ("Time (s)", "Modulus G (Pa)")
+    panels += [
+        at.bodies_panel("Relaxation modulus", labels, f"relaxation_{at.point}", "time", "relaxation_modulus")
+        for at in tested
+    ]
     return Trial(
         test="relaxation",
         title=f"Stress relaxation at {100.0 * STRAIN:g} % strain",
@@ -174,15 +174,6 @@ def _relaxation_sheet(at: Specimen, fitted: Comparison) -> CurveTable:
         *fitted.curves("relaxation_modulus", "Pa", lambda body: body.relaxation(HELD)),
     )
     return CurveTable(f"relaxation_{at.point}", columns)
-
-
-def _relaxation_panel(at: Specimen) -> Panel:
-    sheet = f"relaxation_{at.point}"
-    bodies = (
-        PlottedLine(sheet, "time", f"relaxation_modulus_{kind}", title, dashed=True) for kind, title in TITLES.items()
-    )
-    lines = (at.line(sheet, "time", "relaxation_modulus", "full spectrum"), *bodies)
-    return Panel(f"Relaxation modulus at {at.label}", "Time (s)", "Modulus G (Pa)", lines, log_x=True, log_y=True)
 
 
 def _relaxation_findings(at: Specimen) -> tuple[Finding, ...]:

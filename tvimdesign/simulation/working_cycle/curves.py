@@ -99,7 +99,11 @@ def intervals(
         for share in (nominal, *np.linspace(low, high, HISTORIES)):
             values_left = left_at(resolved.values, point, float(share), nominal)
             target = _target_as_left(resolved, point, values_left)
-            seen = _cycle_to(resolved, model, target, current_profiles) if target else cycle
+            seen = cycle
+            if target:
+                stated = {**resolved.values, "impedance_targets": "stated", **target}
+                stated_model = DeviceFunctions(resolved.table, stated, resolved.points, model.cells)
+                seen = Simulator(stated_model).run(stated_model.start, current_profiles).values
             outputs = model.outputs(model.output_names, {f"solid_fraction@{point}": float(share)})
             supplied = [seen[name] for name in model.switch_names]
             values = np.asarray(outputs(inputs, supplied)).ravel()
@@ -140,18 +144,6 @@ def _target_as_left(resolved: ResolvedModule, point: str, left: Mapping[str, Any
     }
 
 
-def _cycle_to(
-    resolved: ResolvedModule,
-    model: DeviceFunctions,
-    targets: Mapping[str, float],
-    current_profiles: Mapping[str, CurrentProfile] | None,
-) -> Mapping[str, float]:
-    """Return the cycle's values of a module whose soft and stiff impedances are stated."""
-    stated = {**resolved.values, "impedance_targets": "stated", **targets}
-    other = DeviceFunctions(resolved.table, stated, resolved.points, model.cells)
-    return Simulator(other).run(other.start, current_profiles).values
-
-
 def _on_heating(temperature: float, melting: polymer.Melting) -> float:
     return float(polymer.solid_fraction(polymer.enthalpy(temperature, melting), melting))
 
@@ -185,15 +177,14 @@ def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory,
     columns = np.repeat(inputs[:, None], len(times), axis=1)
     compiled = model.phases[phase]
     temperatures = np.asarray(compiled.temperatures.map(len(times))(states, currents, columns)) - ZERO_CELSIUS
-    impedance = np.asarray(compiled.impedance_now.map(len(times))(states, currents, columns)).ravel()
     frozen = np.mean(np.asarray(compiled.fractions.map(len(times))(states, currents, columns)), axis=0)
     names = temperature_names(model, inputs, compiled)
     history = dict(zip(names, temperatures.tolist(), strict=True))
-    shown = np.asarray(compiled.watch(list(SHOWN.values())).map(len(times))(states, currents, columns))
-    drawn = dict(zip(SHOWN, shown, strict=True))
+    watched = compiled.watch(["impedance_now", *SHOWN.values()]).map(len(times))(states, currents, columns)
+    drawn = dict(zip(("joint_impedance", *SHOWN), np.asarray(watched), strict=True))
     power = drawn["electrical_power"]
     energy = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(times))])
-    more = {"current": trajectory.currents, "frozen": frozen, "joint_impedance": impedance, **drawn,
+    more = {"current": trajectory.currents, "frozen": frozen, **drawn,
             "electrical_energy": energy}  # fmt: skip
     return {"time": times.tolist(), **history, **{name: column.tolist() for name, column in more.items()}}
 

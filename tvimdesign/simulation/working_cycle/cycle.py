@@ -70,17 +70,22 @@ class Simulator:
 
         `current_profiles` are currents by phase where they are not the constant ones of the inputs. Of the phases'
         quantities only those that are `wanted` need be sought (all unless given), as steady states and each event take
-        time of their own. Raises KeyboardInterrupt where an interrupt came that CasADi has swallowed, SimulationError
-        where a phase cannot be stepped, TimeOverError once the deadline has passed.
+        time of their own. The same inputs have the same values and samples, whoever asks. Raises KeyboardInterrupt
+        where an interrupt came that CasADi has swallowed, SimulationError where a phase cannot be stepped,
+        TimeOverError once the deadline has passed.
         """
         raise_pending()
         values = dict.fromkeys(self.model.switch_names, np.inf)
         trajectories: dict[str, Trajectory] = {}
         balances: dict[str, Array] = {}
         horizon = float(inputs[self.model.index["horizon"]])
+        needed = set(self.model.phases if phases is None else phases)
+        for phase_functions in reversed(self.model.phases.values()):
+            if phase_functions.phase.name in needed and phase_functions.phase.after:
+                needed.add(phase_functions.phase.after)
         for name, phase_functions in self.model.phases.items():
             phase = phase_functions.phase
-            if phases is not None and name not in self._with_earlier(phases):
+            if name not in needed:
                 continue
             before = trajectories.get(phase.after) if phase.after else None
             if phase.after and (before is None or not np.isfinite(values[self.model.phases[phase.after].phase.ends])):
@@ -104,10 +109,6 @@ class Simulator:
                 values |= {quantity: run.value(quantity, state, standing.current) for quantity in stays}
         return Cycle(values, trajectories, balances)
 
-    def run_to_show(self, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None) -> Cycle:
-        """Simulate all phases; the same inputs have the same values and samples, whoever asks."""
-        return self.run(inputs, current_profiles)
-
     def _trajectory(self, results: PhaseResults, end: Instant | None) -> Trajectory:
         times, states, currents = results.sampled(end or results.run.instants[-1], self.samples)
         return Trajectory(times=times, states=states, currents=currents)
@@ -123,14 +124,6 @@ class Simulator:
         """Return the constant current the inputs ask for in a phase."""
         row = self.model.phases[phase].phase
         return CurrentProfile.constant(row.sign * float(inputs[self.model.index[row.current_input]]))
-
-    def _with_earlier(self, phases: Collection[str]) -> set[str]:
-        wanted = set(phases)
-        for name in reversed(self.model.phases):
-            after = self.model.phases[name].phase.after
-            if name in wanted and after:
-                wanted.add(after)
-        return wanted
 
 
 class Supplied(NamedTuple):

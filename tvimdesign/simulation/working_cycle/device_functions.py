@@ -22,7 +22,7 @@ from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.simulation.working_cycle.symbols import ca, lean_function, symbols
+from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.study import Study, brought_along, given
 from tvimdesign.study.design import Design
 
@@ -150,7 +150,9 @@ class DeviceFunctions:
         inputs, cycle, given = self._symbols
         known = {**given, **self._cycle, **instead} if instead else self._known
         values = self.table.resolve(known, wanted)
-        return lean_function("outputs", [inputs, cycle], ca.vertcat(*(values[name] for name in wanted)))
+        # Rows of the table write out what they need: a third to two thirds of the operations are repeats. CasADi's own
+        # option would look for them in every derivative again.
+        return ca.Function("outputs", [inputs, cycle], [ca.cse(ca.vertcat(*(values[name] for name in wanted)))])
 
     @built_once
     def every_output(self) -> Any:

@@ -156,11 +156,6 @@ class PhaseFunctions:
         """The function -> solid fraction of each cell of the polymer."""
         return self._function("fractions", [self._instant["stack_profile"].fractions])
 
-    @cached_property
-    def impedance_now(self) -> Any:
-        """The function -> magnitude of the joint's dynamic stiffness [N*m/rad]."""
-        return self._function("impedance_now", [self._instant["impedance_now"]])
-
     def _parted(self, expression: Any) -> tuple[Any, Any, Any]:
         """Replace subexpressions of the inputs alone by symbols; return the expression and these symbols."""
         # What is written twice must be one constant, or what follows from it is computed twice as well.

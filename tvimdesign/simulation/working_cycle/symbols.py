@@ -6,7 +6,7 @@ Here what is elementwise goes straight to the function for SX; all else is left 
 first optimum of a study of 13 sizes takes 28 % longer, 0.51 s of the processor in place of 0.40.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import casadi as ca
@@ -14,16 +14,7 @@ import numpy as np
 
 # Equations are written with numpy's functions; this makes CasADi answer to them.
 ca.GlobalOptions.setNumpyMode(1)
-__all__ = ["Symbols", "ca", "lean_function", "symbols"]
-
-
-def lean_function(name: str, arguments: Sequence[Any], value: Any, options: Mapping[str, Any] | None = None) -> Any:
-    """Return a function of SX in which repeated expressions are computed once.
-
-    Rows of the table write out what they need, so that a third to two thirds of the operations are repeats, and of the
-    second derivatives half. CasADi's option for it would go through every derivative again, which takes longer.
-    """
-    return ca.Function(name, arguments, [ca.cse(value)], dict(options or {}))
+__all__ = ["Symbols", "ca", "symbols"]
 
 
 _UNARY = {

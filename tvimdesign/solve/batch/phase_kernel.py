@@ -46,7 +46,7 @@ class PhaseKernel:
         )
         self.ends = phase.phase.ends if phase.phase.ends in self.events else None
         self.horizon = float(model.start[model.index["horizon"]])
-        self.start, self._index = model.start, model.index
+        self.start = model.start
         self._moving = np.array([model.index[name] for name in moving], dtype=np.int64)
         self.size = self.engine.size
         self._current = model.index[phase.phase.current_input], phase.phase.sign

@@ -1,22 +1,14 @@
-"""Combinations of listed choices, each solved alone.
+"""The problems that a search over listed choices goes through: one for each family of records, built once.
 
-Combinations that a search among mixed records came to, each solved as the problem of its own records alone.
-
-Every combination of listed sizes solved: slow, for a comparison with branch and bound.
-
-Combinations go in blocks. In a block each is solved warm from the one before, which is its neighbour. Each optimum with
-all sizes free begins a chain of its own, so that a worse optimum of one chain does not hide a better one of another.
-No block depends on another, nor on who solves it.
-
-The problems that a search over listed choices goes through: one for each family of records, built once.
-
-The problems of a search as plain data, from which another process builds the same ones and goes on with them.
+Combinations that a search among mixed records came to are solved as the problem of their own records alone. For a
+comparison with branch and bound every combination can be solved, each warm from the one before, which is its neighbour.
+Each optimum with all sizes free begins a chain of its own, so that a worse optimum of one chain does not hide a better
+one of another.
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -116,71 +108,41 @@ def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
     return Trace(unknowns, run.multipliers[rows], run.bound_multipliers[common])
 
 
-BLOCK = 16  # Combinations of a block: tenths of a second where arithmetic rules them out, up to a minute where not
+AFRESH = 16  # Combinations after which chains begin anew, so that none is led far astray
 
 
-class Block(NamedTuple):
-    """Some combinations of a tree, each a neighbour of the one before."""
+def every_combination(
+    trees: Sequence[Relaxation], known: Mapping[tuple[int, Box], Run]
+) -> tuple[dict[tuple[int, Box], Run], SolverEffort]:
+    """Solve every combination until the time is over; return all designs, by tree and box, and what that took.
 
-    place: int  # Of the tree
-    first: int  # Combination, from 0
-
-
-class SolvedBlock(NamedTuple):
-    """The best design of every combination of a block that has one, and what that took."""
-
-    runs: dict[Box, Run]
-    work: SolverEffort
-
-
-class Begin(NamedTuple):
-    """The search whose combinations are to be solved."""
-
-    study: Study
-    reference: dict[str, float] | None
-    objectives: Sequence[str]
-    trees: Sequence[Relaxation]
-
-
-def blocks_of(trees: Sequence[Relaxation]) -> list[Block]:
-    """Return all combinations of a search."""
-    return [Block(tree.place, first) for tree in trees for first in range(0, tree.sizes.count, BLOCK)]
-
-
-def solved(tree: Relaxation, block: Block) -> SolvedBlock:
-    """Solve the combinations of a block; those at its end are left where the time is over."""
-    runs: dict[Box, Run] = {}
-    chains: list[Run | None] = [*tree.optima] or [None]
-    own, tree.work = tree.work, SolverEffort()
-    for number in range(block.first, min(block.first + BLOCK, tree.sizes.count)):
-        box = tree.sizes.combination(number)
-        if tree.optimizer.deadline.passed:
-            break
-        for place, near in enumerate(chains):
-            run, certain = tree.exactly(box, near)
-            if run is None:
-                if certain:  # by arithmetic, or from everywhere: the other chains would find no more
-                    break
-                continue
-            chains[place] = run
-            if box not in runs or order(run) < order(runs[box]):
-                runs[box] = run
-    work, tree.work = tree.work, own
-    return SolvedBlock(runs, work)
-
-
-def enumerated_here(begin: Begin) -> Iterator[tuple[Block, SolvedBlock]]:
-    """Solve every combination in this process, until the time is over."""
-    count, began, number = sum(tree.sizes.count for tree in begin.trees), time.perf_counter(), 0
-    for block in blocks_of(begin.trees):
-        tree = begin.trees[block.place]
-        if tree.optimizer.deadline.passed:
-            return
-        seconds = (time.perf_counter() - began) / max(number, 1) * (count - number)
-        left = f", about {seconds:.0f} s left" if number else ""
-        tree.optimizer.progress(f"choosing from lists: {number} of {count} combinations solved{left}")
-        yield block, solved(tree, block)
-        number += min(BLOCK, tree.sizes.count - block.first)
+    Where a design is `known` already, the better of the two is returned.
+    """
+    count, began, number = sum(tree.sizes.count for tree in trees), time.perf_counter(), 0
+    runs, chains, work = dict(known), list[Run | None](), SolverEffort()
+    for tree in trees:
+        own, tree.work = tree.work, SolverEffort()
+        for position in range(tree.sizes.count):
+            if tree.optimizer.deadline.passed:
+                break
+            if position % AFRESH == 0:
+                chains = [*tree.optima] or [None]
+                left = (
+                    f", about {(time.perf_counter() - began) / number * (count - number):.0f} s left" if number else ""
+                )
+                tree.optimizer.progress(f"choosing from lists: {number} of {count} combinations solved{left}")
+            box, number = tree.sizes.combination(position), number + 1
+            for place, near in enumerate(chains):
+                run, certain = tree.exactly(box, near)
+                if run is None:
+                    if certain:  # by arithmetic, or from everywhere: the other chains would find no more
+                        break
+                    continue
+                chains[place] = run
+                if (tree.place, box) not in runs or order(run) < order(runs[tree.place, box]):
+                    runs[tree.place, box] = run
+        work, tree.work = SolverEffort.total([work, tree.work]), own
+    return runs, work
 
 
 MAX_COMBINATIONS = 1_000_000

@@ -320,19 +320,13 @@ class Relaxation:
         self.work.count(run.start, warm=True)
         return run
 
-    def _solved(
-        self,
-        ends: Mapping[str, Ends],
-        warm: Run | None = None,
-        begin: Array | None = None,
-        unknowns: Array | None = None,
-    ) -> Run:
+    def _solved(self, ends: Mapping[str, Ends], warm: Run | None = None, begin: Array | None = None) -> Run:
         """Return a run within some ends; the same one again where it is asked again, by a box or by its halves."""
-        numbers = (None if warm is None else warm.unknowns, begin, unknowns)
+        numbers = (None if warm is None else warm.unknowns, begin)
         margined = (*sorted(ends.items()), *sorted(self.optimizer.margins.items()))
         key = (*margined, *(None if part is None else part.tobytes() for part in numbers))
         if key not in self._runs:
-            run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
+            run = self.optimizer.solve(ends, warm=warm, begin=begin)
             self.work.count(run.start, warm=warm is not None)
             if run.start.status == TIME_OVER:
                 return run

@@ -139,8 +139,8 @@ def designs_all_over(optimizer: Optimizer, mixed: Callable[[Array], Array] = lam
         if optimizer.deadline.passed:
             break
         optimizer.progress(f"searching the whole ranges, {number + 1} of {_DRAWN}: no start satisfies the limits")
-        inputs = _one_design(optimizer, screen, seed + number)
-        if inputs is None:
+        inputs, worst = least_broken(optimizer, screen, seed + number, {})
+        if not worst < 0.0:
             break
         inputs = mixed(inputs)
         designs.append((_broken(optimizer, inputs), number, inputs))
@@ -156,12 +156,6 @@ def _broken(optimizer: Optimizer, inputs: Array) -> float:
     values = optimizer.model.some_values(list(dict.fromkeys(limit.output for limit in limits)), inputs, cycle)
     worst = max((float(limit.residual(values[limit.output])) for limit in limits), default=0.0)
     return worst if np.isfinite(worst) else np.inf
-
-
-def _one_design(optimizer: Optimizer, screen: FeasibilityScreen, seed: int) -> Array | None:
-    """Return the first design of a differential evolution that satisfies the limits."""
-    inputs, worst = least_broken(optimizer, screen, seed, {})
-    return inputs if worst < 0.0 else None
 
 
 def best_drawn(optimizer: Optimizer, screen: FeasibilityScreen, within: Mapping[str, Ends]) -> tuple[Array, float]:

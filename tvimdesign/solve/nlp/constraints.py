@@ -56,7 +56,10 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any]) -> lis
     options = {row.name: chosen.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
     stated = {(r.output, r.sense) for r in study.require}
     required = [
-        replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(study, r.output))
+        replace(
+            make_constraint(table, output, r.sense, r.limit, "require"),
+            part_of=r.output if study.limited_with(r.output) or study.table.output(r.output).least_of else "",
+        )
         for r in study.require
         for output in _rows_of(study, r.output, r.sense, options)
         if output != table.output(r.output).at_end or (output, r.sense) not in stated
@@ -78,10 +81,6 @@ def _rows_of(study: Study, name: str, sense: str, options: Mapping[str, Any]) ->
     apart = row.parts_differ_with
     alike = apart is not None and options.get(apart.choice) == apart.without
     return rows[:1] if alike else rows
-
-
-def _part_of(study: Study, name: str) -> str:
-    return name if study.limited_with(name) or study.table.output(name).least_of else ""
 
 
 def on_cycle(table: Table, output: str) -> bool:

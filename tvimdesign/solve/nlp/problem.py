@@ -174,12 +174,12 @@ class Problem:
         beyond, of_beyond = factors * (values[places] - at_limits), factors[:, None] * slopes[places]
         sums, of_sums = (parameters.factors @ part[self._places.traded] for part in (values, slopes))
         steep, of_steep = self._slopes(x)
-        late, of_late = self._lateness(inputs, cycle, of_cycle)
+        latest, late = self._latest(inputs), self._places.late  # lateness is a share of the allowed time
         minimized, weights = self._places.minimized, parameters.weights
         return Point(
             float(weights @ values[minimized]), weights @ slopes[minimized],
-            np.concatenate([equations, beyond, sums, steep, late, sampled]),
-            np.concatenate([of_equations, of_beyond, of_sums, of_steep, of_late, of_sampled]),
+            np.concatenate([equations, beyond, sums, steep, cycle[late] / latest - 1.0, sampled]),
+            np.concatenate([of_equations, of_beyond, of_sums, of_steep, of_cycle[late] / latest, of_sampled]),
             self._places, values, slopes, cycle, of_cycle,
         )  # fmt: skip
 
@@ -280,11 +280,6 @@ class Problem:
             rows += [steep - 1.0, -steep - 1.0]
             jacobian += [by, -by]
         return (np.concatenate(rows), np.concatenate(jacobian)) if rows else (np.zeros(0), np.zeros((0, len(x))))
-
-    def _lateness(self, inputs: Array, cycle: Array, of_cycle: Array) -> tuple[Array, Array]:
-        """Return the lateness of events without a time limit, as a share of the allowed time."""
-        latest, late = self._latest(inputs), self._places.late
-        return cycle[late] / latest - 1.0, of_cycle[late] / latest
 
     def _peaks(self, x: Array, cycle: Array, of_cycle: Array, driven: dict[str, PhaseOutputs]) -> tuple[Array, Array]:
         """Put the peaks of driven phases in their places, and return how far the samples are above them."""

@@ -110,19 +110,14 @@ class Multistart:
         return (
             not np.any(np.isnan(numbers))
             and not impossible(values, self.model.table)
-            and self._heats_as_the_start(point)
+            and self._bodies(point)
+            # A link that corrects another one may be below zero, as at the start; any other would cost seconds.
+            and bool(np.all((self._links(point) > 0.0) | self._corrects))
         )
 
     def heats(self, inputs: Array) -> bool:
         """Return whether every heated body of the problem's phases exists and no link is below zero."""
         return self._bodies(inputs) and bool(np.all(self._links(inputs) > 0.0))
-
-    def _heats_as_the_start(self, inputs: Array) -> bool:
-        """Return whether every heated body exists and no link is below zero that is not so at the study's start.
-
-        A link that corrects another one may be; any other would cost seconds to simulate.
-        """
-        return self._bodies(inputs) and bool(np.all((self._links(inputs) > 0.0) | self._corrects))
 
     @cached_property
     def _corrects(self) -> NDArray[np.bool_]:

@@ -143,7 +143,7 @@ SAME_CURRENT = 1e-4  # Share of the range within which a current counts as at it
 
 def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:
     """Simulate and check a run's design again, and say what holds it."""
-    cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
+    cycle = optimizer.simulator.run(run.inputs, run.current_profiles)
     values = optimizer.model.values(run.inputs, cycle.values)
     response = Response(optimizer, run) if run.start.converged else None
     limits = _active_constraints(optimizer, run, values, response)
@@ -192,16 +192,18 @@ def _goal_flat(optimizer: Optimizer, run: Run, starts: tuple[Start, ...]) -> boo
 
 
 def _active(
-    limit: Constraint, text: str, residual: float, shadow_price: float, sensitivity: dict[str, float], where: str = ""
-) -> ActiveConstraint:
+    optimizer: Optimizer, run: Run, limit: Constraint, residual: float, price: float, sensitivity: dict[str, float],
+    *, where: str = "", held: str = "",
+) -> ActiveConstraint:  # fmt: skip
+    """Return a limit as it holds the design; `price` is what a scale of it costs, in the objective's unit."""
     return ActiveConstraint(
         name=f"{limit.name}{where}",
         output=limit.output,
-        text=text,
-        residual=residual,
+        text=f"{constraints.in_words(limit, optimizer.table)}{held}",
+        residual=float(residual),
         scale=limit.scale,
         absolute=limit.absolute,
-        shadow_price=shadow_price,
+        shadow_price=float(price) / (run.start.objective or 1.0),
         step=limit.step,
         origin=limit.origin,
         sensitivity=sensitivity,
@@ -217,84 +219,61 @@ def _savings(response: Response | None, places: list[Place], per_scale: float = 
 def _active_constraints(
     optimizer: Optimizer, run: Run, values: dict[str, float], response: Response | None
 ) -> list[ActiveConstraint]:
-    first = optimizer.problem.equation_count
-    prices = run.multipliers[first : first + len(optimizer.problem.limits)]
+    limits, first = optimizer.problem.limits, optimizer.problem.equation_count
+    prices = run.multipliers[first : first + len(limits)]
     return [
         _active(
-            limit,
-            constraints.in_words(limit, optimizer.table),
-            float(limit.residual(values[limit.output])),
-            float(shadow_price) / (run.start.objective or 1.0),
-            _savings(response, [("row", first + i)]),
+            optimizer, run, limit, limit.residual(values[limit.output]), price, _savings(response, [("row", first + i)])
         )
-        for i, (limit, shadow_price) in enumerate(zip(optimizer.problem.limits, prices, strict=True))
+        for i, (limit, price) in enumerate(zip(limits, prices, strict=True))
     ]
+
+
+_ENDS: tuple[tuple[Literal["upper", "lower"], Literal["<=", ">="], float], ...]
+_ENDS = (("upper", "<=", 1.0), ("lower", ">=", -1.0))
+"""Ends of a range, each with the sense of its limit and the sign of its multiplier."""
 
 
 def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) -> list[ActiveConstraint]:
     """Return the active ends of ranges; a listed size has no end to move."""
     active = []
-    senses: tuple[tuple[Literal["<=", ">="], float], ...] = (("<=", 1.0), (">=", -1.0))
     for i, free in enumerate(optimizer.free):
         if not isinstance(optimizer.study.vary[free.name], Range):
             continue
         value = run.inputs[optimizer.model.index[free.name]]
-        for sense, sign in senses:
-            limit = constraints.make_constraint(
-                optimizer.table, free.name, sense, free.upper if sense == "<=" else free.lower, "vary"
-            )
-            multiplier = max(sign * float(run.bound_multipliers[i]), 0.0)
+        for end, sense, sign in _ENDS:
+            bound = free.upper if end == "upper" else free.lower
+            limit = constraints.make_constraint(optimizer.table, free.name, sense, bound, "vary")
             per_scale = float(limit.scale / abs(value if free.logarithmic else free.reference))
-            active.append(
-                _active(
-                    limit,
-                    constraints.in_words(limit, optimizer.table),
-                    float(limit.residual(value)),
-                    float(multiplier * per_scale / (run.start.objective or 1.0)),
-                    _savings(response, [("upper" if sense == "<=" else "lower", i)], per_scale),
-                )
-            )
+            price = max(sign * float(run.bound_multipliers[i]), 0.0) * per_scale
+            savings = _savings(response, [(end, i)], per_scale)
+            active.append(_active(optimizer, run, limit, limit.residual(value), price, savings))
     return active
 
 
 def _active_currents(optimizer: Optimizer, run: Run, response: Response | None) -> list[ActiveConstraint]:
     """Return the active ends of a free current's range, all its nodes together, and the supply's slew."""
     active = []
-    objective = run.start.objective or 1.0
     for current, place in optimizer.vector.places_of_currents():
         multipliers, shares = run.bound_multipliers[place], run.unknowns[place]
-        senses: tuple[tuple[Literal["<=", ">="], float, float], ...] = (
-            ("<=", current.upper, 1.0), (">=", current.lower, -1.0),
-        )  # fmt: skip
-        for sense, bound, sign in senses:
+        for end, sense, sign in _ENDS:
+            bound = current.upper if end == "upper" else current.lower
             limit = constraints.make_constraint(optimizer.table, current.row, sense, bound, "vary")
-            bound_text = constraints.in_words(limit, optimizer.table)
-            at_it = int(np.sum(sign * (shares - bound / current.upper) >= -SAME_CURRENT))
-            nodes = range(place.start, place.stop)
-            end: Literal["upper", "lower"] = "upper" if sense == "<=" else "lower"
-            shadow_price = float(np.sum(np.maximum(sign * multipliers, 0.0))) * limit.scale / current.upper
-            active.append(
-                _active(
-                    limit,
-                    f"{bound_text}, at {at_it} of {current.nodes} moments of {current.phase}",
-                    float(np.max(sign * (shares - bound / current.upper))),
-                    shadow_price / objective,
-                    _savings(response, [(end, i) for i in nodes], limit.scale / current.upper),
-                    f" in {current.phase}",
-                )
+            beyond = sign * (shares - bound / current.upper)
+            price = float(np.sum(np.maximum(sign * multipliers, 0.0))) * limit.scale / current.upper
+            savings = _savings(
+                response, [(end, i) for i in range(place.start, place.stop)], limit.scale / current.upper
             )
-    return active + _active_slew(optimizer, run)
-
-
-def _active_slew(optimizer: Optimizer, run: Run) -> list[ActiveConstraint]:
-    if not optimizer.currents:
-        return []
-    place = optimizer.model.index["current_slew"]
-    value = float(optimizer.model.start[place])
-    limit = constraints.make_constraint(optimizer.table, "current_slew", "<=", value, "module")
-    steepest = max(profile.steepest for profile in run.current_profiles.values())
-    shadow_price = _price_of_slew(optimizer, run, value) / (run.start.objective or 1.0)
-    return [_active(limit, constraints.in_words(limit, optimizer.table), steepest / value - 1.0, shadow_price, {})]
+            at_it = f", at {int(np.sum(beyond >= -SAME_CURRENT))} of {current.nodes} moments of {current.phase}"
+            active.append(
+                _active(optimizer, run, limit, np.max(beyond), price, savings, where=f" in {current.phase}", held=at_it)
+            )
+    if optimizer.currents:
+        slew = float(optimizer.model.start[optimizer.model.index["current_slew"]])
+        limit = constraints.make_constraint(optimizer.table, "current_slew", "<=", slew, "module")
+        steepest = max(profile.steepest for profile in run.current_profiles.values())
+        active.append(_active(optimizer, run, limit, steepest / slew - 1.0, _price_of_slew(optimizer, run, slew), {}))
+    return active
 
 
 def _price_of_slew(optimizer: Optimizer, run: Run, slew: float) -> float:

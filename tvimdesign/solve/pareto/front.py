@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.solve.nlp.problem_parts import Bound, Objective
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solver_run import Trace
 from tvimdesign.solve.pareto import front_shape as shape
 from tvimdesign.solve.pareto.front_shape import Frame
@@ -107,14 +107,18 @@ class _Tracer:
         if self.failures:
             return self._done("an end has no design")
         self.ends = self._distinct(self.ends)
-        points = self._undominated(self.ends)
+        points = undominated(self.ends, self.outputs)
         if len(points) == 1:
             self.ends = points
             return self._done(f"one point: {_and(self.outputs)} do not conflict")
         flat = [name for name in self.outputs if _alike([end.values[name] for end in points])]
         objectives = tuple(name for name in self.outputs if name not in flat)
         self.notes += [f"{name} is the same all along" for name in flat]
-        self.notes += self._barely_conflicting()
+        self.notes += [
+            f"{name} and {other} barely conflict: at the least of one the other is within {100.0 * BARELY:g} % of it"
+            for name, other in itertools.combinations(self.outputs, 2)
+            if all(self._together(first, then) for first, then in ((name, other), (other, name)))
+        ]
         self.frame = Frame.of(objectives, [end.values for end in points])
         self.lost += len(self.ends) - len(points)
         self.ends = points
@@ -150,14 +154,6 @@ class _Tracer:
                 if isinstance(answer, Point):
                     self.ends.append(replace(answer, root=len(self.ends)))
                     self.trade.ends.setdefault(name, answer)
-
-    def _barely_conflicting(self) -> list[str]:
-        """Which pairs of outputs are nearly at their least together."""
-        return [
-            f"{name} and {other} barely conflict: at the least of one the other is within {100.0 * BARELY:g} % of it"
-            for name, other in itertools.combinations(self.outputs, 2)
-            if all(self._together(first, then) for first, then in ((name, other), (other, name)))
-        ]
 
     def _together(self, first: str, then: str) -> bool:
         least = {name: min(end.values[name] for end in self.ends) for name in (first, then)}
@@ -215,7 +211,8 @@ class _Tracer:
         """Seek the design on the line through a place; whether it is a new one."""
         points = self._nearest(place)
         where = f"point {len(self._all) + 1} of {self.count}"
-        objective = self._objective(self.frame.bounds(place, self.trade.reference))
+        weights = {name: 1.0 if name == self.outputs[0] else SIDE_WEIGHT for name in self.outputs}
+        objective = Objective(self.trade.weights(weights), self.frame.bounds(place, self.trade.reference))
         point = self._sought(objective, where, points[0], self._guess(points, place))
         if not isinstance(point, Point):
             return False
@@ -224,10 +221,6 @@ class _Tracer:
             return False
         self.between.append(point)
         return True
-
-    def _objective(self, bounds: Sequence[Bound]) -> Objective:
-        first, *others = self.outputs
-        return Objective(self.trade.weights({first: 1.0, **dict.fromkeys(others, SIDE_WEIGHT)}), tuple(bounds))
 
     def _nearest(self, place: Array) -> list[Point]:
         """Return all points, nearest first; of equally near ones the first traced."""
@@ -255,7 +248,7 @@ class _Tracer:
             middle = self.between[place]
             tried.add((place, other.root))
             self.between[place] = self.trade.again(middle, other) or middle
-        distinct = self._undominated(self._distinct(self._all))
+        distinct = undominated(self._distinct(self._all), self.outputs)
         self.lost += len(self._all) - len(distinct)
         self.ends = [point for point in self.ends if any(point is chosen for chosen in distinct)]
         self.between = [point for point in self.between if any(point is chosen for chosen in distinct)]
@@ -287,9 +280,6 @@ class _Tracer:
             if not any(self._same(point, other) for other in distinct):
                 distinct.append(point)
         return distinct
-
-    def _undominated(self, points: Sequence[Point]) -> list[Point]:
-        return undominated(points, self.outputs)
 
     def _same(self, point: Point, other: Point) -> bool:
         return all(_alike([point.values[name], other.values[name]]) for name in self.outputs)

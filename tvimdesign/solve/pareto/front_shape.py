@@ -137,7 +137,7 @@ def thin(places: Array) -> bool:
 def candidates(ends: Array) -> Array:
     """Places all over the hull of those of the ends, in the plane: in three outputs."""
     axes = np.array([[1.0, -1.0, 0.0], [1.0, 1.0, -2.0]]) / np.sqrt([[2.0], [6.0]])
-    corners = _hull(ends @ axes.T)
+    corners = _corners(ends @ axes.T)
     triangles = [(corners[0], corner, other) for corner, other in itertools.pairwise(corners[1:])]
     if len(corners) == 2:
         triangles = [(corners[0], corners[1], corners[1])]
@@ -153,23 +153,16 @@ def farthest(places: Array, taken: Array) -> tuple[Array, float]:
     return places[best], float(distances[best])
 
 
-def _hull(points: Array) -> list[Array]:
-    """Corners of the convex hull of points of a plane, in order (Andrew's monotone chain)."""
-    ordered = [points[i] for i in np.lexsort((points[:, 1], points[:, 0]))]
+def _corners(points: Array) -> list[Array]:
+    """Corners of the convex hull of points of a plane, counter-clockwise from the leftmost; two of points in line."""
+    from scipy.spatial import ConvexHull, QhullError
 
-    def half(chain: Sequence[Array]) -> list[Array]:
-        halves: list[Array] = []
-        for point in chain:
-            while len(halves) > 1 and _turn(halves[-2], halves[-1], point) <= 1e-9:
-                halves.pop()
-            halves.append(point)
-        return halves
-
-    return half(ordered)[:-1] + half(ordered[::-1])[:-1]
-
-
-def _turn(a: Array, b: Array, c: Array) -> float:
-    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    ordered = points[np.lexsort((points[:, 1], points[:, 0]))]
+    try:
+        around = ConvexHull(ordered).vertices
+    except QhullError:
+        return [ordered[0], ordered[-1]]
+    return list(ordered[np.roll(around, -int(np.argmin(around)))])
 
 
 ALIKE = 2e-3  # Share within which two fronts count as one: the tolerance of the simulation their points come from

@@ -175,7 +175,7 @@ class Tradeoff:
         inputs = self._inputs(point)
         current_profiles = {phase: CurrentProfile.from_plain(plain) for phase, plain in point.current_profiles.items()}
         try:
-            cycle = self.optimizer.simulator.run_to_show(inputs, current_profiles)
+            cycle = self.optimizer.simulator.run(inputs, current_profiles)
         except SimulationError as error:
             return Failure(point.where, str(error))
         return replace(point, values=point.values | self.optimizer.model.values(inputs, cycle.values))

@@ -210,7 +210,7 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
     drawn = yields.at(run.inputs, seed + 1, deadline)
     without = yields.at(nominal.inputs, deadline=deadline, count=FEW_MODULES).together.share
     table, points = optimizer.table, tuple(optimizer.study.operating_points)
-    cycle = optimizer.simulator.run_to_show(nominal.inputs, nominal.current_profiles)
+    cycle = optimizer.simulator.run(nominal.inputs, nominal.current_profiles)
     values = optimizer.model.values(nominal.inputs, cycle.values)
     names = [name for name in table.names(points) if table.output(name).headline]
     return YieldReached(

@@ -112,7 +112,8 @@ def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
         if parameter.nuisance:
             continue
         ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and parameter.profiled)
-        words += _unbounded(parameter, ends)
+        sides = [side for end, side in zip(ends, ("below", "above"), strict=True) if end is not None and np.isinf(end)]
+        words += [f"The data do not bound {parameter.name} from {side}." for side in sides]
         moved = drift.moved(known.axis(i))
         parameters.append(_estimate(parameter, best.inner[i], ends, moved))
     misfit = _misfit(residuals, best, known) or _drifting(fit.problem, drift)
@@ -208,11 +209,6 @@ def _estimate(parameter: Parameter, inner: float, ends: tuple[float | None, floa
     value = float(parameter.outer(inner))
     drift = moved * (value if parameter.positive else parameter.scale)
     return Estimate(parameter.name, parameter.unit, parameter.meaning, value, low, high, drift)
-
-
-def _unbounded(parameter: Parameter, ends: tuple[float | None, float | None]) -> list[str]:
-    sides = [side for end, side in zip(ends, ("below", "above"), strict=True) if end is not None and np.isinf(end)]
-    return [f"The data do not bound {parameter.name} from {side}." for side in sides]
 
 
 def _derived(residuals: Residuals, best: RobustFit, known: Spread, drift: Drifts) -> tuple[Estimate, ...]:

@@ -64,7 +64,11 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
         raise InputError(
             "the equations give no number at the start of the fit; look at units and ranges of the columns"
         )
-    _refuse_wild(residuals, start)
+    sizes = np.abs(residuals.at(start))  # the square of a wild one, or it over the others, is no number
+    for part in residuals.parts:
+        farthest, usual = float(np.max(sizes[part])), float(np.median(sizes[part]))
+        if farthest > _LARGEST or farthest / _LARGEST**0.5 > usual > 0.0:
+            raise InputError(f"a value is {farthest:.0e} away from the others; look for a wrong number")
     for parameter in residuals.problem.parameters:
         least, most = parameter.bounds
         if not least < most:
@@ -85,15 +89,6 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
             break
     inner = solved(residuals, inner, noise)
     return RobustFit(inner, noise, cost(residuals, inner, noise))
-
-
-def _refuse_wild(residuals: Residuals, start: Array) -> None:
-    """Raise InputError where a residual is so large that its square, or it over the others, is no number."""
-    sizes = np.abs(residuals.at(start))
-    for part in residuals.parts:
-        farthest, usual = float(np.max(sizes[part])), float(np.median(sizes[part]))
-        if farthest > _LARGEST or farthest / _LARGEST**0.5 > usual > 0.0:
-            raise InputError(f"a value is {farthest:.0e} away from the others; look for a wrong number")
 
 
 def solved(

@@ -95,25 +95,19 @@ class JointOfModule:
     def drop_impossible(self, fit: Fit) -> tuple[Fit, list[str]]:
         """Drop values that the module cannot have from a fit; return notes on them too."""
         names = [row.name for row in self._explained]
-        if not {*names} <= {quantity.name for quantity in fit.derived} or self._given_again(fit, names):
+        if not {*names} <= {quantity.name for quantity in fit.derived}:
             return fit, []
+        found = {name: fit.value(name) for name in names}
+        if all(np.isfinite(found[row.name]) and row.lower <= found[row.name] <= row.upper for row in self._explained):
+            there = np.array(self.impedance(found), dtype=float)
+            misses = np.abs(there / np.array([fit.value("stiffness"), fit.value("damping")]) - 1.0)
+            if np.max(misses) < _HELD:
+                return fit, []
         left = tuple(quantity for quantity in fit.derived if quantity.name not in names)
         return replace(fit, derived=left), [
             f"No {names[0]} and {names[1]} give {self.source.name} this stiffness and damping when {self.state}: "
             "neither is written to a record. Another value of the module is not as the study has it."
         ]
-
-    def _given_again(self, fit: Fit, names: Sequence[str]) -> bool:
-        """Return whether the module with the values found has the stiffness and damping that were measured."""
-        if not all(self._may_be(fit[name]) for name in names):
-            return False
-        there = np.array(self.impedance({name: fit.value(name) for name in names}), dtype=float)
-        misses = np.abs(there / np.array([fit.value("stiffness"), fit.value("damping")]) - 1.0)
-        return bool(np.max(misses) < _HELD)
-
-    def _may_be(self, estimate: Estimate) -> bool:
-        row = next(row for row in self.resolved.table.inputs if row.name == estimate.name)
-        return bool(np.isfinite(estimate.value) and row.lower <= estimate.value <= row.upper)
 
     def records(self, fit: Fit, *, inertia: bool) -> tuple[dict[str, Estimate], list[OtherRecord], list[str]]:
         """Return values of the joint's own record, records of other categories, and notes on them."""

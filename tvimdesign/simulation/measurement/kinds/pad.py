@@ -32,7 +32,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     starts, differences = [], []
     for i, block in enumerate(blocks):
         current, voltage, hot, cold = rows_of(block, _COLUMNS)
-        heat = _heat(block, settings)
+        with_heat = "cold_heat" in block.columns
+        heat = rows_of(block, [*_COLUMNS, "cold_heat"])[-1] if with_heat else np.full(len(hot), settings["cold_heat"])
         starts.append(_start(current, voltage, hot, cold))
         differences.append(float(np.max(np.abs(hot - cold))))
         names = [f"hot_{i}_{row}" for row in range(len(hot))]
@@ -98,13 +99,6 @@ class _State(NamedTuple):
     def voltage(self, values: Values) -> Any:
         """Return the voltages [V]."""
         return peltier.voltage(_module(values), ca.DM(self.current), *self._both(values))
-
-
-def _heat(block: Block, settings: Settings) -> Array:
-    if "cold_heat" in block.columns:
-        heat: Array = rows_of(block, [*_COLUMNS, "cold_heat"])[-1]
-        return heat
-    return np.full(block.complete(_COLUMNS), settings["cold_heat"])
 
 
 def _start(current: Array, voltage: Array, hot: Array, cold: Array) -> tuple[float, float, float]:

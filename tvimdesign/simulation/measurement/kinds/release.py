@@ -90,7 +90,11 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     module = joint_of_module(settings, 2.0 * np.pi / first.period, first.size)
     following = [*_derived(known), *(module.derived() if module and known else [])]
     fit = fitted(Problem(parameters, [entry.channel(known) for entry in records], following), profiles=profiles)
-    notes = [note for record, block in zip(records, blocks, strict=True) for note in _thinned_note(record, block)]
+    notes = []
+    for used, block in ((len(record.time), block) for record, block in zip(records, blocks, strict=True)):
+        there = block.complete(["time", "angle"])
+        if used < there:
+            notes.append(f"{block.file}: every {-(-there // _MOST_SAMPLES)}th sample is used, {used}.")
     if not known:
         notes.append(
             "Without --set inertia=... a free swing gives ratios only: natural frequency and damping ratio are sure, "
@@ -115,11 +119,6 @@ def _derived(known: Values) -> list[Derived]:
         Derived("damping_ratio", "1", "Damping over the critical one",
                 of(lambda inertia, damping, stiffness: motion.damping_ratio(damping, stiffness, inertia))),
     ]  # fmt: skip
-
-
-def _thinned_note(record: Record, block: Block) -> list[str]:
-    used, there = len(record.time), block.complete(["time", "angle"])
-    return [] if used == there else [f"{block.file}: every {-(-there // _MOST_SAMPLES)}th sample is used, {used}."]
 
 
 def swing(time: Array, values: Values, steps: int, corner: float) -> Any:

@@ -93,24 +93,21 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     together = not known and max(omegas) < _ALIKE * min(omegas)
     with_inertia = not known and not together
     known = {"inertia": 0.0} if together else known
-    module = joint_of_module(settings, records[0].omega, records[0].size)
+    first = records[0]
+    module = joint_of_module(settings, first.omega, first.size)
     problem = Problem(
         [*_joint(records, known, together=together), *(value for record in records for value in record.parameters())],
         [channel for record in records for channel in record.channels(known)],
         [
+            # b omega, and 4 T_f/(pi A) of the friction's loop (Den Hartog)
             Derived("loss", "N*m/rad", "Part of the stiffness in quadrature at the first record's frequency",
-                    lambda values: _quadrature(records[0], values)),
+                    lambda values: values["damping"] * first.omega + 4.0 * values["friction"] / (np.pi * first.size)),
             *(module.derived() if module and not together else []),
         ],
     )  # fmt: skip
     return with_records(
         fitted(problem, profiles=profiles), _notes(records, together=together), module, inertia=with_inertia
     )
-
-
-def _quadrature(record: Sine, values: Values) -> Any:
-    """Return the loss stiffness [N*m/rad]: b omega, and 4 T_f/(pi A) of the friction's loop (Den Hartog)."""
-    return values["damping"] * record.omega + 4.0 * values["friction"] / (np.pi * record.size)
 
 
 def _joint(records: Sequence[Sine], known: Values, *, together: bool) -> list[Parameter]:

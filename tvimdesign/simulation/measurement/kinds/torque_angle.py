@@ -28,10 +28,10 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     angle = np.concatenate([values for _, values in series])
     both_signs = bool(np.min(torque) < 0.0 < np.max(torque))
     two_ways = any(len(set(direction(values))) > 1 for values, _ in series)
-    stiffness, zero = (float(x) for x in _line(torque, angle))
+    slope, zero = (float(number) for number in np.polyfit(torque, angle, 1))
     friction, turned = 0.05 * float(np.ptp(torque)), float(np.ptp(angle))
     parameters = [
-        Parameter("stiffness", "N*m/rad", "Torque for each angle", max(stiffness, 1e-9)),
+        Parameter("stiffness", "N*m/rad", "Torque for each angle", max(1.0 / slope if slope else 1.0, 1e-9)),
         Parameter("zero_angle", "deg", "Angle without a load", zero, positive=False, scale=float(np.ptp(angle)) or 1.0),
     ]
     if two_ways:
@@ -39,7 +39,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     if both_signs:
         parameters.append(from_zero("backlash", "deg", "Play between the two directions", 0.01 * turned))
     channels = [
-        Channel(f"angle of {block.file}", "deg", angles, _predicted(torques), torques, "torque", "N*m",
+        Channel(f"angle of {block.file}", "deg", angles, angle_of(torques), torques, "torque", "N*m",
                 step=block.step("angle"))
         for block, (torques, angles) in zip(blocks, series, strict=True)
     ]  # fmt: skip
@@ -59,20 +59,18 @@ def direction(torque: Array) -> Array:
     return np.asarray(np.where(steps == 0.0, first, steps))
 
 
-def angle_of(torque: Array, values: Values) -> Any:
-    """Return angle [rad] at each torque [N*m] of a series in the order in which it was measured."""
-    return _angle(torque, direction(torque), np.sign(torque), values)
+def angle_of(torque: Array) -> Callable[[Values], Any]:
+    """Return the function of the parameters that gives the angle [rad] at each torque [N*m] of a series, in its order.
 
-
-def _angle(torque: Any, way: Any, side: Any, values: Values) -> Any:
-    """Return the angle for given ways of the motion and touched sides: those of the load, but for the friction."""
-    turned = (torque - way * values.get("friction", 0.0)) / values["stiffness"]
-    return values["zero_angle"] + turned + side * (0.5 * values.get("backlash", 0.0))
-
-
-def _predicted(torque: Array) -> Callable[[Values], Any]:
+    The motion's way and the touched side are those of the load, but for the friction.
+    """
     load, way, side = (ca.DM(column) for column in (torque, direction(torque), np.sign(torque)))
-    return lambda values: _angle(load, way, side, values)
+
+    def angle(values: Values) -> Any:
+        turned = (load - way * values.get("friction", 0.0)) / values["stiffness"]
+        return values["zero_angle"] + turned + side * (0.5 * values.get("backlash", 0.0))
+
+    return angle
 
 
 def _series(block: Block, settings: Settings) -> tuple[Array, Array]:
@@ -83,11 +81,6 @@ def _series(block: Block, settings: Settings) -> tuple[Array, Array]:
         return given, angle
     arm = required(settings, "arm", f"as {block.file} has a {load} and no torque")
     return given * arm * (GRAVITY if load == "mass" else 1.0), angle
-
-
-def _line(torque: Array, angle: Array) -> tuple[float, float]:
-    slope, zero = np.polyfit(torque, angle, 1)
-    return 1.0 / slope if slope else 1.0, zero
 
 
 def _modulus(settings: Settings) -> Derived:

@@ -189,16 +189,13 @@ class ColumnMap:
                 )
                 if meant:
                     taken[i] = heading._replace(quantity=quantity, unit=str(entry.get("unit", heading.unit)))
-        return [_in_si(heading) for heading in taken] if self.units else taken
-
-
-def _in_si(heading: Heading) -> Heading:
-    """Return a heading without a unit with that of SI."""
-    return (
-        heading
-        if heading.unit or not heading.quantity
-        else heading._replace(unit=pretty(si_unit(unit_of(heading.quantity))))
-    )
+        if not self.units:
+            return taken
+        return [
+            heading._replace(unit=pretty(si_unit(unit_of(heading.quantity))))
+            if heading.quantity and not heading.unit else heading
+            for heading in taken
+        ]  # fmt: skip
 
 
 def read_column_map(path: Path) -> ColumnMap:

@@ -48,7 +48,12 @@ def blocks_of(sheet: Sheet, file: str, ending: str, *, by_place: bool = False) -
         title = [text for line, text in titles if line < head_line][-1]
         end, skipped = _end(sheet, begin, file)
         data_rows = [row for row in rows[begin:end] if row.line not in skipped]
-        _refuse_ragged(data_rows, len(headings), file)
+        for row in data_rows:
+            if any(row.cells[len(headings) :]):
+                raise InputError(
+                    f"{file}:{row.line}: {sum(map(bool, row.cells))} cells, but {len(headings)} headings; "
+                    f"{row.cells[len(headings)][:20]!r} has none"
+                )
         blocks += _divided(RawBlock(title, headings, data_rows, dict(settings), skipped))
         titles, begin = [(0, sheet.title)], end
     return blocks
@@ -190,15 +195,6 @@ def _aligned(
     columns = [heading(text, unit) for text, unit in zip(texts, given, strict=False)]
     fallback = dict(default)
     return [column if column.unit else column._replace(unit=fallback.get(column.quantity, "")) for column in columns]
-
-
-def _refuse_ragged(rows: Sequence[Row], count: int, file: str) -> None:
-    for row in rows:
-        if any(row.cells[count:]):
-            raise InputError(
-                f"{file}:{row.line}: {sum(map(bool, row.cells))} cells, but {count} headings; "
-                f"{row.cells[count][:20]!r} has none"
-            )
 
 
 def _divided(block: RawBlock) -> list[RawBlock]:
