@@ -117,7 +117,7 @@ class _Drawn:
         given = [state, current, inputs]
         kelvin, impedance, power = (
             function.call(given, True, False)[0]
-            for function in (phase.temperatures, phase.watch(["impedance_now"]), phase.watch(["electrical_power"]))
+            for function in (phase.temperatures, phase.watch(["impedance_now", "electrical_power"]))
         )
         rows = ca.vertcat(kelvin[1], kelvin[2], kelvin[3 + model.cells], impedance, power)
         self._function = ca.Function("drawn", given, [rows], {"cse": True})

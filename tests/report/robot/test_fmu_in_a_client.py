@@ -129,7 +129,7 @@ def _softened_evenly(model: DeviceFunctions) -> tuple[float, float]:
     start, horizon = np.asarray(engine.phase.initial(inputs)).ravel(), float(inputs[model.index["horizon"]])
     _, moments, _ = engine.simulate(inputs, drive, start, ["softening_time"], horizon, TOLERANCE, going_on=True)
     soft = moments["softening_time"]
-    return soft.time, float(engine.phase.impedance_now(soft.state[: engine.size], soft.current, inputs))
+    return soft.time, float(engine.phase.watch(["impedance_now"])(soft.state[: engine.size], soft.current, inputs))
 
 
 def _stiffened(mode: str) -> tuple[float, float]:

@@ -228,7 +228,9 @@ def test_symbols_are_the_same_as_floats(mode, module):
     values = built.table.evaluate_instant(known, ["state_rates", "impedance_now", "electrical_power"])
     rates = np.asarray(phase.rates(state, -0.3, built.start)).ravel()
     assert rates == pytest.approx(values["state_rates"], rel=1e-9, abs=1e-12)
-    assert float(phase.impedance_now(state, -0.3, built.start)) == pytest.approx(values["impedance_now"], rel=1e-9)
+    assert float(phase.watch(["impedance_now"])(state, -0.3, built.start)) == pytest.approx(
+        values["impedance_now"], rel=1e-9
+    )
 
 
 def test_a_layer_that_heats_itself_takes_its_power_and_is_hottest_inside():

@@ -1,5 +1,6 @@
 """The virtual rheometer holding still: creep with recovery, and stress relaxation."""
 
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
@@ -32,9 +33,9 @@ HELD = np.geomspace(1e-3, 1e3, 121)  # s
 DAY = 86400.0  # s
 
 
-def creep(resolved: ResolvedModule) -> Trial:
+def creep(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
     """Load with a constant stress, take it off, and watch the strain; the simple bodies are fitted under load."""
-    tested = specimens(resolved)
+    tested = specimens(resolved, temperatures)
     compared = [compare(at, _compliance, lambda body: body.creep(UNDER_LOAD), (UNDER_LOAD[0], LOADED)) for at in tested]
     pairs = list(zip(tested, compared, strict=True))
     lines = tuple(at.line(f"creep_{at.point}", "time", "compliance") for at in tested)
@@ -122,9 +123,9 @@ def _static_load(at: Specimen, fitted: Comparison) -> tuple[Finding, ...]:
     return tuple(findings)
 
 
-def relaxation(resolved: ResolvedModule) -> Trial:
+def relaxation(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
     """Strain within a short rise, hold, and watch the stress; the simple bodies are fitted to G(t) of an ideal step."""
-    tested = specimens(resolved)
+    tested = specimens(resolved, temperatures)
     compared = [compare(at, _relaxed, lambda body: body.relaxation(HELD), (HELD[0], HELD[-1])) for at in tested]
     pairs = list(zip(tested, compared, strict=True))
     lines = tuple(at.line(f"relaxation_{at.point}", "time", "stress") for at in tested)
