@@ -115,11 +115,11 @@ class _Drawn:
         state, current = ca.SX.sym("state", phase.state_size), ca.SX.sym("current")
         inputs = ca.SX.sym("inputs", len(model.names))
         given = [state, current, inputs]
-        kelvin, impedance, power = (
+        kelvin, watched = (
             function.call(given, True, False)[0]
             for function in (phase.temperatures, phase.watch(["impedance_now", "electrical_power"]))
         )
-        rows = ca.vertcat(kelvin[1], kelvin[2], kelvin[3 + model.cells], impedance, power)
+        rows = ca.vertcat(kelvin[1], kelvin[2], kelvin[3 + model.cells], watched)
         self._function = ca.Function("drawn", given, [rows], {"cse": True})
         self._mapped = self._function.map(_SHOWN)
         self._kernel: Kernel | None = None
