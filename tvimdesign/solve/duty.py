@@ -12,10 +12,9 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tvimdesign.simulation.control.controller import ControlledModule, Controller, Lags
-from tvimdesign.simulation.control.sizing import controller_of
+from tvimdesign.simulation.control.sizing import Array, controller_of
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
@@ -27,7 +26,6 @@ from tvimdesign.solve.optimizer.verify_optimum import exceeded
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, unmeasured_inputs
 from tvimdesign.study import Study
 
-Array = NDArray[np.float64]
 HOUR = 3600.0
 PERIODIC = 1e-4  # Change of the scaled temperatures over a cycle, a hundredth of a kelvin, below which it is periodic
 REACHED = 1e-2

@@ -13,7 +13,7 @@ from support import ROOT, sample_text, study_path
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.infeasibility.conflict_set import SecondTry, _conflicting, conflict_in_words, tried_with_margins
+from tvimdesign.solve.infeasibility.conflict_set import _conflicting, conflict_in_words, second_try, tried_with_margins
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen, _broken, designs_all_over, least_broken
 from tvimdesign.solve.nlp.solution import Side
@@ -235,7 +235,7 @@ def test_a_start_restarted_from_a_feasible_design_converges():
     study = read_study_text(STIFF.replace(">= 12 N.m/rad", ">= 4.5 N.m/rad"))
     optimizer = Optimizer(study)
     run = optimizer.solve()
-    again = SecondTry(optimizer).from_conflict_search(run)
+    again = second_try(optimizer, run)
     assert again.start.second_try
     assert again.start.objective == pytest.approx(run.start.objective, rel=1e-6)
 

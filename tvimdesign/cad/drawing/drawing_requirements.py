@@ -285,25 +285,17 @@ def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
         size, fit, limits = drawn, "", Limits(0.0, 0.0)
     frames = [Frame(*map(str, frame)) for frame in reported.get("frames", ())]
     if "bearing" in reported:
-        frames = _bearing_frames(size)
+        # Within IT5, as catalogues ask. Both seats lie in one zone as wide (CZ, ISO 5458; assumed): they are coaxial,
+        # though cut from two sides.
+        grade = standard_tolerance(5, size)
+        frames = [
+            Frame("cylindrical", f"{0.5 * grade:.4g}"), Frame("run-out", f"{grade:.4g}", DATUM),
+            Frame("position", f"⌀{grade:.4g} CZ"),
+        ]  # fmt: skip
     return Seat(
         reported["about"], size, drawn, fit, limits, reported["roughness"], reported.get("form", ""), tuple(frames),
         letter, reported.get("mates", ""), getattr(dims, reported["circle"]) if "circle" in reported else 0.0, inside,
     )  # fmt: skip
-
-
-def _bearing_frames(size: float) -> list[Frame]:
-    """Return the frames of a bearing's seat: cylindrical within half of IT5, run-out of the shoulder IT5, as
-    catalogues ask.
-
-    Both seats lie in one zone (CZ, ISO 5458) as wide as IT5: so they are coaxial, though cut from two sides. Assumed,
-    as wide as the run-out of the shoulder.
-    """
-    grade = standard_tolerance(5, size)
-    return [
-        Frame("cylindrical", f"{0.5 * grade:.4g}"), Frame("run-out", f"{grade:.4g}", DATUM),
-        Frame("position", f"⌀{grade:.4g} CZ"),
-    ]  # fmt: skip
 
 
 def _thread(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ThreadCallout:

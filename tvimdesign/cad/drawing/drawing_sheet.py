@@ -145,11 +145,6 @@ class DrawingSheet:
             self.document.linetypes.add(name, pattern)
         for name, width in _LAYERS.items():
             self.document.layers.add(name, lineweight=width, linetype=name if name in _DASHES else "CONTINUOUS")
-        self._dimension_style()
-        right, top = self.size[0] - MARGIN, self.size[1] - MARGIN
-        self.lines([(MARGIN, MARGIN), (right, MARGIN), (right, top), (MARGIN, top), (MARGIN, MARGIN)], "FRAME")
-
-    def _dimension_style(self) -> None:
         style = self.document.dimstyles.new("SHEET").dxf
         unit = 1.0 / self.scale
         sizes = {"dimtxt": _TEXT, "dimasz": 2.5, "dimexe": 1.0, "dimexo": 0.8, "dimgap": 0.8, "dimcen": 0.0}
@@ -160,6 +155,8 @@ class DrawingSheet:
                     "dimtxsty": "SHEET", "dimblk": "", "dimlunit": 2, "dimadec": 1, "dimtmove": 1}  # fmt: skip
         for name, setting in settings.items():
             setattr(style, name, setting)
+        right, top = self.size[0] - MARGIN, self.size[1] - MARGIN
+        self.lines([(MARGIN, MARGIN), (right, MARGIN), (right, top), (MARGIN, top), (MARGIN, MARGIN)], "FRAME")
 
     def at(self, point: Point) -> Point:
         """Return where a place on paper is in the drawing's own coordinates."""

@@ -8,35 +8,13 @@ from cadquery.occ_impl.exporters.dxf import DxfDocument
 
 from tvimdesign import __version__
 from tvimdesign.cad import cad_report
+from tvimdesign.cad.drawing import drawing_sheet, sheet_layout
 from tvimdesign.cad.drawing.drawing_requirements import DATUM, GROUND, DrawingRequirements
-from tvimdesign.cad.drawing.drawing_sheet import (
-    MARGIN,
-    TITLE_ROW,
-    TITLE_WIDTH,
-    DrawingSheet,
-    Field,
-    dxf_bytes,
-    figure,
-    issue_fields,
-    ratio,
-    sheet_number,
-    undated,
-)
+from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet, Field, figure, ratio
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
 from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, from_below, half_section, section
-from tvimdesign.cad.drawing.sheet_layout import (
-    FIRST,
-    NEXT,
-    SCALES,
-    Room,
-    draw_balloons,
-    draw_tables,
-    layout,
-    table_height,
-    with_datum,
-)
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.kinds import PRODUCTION
@@ -68,11 +46,11 @@ def part_sheet(
         2.0 * face.radius: face for face in sorted(about_axis, key=lambda face: requirements.seat(face) is not None)
     }
     rows = feature_rows(solid, requirements)
-    rows = with_datum(rows) if requirements.general and not central else rows
+    rows = sheet_layout.with_datum(rows) if requirements.general and not central else rows
     beside = _beside(rows)
     half = half_section(solid, beside) if beside else None
-    heights, table = levels(solid), table_height(rows, requirements)
-    place = layout(plan, front, half, len(central), table)
+    heights, table = levels(solid), sheet_layout.table_height(rows, requirements)
+    place = sheet_layout.layout(plan, front, half, len(central), table)
     sheet = DrawingSheet(place.scale, place.form)
     placed_plan, placed_front = PlacedView(sheet, plan, place.plan), PlacedView(sheet, front, place.front)
     marks = _draw_plan(placed_plan, cylinders, requirements, half, beside)
@@ -84,9 +62,9 @@ def part_sheet(
     _dimension_diameters(placed_front, [central[diameter] for diameter in sorted(central)], requirements)
     _dimension_extent(placed_front, sorted(central))
     _dimension_levels(placed_front, heights)
-    draw_tables(sheet, rows, requirements)
+    sheet_layout.draw_tables(sheet, rows, requirements)
     room = _draw_underside(placed_plan, solid, place.room) if plan.hidden else place.room
-    draw_balloons(placed_plan, rows, room, marks)
+    sheet_layout.draw_balloons(placed_plan, rows, room, marks)
     _words(sheet, kind, solid, what, module, requirements, material or what.material, rows)
     return sheet
 
@@ -113,7 +91,7 @@ def _draw_plan(
     return [*marks, plan.cutting_mark("D", beside, half.bounds[1], marks)] if half else marks
 
 
-def _draw_underside(plan: PlacedView, solid: cq.Solid, room: Room) -> Room:
+def _draw_underside(plan: PlacedView, solid: cq.Solid, room: sheet_layout.Room) -> sheet_layout.Room:
     """Draw the view from below right of the plan, at the largest standard scale for which there is room.
 
     Return the room that is left around the plan.
@@ -121,7 +99,11 @@ def _draw_underside(plan: PlacedView, solid: cq.Solid, room: Room) -> Room:
     sheet, whole, (left, right, bottom, top) = plan.sheet, from_below(solid), room
     start = plan.on_paper(plan.view.bounds[1], 0.0)[0] + _FOR_NUMBERS
     wide, high = whole.bounds[1] - whole.bounds[0], whole.bounds[3] - whole.bounds[2]
-    fits = [size for size in SCALES if size * wide <= right - start and size * high + _FOR_NUMBERS <= top - bottom]
+    fits = [
+        size
+        for size in sheet_layout.SCALES
+        if size * wide <= right - start and size * high + _FOR_NUMBERS <= top - bottom
+    ]
     if not fits:
         return room
     scale = min(fits[0], sheet.scale)
@@ -172,7 +154,7 @@ def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], req
     seats = [requirements.seat(face) for face in round_faces]
     has_seat = any(seat and seat.letter for seat in seats)
     for index, (face, seat) in enumerate(zip(round_faces, seats, strict=True)):
-        level = top + front.paper(FIRST + index * NEXT)
+        level = top + front.paper(sheet_layout.FIRST + index * sheet_layout.NEXT)
         size, ends = sized(face, requirements), (front.at(-face.radius, top), front.at(face.radius, top))
         front.sheet.space.add_linear_dim(
             front.at(0.0, level), *ends, text=size, dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}
@@ -187,7 +169,7 @@ def _dimension_extent(front: PlacedView, diameters: Sequence[float]) -> None:
     left, right, bottom, top = front.view.bounds
     space = front.sheet.space
     if all(abs(right - left - diameter) > 1e-3 for diameter in diameters):
-        base = front.at(0.0, top + front.paper(FIRST + len(diameters) * NEXT))
+        base = front.at(0.0, top + front.paper(sheet_layout.FIRST + len(diameters) * sheet_layout.NEXT))
         ends = front.at(left, top), front.at(right, top)
         space.add_linear_dim(
             base, *ends, text=figure(right - left), dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}
@@ -236,12 +218,12 @@ def _words(
         material, requirements.tolerances, requirements.surface, f"{volume:.1f}", *notes,
         *(row.text + row.asks for row in rows), *map(repr, requirements.seats),
     ]  # fmt: skip
-    left = sheet.size[0] - MARGIN - TITLE_WIDTH
-    sheet.column(notes, (left, sheet.size[1] - MARGIN - 2.0))
+    left = sheet.size[0] - drawing_sheet.MARGIN - drawing_sheet.TITLE_WIDTH
+    sheet.column(notes, (left, sheet.size[1] - drawing_sheet.MARGIN - 2.0))
     sheet.title_block(
         kind.replace("_", " "),
         [
-            issue_fields("Approved", sheet_number(kind, contents)),
+            drawing_sheet.issue_fields("Approved", drawing_sheet.sheet_number(kind, contents)),
             [Field("Made by", f"tvimdesign {__version__}", 0.5),
              Field("Size, projection", f"{sheet.form}, first angle", 0.3), Field("Sheet", "1 of 1", 0.2)],
             [Field("General tolerances", requirements.tolerances, 0.65),
@@ -252,7 +234,7 @@ def _words(
             [Field("Material", material, 0.5), Field("Module", module, 0.5)],
         ],
     )  # fmt: skip
-    draw_frames(sheet, requirements.general, (left + 66.0, MARGIN + 2.0 * TITLE_ROW + 1.0))
+    draw_frames(sheet, requirements.general, (left + 66.0, drawing_sheet.MARGIN + 2.0 * drawing_sheet.TITLE_ROW + 1.0))
 
 
 def plate_outline(solid: cq.Solid) -> bytes | None:
@@ -267,7 +249,7 @@ def plate_outline(solid: cq.Solid) -> bytes | None:
     apart = abs((above.Center() - below.Center()).dot(above.normalAt()))
     if abs(below.Area() * apart / solid.Volume() - 1.0) > _PLATE or abs(below.Area() / above.Area() - 1.0) > _PLATE:
         return None
-    with undated():
+    with drawing_sheet.undated():
         drawn = DxfDocument("R2010", doc_units=4)
         drawn.add_shape(cq.Workplane(cq.Plane(above.Center(), normal=above.normalAt())).newObject([above]))
-    return dxf_bytes(drawn.document)
+    return drawing_sheet.dxf_bytes(drawn.document)

@@ -181,7 +181,12 @@ def write_part(path: Path, solid: cq.Solid, product: Product) -> Validation:
     """Write one part with the properties by which a reader checks what arrived; return these."""
     document = _Document()
     written = validation(solid.located(cq.Location()))
-    _add_validation(document.add(solid, product), written)
+    label = document.add(solid, product)
+    # Parts alone have these properties of AP242: in an assembly the kernel hangs those of a part that stands at the
+    # origin on a shape aspect, where other programs do not look.
+    XCAFDoc_Volume.Set_s(label, written.volume)
+    XCAFDoc_Area.Set_s(label, written.area)
+    XCAFDoc_Centroid.Set_s(label, gp_Pnt(*written.centroid))
     document.write(path, product.name)
     return written
 
@@ -201,17 +206,6 @@ def write_assembly(path: Path, name: str, placed: Mapping[str, cq.Solid], produc
         _name(component, instance)
     document.shapes.UpdateAssemblies()
     document.write(path, name)
-
-
-def _add_validation(label: TDF_Label, properties: Validation) -> None:
-    """Give a product its volume, area and centroid, the geometric validation properties of AP242.
-
-    Parts alone have them: in an assembly the kernel hangs those of a part that stands at the origin on a shape aspect,
-    where other programs do not look.
-    """
-    XCAFDoc_Volume.Set_s(label, properties.volume)
-    XCAFDoc_Area.Set_s(label, properties.area)
-    XCAFDoc_Centroid.Set_s(label, gp_Pnt(*properties.centroid))
 
 
 def _text(text: str) -> TCollection_HAsciiString:

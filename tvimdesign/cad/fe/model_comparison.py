@@ -152,18 +152,14 @@ def fe_values(module: ResolvedModule, fe_results: Mapping[str, Mapping[str, floa
     joint = fe_results["joint"]
     held = float(module.table.evaluate(_drawn(module), ("holding_torque",))["holding_torque"])
     slip = friction * fe_results["screws"]["friction_radius"] * 1e-3 / circle
-    link = fe_results["link"]["link"]
+    link, spring = fe_results["link"]["link"], fe_results["spring"]
     return {
         **screw_rows(module, Carried(joint["foot_across"] * held, joint["foot_along"] * held, slip)),
-        **joint_rows(joint), **spring_rows(fe_results["spring"]), "natural_frequency": joint["frequency"],
+        **joint_rows(joint), "natural_frequency": joint["frequency"],
+        "spring_rate": spring["rate"], "coil_stress": spring["fibre_max"], "tang_stress": spring["bend_mises"],
         "link": link, "link_in_play": _in_play(joint["hub"], link, joint["tilt"]), "foot_force": joint["foot_across"],
         "link_friction_torque": slip,
     }  # fmt: skip
-
-
-def spring_rows(spring: Mapping[str, float]) -> dict[str, float]:
-    """Return the rows that FE gives of a spring."""
-    return {"spring_rate": spring["rate"], "coil_stress": spring["fibre_max"], "tang_stress": spring["bend_mises"]}
 
 
 def joint_rows(joint: Mapping[str, float]) -> dict[str, float]:

@@ -11,7 +11,7 @@ from manifold3d import CrossSection, FillRule, Manifold
 from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPlaneCollection, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData
 from vtkmodules.vtkFiltersGeneral import vtkClipClosedSurface
-from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkActor
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, VIEWED_FROM, lifts
@@ -73,7 +73,11 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
     whole = {name: _actors(name, instance) for name, instance in placed.items()}
     cut = {name: _actors(name, opened[name]) if name in _CUT else whole[name] for name in opened}
     for left, right, shown, drawings in ((0.0, 0.5, placed, whole), (0.5, 1.0, opened, cut)):
-        renderer = _view(shown, drawings, aspect)
+        renderer = render.renderer_on_white()
+        for name in shown:
+            for actor in drawings[name]:
+                renderer.AddActor(actor)
+        render.look(renderer, shown, _FROM, aspect)
         renderer.SetViewport(left, below, right, 1.0)
         views.append(renderer)
     render.write_png(path, _PREVIEW_SIZE, [*views, render.legend(kinds, _PREVIEW_SIZE)])
@@ -81,18 +85,6 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
 
 def _actors(name: str, instance: Instance) -> tuple[vtkActor, vtkActor]:
     return render.actors(instance.mesh, instance.matrix, KINDS[kind_of(name)].colour)
-
-
-def _view(
-    placed: Mapping[str, Instance], drawings: Mapping[str, tuple[vtkActor, vtkActor]], aspect: float
-) -> vtkRenderer:
-    """Return everything that is placed, seen from the front, above and the right."""
-    renderer = render.renderer_on_white()
-    for name in placed:
-        for actor in drawings[name]:
-            renderer.AddActor(actor)
-    render.look(renderer, placed, _FROM, aspect)
-    return renderer
 
 
 _EXPLODED_SIZE = (1000, 1300)

@@ -69,17 +69,6 @@ def _window() -> vtkRenderWindow:
     return window
 
 
-def lit(renderer: vtkRenderer) -> None:
-    """Light what is shown from two sides of the camera."""
-    for position, intensity in (((-0.6, 0.9, 1.0), 0.8), ((0.9, 0.1, 0.8), 0.45)):
-        light = vtkLight()
-        light.SetLightTypeToCameraLight()
-        light.SetPosition(*position)
-        light.SetIntensity(intensity)
-        renderer.AddLight(light)
-    renderer.ResetCameraClippingRange()
-
-
 def actors(mesh: Mesh, matrix: Array, colour: Rgb) -> tuple[vtkActor, vtkActor]:
     """Return the faces of a placed part in its colour, and its sharp edges in black."""
     placed = vtkMatrix4x4()
@@ -248,7 +237,13 @@ def look(renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Tripl
     camera.SetPosition(*(np.array(camera.GetPosition()) + offset))
     camera.SetParallelScale(0.5 * _MARGIN * max(float(np.ptp(along)), float(np.ptp(across)) * aspect))
     renderer.UseFXAAOn()
-    lit(renderer)
+    for position, intensity in (((-0.6, 0.9, 1.0), 0.8), ((0.9, 0.1, 0.8), 0.45)):
+        light = vtkLight()
+        light.SetLightTypeToCameraLight()
+        light.SetPosition(*position)
+        light.SetIntensity(intensity)
+        renderer.AddLight(light)
+    renderer.ResetCameraClippingRange()
 
 
 _SIZE = (1400, 1000)

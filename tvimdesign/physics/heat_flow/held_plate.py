@@ -111,7 +111,10 @@ def _beside(behind: BehindPolymer, fin: _Fin, polymer: Any, last: tuple[Any, ...
     """Return the temperatures of the chain of lumps, each losing heat as at the temperature `last` found for it."""
     if not behind.beside:
         return ()
-    losses = [_loss(lump, temperature, behind.ambient) for lump, temperature in zip(behind.beside, last, strict=True)]
+    losses = [
+        lump.surface.area * surface_coefficient(lump.surface, temperature, behind.ambient)
+        for lump, temperature in zip(behind.beside, last, strict=True)
+    ]
     onward = _onward(behind.beside, losses)
     of_polymer, of_air = (behind.beside[0].conductance * share for share in fin.mean_shares)
     lost = losses[0] + onward[0]
@@ -120,10 +123,6 @@ def _beside(behind: BehindPolymer, fin: _Fin, polymer: Any, last: tuple[Any, ...
         share = lump.conductance / (lump.conductance + loss + beyond)
         temperatures.append(behind.ambient + share * (temperatures[-1] - behind.ambient))
     return tuple(temperatures)
-
-
-def _loss(lump: Lump, temperature: Any, ambient: Any) -> Any:
-    return lump.surface.area * surface_coefficient(lump.surface, temperature, ambient)
 
 
 def _onward(lumps: tuple[Lump, ...], losses: list[Any]) -> list[Any]:

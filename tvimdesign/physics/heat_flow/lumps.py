@@ -144,7 +144,8 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
             (group, i), count = link.first, len(divided["layer"])
             given = link.of_layer * link_heat(link, at[group][i], at[link.second[0]][link.second[1]])
             heats[group][i] = heats[group][i] + given
-            heats["layer"][0] = heats["layer"][0] - given * _falling(count)
+            falling = 2.0 * (1.0 - (np.arange(count) + 0.5) / count) / count  # evenly over the depth to nothing
+            heats["layer"][0] = heats["layer"][0] - given * falling
         if link.slope is not None:
             count = len(divided["layer"])
             conductance = link_conductance(link, at["layer"][0], at[link.second[0]][link.second[1]])
@@ -161,11 +162,6 @@ def risen(slope: Slope, places: Mapping[str, Any], count: int) -> Any:
 def of_first(count: int) -> Any:
     """Return one for the first of so many cells, nothing for the others."""
     return 1.0 * (np.arange(count) == 0)
-
-
-def _falling(count: int) -> Any:
-    """Return the shares of a layer's cells in what falls evenly over its depth to nothing."""
-    return 2.0 * (1.0 - (np.arange(count) + 0.5) / count) / count
 
 
 class Loss(NamedTuple):

@@ -15,16 +15,13 @@ from math import exp, hypot, log
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.engine.integrator import adapted
 from tvimdesign.physics.heat_flow import heat
-from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.current_profile import Array, CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Instant
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

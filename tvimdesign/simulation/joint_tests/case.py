@@ -176,20 +176,14 @@ def event_sheets(name: str, course: OneSided) -> tuple[CurveTable, ...]:
     return (CurveTable(f"{name}_events", tuple(columns)),)
 
 
-def notes_for(tested_cases: Sequence[Case]) -> tuple[str, ...]:
-    """Return the notes on these cases."""
-    pushes = (PUSHES,) if any(case.one_sided for case in tested_cases) else ()
-    history = (HISTORY,) if any(case.history.name for case in tested_cases) else ()
-    return (LINEAR, *pushes, *history)
-
-
-def overload_notes(resolved: ResolvedModule, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
-    """Return a sentence on the points where a test asks more torque [N*m] of a joint than it bears."""
+def notes_for(resolved: ResolvedModule, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
+    """Return the notes on cases, and on the points where a test asks more torque [N*m] of a joint than it bears."""
+    pushes = (PUSHES,) if any(case.one_sided for case, _ in torques) else ()
+    history = (HISTORY,) if any(case.history.name for case, _ in torques) else ()
     most = float(resolved.quantity("holding_torque"))
     beyond = " and ".join(dict.fromkeys(case.point for case, torque in torques if torque > _ROUNDING * most))
-    if not beyond:
-        return ()
-    return (
+    overload = (
         f"At {beyond} the test asks for more torque than the {most:.3g} N·m the joint bears: there the curves are "
         "those of a joint that does not break, to be read as shares.",
     )
+    return (LINEAR, *pushes, *history, *(overload if beyond else ()))

@@ -17,7 +17,6 @@ from tvimdesign.simulation.joint_tests.case import (
     findings_at,
     notes_for,
     one_sided,
-    overload_notes,
     with_paper_points,
 )
 from tvimdesign.simulation.link_motion import link
@@ -114,8 +113,7 @@ def _notes(resolved: ResolvedModule, releases: Sequence[Released]) -> list[str]:
             "more: the weakest on its way (see the run's table of frozen torque) slips or yields by "
             f"{1e3 * max(slips.values()):.3g} mrad while the link is held, and the link stays turned."
         )
-    notes += notes_for([swing.case for swing in releases])
-    notes += overload_notes(resolved, [(swing.case, float(abs(swing.motion.torque[0]))) for swing in releases])
+    notes += notes_for(resolved, [(swing.case, float(abs(swing.motion.torque[0]))) for swing in releases])
     points = dict.fromkeys(released.case.point for released in releases if not np.isfinite(released.settling))
     if points:
         notes.append(

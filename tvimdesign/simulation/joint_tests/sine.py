@@ -13,7 +13,6 @@ from tvimdesign.simulation.joint_tests.case import (
     event_sheets,
     findings_at,
     notes_for,
-    overload_notes,
     with_paper_points,
 )
 from tvimdesign.simulation.link_motion import link
@@ -65,8 +64,7 @@ def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
         notes=(
             "The angle is prescribed, so the link's inertia takes no part; torque is that of the module on the link.",
             f"The PCL is free of strain at first; the loops and numbers are those of period {periods}.",
-            *notes_for([swing.case for swing in swings]),
-            *overload_notes(resolved, [(swing.case, float(np.max(np.abs(swing.motion.torque)))) for swing in swings]),
+            *notes_for(resolved, [(swing.case, float(np.max(np.abs(swing.motion.torque)))) for swing in swings]),
         ),
     )
 

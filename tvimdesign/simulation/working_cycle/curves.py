@@ -11,16 +11,14 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.current_profile import Array, CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator, Trajectory
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
 from tvimdesign.simulation.working_cycle.phase_functions import SHOWN, PhaseFunctions
 
-Array = NDArray[np.float64]
 MEMORY = "melt_memory"
 HISTORIES = 5  # Solid fractions, equally spaced from the least to the largest, whose extremes are taken
 

@@ -13,17 +13,15 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.engine.lanes import evaluate, lanes_of
 from tvimdesign.engine.tape import Tape
+from tvimdesign.engine.vectors import Array
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
-
-Array = NDArray[np.float64]
 
 _LOOSE = 2e-3  # Tolerance of a simulation that a pace is taken from
 _SLOW = 0.1  # Share of the horizon that a phase is paced by which never ends as drawn

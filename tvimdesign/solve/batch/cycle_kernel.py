@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.device import Event, Path, Steady
-from tvimdesign.engine.vectors import LANES
+from tvimdesign.engine.vectors import LANES, Array
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.phase_kernel import Course, Fit, Passage, PhaseKernel, Steps
-
-Array = NDArray[np.float64]
 
 BLOCK = 128  # Designs that go through the cycle together; smaller ones share threads evenly
 STEPS = Steps(40, 1.0 / 32.0, 1.15)

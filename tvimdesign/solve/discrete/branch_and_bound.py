@@ -15,7 +15,7 @@ one whose entries are as good as one another, whose halves would all be divided 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,13 +64,7 @@ class PseudoCosts:
 GAP = 1e-6  # Share by which a box must promise better than what is known to be looked into
 _NEXT_RECORDS = 3  # Records of each mixture, by cost, that are tried beside a tree's first combination
 _DATA = 20  # Boxes between two words of progress
-
-
-class Answer(NamedTuple):
-    """The best design of a box, and where there is none, whether that is certain."""
-
-    run: Run | None
-    certain: bool
+Answer = tuple[Run | None, bool]
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,12 +77,11 @@ class Task:
     way: Literal["within", "exactly", "thoroughly"]
 
     def answer(self, trees: Sequence[Relaxation]) -> Answer:
-        """Return its best design."""
+        """Return its best design, and where there is none, whether that is certain."""
         tree = trees[self.place]
         if self.way == "thoroughly":
-            return Answer(tree.thoroughly(self.box, self.near), certain=True)
-        search = tree.exactly if self.way == "exactly" else tree.best_within
-        return Answer(*search(self.box, self.near))
+            return tree.thoroughly(self.box, self.near), True
+        return (tree.exactly if self.way == "exactly" else tree.best_within)(self.box, self.near)
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,12 +173,12 @@ class BranchAndBound:
     def _begin_afresh(self) -> None:
         """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
         best = sorted(self.runs, key=lambda key: (order(self.runs[key]), key))[:_AFRESH]
-        for key, again in zip(best, self._answers([Task(*key, None, "thoroughly") for key in best]), strict=False):
+        for key, (again, _) in zip(best, self._answers([Task(*key, None, "thoroughly") for key in best]), strict=False):
             before = self.runs[key]
-            if again.run is not None and order(again.run) < order(before):
-                self.runs[key] = again.run
+            if again is not None and order(again) < order(before):
+                self.runs[key] = again
                 objective = before.start.objective
-                self.inside = max(self.inside, (objective - again.run.start.objective) / abs(objective))
+                self.inside = max(self.inside, (objective - again.start.objective) / abs(objective))
 
     def _answers(self, tasks: Sequence[Task]) -> list[Answer]:
         """Tasks answered; none any more once the time is over."""
@@ -219,31 +212,27 @@ class BranchAndBound:
 
     def _divide(self, node: Node) -> None:
         """Solve both halves of a box, and keep those that may hold better combinations."""
-        division, tasks = self._halves(node)
-        solved = {task.box: task_answer for task, task_answer in zip(tasks, self._answers(tasks), strict=False)}
-        task_boxes = {task.box for task in tasks}
-        for side, box in enumerate(division.halves(node.box)):
-            if box in solved:
-                self._take(node, division, side, box, solved[box])
-            elif box not in task_boxes:  # the best design lies in it
-                self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
-
-    def _halves(self, node: Node) -> tuple[Division, list[Task]]:
-        """Return the division of a box and the halves that do not contain its best design."""
         division, sizes = self._division(node), node.relaxation.sizes
         values = node.run and node.relaxation.values(node.run)
-        boxes = [box for box in division.halves(node.box) if not (values and sizes.hold(values, box))]
-        return division, [Task(node.relaxation.place, box, node.run, "within") for box in boxes]
+        halves = division.halves(node.box)
+        asked = [box for box in halves if not (values and sizes.hold(values, box))]
+        answers = self._answers([Task(node.relaxation.place, box, node.run, "within") for box in asked])
+        solved = dict(zip(asked, answers, strict=False))
+        for side, box in enumerate(halves):
+            if box in solved:
+                self._take(node, division, side, box, *solved[box])
+            elif box not in asked:  # the best design lies in it
+                self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
 
-    def _take(self, node: Node, division: Division, side: int, box: Box, solved: Answer) -> None:
+    def _take(self, node: Node, division: Division, side: int, box: Box, run: Run | None, certain: bool) -> None:
         """Keep one half, and learn from how much worse it is."""
-        if solved.run is None and not solved.certain:
+        if run is None and not certain:
             self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
             return
         risen = None
-        if solved.run is not None:
-            objective = solved.run.start.objective
-            self._add(node.relaxation, box, objective, solved.run, node.depth + 1)
+        if run is not None:
+            objective = run.start.objective
+            self._add(node.relaxation, box, objective, run, node.depth + 1)
             risen = (objective - node.bound) / abs(node.bound)
         if math.isfinite(node.bound):
             self.inside = max(self.inside, -(risen or 0.0))
@@ -290,14 +279,11 @@ class BranchAndBound:
         if relaxation.place in self._tried_others:
             return []
         self._tried_others.add(relaxation.place)
-        return self._other_records(relaxation, key[1], run)
-
-    def _other_records(self, relaxation: Relaxation, box: Box, run: Run) -> list[Task]:
-        """Return the combinations that differ in one record; good ones rule out many others."""
+        box, sizes = key[1], relaxation.sizes  # combinations that differ in one record: good ones rule out many others
         return [
             Task(relaxation.place, (*box[:axis], (place, place), *box[axis + 1 :]), run, "exactly")
-            for axis in range(len(box) - len(relaxation.sizes.mixtures), len(box))
-            for place in range(min(_NEXT_RECORDS, len(relaxation.sizes.sizes[axis])))
+            for axis in range(len(box) - len(sizes.mixtures), len(box))
+            for place in range(min(_NEXT_RECORDS, len(sizes.sizes[axis])))
             if place != box[axis][0]
         ]
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
 from tvimdesign.solve.infeasibility import feasibility_screen
-from tvimdesign.solve.infeasibility.conflict_set import SecondTry
+from tvimdesign.solve.infeasibility.conflict_set import second_try
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
@@ -65,7 +65,6 @@ class Relaxation:
     def _from_starts(self, most: int | None) -> list[Run]:
         runs: list[Run] = []
         count = self.optimizer.study.solver.starts
-        second_try = SecondTry(self.optimizer)
         for number, begin in enumerate(islice(self.optimizer.multistart.points(), most)):
             if runs and self.optimizer.deadline.passed:
                 break
@@ -74,7 +73,7 @@ class Relaxation:
             self.optimizer.progress(f"searching: start {number + 1} of {count}{so_far}")
             run = self._from_one_of_each(self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(earlier.start.converged for earlier in runs):
-                run = second_try.from_conflict_search(run)
+                run = second_try(self.optimizer, run)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
             if not self.sizes.names:

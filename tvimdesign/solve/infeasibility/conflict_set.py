@@ -16,7 +16,6 @@ Optimization, 2nd ed. (2006), section 18.5 (the elastic mode).
 import time
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -152,30 +151,24 @@ def find_conflicts(optimizer: Optimizer, failed: Sequence[Run], progress: Progre
     return ConflictSearch(least.run, _conflict_set(elastic, least, members, ends, progress))
 
 
-class SecondTry:
-    """Failed starts, started again from a feasible design; the elastic problem is built once."""
+def second_try(optimizer: Optimizer, run: Run) -> Run:
+    """Start a failed run again from a feasible design; return it if it converges, or else the failed one.
 
-    def __init__(self, optimizer: Optimizer) -> None:
-        self._optimizer = optimizer
-
-    @cached_property
-    def _elastic(self) -> ElasticMode:
-        return ElasticMode(self._optimizer)
-
-    def from_conflict_search(self, run: Run) -> Run:
-        """Return a run that converged after all, or else the failed one; its start counts the iterations of all."""
-        settled = self._elastic.settle(_weights(self._elastic), _begin(self._optimizer, run))
-        if not settled.conflict_search:
-            return run
-        again = self._optimizer.solve(begin=settled.run.inputs, unknowns=settled.run.unknowns)
-        if not again.start.converged:
-            return run
-        parts = (run.start, settled.run.start, again.start)
-        again.start = replace(
-            again.start, begin=run.start.begin, second_try=True,
-            iterations=sum(part.iterations for part in parts), seconds=sum(part.seconds for part in parts),
-        )  # fmt: skip
-        return again
+    Its start counts the iterations of all.
+    """
+    elastic = ElasticMode(optimizer)
+    settled = elastic.settle(_weights(elastic), _begin(optimizer, run))
+    if not settled.conflict_search:
+        return run
+    again = optimizer.solve(begin=settled.run.inputs, unknowns=settled.run.unknowns)
+    if not again.start.converged:
+        return run
+    parts = (run.start, settled.run.start, again.start)
+    again.start = replace(
+        again.start, begin=run.start.begin, second_try=True,
+        iterations=sum(part.iterations for part in parts), seconds=sum(part.seconds for part in parts),
+    )  # fmt: skip
+    return again
 
 
 def _weights(elastic: ElasticMode) -> Array:

@@ -10,15 +10,16 @@ Source: R. Storn, K. Price, Differential evolution, Journal of Global Optimizati
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from tvimdesign.base.interrupts import raise_pending
-from tvimdesign.engine.tape import Tape
-from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
+from tvimdesign.solve.nlp.decision_vector import DecisionVector, ExtendedProblem
 from tvimdesign.solve.nlp.mixture import shared
+from tvimdesign.solve.nlp.problem import Problem
+from tvimdesign.solve.nlp.problem_parts import Parameters
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Ends
 from tvimdesign.solve.nlp.sqp import SqpSolver
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -26,53 +27,27 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 NOWHERE = 1e3  # Violation of each limit at a point without a module
 
 
-class _Rows(NamedTuple):
-    """Limits at a point."""
-
-    objective: float
-    gradient: Array
-    rows: Array
-    jacobian: Array
-
-
 class FeasibilityScreen:
     """The arithmetic limits of one problem, and the least by which they are broken within some ends."""
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Write the problem; nothing is solved yet."""
-        self._optimizer = optimizer
-        self._unknowns = ca.MX.sym("free", len(optimizer.free))
-        limits = self._residuals(self._unknowns)
-        self._count = limits.numel()
-        self._at: Any = ca.Function("residuals", [self._unknowns], [limits]).expand()
-        self._sums = optimizer.problem.shares_less_one(self._inputs(self._unknowns))
-
-    def _inputs(self, unknowns: Any) -> Any:
-        """Return the study's inputs with the free numbers in their places (MX)."""
-        return self._optimizer.problem.with_unknowns(ca.MX(ca.DM(self._optimizer.model.start)), unknowns)
-
-    @cached_property
-    def _rows(self) -> Tape:
-        """Record the sums of mixtures' shares less one, and the limits' residuals."""
-        rows = ca.vertcat(self._sums, self._at(self._unknowns))
-        return Tape.of_function(ca.Function("rows", [self._unknowns], [ca.densify(rows)]).expand())
+        """Write the problem of these limits, in which nothing is minimised; nothing is solved yet."""
+        limits = [limit for limit in optimizer.problem.limits if not on_cycle(optimizer.table, limit.output)]
+        problem = Problem(optimizer.model, optimizer.free, limits, (), mixtures=optimizer.mixtures)
+        self._optimizer, self._problem, self._vector = optimizer, problem, DecisionVector(problem, optimizer.model)
+        parameters = Parameters(optimizer.model.start, np.zeros(0), np.zeros((0, 0)))
+        self._programme = ExtendedProblem(problem, parameters)
+        self._outputs: Any = optimizer.model.outputs(problem.wanted) if limits else None
 
     @cached_property
     def _solver(self) -> SqpSolver:
-        equations = len(self._optimizer.mixtures)
-        sizes = len(self._optimizer.free), equations + self._count, equations
+        problem = self._problem
+        sizes = problem.unknown_count, problem.row_count, problem.equation_count
         return SqpSolver(*sizes, ALGEBRAIC_TOLERANCE, feasible=True)
-
-    def at(self, x: Array) -> _Rows:
-        """Evaluate the limits at some unknowns; nothing is minimised."""
-        ((rows, slopes),) = self._rows.tangents([x], [np.eye(len(x))])
-        return _Rows(0.0, np.zeros(len(x)), rows, slopes)
 
     def broken(self, inputs: Array) -> float:
         """Return the largest violation of a limit at some inputs, as a share of scale; infinite without geometry."""
-        optimizer = self._optimizer
-        unknowns = [free.to_unknown(inputs[optimizer.model.index[free.name]]) for free in optimizer.free]
-        residuals = np.asarray(self._at(unknowns)).ravel()
+        residuals = self._residuals(self._unknowns(inputs)[:, None])
         return float(np.max(residuals, initial=-np.inf)) if np.all(np.isfinite(residuals)) else np.inf
 
     def worst(self, unknowns: Array) -> Array:
@@ -84,21 +59,27 @@ class FeasibilityScreen:
         for mixture in self._optimizer.mixtures:
             places = [place for place, free in enumerate(self._optimizer.free) if free.name in mixture.shares]
             points[places] = np.apply_along_axis(shared, 0, points[places])
-        residuals = np.asarray(self._at(points)).reshape(self._count, points.shape[1])  # there may be no limit
-        worst: Array = np.max(residuals, axis=0, initial=-1.0)
+        worst: Array = np.max(self._residuals(points), axis=0, initial=-1.0)  # there may be no limit
         return np.nan_to_num(worst, nan=NOWHERE, posinf=NOWHERE)
 
-    def _residuals(self, unknowns: Any) -> Any:
-        """Those of the arithmetic limits at the free numbers' unknowns; margins for what spreads are left out."""
-        problem, model = self._optimizer.problem, self._optimizer.model
-        limits = [limit for limit in problem.limits if not on_cycle(self._optimizer.table, limit.output)]
-        wanted = list(dict.fromkeys(limit.output for limit in limits))
-        if not wanted:
-            return ca.MX(0, 1)
-        values = model.outputs(wanted)(
-            self._inputs(unknowns), np.full(len(model.switch_names), np.nan)
-        )  # read by none of them
-        return ca.vertcat(*(limit.residual(values[wanted.index(limit.output)]) for limit in limits))
+    def _unknowns(self, inputs: Array) -> Array:
+        index = self._optimizer.model.index
+        return np.array([free.to_unknown(inputs[index[free.name]]) for free in self._optimizer.free])
+
+    def _residuals(self, unknowns: Array) -> Array:
+        """Return the limits' residuals, a row each, at the free numbers' unknowns, a column a design.
+
+        Margins for what spreads are left out.
+        """
+        model, problem, count = self._optimizer.model, self._problem, unknowns.shape[1]
+        if self._outputs is None:
+            return np.zeros((0, count))
+        inputs = np.repeat(model.start[:, None], count, axis=1)
+        for free, row in zip(problem.free, unknowns, strict=True):
+            inputs[model.index[free.name]] = free.to_value(row)
+        cycle = np.full((len(model.switch_names), count), np.nan)  # read by none of them
+        values = np.asarray(self._outputs(inputs, cycle)).reshape(len(problem.wanted), count)
+        return np.array([limit.residual(values[problem.wanted.index(limit.output)]) for limit in problem.limits])
 
     def impossible(self, within: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
         """Return whether searches from some inputs all end where no step brings the limits nearer, within some ends.
@@ -110,13 +91,12 @@ class FeasibilityScreen:
     def _status(self, within: Mapping[str, Ends], begin: Array) -> str:
         """Return how a search for a point that satisfies the limits ends."""
         raise_pending()
-        optimizer, count = self._optimizer, len(self._optimizer.free)
-        lower, upper = (ends[:count] for ends in optimizer.vector.bounds(within))
-        start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
+        optimizer, count = self._optimizer, len(self._problem.limits)
+        lower, upper = self._vector.bounds(within)
         least, largest = optimizer.with_room_where_decided(np.zeros(len(optimizer.mixtures)), within)
         self._solver(
-            self, optimizer.deadline, x0=start, lbx=lower, ubx=upper,
-            lbg=np.append(least, np.full(self._count, -np.inf)), ubg=np.append(largest, np.zeros(self._count)),
+            self._programme, optimizer.deadline, x0=self._unknowns(begin), lbx=lower, ubx=upper,
+            lbg=np.append(least, np.full(count, -np.inf)), ubg=np.append(largest, np.zeros(count)),
         )  # fmt: skip
         return str(self._solver.stats()["return_status"])
 

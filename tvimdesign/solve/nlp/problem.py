@@ -11,7 +11,6 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.engine.tape import Tape
-from tvimdesign.simulation.working_cycle.current_profile import ramp_time
+from tvimdesign.simulation.working_cycle.current_profile import Array, ramp_time
 from tvimdesign.simulation.working_cycle.cycle import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, PhaseOutputs
@@ -27,8 +26,6 @@ from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
 from tvimdesign.solve.nlp.problem_parts import CycleModel, Free, FreeCurrent, Parameters, Peak, Places, Point
-
-Array = NDArray[np.float64]
 
 STEPS, FREEZING_STEPS, LEAST_STEPS = 40, 60, 3
 """Steps of a phase whose current follows a profile, of one in which the layer freezes, and of a piece at least."""
@@ -227,18 +224,6 @@ class Problem:
             values[row] = current.upper * float(weights @ x[nodes])
             along[row, nodes] = current.upper * weights
         return values, along
-
-    def with_unknowns(self, inputs: Any, unknowns: Any) -> Any:
-        """Return inputs (MX) with the free numbers in their places."""
-        entries = ca.vertsplit(inputs)
-        for i, free in enumerate(self.free):
-            entries[self.model.index[free.name]] = free.to_value(unknowns[i])
-        return ca.vertcat(*entries)
-
-    def shares_less_one(self, inputs: Any) -> Any:
-        """Return what the shares of each mixture add up to beyond one (MX)."""
-        places = ([self.model.index[name] for name in mixture.shares] for mixture in self.mixtures)
-        return ca.vertcat(*(ca.sum1(ca.vertcat(*(inputs[place] for place in group))) - 1.0 for group in places))
 
     def nodes_place(self, i: int) -> slice:
         """Return the places of a free current's nodes among the unknowns; the logarithm of its time follows them."""

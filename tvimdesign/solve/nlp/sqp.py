@@ -13,13 +13,11 @@ from functools import cached_property
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.simulation.working_cycle.symbols import ca
+from tvimdesign.solve.nlp.problem_parts import Array, Point
 from tvimdesign.solve.nlp.solver_run import ITERATIONS_OVER, NO_DESIGN, NO_MODULE, NO_STEP, SOLVED, TIME_OVER
-
-Array = NDArray[np.float64]
 
 MOST_ITERATIONS = 100
 FIRST_PRICE, DEAREST, DEARER = 10.0, 1e5, 5.0
@@ -44,31 +42,11 @@ _DAMPED = 0.2  # Least curvature along a step after an update, as a share of tha
 _QP: dict[str, Any] = {"error_on_fail": False, "daqp": {"primal_tol": 1e-11, "dual_tol": 1e-12, "iter_limit": 2000}}
 
 
-class Evaluated(Protocol):
-    """A nonlinear programme at a point."""
-
-    @property
-    def objective(self) -> float:
-        """Return the value to minimise."""
-
-    @property
-    def gradient(self) -> Array:
-        """Of the objective."""
-
-    @property
-    def rows(self) -> Array:
-        """The constraints."""
-
-    @property
-    def jacobian(self) -> Array:
-        """Of the constraints."""
-
-
 class Programme(Protocol):
     """A nonlinear programme that a solver can be given."""
 
-    def at(self, x: Array) -> Evaluated:
-        """Evaluate the programme at a point."""
+    def at(self, x: Array) -> Point:
+        """Evaluate the programme at a point: objective, gradient, rows of the constraints and their Jacobian."""
 
 
 class Step(NamedTuple):
@@ -188,7 +166,7 @@ class _Here(NamedTuple):
     """A programme at a point."""
 
     x: Array
-    point: Evaluated
+    point: Point
     passed: Array  # By how much each limit is passed
     slopes: Array
     toll: float  # Of its breaches; NaN where a limit is no number

@@ -12,15 +12,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
-from tvimdesign.solve.nlp.problem_parts import Curvatures, CycleModel, Point
+from tvimdesign.solve.nlp.problem_parts import Array, Curvatures, CycleModel, Point
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN
 from tvimdesign.solve.nlp.sqp import SqpSolver
-
-Array = NDArray[np.float64]
 
 FIRST_RADIUS, MOST_RADIUS, LEAST_RADIUS = 0.4, 2.0, 1e-5
 """Half the edge of the trust region, in the unknowns: a logarithm of 0.4 is half as much again."""

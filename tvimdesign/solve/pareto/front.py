@@ -10,9 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tvimdesign.solve.nlp.problem_parts import Objective
+from tvimdesign.solve.nlp.problem_parts import Array, Objective
 from tvimdesign.solve.nlp.solver_run import Trace
 from tvimdesign.solve.pareto import front_shape as shape
 from tvimdesign.solve.pareto.front_shape import Frame
@@ -27,8 +26,6 @@ MOST_TRIES = 1.5
 """Designs that may be sought for each point that is asked for: some lines lead to a point that is there already."""
 FAR = 3.0
 """Largest weight of a neighbour in a guess: beyond it the guess is further from all of them than they are apart."""
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

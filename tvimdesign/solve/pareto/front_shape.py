@@ -14,11 +14,9 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tvimdesign.solve.nlp.problem_parts import Bound
+from tvimdesign.solve.nlp.problem_parts import Array, Bound
 
-Array = NDArray[np.float64]
 Values = Mapping[str, float]
 
 FLAT = 0.03  # Greatest distance from the chord, or the plane of the ends, of a front that has no knee

@@ -1,16 +1,16 @@
 """One study's problem, built once, asked again and again: the design that is best in one thing within some bounds."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.current_profile import Array, CurrentProfile
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, in_words, make_constraint, on_cycle
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import Solution
@@ -24,7 +24,6 @@ ONE_POINT = 2e-3  # Share by which two designs must differ to be two: the simula
 MOST_BEGINS = 3
 """Count of the study's optima, the best ones, from which an end is sought: warm, as a cold start may leave them for
 a worse one."""
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -108,21 +107,25 @@ class Tradeoff:
         Where a design that was found before keeps the bounds and is better, this has ended in a worse optimum: then
         also from there.
         """
+        answer = self._asked(objective, where, partial(self._search, objective, where, near, guess))
+        if isinstance(answer, Point):
+            self._leave_time()
+        return answer
+
+    def _asked(self, objective: Objective, where: str, search: Callable[[], Point | Failure]) -> Point | Failure:
+        """Return the answer to a question that is remembered, or else what a search finds in time, which is then."""
         number, self.requests = self.requests, self.requests + 1
         answer = self._memory.recall(number, objective) if self._memory else None
-        if answer is None and self.optimizer.deadline.passed:
-            return Failure(where, OUT_OF_TIME)
-        if answer is None:
+        if answer is None and not self.optimizer.deadline.passed:
             self.progress(where)
-            answer = self._search(objective, where, near, guess)
+            answer = search()
             if isinstance(answer, Failure) and self.optimizer.deadline.passed:
                 return Failure(where, OUT_OF_TIME)
             if self._memory:
                 self._memory.keep(number, objective, answer)
         if isinstance(answer, Point):
             self.points.append(answer)
-            self._leave_time()
-        return answer
+        return answer or Failure(where, OUT_OF_TIME)
 
     def beside(self, point: Point, objective: Objective, where: str, *, cold: bool) -> Point | Failure:
         """Return the best design for an objective, sought from one point alone: warm, then `cold` if asked."""
@@ -152,20 +155,10 @@ class Tradeoff:
     def again(self, point: Point, other: Point) -> Point | None:
         """Return a point solved again from another one; None if no better one results."""
         assert point.objective is not None  # the study's own optimum is never asked for again
-        number, self.requests = self.requests, self.requests + 1
-        answer = self._memory.recall(number, point.objective) if self._memory else None
-        if answer is None and self.optimizer.deadline.passed:
-            return None
-        if answer is None:
-            self.progress(f"{point.where}, from another side")
-            answer = self._from(other, point.objective, point.where, point.cost)
-            if isinstance(answer, Failure) and self.optimizer.deadline.passed:
-                return None
-            if self._memory:
-                self._memory.keep(number, point.objective, answer)
+        search = partial(self._from, other, point.objective, point.where, point.cost)
+        answer = self._asked(point.objective, f"{point.where}, from another side", search)
         if isinstance(answer, Failure):
             return None
-        self.points.append(answer)
         return replace(answer, where=point.where, root=other.root)
 
     def completed(self, point: Point) -> Point | Failure:

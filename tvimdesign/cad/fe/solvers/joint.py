@@ -14,28 +14,10 @@ from typing import Any
 import elastic
 import joint_samples
 import joint_solids
+import ngsolve as ngs
 import numpy as np
 from netgen.occ import Glue, OCCGeometry
-from ngsolve import (
-    CF,
-    H1,
-    L2,
-    TET,
-    VOL,
-    BilinearForm,
-    GridFunction,
-    IfPos,
-    InnerProduct,
-    Integrate,
-    IntegrationRule,
-    TaskManager,
-    Trace,
-    dx,
-    sqrt,
-    x,
-    y,
-    z,
-)
+from ngsolve import CF, H1, L2, TET, VOL, BilinearForm, IfPos, InnerProduct, Integrate, Trace, dx, sqrt, x, y, z
 
 BETWEEN_PLATES = 0.25
 """Poisson's ratio of rigid modules: pressed between stiff plates they are as stiff as three times the shear modulus."""
@@ -61,11 +43,11 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     sizes = {"maxh": 12.0 * coarser, "grading": grading, "curvaturesafety": 1.0, "segmentsperedge": 0.5}
     mesh = elastic.meshed(OCCGeometry(whole), 2, **sizes)
     shear, lame = _moduli(mesh, values)
-    with TaskManager():
+    with ngs.TaskManager():
         held = Held(mesh, shear, lame, HIGHER if is_rubber else LOWER)
         displacement = held.turned()
         strain = elastic.strain_of(displacement)
-        even = GridFunction(L2(mesh, order=held.order - LOWER))
+        even = ngs.GridFunction(L2(mesh, order=held.order - LOWER))
         even.Set(Trace(strain))
         dilation = mesh.MaterialCF({"pad": even}, default=Trace(strain))
         tensor = elastic.stress(strain, shear, lame, dilation)
@@ -133,7 +115,10 @@ class Held:
         dilated = lame * Trace(elastic.strain_of(u)) * Trace(elastic.strain_of(v))
         # Pads hardly change their volume, and whole tetrahedra of theirs would lock: one point of each is asked, or
         # four of a cubic one.
-        others, few = mesh.Materials("pcl|rotor|housing|spreader|liner|seat"), {TET: IntegrationRule(TET, order - 1)}
+        others, few = (
+            mesh.Materials("pcl|rotor|housing|spreader|liner|seat"),
+            {TET: ngs.IntegrationRule(TET, order - 1)},
+        )
         worked = sheared * dx + dilated * dx(definedon=others) + dilated * dx("pad", intrules=few)
         self.form = BilinearForm(worked, symmetric=True).Assemble()
         self.inverse = self.form.mat.Inverse(self.space.FreeDofs(), "sparsecholesky")
@@ -173,7 +158,7 @@ class Held:
 
     def moved(self, motion: Any) -> Any:
         """Return displacement where the core's top moves as one."""
-        displacement = GridFunction(self.space)
+        displacement = ngs.GridFunction(self.space)
         displacement.Set(CF(motion), definedon=self.space.mesh.Boundaries("turned"))
         right = displacement.vec.CreateVector()
         right.data = -self.form.mat * displacement.vec

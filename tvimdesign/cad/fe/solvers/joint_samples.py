@@ -5,25 +5,10 @@ from typing import Any
 
 import elastic
 import foot_surface
+import ngsolve as ngs
 import numpy as np
 from elastic import Results
-from ngsolve import (
-    BND,
-    CF,
-    TET,
-    VOL,
-    GridFunction,
-    IfPos,
-    InnerProduct,
-    IntegrationRule,
-    LinearForm,
-    atan2,
-    dx,
-    sqrt,
-    x,
-    y,
-    z,
-)
+from ngsolve import BND, CF, TET, VOL, GridFunction, IfPos, InnerProduct, IntegrationRule, atan2, dx, sqrt, x, y, z
 
 STRETCH = 2.0  # Length along an edge over which its highest stress is a mean [mm]
 
@@ -147,7 +132,7 @@ def at_feet(space: Any, tensor: Any, torque: float, count: int) -> Results:
     pitch = 2.0 * np.pi / count
     first = np.angle(np.mean(np.exp(1j * count * angles))) / count
     v = space.TestFunction()
-    work = LinearForm(InnerProduct(tensor, elastic.strain_of(v)) * dx).Assemble()
+    work = ngs.LinearForm(InnerProduct(tensor, elastic.strain_of(v)) * dx).Assemble()
     motion, across, along = GridFunction(space), [], []
     for foot in range(count):
         turned = atan2(y * np.cos(first + foot * pitch) - x * np.sin(first + foot * pitch),

@@ -10,27 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import elastic
+import ngsolve as ngs
 import numpy as np
 from netgen.occ import Cylinder, Dir, Glue, OCCGeometry, Pnt
-from ngsolve import (
-    BND,
-    CF,
-    BilinearForm,
-    Compress,
-    FESpace,
-    GridFunction,
-    IfPos,
-    InnerProduct,
-    Integrate,
-    LinearForm,
-    TaskManager,
-    VectorH1,
-    ds,
-    dx,
-    sqrt,
-    x,
-    y,
-)
+from ngsolve import BND, CF, Compress, GridFunction, IfPos, InnerProduct, Integrate, VectorH1, ds, dx, sqrt, x, y
 
 DEEP, NEAR = 1.2, 1.6
 """Depth of the core that is drawn, over that of the screws' holes; how much of the link, over the core's radius."""
@@ -51,7 +34,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     lame = elastic.lame_of(shear, own)
     link = Compress(VectorH1(mesh, order=2, definedon=mesh.Materials("link")))
     core = Compress(VectorH1(mesh, order=2, definedon=mesh.Materials("core"), dirichlet="ground"))
-    space = FESpace([link, core])
+    space = ngs.FESpace([link, core])
     (u, w), (v, t) = space.TnT()
     displacement = GridFunction(space)
     stiff = STIFF * modulus / mm["link_thickness"]
@@ -59,10 +42,10 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     away = [sqrt((x - a) ** 2 + (y - b) ** 2) for a, b in places]
     touching = sum(IfPos(0.5 * mm["link_screw_head"] + SPREADS * mm["link_thickness"] - apart, 1, 0) for apart in away)
     radius = 0.0
-    with TaskManager():
+    with ngs.TaskManager():
         load = _tightened(mesh, space, v, t, places, 0.5 * mm["link_screw_head"])
         for _ in range(CHANGES):
-            form = BilinearForm(space, symmetric=True)
+            form = ngs.BilinearForm(space, symmetric=True)
             for a, b, name in ((u, v, "link"), (w, t, "core")):
                 tensor = elastic.stress(elastic.strain_of(a), shear, lame)
                 form += InnerProduct(tensor, elastic.strain_of(b)) * dx(name)
@@ -135,7 +118,7 @@ def _meshed(folder: Path, mm: dict[str, float], coarser: float) -> tuple[Any, li
 
 def _tightened(mesh: Any, space: Any, v: Any, t: Any, places: Any, head: float) -> Any:
     """Return a newton of every screw: on the link under its head, and up on the walls of its hole in the core."""
-    load = LinearForm(space)
+    load = ngs.LinearForm(space)
     for a, b in places:
         away = sqrt((x - a) ** 2 + (y - b) ** 2)
         for name, test, reach, way in (("upper", v, head, -1.0), ("thread", t, head, 1.0)):

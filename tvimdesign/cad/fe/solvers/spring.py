@@ -6,26 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import elastic
+import ngsolve as ngs
 import numpy as np
 from netgen.occ import OCCGeometry
-from ngsolve import (
-    CF,
-    TET,
-    VOL,
-    BilinearForm,
-    GridFunction,
-    InnerProduct,
-    Integrate,
-    IntegrationRule,
-    LinearForm,
-    TaskManager,
-    VectorH1,
-    dx,
-    exp,
-    x,
-    y,
-    z,
-)
+from ngsolve import CF, TET, VOL, BilinearForm, GridFunction, InnerProduct, Integrate, LinearForm, dx, exp, x, y, z
 
 POISSON = 0.3
 ORDER = 2  # 3 on the same mesh moves rates by 0.2 %, stresses by 2 %
@@ -46,9 +30,9 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     offset = 0.5 * (coil["diameter"] + wire + mm["pin_diameter"])
     arm = sqrt((mm["placement_radius"] - mm["pin_radius"]) ** 2 - offset**2)
     near, out = _push(mesh, inputs, arm)
-    space = VectorH1(mesh, order=ORDER, dirichlet="held")
+    space = ngs.VectorH1(mesh, order=ORDER, dirichlet="held")
     u, v = space.TnT()
-    with TaskManager():
+    with ngs.TaskManager():
         worked = InnerProduct(elastic.stress(elastic.strain_of(u), shear, lame), elastic.strain_of(v))
         form = BilinearForm(worked * dx, symmetric=True)
         load = LinearForm(near * InnerProduct(out, v) * dx(bonus_intorder=6)).Assemble()
@@ -116,7 +100,7 @@ def _waves(angles: Any) -> tuple[Any, ...]:
 
 def _peak(mesh: Any, field: Any, bottom: float, top: float) -> float:
     """Return largest value [MPa] of a field between two levels, at the points of integration."""
-    points = mesh.MapToAllElements(IntegrationRule(TET, 3), VOL)
+    points = mesh.MapToAllElements(ngs.IntegrationRule(TET, 3), VOL)
     levels = np.asarray(z(points)).ravel()
     return float(np.asarray(field(points)).ravel()[(levels > bottom) & (levels < top)].max())
 

@@ -19,14 +19,7 @@ from tvimdesign.device import Input
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.measurement import (
-    Measurement,
-    Settings,
-    endings,
-    required,
-    resolve_measured,
-    series_of,
-)
+from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, resolve_measured, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
@@ -54,7 +47,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         for row in rows
     ]  # fmt: skip
     channels: list[Channel] = []
-    for block, end in zip(blocks, endings(blocks), strict=True):
+    for i, block in enumerate(blocks):
+        end = "" if len(blocks) == 1 else f"_{i + 1}"
         time, current, seen = _log(block)
         air = float(np.mean([temperatures[0] for temperatures in seen.values()]))
         parameters.append(
