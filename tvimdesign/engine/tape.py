@@ -158,11 +158,9 @@ class _Record(NamedTuple):
 
 def _recorded(function: Any, inverses: bool) -> _Record:
     starts = np.concatenate([[0], np.cumsum([function.nnz_in(i) for i in range(function.n_in())])]).astype(np.int64)
-    place: dict[int, int] = {}
-    """By CasADi's work register."""
+    place: dict[int, int] = {}  # By CasADi's work register
     constants: dict[float, int] = {}
-    operations: dict[tuple[int, int, int], int] = {}
-    """With their numbers; what is written twice is computed once."""
+    operations: dict[tuple[int, int, int], int] = {}  # With their numbers; what is written twice is computed once
     written: list[tuple[int, int, int]] = []
     for k in range(function.n_instructions()):
         op, given, to = _operation(function, k), _given(function, k), _to(function, k)
@@ -192,8 +190,7 @@ def _parted(whole: _Record) -> tuple[_Record, _Record]:
     alone: list[bool] = []
     for _, *operands in whole.operations:
         alone.append(all(alone[-1 - place] if place < 0 else place >= first for place in operands))
-    handed: dict[int, int] = {}
-    """Places that the rest takes, and their numbers."""
+    handed: dict[int, int] = {}  # Places that the rest takes, and their numbers
     parts: tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]] = ([], [])
     numbers: list[int] = []
 

@@ -77,8 +77,7 @@ class Duty:
         self.hold = None if balance is None else CurrentProfile.constant(float(balance[-1]))
         self.heating, self.cooling = model.either_way_engine, model.engines["stiffening"]
         equilibrium = np.asarray(model.phases["softening"].initial(inputs)).ravel()
-        self.heat = len(equilibrium)
-        """Entries of the state that are heat; the others are what is frozen."""
+        self.heat = len(equilibrium)  # Entries of the state that are heat; the others are what is frozen
         self.ambient = np.asarray(model.either_way.begin(equilibrium, inputs)).ravel()
         self.horizon = float(inputs[model.index["horizon"]])
 

@@ -73,8 +73,7 @@ class DeviceFunctions:
         self.index = {name: i for i, name in enumerate(self.names)}
         self.words = {name: value for name, value in given.items() if name not in self.index}
         self.switch_names = tuple(row.name for row in table.supplied)
-        self._rotor_cells = int(self.start[self.index["rotor_cells"]])
-        """A shape, not a number of the model."""
+        self._rotor_cells = int(self.start[self.index["rotor_cells"]])  # A shape, not a number of the model
         self._built = STRUCTURES.functions_of(
             (table, self.names, self.words, self.points, cells, self._rotor_cells, *self._apart)
         )

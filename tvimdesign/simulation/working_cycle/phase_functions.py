@@ -34,8 +34,7 @@ class PhaseFunctions:
         self._drive = ca.SX.sym("drive_current")
         self._known = {**known, PHASE: phase, DRIVE: symbols(self._drive)[0]}
         self._cells = cells
-        self._watched: dict[tuple[str, ...], Any] = {}
-        """Functions of what is wanted (`watch`)."""
+        self._watched: dict[tuple[str, ...], Any] = {}  # Functions of what is wanted (`watch`)
 
     @cached_property
     def _stack(self) -> heat.Stack:

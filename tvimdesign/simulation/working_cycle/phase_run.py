@@ -46,8 +46,7 @@ class PhaseRun:
         """Start before the first step; `registers` have the constants of the motion in place."""
         self.of, self.motion, self.registers = phase, motion, registers
         self.inputs, self.along, self.lanes = inputs, along, along.shape[1]
-        self.instants: list[Instant] = []
-        """The start, and the ends of all steps."""
+        self.instants: list[Instant] = []  # The start, and the ends of all steps
         self._given: dict[tuple[str, ...], tuple[Array, Array]] = {}
 
     # --- steps ---

@@ -138,8 +138,7 @@ class _Event:
         watch, count = phase.engine.watch(name), columns.shape[1]
         self.code, self.result = watch.at.code, int(watch.at.results[0][0])
         self.registers = lanes_of(watch.at)
-        self.given = np.concatenate([current, phase.constants(watch, columns)])
-        """Current and constants of each design."""
+        self.given = np.concatenate([current, phase.constants(watch, columns)])  # Current and constants of each design
         self.places = phase.size + np.arange(len(self.given))
         self.low, self.high = np.full(count, -1), np.full(count, NOWHERE)
         """The last step after which it has not happened, the first after which it has, by design."""
@@ -159,17 +158,14 @@ class _Run:
         self.given = np.concatenate([current, constants])
         self.places = np.arange(self.motion.size, self.motion.size + len(self.given))
         self.current, self.columns = current, columns
-        self.states = np.zeros((1, self.motion.size, self.count))
-        """By step, as far as `reached`."""
+        self.states = np.zeros((1, self.motion.size, self.count))  # By step, as far as `reached`
         self.states[0, : phase.size] = first
         self.reached = 0
         self.lost = np.isnan(first[0])
         self.watches = {name: _Event(phase, name, current, columns) for name in phase.events}
-        self.at: dict[str, Array] = {}
-        """When each event happens, infinite where it never does."""
+        self.at: dict[str, Array] = {}  # When each event happens, infinite where it never does
         self.end = np.full((self.motion.size, self.count), np.nan)
-        self.last = np.full(self.count, NOWHERE)
-        """The step in which the phase ends; -1 at the start."""
+        self.last = np.full(self.count, NOWHERE)  # The step in which the phase ends; -1 at the start
 
     def go(self, expected: Mapping[str, int]) -> None:
         """Step until every design has come to all events, or is lost, most of them at a step; find when."""

@@ -19,7 +19,7 @@ from tvimdesign.solve.discrete.record_families import Family, possible
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.nlp.mixture import Mixture, with_records
 from tvimdesign.solve.nlp.solution import SolverEffort
-from tvimdesign.solve.nlp.solver_run import Array, Progress, Run, Trace
+from tvimdesign.solve.nlp.solver_run import Array, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study
 
@@ -87,16 +87,7 @@ def _inputs(mixed: Optimizer, exact: Optimizer, run: Run) -> Array:
 
 def _carried(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Run:
     """Return a mixed problem's end as a run of the exact problem, which has no shares of records."""
-    trace = _trace(mixed, exact, run, begin)
-    start = replace(run.start, begin=exact.vector.free_values(begin), end=exact.vector.free_values(begin))
-    return replace(
-        run, start=start, inputs=begin, unknowns=trace.unknowns, multipliers=trace.multipliers,
-        bound_multipliers=trace.bound_multipliers,
-    )  # fmt: skip
-
-
-def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
-    """Return a mixed problem's end as the exact problem's: without shares and their equations, with the limits left."""
+    # Mixed problem's end as the exact problem's: without shares and their equations, with the limits left
     common = np.r_[0 : len(exact.free), len(mixed.free) : mixed.problem.unknown_count]
     unknowns = run.unknowns[common]
     unknowns[: len(exact.free)] = [free.to_unknown(begin[exact.model.index[free.name]]) for free in exact.free]
@@ -105,7 +96,11 @@ def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
     limits = [places[limit.name] for limit in exact.problem.limits]
     bounds = range(first + len(mixed.problem.limits), len(run.multipliers))
     rows = [*range(first - len(mixed.mixtures)), *limits, *bounds]
-    return Trace(unknowns, run.multipliers[rows], run.bound_multipliers[common])
+    start = replace(run.start, begin=exact.vector.free_values(begin), end=exact.vector.free_values(begin))
+    return replace(
+        run, start=start, inputs=begin, unknowns=unknowns, multipliers=run.multipliers[rows],
+        bound_multipliers=run.bound_multipliers[common],
+    )  # fmt: skip
 
 
 AFRESH = 16  # Combinations after which chains begin anew, so that none is led far astray

@@ -76,8 +76,7 @@ class Problem:
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self._check()
         self.engine, self._fineness = CycleEngine(model, fineness), fineness
-        self.grids: dict[str, Grid] = {}
-        """The steps of each phase; see `place_grids`."""
+        self.grids: dict[str, Grid] = {}  # The steps of each phase; see `place_grids`
         self.unknown_count = len(self.free) + sum(current.nodes + 1 for current in self.free_currents) + len(self.peaks)
         self.equation_count = len(self.free_currents) + len(self.mixtures)
         self.slope_count = sum(2 * current.pieces for current in self.free_currents)

@@ -188,8 +188,7 @@ class _Search:
         self._solver, self._programme, self._ends = solver, programme, ends
         self._price, self._radius, self.iterations = FIRST_PRICE, FIRST_RADIUS, 0
         self._curvature, self._learned = FLAT * np.eye(len(ends["lbx"])), False
-        self._creeping = 0
-        """Steps in a row that hardly change anything."""
+        self._creeping = 0  # Steps in a row that hardly change anything
         self.here: _Here
         self.last: Step | None = None
 

@@ -44,12 +44,9 @@ class TrustRegion:
         self._problem = programme.problem
         self._curvatures = Curvatures(len(self._problem.model.switch_names), self._problem.unknown_count)
         self._radius = FIRST_RADIUS
-        self._filter: list[tuple[float, float]] = []
-        """Objective and largest breach of the points that were taken."""
-        self.iterations = 0
-        """Steps of the last run: cycles it took."""
-        self.reached = np.zeros(0)
-        """Unknowns of the last point that was taken."""
+        self._filter: list[tuple[float, float]] = []  # Objective and largest breach of the points that were taken
+        self.iterations = 0  # Steps of the last run: cycles it took
+        self.reached = np.zeros(0)  # Unknowns of the last point that was taken
 
     def solve(self, x: Array, *, near: bool) -> tuple[dict[str, Any], dict[str, Any]] | None:
         """Return the solver's answer and statistics at an optimum from x; None where models do not lead to one.

@@ -36,8 +36,7 @@ class Multistart:
         self.options, self.progress = options, progress
         self.passed_over = {"switch never ends": 0, "no such module": 0}
         """Points at which no search began, by the reason."""
-        self.cycle = dict.fromkeys(model.switch_names, np.inf)
-        """What the switch of the study's own start supplies."""
+        self.cycle = dict.fromkeys(model.switch_names, np.inf)  # What the switch of the study's own start supplies
         try:
             self.cycle = problem.simulated(model.start)
         except SimulationError as error:

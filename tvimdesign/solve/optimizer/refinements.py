@@ -121,10 +121,8 @@ class NeighboringOptima:
 
     def __init__(self, optimizer: Optimizer) -> None:
         self._optimizer = optimizer
-        self._periods: dict[int, float] = {}
-        """By place among the free numbers."""
-        self._parts: dict[str, list[int]] = {}
-        """Places of the free numbers that shape a part alone."""
+        self._periods: dict[int, float] = {}  # By place among the free numbers
+        self._parts: dict[str, list[int]] = {}  # Places of the free numbers that shape a part alone
         for place, free in enumerate(optimizer.free):
             row = optimizer.table.by_name.get(free.name)  # a record's share is in no table
             if isinstance(row, Input) and row.period is not None:

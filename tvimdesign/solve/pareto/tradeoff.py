@@ -89,10 +89,8 @@ class Tradeoff:
         if self._optima:
             self.optimum = replace(self.optimum, trace=self._optima[0].trace)
         self.points: list[Point] = [self.optimum]
-        self.ends: dict[str, Point] = {}
-        """Where the least of an output was found before, by output."""
-        self.requests = 0
-        """Count of the designs that were sought."""
+        self.ends: dict[str, Point] = {}  # Where the least of an output was found before, by output
+        self.requests = 0  # Count of the designs that were sought
 
     def weights(self, weights: dict[str, float]) -> dict[str, float]:
         """Weights of ratios to the optimum, as the problem takes them: over what it was built with."""

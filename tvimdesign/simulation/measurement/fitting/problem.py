@@ -137,8 +137,7 @@ class Residuals:
         self._measured = np.concatenate(measured)
         self._most = _FARTHEST * (1.0 + float(np.max(np.abs(self._measured))))
         ends = np.cumsum([0, *(len(c.measured) for c in problem.channels)])
-        self.parts = [slice(int(a), int(b)) for a, b in pairwise(ends)]
-        """Where each channel stands in the whole."""
+        self.parts = [slice(int(a), int(b)) for a, b in pairwise(ends)]  # Where each channel stands in the whole
         words = [channel.noise_of or f"channel {i}" for i, channel in enumerate(problem.channels)]
         self.alike = [[j for j, word in enumerate(words) if word == mine] for mine in words]
         """Of each channel those that err as it does, itself among them."""
