@@ -330,10 +330,9 @@ def test_steps_grease_what_the_list_of_parts_has_grease_for(name, friction):
 
 def test_what_cures_wear_greases_the_pins():
     cure = plain_data(hints()["advice"]["pin_wear"]["mend"][0])["module"]
-    design = design_of("worn", {})
-    assert "pins" not in greased(design)
-    design.values.update(pin_friction=cure["pin_friction"])
-    assert "pins" in greased(design)
+    assert "pins" not in greased(design_of("worn", {}))
+    assert "pins" in greased(design_of("of steel", {"leg_pin": cure["leg_pin"], "leg_pin_length": 12e-3}))
+    assert "pins" in greased(design_of("greased", {"pin_friction": 0.15}))
 
 
 def test_parts_are_treated_as_the_specimens_before_all_else():

@@ -325,6 +325,29 @@ def test_pins_fill_their_holes_have_their_size_and_go_in_last(design, placed, di
     assert order.index("link") < order.index("link_screw_1") < order.index("link_dowel_1")
 
 
+@pytest.mark.parametrize("process", ["print_petg", "machine_6061"])
+def test_legs_bear_on_dowel_pins_that_fill_their_holes_above_the_plate_s_lower_face(process):
+    overrides = {"leg_pin": "iso_8734_3", "leg_pin_length": 12.0 * MM, "process": process}
+    design = design_of("pinned", overrides)
+    dims = dimensions(design)
+    placed = place(dims, drawn_parts(dims))
+    names = [name for name in placed if name.startswith("leg_pin")]
+    assert len(names) == dims.count("spring_count")
+    for name in names:
+        box = placed[name].BoundingBox()
+        assert (box.zmax, box.zmin) == pytest.approx((dims.pin_top_level, dims.pin_top_level - dims.leg_pin_length))
+        end = cq.Vector(*placed[name].Center().toTuple()[:2], box.zmin)
+        point = dims.drill_point_ratio * dims.pin_diameter
+        assert placed["rotor"].isInside(end - cq.Vector(0, 0, point + 0.1))
+        assert placed["rotor"].isInside(end + cq.Vector(0.5 * dims.pin_diameter + dims.minimum_wall, 0, 1.0))
+        left = 1e3 * design.value("leg_pin_floor_margin") + dims.minimum_wall
+        assert box.zmin - point - dims.rotor_bottom_level == pytest.approx(left)
+    checks = {check.name: check for check in size_checks(design, placed)}
+    assert max(abs(checks[name].value) for name in ("leg_pin_volume", "rotor_volume", "rotor_inertia")) < 1e-9
+    pinned = {name: solid for name, solid in placed.items() if name.startswith(("leg_pin", "rotor", "spring_"))}
+    assert [check.name for check in interference_checks(pinned, "here") if not check.ok] == []
+
+
 def test_pins_stand_between_the_screws_and_turn_with_the_link(dims):
     dowels = {"link_dowel": drawn_parts(dims)["link_dowel"]}
     still, turned = (fasteners.stand(dims, dowels, angle) for angle in (0.0, 0.1))

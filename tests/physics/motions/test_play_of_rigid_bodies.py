@@ -122,6 +122,18 @@ def test_friction_of_screws_rings_and_pegs_and_a_loose_shaft():
     assert fasteners.peg_twist_torque(24e6, 1.8e-3, 3.5e-3) == pytest.approx(np.sum(pieces), rel=1e-12)
 
 
+def test_a_stiff_peg_presses_hardest_at_the_mouth_of_its_hole():
+    # A row of equal springs along the peg, solved for its shift and tilt; pressure is what each spring bears.
+    force, height, diameter, depth, count = 22.6, 1.6e-3, 3e-3, 6.8e-3, 4000
+    z = (np.arange(count) + 0.5) * depth / count
+    sums = np.array([[count, -np.sum(z)], [-np.sum(z), np.sum(z**2)]])
+    shift, tilt = np.linalg.solve(sums, np.array([force, force * height]))
+    at_mouth = shift / (diameter * depth / count)
+    evenly = fasteners.peg_bearing_force(1.0, diameter, depth)
+    assert at_mouth * evenly / force == pytest.approx(fasteners.rocking_pressure_ratio(height, depth), rel=1e-3)
+    assert tilt > 0.0
+
+
 def test_damping_loses_in_a_cycle_what_constant_friction_does():
     omega, amplitude, torque = 2.0 * np.pi, 0.104, 0.05
     damping = contacts.equivalent_damping(torque, omega, amplitude)

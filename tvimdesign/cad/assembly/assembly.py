@@ -161,7 +161,8 @@ _ORDER = (
     "motor_bearing", "motor_rotor", "motor_hub", "retainer_screw", "retainer", "retainer_insert", "adjuster_screw",
     "thermal_cutout", "thermistor", "heater_lead", "housing", "cover_insert", "preload_spring", "bearing_outer",
     "bearing_inner", "adjuster_insert", "adjuster",
-    "heater", "spreader", "pcl_arc", "pcl_block", "liner", "rotor", "link_insert", "spring_right", "spring_left",
+    "heater", "spreader", "pcl_arc", "pcl_block", "liner", "rotor", "leg_pin", "link_insert", "spring_right",
+    "spring_left",
     "mount_screw", "cover", "cover_screw", "link", "link_screw", "link_dowel",
 )  # fmt: skip
 """Along the axis from below; kinds that are not named come last."""

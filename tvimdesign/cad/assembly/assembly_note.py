@@ -88,7 +88,7 @@ def _making(design: Design, dims: Dimensions, made: Sequence[Item]) -> list[str]
         listed = ", ".join(map(_words, milled)).capitalize()
         lines += ["## Machining", "", f"{listed}: from `step/` by the sheets in `drawings/`, which carry the fits.", ""]
     lines += ["## Printing", "", *(_printing(kind) for kind in kinds if kind not in milled), ""]
-    but = ", those of dowel pins not: they are reamed" if dims.dowels_fitted else ""
+    but = ", those of dowel pins not: they are reamed" if dims.dowels_fitted or dims.leg_pins_fitted else ""
     wider = f", with upright holes {dims.hole_compensation:g} mm wider{but}" if dims.hole_compensation else ""
     solid = "Print them solid (infill 100 %): mass, stiffness and strength count the plastic throughout."
     solid += "" if is_milled else _walls(dims)
@@ -361,6 +361,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "gap_spread": _gap_spread,
     "link_width": lambda _, dims: f"{2.0 * dims.link_half_width:.3g}",
     "play": _play,
+    "leg_pin_height": lambda _, dims: f"{dims.leg_pin_length - dims.leg_pin_depth:.3g}",
     "set_points": lambda design, _: set_points_in_words(design),
     "cutout_place": _cutout_place,
     "heated_parts": lambda _, dims: "spreaders" if dims.spreader_depth else "heaters",

@@ -276,13 +276,15 @@ def _beside_the_module(design: Design, titles: Mapping[str, str]) -> list[Item]:
 
 def greased(design: Design) -> list[str]:
     """Return what is greased: the reamer, a wave spring, and where the study counts on less friction than dry."""
-    places = ["reamer"] if design.values.get("dowels_fitted") else []
+    pins = design.values.get("leg_pins_fitted", 0.0) > 0.0
+    places = ["reamer"] if pins or design.values.get("dowels_fitted") else []
     plain = design.choices.get("bearing", "none") == "none"
     if plain and design.choices.get("axial_preload", "none") != "none":
         places += ["wave spring", "retainer"]
     if plain and design.value("bore_friction") < _DRY:
         places.append("bore")
-    if design.values.get("pin_friction", _DRY) < (_DRY_METAL if design.choices["making_method"] == "milled" else _DRY):
+    dry = _DRY_METAL if design.choices["making_method"] == "milled" else _DRY
+    if pins or design.values.get("pin_friction", _DRY) < dry:
         places.append("pins")
     return places
 

@@ -29,7 +29,7 @@ KINDS = {
 """Of all modes, by name; a placed part is named after its kind, with a number where there are several."""
 TURNING = (
     "rotor", "link", "retainer", "link_screw", "retainer_screw", "link_insert", "retainer_insert", "bearing_inner",
-    "link_dowel", "liner",
+    "link_dowel", "leg_pin", "liner",
 )  # fmt: skip
 """The kinds that turn together."""
 MADE_TURNING = TURNING[:3]  # Those that a module has one of, drawn where it stands
@@ -76,5 +76,11 @@ def supported_levels(kind: str, dims: Dimensions) -> tuple[tuple[float, float], 
         return tuple((level, level) for level in levels)
     if kind != "rotor":
         return ()
-    top, pins = dims.rotor_top_level, dims.pin_top_level
+    top, pins = dims.rotor_top_level, pin_foot_level(dims)
     return (top, top + dims.foot_fillet), (pins, pins)
+
+
+def pin_foot_level(dims: Dimensions) -> float:
+    """Return the level [mm] up to which the rotor stands below a leg: its own pin's, or that of a dowel pin's boss."""
+    bought = dims.leg_pin_length - dims.leg_pin_depth if dims.leg_pins_fitted else 0.0
+    return dims.pin_top_level - bought

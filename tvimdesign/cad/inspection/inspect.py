@@ -23,7 +23,7 @@ from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles, slot_check, wall_checks
 from tvimdesign.cad.inspection.size_checks import TOUCHING, interference_checks
 from tvimdesign.cad.parts import jigs
-from tvimdesign.cad.parts.common_parts import by_feet, link_dowels, link_screws, mounts, stop_azimuths
+from tvimdesign.cad.parts.common_parts import by_feet, link_screws, mounts, reamed_places, stop_azimuths
 from tvimdesign.cad.parts.fasteners import insert_length, insert_places
 from tvimdesign.cad.parts.fittings import scale
 from tvimdesign.device import table_for
@@ -197,7 +197,7 @@ def part_checks(
 
 def sliver_checks(dims: Dimensions, kind: str, solid: cq.Solid, triangles: Triangles) -> list[SolidCheck]:
     """Compare slots and walls of a part with its process, the holes as wide as they are printed."""
-    made = with_wider_holes(solid, dims.hole_compensation, link_dowels(dims))
+    made = with_wider_holes(solid, dims.hole_compensation, reamed_places(dims))
     walls, what = triangles if made is solid else Triangles(solid_mesh(made)), "wall"
     slot = slot_check(kind, walls, dims.minimum_running_clearance)
     if kind == "adjuster":  # what is left between the dots of its scale is lower than it is thick

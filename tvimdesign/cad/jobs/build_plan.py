@@ -39,7 +39,7 @@ from tvimdesign.cad.inspection.inspect import casting_checks, module_checks, par
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.jobs.worker import Job, Turn, Work
 from tvimdesign.cad.parts import jigs
-from tvimdesign.cad.parts.common_parts import link_dowels
+from tvimdesign.cad.parts.common_parts import reamed_places
 from tvimdesign.study.design import Design
 
 PICTURES = "pictures"  # The work without which a module can still be made: a machine may not be able to render
@@ -209,7 +209,7 @@ def _print(job: Job, kind: str, solid: cq.Solid, what: Product, making: Producti
     """Write what a printer gets. A mesh that does not close is a check that fails, and its files are left out."""
     name = cad_report.print_stl(kind)
     try:
-        lying = print_files.as_printed(solid, making, job.dims.hole_compensation, link_dowels(job.dims))
+        lying = print_files.as_printed(solid, making, job.dims.hole_compensation, reamed_places(job.dims))
         body, distance = print_files.printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))

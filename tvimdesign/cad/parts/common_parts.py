@@ -6,6 +6,7 @@ from math import atan2, hypot, pi, sqrt
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.kinds import pin_foot_level
 from tvimdesign.cad.geometry.solids import (
     blind_hole,
     block,
@@ -158,7 +159,8 @@ def notches(dims: Dimensions) -> list[cq.Shape]:
 
 
 def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Iterable[cq.Shape] = ()) -> cq.Shape:
-    """Draw plate with its teeth, core that turns in the hub and carries the link, springs' pins, what the mode adds.
+    """Draw plate with its teeth, core that turns in the hub and carries the link, springs' pins or the bosses of bought
+    ones, what the mode adds.
 
     Less the holes for screws and dowel pins and the mode's openings.
     """
@@ -171,18 +173,12 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
     ]
     if dims.rotor_bottom_level > dims.hub_top_level:
         core.append(cylinder(dims.collar_radius, dims.hub_top_level, dims.rotor_top_level))
-    pins = [
-        cylinder(0.5 * dims.pin_diameter, dims.rotor_top_level, dims.pin_top_level, polar(dims.pin_radius, azimuth))
-        for azimuth in dims.azimuths("spring_count")
-    ]
-    pins += [
-        foot(radius, dims.foot_fillet, dims.rotor_top_level, at)
-        for radius, at in [
-            (dims.core_radius, (0.0, 0.0)),
-            *((0.5 * dims.pin_diameter, polar(dims.pin_radius, azimuth)) for azimuth in dims.azimuths("spring_count")),
-        ]
-    ]
-    holes = [*_screw_holes(dims), *_dowel_holes_in_core(dims)]
+    radius, places = 0.5 * dims.pin_foot_diameter, pin_places(dims)
+    top = dims.rotor_top_level
+    pins = [cylinder(radius, top, pin_foot_level(dims), at) for at in places]
+    feet = [(dims.core_radius, (0.0, 0.0)), *((radius, at) for at in places)]
+    pins += [foot(radius, dims.foot_fillet, top, at) for radius, at in feet]
+    holes = [*_screw_holes(dims), *_dowel_holes_in_rotor(dims)]
     return join(plate, [*core, *pins, *added]).cut(*holes, *openings)
 
 
@@ -222,11 +218,28 @@ def link_dowels(dims: Dimensions) -> list[tuple[float, float]]:
     return [polar(dims.link_dowel_circle_radius, azimuth) for azimuth in _DOWEL_AZIMUTHS[:count]]
 
 
-def _dowel_holes_in_core(dims: Dimensions) -> list[cq.Shape]:
-    """Draw what is cut from the core for the pins."""
-    top, point = dims.link_bottom_level, dims.drill_point_ratio
+def pin_places(dims: Dimensions) -> list[tuple[float, float]]:
+    """Return the axes of the pins that the springs' legs bear on."""
+    return [polar(dims.pin_radius, azimuth) for azimuth in dims.azimuths("spring_count")]
+
+
+def leg_pins(dims: Dimensions) -> list[tuple[float, float]]:
+    """Return the axes of the legs' dowel pins; none where the rotor's own pins stand there."""
+    return pin_places(dims) if dims.leg_pins_fitted else []
+
+
+def reamed_places(dims: Dimensions) -> list[tuple[float, float]]:
+    """Return the axes of all holes that dowel pins are pressed into: print files have them as they are drawn."""
+    return [*link_dowels(dims), *leg_pins(dims)]
+
+
+def _dowel_holes_in_rotor(dims: Dimensions) -> list[cq.Shape]:
+    """Draw what is cut from core and bosses for dowel pins."""
+    core, boss = dims.link_bottom_level, pin_foot_level(dims)
+    holes = [(dims.link_dowel_diameter, core, dims.link_dowel_depth, at) for at in link_dowels(dims)]
+    holes += [(dims.pin_diameter, boss, dims.leg_pin_depth, at) for at in leg_pins(dims)]
     return [
         hole
-        for at in link_dowels(dims)
-        for hole in blind_hole(dims.link_dowel_diameter, top, top - dims.link_dowel_depth, point, at)
+        for diameter, top, deep, at in holes
+        for hole in blind_hole(diameter, top, top - deep, dims.drill_point_ratio, at)
     ]

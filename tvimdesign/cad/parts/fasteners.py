@@ -8,7 +8,7 @@ import cadquery as cq
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import TURNING
 from tvimdesign.cad.geometry.solids import cylinder, join, ring, turned
-from tvimdesign.cad.parts.common_parts import by_feet, link_dowels, link_screws, mounts, spring_axes
+from tvimdesign.cad.parts.common_parts import by_feet, leg_pins, link_dowels, link_screws, mounts, spring_axes
 
 Point = tuple[float, float]
 INSERTED = ("link", "retainer", "adjuster", "cover")
@@ -59,6 +59,18 @@ def link_dowel(dims: Dimensions) -> cq.Shape:
     return cylinder(0.5 * dims.link_dowel_diameter, top - dims.link_dowel_length, top)
 
 
+def leg_pin(dims: Dimensions) -> cq.Shape:
+    """Draw a dowel pin that a leg bears on."""
+    return cylinder(0.5 * dims.pin_diameter, dims.pin_top_level - dims.leg_pin_length, dims.pin_top_level)
+
+
+_DOWELS: Mapping[str, tuple[Callable[[Dimensions], cq.Shape], Callable[[Dimensions], list[Point]]]] = {
+    "link_dowel": (link_dowel, link_dowels),
+    "leg_pin": (leg_pin, leg_pins),
+}
+"""How a dowel pin of each kind is drawn, and where they stand, the rotor at rest."""
+
+
 def axes(dims: Dimensions, joint: str) -> list[Point]:
     """Return the axes of a joint's screws, the rotor at rest."""
     match joint:
@@ -82,13 +94,14 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
     """Return how one of each kind is drawn, of what this module has."""
     screws = {f"{joint}_screw": partial(screw, joint) for joint in _SEATS if _has(dims, joint)}
     inserts = {f"{joint}_insert": partial(insert, joint) for joint in INSERTED if insert_length(dims, joint)}
-    return {**screws, **inserts, **({"link_dowel": link_dowel} if dims.dowels_fitted else {})}
+    dowels = {kind: draw for kind, (draw, places) in _DOWELS.items() if places(dims)}
+    return {**screws, **inserts, **dowels}
 
 
 def stand(dims: Dimensions, solids: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
     """Place what is there of them, the rotor at an angle [rad], by name."""
     placed: dict[str, cq.Shape] = {}
-    for kind in (*(f"{joint}_screw" for joint in _SEATS), *(f"{joint}_insert" for joint in INSERTED), "link_dowel"):
+    for kind in (*(f"{joint}_screw" for joint in _SEATS), *(f"{joint}_insert" for joint in INSERTED), *_DOWELS):
         if kind not in solids:
             continue
         angle = rotor_angle if kind in TURNING else 0.0
@@ -107,4 +120,4 @@ def _places(dims: Dimensions, kind: str) -> list[tuple[float, float, float]]:
     joint, thing = kind.rsplit("_", 1)
     if thing == "insert":
         return insert_places(dims, joint)
-    return [(x, y, 0.0) for x, y in (axes(dims, joint) if thing == "screw" else link_dowels(dims))]
+    return [(x, y, 0.0) for x, y in (axes(dims, joint) if thing == "screw" else _DOWELS[kind][1](dims))]

@@ -13,7 +13,7 @@ import numpy as np
 from tvimdesign.device.components.axial_preload import WITH_PRELOAD
 from tvimdesign.device.components.bearing import BEARINGS, WITH_BEARINGS
 from tvimdesign.device.components.cover import WITH_COVER
-from tvimdesign.device.components.dowels import WITH_DOWELS
+from tvimdesign.device.components.dowels import WITH_DOWELS, WITH_LEG_PINS
 from tvimdesign.device.components.fastening import WITH_INSERTS
 from tvimdesign.device.components.liner_and_adhesive import WITH_LINER
 from tvimdesign.device.components.preload_adjuster import WITH_ADJUSTERS
@@ -30,6 +30,7 @@ _FITTINGS = (
     *((f"{joint}_screw", f"{joint}_screw", needs) for joint, needs in JOINTS.items()),
     *((f"{joint}_insert", f"{joint}_insert", (*WITH_INSERTS, *needs)) for joint, needs in JOINTS.items()),
     ("link_dowel", "link_dowel", WITH_DOWELS),
+    ("leg_pin", "leg_pin", WITH_LEG_PINS),
     ("bearing", "bearing", WITH_BEARINGS),
     ("preload_spring", "axial_preload", WITH_PRELOAD),
     ("spring", "stock_spring", ()),
@@ -70,6 +71,7 @@ def pieces_bought(m: Module) -> tuple[tuple[Scalar, Scalar], ...]:
         (m.cover_screw_count, m.cover_screw_price),
         (m.cover_screw_count * np.sign(m.cover_insert_length), m.cover_insert_price),
         (m.dowels_fitted, m.link_dowel_price),
+        (m.leg_pins_fitted, m.leg_pin_price),
         (BEARINGS * np.sign(m.bearing_width), m.bearing_price),
         (np.sign(m.preload_height), m.preload_spring_price),
         *m.spring_pieces,

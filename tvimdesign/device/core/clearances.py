@@ -30,8 +30,9 @@ def leg_rotor_gap(m: Module) -> Scalar:
 
 @quantities.output("mm", at_least(0.0, "the pins must stand on the rotor plate"), sprung=True)
 def pin_rim_gap(m: Module) -> Scalar:
-    """Room between the pins and the rim of the rotor plate beyond the radial clearance."""
-    return m.rotor_radius - m.pin_radius - 0.5 * m.pin_diameter - m.radial_clearance
+    """Room between the pins and the rim of the rotor plate beyond the radial clearance, or beyond a dowel's boss."""
+    taken = np.fmax(0.5 * m.pin_diameter + m.radial_clearance, 0.5 * m.pin_foot_diameter)
+    return m.rotor_radius - m.pin_radius - taken
 
 
 @quantities.output("mm", at_least(0.0, "the legs must clear the core"), sprung=True)

@@ -148,6 +148,12 @@ def pin_top_level(m: Module) -> Scalar:
     return m.leg_top_level + m.axial_clearance
 
 
+@quantities.helper(sprung=True)
+def room_below_legs(m: Module) -> Scalar:
+    """Height between the rotor plate and the legs less a running clearance [m]."""
+    return m.coil_end_level - 0.5 * m.wire_diameter - m.rotor_top_level - m.running_clearance
+
+
 LEAST_FILLET = 1e-4
 """Fillet [m] that is drawn where there is no room for one: what a nozzle or an edge of a cutter leaves anyway."""
 EVENED = 3e-4
@@ -174,10 +180,9 @@ def foot_fillet(m: Module) -> Scalar:
     plate's rim and of half of the way between core and pins: where two circles touch no mesh closes. Where two of these
     are within 0.3 mm of one another it is up to 0.05 mm smaller (`evened_least`).
     """
-    below_legs = m.coil_end_level - 0.5 * m.wire_diameter - m.rotor_top_level - m.running_clearance
-    to_rim = m.rotor_radius - m.pin_radius - 0.5 * m.pin_diameter
-    between = 0.5 * (m.pin_radius - 0.5 * m.pin_diameter - m.core_radius)
-    room = evened_least(below_legs, evened_least(to_rim, between) - LEAST_FILLET)
+    to_rim = m.rotor_radius - m.pin_radius - 0.5 * m.pin_foot_diameter
+    between = 0.5 * (m.pin_radius - 0.5 * m.pin_foot_diameter - m.core_radius)
+    room = evened_least(m.room_below_legs, evened_least(to_rim, between) - LEAST_FILLET)
     return np.fmax(evened_least(m.largest_foot_fillet, room), LEAST_FILLET)
 
 

@@ -87,7 +87,8 @@ def bare_rotor_moments(m: Module) -> Section:
         (shapes.ring(0.0, m.core_radius), m.link_bottom_level - m.rotor_bottom_level),
         (shapes.ring(0.0, m.collar_radius), m.rotor_bottom_level - m.hub_top_level),
         (shapes.ring(0.0, m.journal_radius), m.hub_top_level - m.core_bottom_level),
-        (m.pins_section, m.pin_top_level - m.rotor_top_level),
+        (m.pins_section, m.pin_foot_height),
+        (m.leg_pin_section, -m.leg_pin_depth),
         (shapes.disc_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS), -m.link_screw_depth),
         (shapes.ring(0.0, 0.5 * m.retainer_screw_hole), -m.retainer_screw_depth),
         (m.link_dowel_section, -m.link_dowel_depth),
@@ -98,14 +99,14 @@ def bare_rotor_moments(m: Module) -> Section:
 
 @quantities.helper(sprung=True, default=shapes.NOTHING)
 def pins_section(m: Module) -> Section:
-    """Plan view of the pins on the rotor plate."""
-    return shapes.disc_at(0.5 * m.pin_diameter, m.pin_radius).times(m.spring_count)
+    """Plan view of the pins on the rotor plate, or of the bosses about dowel pins."""
+    return shapes.disc_at(0.5 * m.pin_foot_diameter, m.pin_radius).times(m.spring_count)
 
 
 @quantities.helper(sprung=True, default=shapes.NOTHING)
 def pin_fillets(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the fillets at the feet of the pins."""
-    of_pin = shapes.fillet_at_foot(0.5 * m.pin_diameter, m.foot_fillet)
+    of_pin = shapes.fillet_at_foot(0.5 * m.pin_foot_diameter, m.foot_fillet)
     return Section(of_pin.area, of_pin.polar + of_pin.area * m.pin_radius**2).times(m.spring_count)
 
 
@@ -116,7 +117,7 @@ def springs_inertia(m: Module) -> Scalar:
 
 
 def _core_drill_points(m: Module) -> Section:
-    """Return the volume and its polar moment about the axis, of the points of the core's blind holes; nothing where
+    """Return the volume and its polar moment about the axis, of the points of the rotor's blind holes; nothing where
     printed."""
     return shapes.stacked(
         (
@@ -127,6 +128,10 @@ def _core_drill_points(m: Module) -> Section:
         (
             shapes.point_at(0.5 * m.link_dowel_diameter, m.link_dowel_circle_radius).times(m.dowels_fitted),
             m.drill_point_ratio * m.link_dowel_diameter,
+        ),
+        (
+            shapes.point_at(0.5 * m.pin_diameter, m.pin_radius).times(m.leg_pins_fitted),
+            m.drill_point_ratio * m.pin_diameter,
         ),
     )
 

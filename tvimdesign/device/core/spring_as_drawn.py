@@ -153,12 +153,12 @@ def spring_fatigue_safety(m: Module) -> Scalar:
 
 @quantities.helper()
 def pin_give(m: Module) -> Scalar:
-    """Winding that a spring loses for each moment on its coil as its pin gives [rad/(N*m)]."""
-    # As low as in `pin_safety`, for the same reason.
-    height = np.fmax(m.coil_end_level + m.helix_slope * m.leg_arm - m.rotor_top_level, 0.5 * m.wire_diameter)
-    return (
-        plastics.peg_give(m.structure_youngs_modulus, m.structure_poissons_ratio, m.pin_diameter, height) / m.leg_arm**2
-    )
+    """Winding that a spring loses for each moment on its coil as its pin gives [rad/(N*m)].
+
+    A boss with a dowel pin counts as a pin of its own material: what steel adds makes up for what the pin rocks in it.
+    """
+    give = plastics.peg_give(m.structure_youngs_modulus, m.structure_poissons_ratio, m.pin_foot_diameter, m.pin_lever)
+    return give / m.leg_arm**2
 
 
 @quantities.helper()

@@ -233,16 +233,28 @@ def sorted_share(m: Module) -> Scalar:
     return spring.share_within(m.free_angle_sorting, m.free_angle_tolerance)
 
 
+@quantities.helper()
+def full_pin_force(m: Module) -> Scalar:
+    """Force of a leg on its pin at full winding [N]."""
+    return m.held_spring_rate * m.spring_winding / m.leg_arm
+
+
+@quantities.helper()
+def pin_lever(m: Module) -> Scalar:
+    """Height of the leg above the rotor plate [m].
+
+    No leg lies lower than on the plate; without that, the search is lost beyond the pole at height zero.
+    """
+    return np.fmax(m.coil_end_level + m.helix_slope * m.leg_arm - m.rotor_top_level, 0.5 * m.wire_diameter)
+
+
 @quantities.output("1", at_least(1.0, "the rotor's pins would break off between two layers of the print"))
 def pin_safety(m: Module) -> Scalar:
-    """Bending strength of the rotor's pins, cold, over the stress under the leg at full winding."""
-    force = m.held_spring_rate * m.spring_winding / m.leg_arm
-    # No leg lies lower than on the plate; without that, the search is lost beyond the pole at height zero.
-    height = np.fmax(m.coil_end_level + m.helix_slope * m.leg_arm - m.rotor_top_level, 0.5 * m.wire_diameter)
-    return m.structure_layer_strength / spring.bending_stress(force * height, m.pin_diameter, 1.0)
+    """Bending strength of the rotor's pins, or of dowel pins' bosses, cold, over the stress at full winding."""
+    return m.structure_layer_strength / spring.bending_stress(m.full_pin_force * m.pin_lever, m.pin_foot_diameter, 1.0)
 
 
 @quantities.output("1", advice=(at_least(1.0, "pins may crack at their fillet: a thicker pin, or a larger fillet"),))
 def pin_foot_safety(m: Module) -> Scalar:
     """Bending strength of the rotor's pins, cold, over the peak of the stress at their fillet at full winding."""
-    return m.pin_safety / structure.bent_at_fillet(m.pin_diameter, m.foot_fillet)
+    return m.pin_safety / structure.bent_at_fillet(m.pin_foot_diameter, m.foot_fillet)

@@ -70,6 +70,15 @@ def peg_bearing_force(pressure: Any, diameter: Any, depth: Any) -> Any:
     return pressure * diameter * depth
 
 
+def rocking_pressure_ratio(height: Any, depth: Any) -> Any:
+    """Return the largest pressure of a stiff peg on its hole over F/(d h), the force at a `height` [m] above the mouth.
+
+    4 + 6 a/h: pressure that rises evenly towards the mouth holds force and moment in balance (statics; the same as the
+    pressure below an eccentrically loaded footing).
+    """
+    return 4.0 + 6.0 * height / depth
+
+
 def peg_twist_torque(shear_strength: Any, diameter: Any, depth: Any) -> Any:
     """Return the torque [N*m] about its own axis at which a bonded peg turns in its hole: T = tau pi d^2 h/2.
 

@@ -28,6 +28,18 @@ def pin_force(m: Module) -> Scalar:
     return m.held_spring_rate * m.preload_angle / m.leg_arm
 
 
+@quantities.helper(sprung=True)
+def leg_friction(m: Module) -> Scalar:
+    """Friction between a leg and the pin it bears on, of the rotor's material or of steel."""
+    return m.pin_friction if isinstance(m.leg_pin, str) else m.leg_pin_friction
+
+
+@quantities.helper(sprung=True)
+def leg_wear_coefficient(m: Module) -> Scalar:
+    """Volume worn off for each force and way slid [m^2/N], of such a pin."""
+    return m.pin_wear_coefficient if isinstance(m.leg_pin, str) else m.leg_pin_wear_coefficient
+
+
 @quantities.output("N*m", sprung=True)
 def pin_friction_torque(m: Module) -> Scalar:
     """Torque by which the friction of all legs on their pins resists the rotor.
@@ -35,7 +47,7 @@ def pin_friction_torque(m: Module) -> Scalar:
     At rest; over the stroke one hand presses harder by as much as the other presses less.
     """
     slip = pin_slip(m.pin_radius, m.placement_radius, m.leg_offset, m.pin_diameter)
-    return m.spring_count * contacts.sliding_torque(m.pin_friction, m.pin_force, slip)
+    return m.spring_count * contacts.sliding_torque(m.leg_friction, m.pin_force, slip)
 
 
 WEAR_STROKES = 1e6  # Full strokes to both sides for which wear counts, as fatigue does [1]
@@ -48,7 +60,7 @@ def pin_wear(m: Module) -> Scalar:
     Archard's law, with the force at rest; the preload falls by this depth over the leg's arm.
     """
     slip = pin_slip(m.pin_radius, m.placement_radius, m.leg_offset, m.pin_diameter)
-    volume = contacts.worn_volume(m.pin_wear_coefficient, m.pin_force, 4.0 * WEAR_STROKES * m.stroke * slip)
+    volume = contacts.worn_volume(m.leg_wear_coefficient, m.pin_force, 4.0 * WEAR_STROKES * m.stroke * slip)
     return contacts.crossed_groove_depth(volume, 0.5 * m.wire_diameter, 0.5 * m.pin_diameter)
 
 

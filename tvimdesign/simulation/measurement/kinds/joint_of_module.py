@@ -32,6 +32,7 @@ _EXPLAINS = {
 """The inputs that stiffness and damping determine, in this order: those whose ranges move them most."""
 _JOINT = "joint"  # The choice of the records that this kind itself writes
 _FRICTION, _INERTIA = "pin_friction", "moving_inertia"
+_OF_STEEL = "leg_pin_friction"  # That of a module with dowel pins, from the same field of the record
 _HELD = 0.01  # Share of stiffness and of damping to which the values found must give them again
 _NEWTON: dict[str, Any] = {"abstol": 1e-10, "max_iter": 60, "error_on_fail": False}
 
@@ -134,7 +135,7 @@ class JointOfModule:
         """Return the coefficient at the pins: what the axial preload's wave spring rubs is taken off."""
         table, values = self.resolved.table, self.resolved.values
         names = ["pin_friction_torque", "preload_friction_torque"]
-        of_one = table.evaluate({**values, _FRICTION: 1.0}, names)
+        of_one = table.evaluate({**values, _FRICTION: 1.0, _OF_STEEL: 1.0}, names)
         unit, intercept = float(of_one[names[0]]), float(of_one[names[1]])
         if unit <= 0.0 or torque.value <= intercept:
             return None, [
