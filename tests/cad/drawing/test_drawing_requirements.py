@@ -26,6 +26,7 @@ from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import upright_cylinders
 from tvimdesign.cad.geometry.kinds import PRODUCTION
 from tvimdesign.cad.jobs.build_plan import fits
+from tvimdesign.catalog import Catalog
 from tvimdesign.study.design import Design
 
 MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_ratio": 40.0}
@@ -37,6 +38,7 @@ MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_rati
         ("H7", 3, 0, 10), ("H7", 10, 0, 15), ("H7", 50, 0, 25), ("H8", 20, 0, 33), ("H6", 100, 0, 22),
         ("h6", 20, -13, 0), ("h5", 15, -8, 0), ("h8", 40, -39, 0), ("js5", 25, -4.5, 4.5), ("JS7", 60, -15, 15),
         ("g6", 30, -20, -7), ("G7", 40, 9, 34), ("k6", 40, 2, 18), ("k5", 20, 2, 11), ("H7", 31.5, 0, 25),
+        ("JS10", 14, -35, 35),
     ],
 )  # fmt: skip
 def test_limit_deviations_are_those_of_the_standard(fit, size, lower, upper):
@@ -44,11 +46,11 @@ def test_limit_deviations_are_those_of_the_standard(fit, size, lower, upper):
 
 
 def test_tolerance_grades_follow_the_standard_s_formula():
-    # ISO 286-1: 7, 10, 16, 25 and 40 units i = 0.45 D^(1/3) + 0.001 D at the geometric mean of the range, then rounded.
+    # ISO 286-1: 7, 10, 16, 25, 40 and 64 units i = 0.45 D^(1/3) + 0.001 D at the range's geometric mean, rounded.
     for over, up_to in ((3, 6), (10, 18), (18, 30), (30, 50), (50, 80), (80, 120), (120, 180)):
         mean = (over * up_to) ** 0.5
         unit = 0.45 * mean ** (1 / 3) + 0.001 * mean
-        for grade, units in ((5, 7), (6, 10), (7, 16), (8, 25), (9, 40)):
+        for grade, units in ((5, 7), (6, 10), (7, 16), (8, 25), (9, 40), (10, 64)):
             assert 1e3 * standard_tolerance(grade, up_to) == pytest.approx(units * unit, rel=0.06, abs=1.0)
 
 
@@ -87,7 +89,10 @@ def test_seats_and_threads_have_fits_where_milled():
     design = design_of("paper", overrides, mode)
     requirements = drawing_requirements("rotor", dimensions(design), design.choices)
     # Reamed, in a print too; the core goes into the bore with the play that is in the sizes as drawn.
-    assert [(seat.about, seat.fit) for seat in requirements.seats] == [("core in the bore", "h9"), ("dowel pins", "H7")]
+    assert [(seat.about, seat.fit) for seat in requirements.seats] == [
+        ("core in the bore", "js10"),
+        ("dowel pins", "H7"),
+    ]
     assert requirements.seats[0].size == requirements.seats[0].drawn
     threads = [(thread.screw, thread.made) for thread in requirements.threads]
     assert threads == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
@@ -95,6 +100,32 @@ def test_seats_and_threads_have_fits_where_milled():
     words = [entry["about"] for part in ("seats", "threads") for group in reported[part].values() for entry in group]
     assert max(map(len, words)) <= 21  # what the table has room for
     assert {*reported["seats"], *reported["threads"]} <= {kind for kind, making in PRODUCTION.items() if making.drawn}
+
+
+SIZED = {"process": "print_pc_bambu", "preload_adjuster": "rotary", "cover": "plate", "radial_clearance": 1.7e-3}
+
+
+@pytest.mark.parametrize(
+    ("hole", "shaft", "about", "gap"),
+    [
+        ("housing", "rotor", ("bore of the core", "core in the bore"), "running_clearance"),
+        ("cover", "rotor", ("core turns in it", "core in the bore"), "running_clearance"),
+        ("housing", "adjuster", ("adjusters' pockets", "flange in its pocket"), "slip_clearance"),
+    ],
+)
+def test_a_printed_pair_s_limits_leave_the_play_that_the_model_takes(hole, shaft, about, gap):
+    design = design_of("printed", SIZED, "shear")
+    pair = [
+        next(seat for seat in drawing_requirements(kind, dimensions(design), design.choices).seats if seat.about == of)
+        for kind, of in zip((hole, shaft), about, strict=True)
+    ]
+    wide, narrow = pair
+    entry = Catalog().record("processes", "print_pc_bambu").entry(gap)
+    assert wide.drawn - narrow.drawn == pytest.approx(2e3 * entry.value, abs=1e-6)
+    assert wide.size + wide.limits.lower - narrow.size - narrow.limits.upper >= 2e3 * entry.low
+    assert wide.size + wide.limits.upper - narrow.size - narrow.limits.lower <= 2e3 * entry.high
+    for seat in pair:
+        assert seat.form.endswith(f"; play {2e3 * entry.value:.2g}")
 
 
 @pytest.mark.gate
@@ -143,6 +174,8 @@ def test_drawings_of_a_milled_module_have_fits_threads_and_edges():
     assert any(text.startswith("thread M4-6H × ") for text in lines["rotor"])
     assert "Sizes ISO 2768-1 m; ISO 22081" in lines["rotor"]  # which stands where ISO 2768-2 stood
     assert not any("2768-2" in text for text in lines["rotor"])
+    profile, note = "0.4", "Each face within ±0.2 of its place; sizes between faces by ISO 2768-1 m, too."
+    assert {profile, note} <= set(lines["rotor"])
     assert any("ISO 13715" in text for text in lines["rotor"])
     assert not any(text.startswith("Printing") for text in lines["rotor"])
 

@@ -36,7 +36,7 @@ def limit_deviations(fit: str, size: float) -> Limits:
 
     Raises GeometryError for a class or a size that is not in the table.
     """
-    known = re.fullmatch(r"(H|JS|G|h|js|g|k)(\d)", fit)
+    known = re.fullmatch(r"(H|JS|G|h|js|g|k)(\d+)", fit)
     if not known or (known[1] == "k" and known[2] not in "567"):
         raise GeometryError(f"tolerance class {fit!r} is not in {_DATA}: H, JS, G, h, js, g, or k in 5 to 7")
     letter, width = known[1], standard_tolerance(int(known[2]), size)
@@ -77,6 +77,7 @@ DATUM = "B"  # Letter of the datum; A is the section's
 GROUND = "C"  # Letter of the lowest face
 _POINTS = "Depths of blind holes are without the drill's point, {angle:.0f}°."
 _FEET = "Fillets at the feet of core and pins R{radius}."
+_PROFILE = "Each face within ±{half:g} of its place; sizes between faces by ISO 2768-1 m, too."
 _EASED_SEATS = "Check a seat eased to size by its mating part; a hole also by a dial bore gauge."
 _BEARINGS = "At bearings: run-out of the shoulder; its fillet R 0.1 at most."
 """0.1 mm is the least chamfer of the rings in the catalogue, with which every bearing comes to its shoulder."""
@@ -189,6 +190,7 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         surface=general["surface"],
         notes=[
             general["edges"],
+            *([_PROFILE.format(half=0.5 * float(general["profile"]))] if is_milled else []),
             *([_BEARINGS] if is_milled and any("bearing" in seat for seat in seats) else []),
             *([_POINTS.format(angle=degrees(dims.drill_point_angle))] if is_milled and threads else []),
             *([_EASED_SEATS] if not is_milled and any(seat["printed"] is not True for seat in seats) else []),
@@ -292,9 +294,11 @@ def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
             Frame("cylindrical", f"{0.5 * grade:.4g}"), Frame("run-out", f"{grade:.4g}", DATUM),
             Frame("position", f"⌀{grade:.4g} CZ"),
         ]  # fmt: skip
+    play = f"play {figure(2.0 * getattr(dims, reported['play']))}" if "play" in reported else ""
+    form = "; ".join(filter(None, (reported.get("form", ""), play)))
     return Seat(
-        reported["about"], size, drawn, fit, limits, reported["roughness"], reported.get("form", ""), tuple(frames),
-        letter, reported.get("mates", ""), getattr(dims, reported["circle"]) if "circle" in reported else 0.0, inside,
+        reported["about"], size, drawn, fit, limits, reported["roughness"], form, tuple(frames), letter,
+        reported.get("mates", ""), getattr(dims, reported["circle"]) if "circle" in reported else 0.0, inside,
     )  # fmt: skip
 
 

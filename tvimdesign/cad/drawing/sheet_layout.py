@@ -66,8 +66,9 @@ def _draw_seat(sheet: DrawingSheet, seat: Seat, at: tuple[float, float]) -> None
     """Write the table's line of a seat."""
     left, level = at
     lower, upper = (f"{1e3 * limit:+.4g}" if limit else "0" for limit in seat.limits)
+    limits = f"±{upper[1:]}" if seat.limits.lower == -seat.limits.upper else f"{upper} / {lower}"
     within = f"{seat.size + seat.limits.lower:.3f} to {seat.size + seat.limits.upper:.3f}"
-    fitted = (f"⌀{figure(seat.size)} {seat.fit}", f"{upper} / {lower}", within)
+    fitted = (f"⌀{figure(seat.size)} {seat.fit}", limits, within)
     cells = fitted if seat.fit else (f"⌀{figure(seat.drawn)}", "as drawn", "general")
     _cells(sheet, (seat.letter, seat.about, *cells, f"{seat.roughness:g}", seat.form), at, _TEXT)
     draw_frames(sheet, seat.frames, (left + _COLUMNS[-1], level - 0.8))
