@@ -10,7 +10,8 @@ import pytest
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.report.output.numbers import label
-from tvimdesign.report.run.study_files import process_of, sized_text, sized_texts
+from tvimdesign.report.run import study_files
+from tvimdesign.report.run.study_files import no_room, process_of, sized_text, sized_texts
 from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 from tvimdesign.study import Range, Study, read_study_text
 from tvimdesign.study.sizing import JointTask, diameters, in_options, study_text
@@ -69,6 +70,23 @@ def test_a_study_without_room_follows_one_with_room():
     with_room, without = (study_text(replace(task, cautious=cautious), "middle") for cautious in (True, False))
     assert list(sized_texts(lambda room: with_room if room else without)) == [(with_room, True), (without, False)]
     assert list(sized_texts(lambda _: without)) == [(without, False)]
+
+
+def test_a_study_without_room_names_a_diameter_that_has_some(monkeypatch):
+    task, tried = JointTask.read(**WRIST), []
+
+    def hardware(asked: JointTask) -> str:
+        tried.append(asked)
+        return "middle" if asked.diameter > roomy else ""
+
+    monkeypatch.setattr(study_files, "_hardware", hardware)
+    roomy = 0.083
+    assert no_room(task, lambda _: None).endswith("may miss a limit; --diameter '84 mm' leaves room, by estimate")
+    assert all(asked.cautious for asked in tried)
+    assert [round(1e3 * asked.diameter, 6) for asked in tried] == [77.0, 84.0]
+    roomy = 1.0
+    assert no_room(task, lambda _: None).endswith("; no --diameter up to '98 mm' leaves room by estimate, either")
+    assert no_room(replace(task, diameter=0.2), lambda _: None).endswith("the module may miss a limit")
 
 
 @pytest.mark.gate

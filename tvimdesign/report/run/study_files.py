@@ -69,10 +69,7 @@ def print_schema() -> None:
     print(written_studies.schema_text(), end="")
 
 
-_NO_ROOM = (
-    "no listed hardware leaves room for errors of assumed values: where one is worse than assumed, the module may miss "
-    "a limit; a larger --diameter, a longer --time or less --torque makes room"
-)
+_ROOMIER = (1.1, 1.2, 1.3, 1.4)  # Factors on a diameter that are tried for room for the assumed values
 _CANDIDATES = 3  # Sets of hardware that are tried, the best fit first
 _BESIDE = 2  # Sets of hardware that are tried with other numbers
 _WIDER, _ROOM = (1.1, 1.25), 1.03
@@ -91,6 +88,7 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
     The study is written for editing, too, if no hardware fits. Raises InputError for a quantity that is none and a file
     that is there, InfeasibleError for a joint that no hardware fits, and what `run_study` raises.
     """
+    from tvimdesign.report.output.terminal import progress_output
     from tvimdesign.report.run.run_study import run_study
 
     task = JointTask.read(**numbers)
@@ -102,7 +100,9 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
     for text, cautious in sized_texts(partial(_chosen, file, task)):
         atomic_write(file, text.encode())
         notes += [] if task.process or not first else [f"{process_of(text)}; --process changes it"]
-        notes += [] if cautious else [_NO_ROOM]
+        if not cautious:
+            with progress_output() as progress:
+                notes.append(no_room(task, progress))
         print(*notes, sep="\n", file=sys.stderr)
         try:
             run_study(file, out, overwrite=overwrite or not first, gives_up=cautious, **run)
@@ -152,6 +152,22 @@ def _chosen(file: Path, task: JointTask, room: bool) -> str:
         except InfeasibleError as error:
             as_asked = f"{file} has the study as it was asked; --overwrite replaces it."
             raise InfeasibleError(f"{in_options(str(error), label)}\n{as_asked}") from error
+
+
+def no_room(task: JointTask, progress: Callable[[str], None]) -> str:
+    """Return what it means that no hardware has room for the assumed values, and the next diameter that has."""
+    progress("looking for a diameter with room for the assumed values")
+    wider = [replace(task, cautious=True, diameter=1e-3 * round(1e3 * factor * task.diameter)) for factor in _ROOMIER]
+    wider = [other for other in wider if other.diameter <= LARGEST]
+    found = next((other for other in wider if _hardware(other)), None)
+    ways = [f"--diameter '{found.options()['diameter']}' leaves room, by estimate"] if found else []
+    if wider and not found:
+        ways = [f"no --diameter up to '{wider[-1].options()['diameter']}' leaves room by estimate, either"]
+    missed = (
+        "no listed hardware leaves room for errors of assumed values: where one is worse than assumed, the module may "
+        "miss a limit"
+    )
+    return "; ".join([missed, *ways])
 
 
 def process_of(text: str) -> str:
