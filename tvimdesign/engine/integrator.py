@@ -6,6 +6,7 @@ along by the factors that each stage's Newton ended with, so they are those of t
 Source: Alexander, SIAM J. Numer. Anal. 14 (1977), 1006.
 """
 
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -283,3 +284,8 @@ def advance(
         for p in range(ahead.size):
             ahead[p] = scaled[p]
     return last
+
+
+def is_compiled() -> bool:
+    """Return whether an earlier run has compiled this for the present user; numba takes a minute for it."""
+    return any(Path(advance.stats.cache_path or "").glob("integrator.advance-*.nbi"))

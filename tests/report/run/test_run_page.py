@@ -4,6 +4,7 @@ import csv
 import io
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 from xml.etree.ElementTree import Element
 
@@ -13,8 +14,9 @@ import sample_pages
 from small_studies import FOUR_SIZES_IN_SHEAR
 
 from tvimdesign.device import table_for
+from tvimdesign.engine import integrator
 from tvimdesign.page.blocks import Folded, Grid
-from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.blocks.facts import _active_constraints
 from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.blocks.sections import assumptions_section
@@ -23,6 +25,7 @@ from tvimdesign.report.run.reasons import active, sentences, slack, why_csv, why
 from tvimdesign.report.run.run_page import glance
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
+from tvimdesign.study.tree import tree_of_text
 
 
 def words(element: Element) -> str:
@@ -176,3 +179,19 @@ def test_a_limit_active_at_its_tolerance_margin_is_so_everywhere(optimum):
     table = checks_grid(with_margins)
     assert len(table.rows) == len(checks) >= 2
     assert {row[0].text for row in table.rows} == {"active"}
+
+
+def test_the_first_run_says_that_it_compiles(tmp_path, monkeypatch):
+    class FirstMessageError(Exception):
+        """The first message of a run, which ends it."""
+
+    def end_with(text: str) -> None:
+        raise FirstMessageError(text)
+
+    monkeypatch.setattr(integrator, "advance", SimpleNamespace(stats=SimpleNamespace(cache_path=tmp_path)))
+    tree = tree_of_text("mode: shear", "study.yaml", "study", tmp_path)
+    with pytest.raises(FirstMessageError, match="equations: the first run after an installation compiles them"):
+        answer_study(tree, end_with)
+    (tmp_path / "integrator.advance-263.py311.nbi").touch()
+    with pytest.raises(FirstMessageError, match=r"^preparing the equations$"):
+        answer_study(tree, end_with)

@@ -9,6 +9,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import Table
+from tvimdesign.engine.integrator import is_compiled
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
 from tvimdesign.report.output.tables import control_entry, duty_entry, results
@@ -78,7 +79,8 @@ def answer_study(
     Raises InputError, InfeasibleError for what no search can mend, and TimeOverError where the time is over before the
     search; a search that finds no design is a result.
     """
-    progress("preparing the equations")
+    first = "" if is_compiled() else ": the first run after an installation compiles them, for about a minute"
+    progress(f"preparing the equations{first}")
     study = read_tree(tree)
     if prove:  # every combination of listed choices is solved
         study = study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
