@@ -159,9 +159,9 @@ def no_room(task: JointTask, progress: Callable[[str], None]) -> str:
     progress("looking for a diameter with room for the assumed values")
     wider = [replace(task, cautious=True, diameter=1e-3 * round(1e3 * factor * task.diameter)) for factor in _ROOMIER]
     wider = [other for other in wider if other.diameter <= LARGEST]
-    found = next((other for other in wider if _hardware(other)), None)
-    ways = [f"--diameter '{found.options()['diameter']}' leaves room, by estimate"] if found else []
-    if wider and not found:
+    roomy = next((other for other in wider if _hardware(other)), None)
+    ways = [f"--diameter '{roomy.options()['diameter']}' leaves room, by estimate"] if roomy else []
+    if wider and not roomy:
         ways = [f"no --diameter up to '{wider[-1].options()['diameter']}' leaves room by estimate, either"]
     missed = (
         "no listed hardware leaves room for errors of assumed values: where one is worse than assumed, the module may "
