@@ -161,7 +161,7 @@ def test_a_module_shrunk_to_a_finger_s_width_loses_the_cube_of_its_torque():
 def test_every_claim_has_place_computation_verdict_and_json(capsys):
     rows = findings()
     assert len(rows) == len(claims()["rows"]) == len(claims()["rows"])
-    assert all(row.claim and row.where and row.computed and row.verdict for row in rows)
+    assert all(row["claim"] and row["where"] and row["computed"] and row["verdict"] for row in rows)
     assert len({row["row"] for row in claims()["rows"]}) == len(rows)
     paper_check.print_paper_check(as_json=True)
     assert len(json.loads(capsys.readouterr().out)) == len(claims()["rows"])

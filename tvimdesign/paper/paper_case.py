@@ -6,11 +6,10 @@ times are simulated when they are asked for.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from tvimdesign.base.record import own_data
+from tvimdesign.base.record import Entry, own_data
 from tvimdesign.base.units import to_si
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import read_study_text
@@ -18,6 +17,7 @@ from tvimdesign.study import read_study_text
 if TYPE_CHECKING:
     from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 
+Values = dict[str, Any]  # Numbers of a row, by their names in its sentence
 PLACES = {"mean_time": "mean", "near_face_time": "near face", "far_face_time": "far face"}
 """Places of a thermometer in the PCL, by the time that it tells."""
 
@@ -40,17 +40,16 @@ def pair_times(**choices: str) -> tuple[dict[str, float], dict[str, float]]:
     return times[0], times[1]
 
 
-def _case() -> str:
-    """Return the row of the paper check: what the pair takes, and what else it could be read as."""
+def _case() -> Values:
+    """Return the numbers of the paper check's row: what the pair takes, and what else it could be read as."""
     calibrated, metal = pair_times(), pair_times(structure_material=case()["material"])
     shear, compression = (times["mean_time"] for times in calibrated)
-    stated = from_paper("response_time_compression") / from_paper("response_time")
     others = [f"with a thermometer at the {PLACES[name]}: {_both(name, calibrated)}" for name in list(PLACES)[1:]]
-    return (
-        f"a pair calibrated to it: mean of the PCL at 100 °C after {shear:.1f} s in shear and {compression:.1f} s in "
-        f"compression, a ratio of {compression / shear:.2f} against {stated:g}. Otherwise: {'; '.join(others)}; with "
-        f"structures of aluminum: {_both('mean_time', metal)}"
-    )
+    return {
+        "shear": shear, "compression": compression, "ratio": compression / shear, "others": "; ".join(others),
+        "stated": from_paper("response_time_compression") / from_paper("response_time"),
+        "metal": _both("mean_time", metal),
+    }  # fmt: skip
 
 
 def _both(name: str, times: tuple[dict[str, float], dict[str, float]]) -> str:
@@ -64,22 +63,16 @@ def from_paper(name: str) -> float:
     return to_si(float(entry["value"]), entry["unit"])
 
 
-@dataclass(frozen=True)
-class Instrument:
-    """Measuring instrument: its abilities with their range [SI], and where they come from."""
-
-    value: float
-    low: float
-    high: float
-    status: str
-    source: str
-
-
-def instrument(name: str) -> Instrument:
-    """Return a limit of the paper's rheometer [SI]."""
+def instrument(name: str) -> Entry:
+    """Return a limit of the paper's rheometer, assumed with a range [SI]."""
     entry = claims()["instrument"][name]
     value, low, high = (to_si(float(entry[key]), entry["unit"]) for key in ("value", "low", "high"))
-    return Instrument(value, low, high, entry["status"], entry["source"])
+    return Entry(value, entry["unit"], entry["source"], entry["status"], low, high)
+
+
+def ends(entry: Entry) -> tuple[float, float, float]:
+    """Return a value, its least and its largest value [SI]."""
+    return entry.value, entry.low or entry.value, entry.high or entry.value
 
 
 @cache

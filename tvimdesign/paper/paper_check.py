@@ -7,7 +7,6 @@ Polycaprolactone".
 import json
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
 from functools import cache
 
 import numpy as np
@@ -15,8 +14,10 @@ import numpy as np
 from tvimdesign.base.units import from_si
 from tvimdesign.paper import paper_case, paper_rows
 from tvimdesign.paper.paper_case import (
+    Values,
     claims,
     cycle_values,
+    ends,
     from_paper,
     instrument,
     published_model,
@@ -32,32 +33,23 @@ from tvimdesign.report.output.terminal import print_grid, wide_console
 from tvimdesign.study import standard_tolerances
 
 
-def _area() -> str:
-    answer = published_values()
-    area = from_si(answer["pcl_area"], "mm^2")
-    thickness = from_si(answer["pcl_thickness"], "mm")
-    strain = answer["layer_strain"]
-    return (
-        f"four arcs of 26 to 40 mm radius and 49 degrees give {area:.1f} mm²; K, b and heating time all hang on the "
-        f"thickness, assumed here as {thickness:g} mm: then the melt is sheared by {strain:.0%} at full stroke"
-    )
+def _area() -> Values:
+    values = published_values()
+    area, thickness = from_si(values["pcl_area"], "mm^2"), from_si(values["pcl_thickness"], "mm")
+    return {"area": area, "thickness": thickness, "strain": values["layer_strain"]}
 
 
-def _response() -> str:
+def _response() -> Values:
     stated = from_paper("response_time")
     thickness, simulate = _switches()
-    now, insulated = simulate({}), simulate(_INSULATED)
 
     def late(trial: float) -> float:
         return simulate({**_INSULATED, "pcl_thickness": trial})["far_face_time"] - stated
 
-    reached = _bisect(late, 0.2 * thickness, 4.0 * thickness)
-    return (
-        f"at 1.5 A with a flexible Peltier (assumed) and {thickness * 1e3:g} mm of PCL: far face "
-        f"{now['far_face_time']:.0f} s, near face {now['near_face_time']:.0f} s, impedance soft after "
-        f"{now['softening_time']:.0f} s, since a plastic rotor takes more heat than the layer; with a rotor that "
-        f"takes none, far face {insulated['far_face_time']:.0f} s, and {stated:g} s at {reached * 1e3:.2f} mm"
-    )
+    return {
+        "thickness": thickness * 1e3, "now": simulate({}), "insulated": simulate(_INSULATED), "stated": stated,
+        "reached": _bisect(late, 0.2 * thickness, 4.0 * thickness) * 1e3,
+    }  # fmt: skip
 
 
 _TIMES = ("near_face_time", "far_face_time", "softening_time")
@@ -81,73 +73,64 @@ def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
     return float(model.start[model.index["pcl_thickness"]]), simulate
 
 
-def _bisect(function: Callable[[float], float], low: float, high: float, steps: int = 12) -> float:
+def _bisect(function: Callable[[float], float], low: float, high: float) -> float:
     """Find by bisection where a rising function passes zero, to a 4000th of the interval."""
-    for _ in range(steps):
+    for _ in range(12):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if function(middle) < 0.0 else (low, middle)
     return 0.5 * (low + high)
 
 
-def _creep() -> str:
+def _creep() -> Values:
     first, second = from_paper("recovery_methods"), from_paper("recovery_results")
-    return f"two different times for one test: {first:g} s and {second:g} s, a factor of {second / first:g}"
+    return {"first": first, "second": second, "factor": second / first}
 
 
-def _parallel_springs() -> str:
+def _parallel_springs() -> Values:
     values = published_values()
     springs = float(spring.output_stiffness(from_paper("springs"), published_rate(), 0.0, 1.0, 0.0))
-    cold, hot = values["pcl_stiffness@cold"], values["pcl_stiffness@hot"]
-    shown = values["joint_stiffness@cold"]
-    return (
-        f"at 30 °C a layer of {values['pcl_thickness'] * 1e3:g} mm has G J/t = {cold:.3g} N·m/rad, "
-        f"{cold / springs:,.0f} times the springs' {springs:.2f}; at 100 °C and 1 Hz {hot:.2f} N·m/rad, and only then "
-        f"are springs the stiffer. What the joint shows at 30 °C is its structure, {shown:.0f} N·m/rad as drawn here"
-    )
+    cold, hot, shown = (values[name] for name in ("pcl_stiffness@cold", "pcl_stiffness@hot", "joint_stiffness@cold"))
+    return {
+        "thickness": values["pcl_thickness"] * 1e3, "cold": cold, "hot": hot, "springs": springs,
+        "times": cold / springs, "shown": shown,
+    }  # fmt: skip
 
 
-def _release() -> str:
+def _release() -> Values:
     values, angle = published_values(), from_paper("release_angle")
-    torque = values["joint_stiffness@cold"] * angle
-    strain = layer.shear_strain(values["pcl_outer_radius"], angle, values["pcl_thickness"])
     modulus = values["pcl_stiffness@cold"] * values["pcl_thickness"] / values["layer_polar_moment"]
-    yielding = values["pcl_tensile_yield"] / math.sqrt(3.0) / modulus
-    held = values["holding_torque"]
-    return (
-        f"{torque:.0f} N·m against the structure as drawn here, which holds {held:.1f} N·m, reached at "
-        f"{held / values['joint_stiffness@cold']:.4f} rad; with a rigid structure it would be {strain:.0%} of strain "
-        f"of a solid that yields at {yielding:.1%} (tensile yield over the square root of 3, over G)"
-    )
+    return {
+        "torque": values["joint_stiffness@cold"] * angle, "held": values["holding_torque"],
+        "reached": values["holding_torque"] / values["joint_stiffness@cold"],
+        "strain": layer.shear_strain(values["pcl_outer_radius"], angle, values["pcl_thickness"]),
+        "yielding": values["pcl_tensile_yield"] / math.sqrt(3.0) / modulus,
+    }  # fmt: skip
 
 
-def _housing() -> str:
+def _housing() -> Values:
     values, material = published_values(), published_module().values["structure_material"]
     service = material.entry("service_temperature")
-    ends = (service.value, service.low or service.value, service.high or service.value)
-    shown = [from_si(end, "degC") for end in ends]
-    peaks = [from_si(values[name], "degC") for name in ("peak_heater_temperature", "peak_rotor_temperature")]
-    return (
-        f"{material.title}: {shown[0]:.0f} °C in continuous service ({shown[1]:.0f} to {shown[2]:.0f}, "
-        f"{service.status}), with a glass transition at 75-85 °C; with the far face of the PCL at 100 °C the pads have "
-        f"{peaks[0]:.0f} °C and the rotor plate {peaks[1]:.0f} °C, {peaks[1] - shown[0]:.0f} K above its service"
-    )
+    shown = [from_si(end, "degC") for end in ends(service)]
+    pads, rotor = (from_si(values[name], "degC") for name in ("peak_heater_temperature", "peak_rotor_temperature"))
+    return {
+        "title": material.title, "shown": shown, "status": service.status, "pads": pads, "rotor": rotor,
+        "above": rotor - shown[0],
+    }  # fmt: skip
 
 
-def _torque_sensor() -> str:
+def _torque_sensor() -> Values:
     values, angle, sensor = published_values(), from_paper("release_angle"), instrument("torque_error")
     frozen, springs = (values[name] * angle for name in ("joint_stiffness@cold", "spring_stiffness"))
-    shares = [f"{100.0 * error * frozen / springs:.0f}" for error in (sensor.value, sensor.low, sensor.high)]
-    return (
-        f"a release from {angle:g} rad asks for {frozen:.0f} N·m frozen, for {springs:.2f} N·m of the springs alone. A "
-        f"sensor for the first, off by {sensor.value:.1%} of its range ({sensor.low:.1%} to {sensor.high:.1%}, "
-        f"{sensor.status}), is off by {shares[0]} % ({shares[1]} to {shares[2]}) of the second"
-    )
+    return {
+        **vars(sensor), "angle": angle, "frozen": frozen, "springs": springs,
+        "shares": [100.0 * error * frozen / springs for error in ends(sensor)],
+    }  # fmt: skip
 
 
 _SMALL = 0.045  # Width [m] of a small joint
 
 
-def _small_joint() -> str:
+def _small_joint() -> Values:
     from tvimdesign.simulation.working_cycle.device_functions import resolve_study
     from tvimdesign.solve.nlp.constraints import constraints_of
 
@@ -159,44 +142,33 @@ def _small_joint() -> str:
     limits = [limit for limit in constraints_of(study, small.table, small.values) if limit.output in values]
     violated = [label(limit.output) for limit in limits if not limit.keeps(np.array(values[limit.output]))]
     spread = from_si(standard_tolerances(small.table)["pcl_thickness"].plus_minus or 0.0, "mm")
-    return (
-        f"every length times {factor:.2f} makes it {_SMALL * 1e3:g} mm wide: {values['holding_torque']:.2f} N·m "
-        f"frozen, {values['spring_stiffness']:.2f} N·m/rad of springs, {values['pcl_thickness'] * 1e3:.2f} mm of PCL "
-        f"between printed faces that vary by {spread:g} mm; violated: {listed(violated)}"
-    )
-
-
-@dataclass(frozen=True)
-class PaperFinding:
-    """One row of the paper check."""
-
-    claim: str
-    where: str
-    computed: str
-    verdict: str
+    return {
+        "factor": factor, "width": _SMALL * 1e3, "held": values["holding_torque"],
+        "springs": values["spring_stiffness"], "layer": values["pcl_thickness"] * 1e3, "spread": spread,
+        "violated": listed(violated),
+    }  # fmt: skip
 
 
 def computed(row: str) -> str:
-    """Return the sentence of a row, by the function of its name."""
+    """Return the sentence of a row, with the numbers of the function of its name."""
     functions = {**vars(paper_case), **vars(paper_rows), **globals()}
-    return str(functions[f"_{row}"]())
+    sentence: str = next(entry["computed"] for entry in claims()["rows"] if entry["row"] == row)
+    return sentence.format(**functions[f"_{row}"]())
 
 
 @cache
-def findings() -> tuple[PaperFinding, ...]:
-    """Compute every row of the paper check."""
-    return tuple(
-        PaperFinding(claim=row["claim"], where=row["where"], computed=computed(row["row"]), verdict=row["verdict"])
-        for row in claims()["rows"]
-    )
+def findings() -> tuple[dict[str, str], ...]:
+    """Compute every row of the paper check: claim, where it stands, what is computed here, and the verdict."""
+    parts = ("claim", "where", "computed", "verdict")
+    return tuple({name: {**row, "computed": computed(row["row"])}[name] for name in parts} for row in claims()["rows"])
 
 
 def print_paper_check(as_json: bool) -> None:
     """Print the paper check for people or for scripts."""
     rows = findings()
     if as_json:
-        print(json.dumps([asdict(row) for row in rows], indent=2, ensure_ascii=False))
+        print(json.dumps(rows, indent=2, ensure_ascii=False))
         return
-    rows_of_text = [(f"{row.claim} ({row.where})", row.computed, row.verdict) for row in rows]
+    rows_of_text = [(f"{row['claim']} ({row['where']})", row["computed"], row["verdict"]) for row in rows]
     heads = ("the paper says", "computed here", "verdict")
     print_grid(grid("The paper against its own numbers", heads, rows_of_text, code=()), wide_console(), lines=True)
