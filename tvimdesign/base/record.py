@@ -1,6 +1,6 @@
-"""Records: values and tables in SI, each with source and status, and this package's own YAML."""
+"""Records: values and tables in SI, each with source and status, and this package's own YAML and templates."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cache
@@ -23,6 +23,19 @@ def plain_data(text: str) -> Any:
 def own_data(module: str, name: str) -> Any:
     """Return the content of the data file of a name beside a module's file, read once. Nobody may change it."""
     return plain_data(Path(module).with_name(name).read_text(encoding="utf-8"))
+
+
+@cache
+def own_template(module: str, name: str, **filters: Callable[..., str]) -> Any:
+    """Return a jinja template of the folder `templates` beside a module's file; HTML and XML escape all text."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoescape
+
+    environment = Environment(
+        loader=FileSystemLoader(Path(module).with_name("templates")), undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True, autoescape=select_autoescape(("html.jinja", "xml.jinja")),
+    )  # fmt: skip
+    environment.filters.update(filters)
+    return environment.get_template(name)
 
 
 STATUSES = ("measured", "datasheet", "handbook", "calibrated", "assumed")

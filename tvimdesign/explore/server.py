@@ -10,7 +10,6 @@ import secrets
 import signal
 import webbrowser
 from collections.abc import Awaitable, Callable, Sequence
-from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,7 @@ from aiohttp.http_exceptions import HttpProcessingError
 
 import tvimdesign.page
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.record import own_template
 from tvimdesign.explore.messages import MOST_BYTES
 from tvimdesign.explore.session import Session
 from tvimdesign.explore.source import open_source
@@ -184,7 +184,7 @@ def _local(host: str) -> bool:
 def explore_page(nonce: str) -> str:
     """Return the empty page; its content comes over the socket."""
     imports = json.dumps({"imports": {f"{room}/": f"./static/{room}/" for room in STATIC}})
-    text: str = _template().render(styles=_STYLES, imports=imports, nonce=nonce)
+    text: str = own_template(__file__, "explore.html.jinja").render(styles=_STYLES, imports=imports, nonce=nonce)
     return text
 
 
@@ -194,17 +194,6 @@ def content_policy(nonce: str) -> str:
         f"default-src 'none'; script-src 'self' 'nonce-{nonce}'; style-src 'self' 'unsafe-inline'; "
         "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     )
-
-
-@cache
-def _template() -> Any:
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(
-        loader=PackageLoader("tvimdesign.explore"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-        lstrip_blocks=True,
-    )  # fmt: skip
-    return environment.get_template("explore.html.jinja")
 
 
 # --- the command ---

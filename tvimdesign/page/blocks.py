@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 Tone = Literal["", "good", "warn", "bad"]
 """What a status or a cell means; the page says it by a word or a mark too, not by its colour alone."""
@@ -32,7 +32,6 @@ class Head:
 class Grid:
     """A table that can be sorted; one of many rows can be filtered, too."""
 
-    macro: ClassVar[str] = "grid"
     caption: str
     heads: Sequence[Head]
     rows: Sequence[Sequence[Cell]]
@@ -43,7 +42,6 @@ class Grid:
 class Facts:
     """Labels with their texts."""
 
-    macro: ClassVar[str] = "facts"
     rows: Sequence[tuple[str, str]]
 
 
@@ -51,7 +49,6 @@ class Facts:
 class Words:
     """Paragraphs."""
 
-    macro: ClassVar[str] = "words"
     lines: Sequence[str]
 
 
@@ -59,7 +56,6 @@ class Words:
 class Points:
     """A list of sentences; `numbered` where the order counts."""
 
-    macro: ClassVar[str] = "points"
     lines: Sequence[str]
     numbered: bool = False
 
@@ -68,7 +64,6 @@ class Points:
 class Steps:
     """Steps in order, each with a picture that the figure of that name takes of it."""
 
-    macro: ClassVar[str] = "steps"
     lines: Sequence[str]
     figure: str
 
@@ -77,7 +72,6 @@ class Steps:
 class Warned:
     """Warnings, each with what to write in the study."""
 
-    macro: ClassVar[str] = "warned"
     rows: Sequence[tuple[str, str]]
 
 
@@ -85,7 +79,6 @@ class Warned:
 class Listing:
     """A text as it is in its file."""
 
-    macro: ClassVar[str] = "listing"
     title: str
     text: str
 
@@ -94,7 +87,6 @@ class Listing:
 class Picture:
     """A picture that is part of the page: PNG or WebP, on white."""
 
-    macro: ClassVar[str] = "picture"
     data: bytes
     says: str  # Text for readers who cannot see it
     caption: str = ""
@@ -109,7 +101,6 @@ class Picture:
 class Drawn:
     """A figure that the page's own code draws from plain data, such as curves, a front or the module's solids."""
 
-    macro: ClassVar[str] = "drawn"
     name: str  # Unique on the page
     by: str  # The module of static/ that draws it
     says: str  # Its caption, which stands for it where nothing can be drawn
@@ -122,7 +113,6 @@ class Drawn:
 class Folded:
     """Blocks behind a line that opens them."""
 
-    macro: ClassVar[str] = "folded"
     title: str
     blocks: "Sequence[Block]"
     file: str = ""  # Where in the folder of results it is: text names that in place of the blocks

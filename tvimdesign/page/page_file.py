@@ -5,12 +5,13 @@ import gzip
 import json
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from html import escape
 from importlib import resources
 from pathlib import PurePosixPath
 from typing import Any
 
+from tvimdesign.base.record import own_template
 from tvimdesign.page.blocks import Block, Drawn, Folded, Page
 
 FILE = "report.html"
@@ -23,7 +24,7 @@ _ALWAYS = ("main.js", "tables.js", "data.js", "figures.js", "files.js")  # Code 
 def page_html(page: Page) -> bytes:
     """Return the page as UTF-8. The same page gives the same bytes."""
     drawn = list(figures(page))
-    text: str = template("page.html.jinja").render(
+    text: str = _template("page.html.jinja").render(
         page=page,
         style="\n".join(_static(name) for name in _STYLES),
         code=_modules(drawn),
@@ -100,27 +101,20 @@ def _json(data: Any) -> str:
 
 def packed(data: bytes) -> str:
     """Return bytes as the page's code reads them: gzip in base64; the same bytes every time."""
-    return base64.b64encode(gzip.compress(data, 6, mtime=0)).decode()
+    return _base64(gzip.compress(data, 6, mtime=0))
 
 
-@cache
-def template(name: str) -> Any:
-    """Return a template, compiled once; it escapes all text."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
+def _base64(data: bytes) -> str:
+    return base64.b64encode(data).decode()
 
-    environment = Environment(
-        loader=PackageLoader("tvimdesign.page"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-        lstrip_blocks=True,
-    )  # fmt: skip
-    environment.filters["packed"] = packed
-    environment.filters["base64"] = lambda data: base64.b64encode(data).decode()
-    return environment.get_template(name)
+
+_template = partial(own_template, __file__, packed=packed, base64=_base64)
 
 
 def page_fragment(page: Page, left_out: Collection[str] = ()) -> dict[str, Any]:
     """Return status, first screen and sections but those `left_out`, as HTML, with the data of their figures."""
     shown = replace(page, sections=[section for section in page.sections if section.name not in left_out])
-    macros = template("blocks.html.jinja").module
+    macros = _template("blocks.html.jinja").module
     drawn = list(figures(shown))
     return {
         "status": page.status,

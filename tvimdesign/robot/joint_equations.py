@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
-from xml.etree import ElementTree as Xml
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from tvimdesign.base.record import own_data
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer
-from tvimdesign.robot.model_files import document, numbers
+from tvimdesign.robot.model_files import document
 from tvimdesign.simulation.joint_tests.case import one_sided
 from tvimdesign.simulation.link_motion.sampled_motion import PER_DECADE
 from tvimdesign.simulation.working_cycle.curves import MEMORY, PHASE_UNITS, temperature_names
@@ -163,12 +162,6 @@ UNITS = {
 }  # fmt: skip
 """Exponents of SI's base units of every unit that a variable has."""
 OBSERVED_UNITS = {**PHASE_UNITS, "terminal_power": "W", "supply_voltage": "V"}
-CONSTANTS = {
-    "heating_current": "current", "cooling_current": "cooling_current", "stroke": "stroke",
-    "holding_torque": "holding_torque", "pin_friction_torque": "pin_friction_torque",
-}  # fmt: skip
-"""Numbers of the design that a client may want, by the quantity they are."""
-CONSTANT_UNITS = {"heating_current": "A", "cooling_current": "A", "stroke": "rad"}
 
 Causality = Literal["input", "parameter", "output", "local"]
 
@@ -196,8 +189,12 @@ def fmu_variables(equations: JointEquations, resolved: ResolvedModule) -> tuple[
         *(Variable(name, "output", unit, meaning) for name, (unit, meaning) in listed["torque"].items()),
         *(_observed(name, listed["observed"]) for name in equations.observed),
         *(Variable(name, "output", unit, meaning) for name, (unit, meaning) in listed["control"].items()),
-        *(_constant(name, float(resolved.quantity(quantity))) for name, quantity in CONSTANTS.items()),
-    )
+        *(
+            Variable(name, "local", unit, f"The design's {quantity.replace('_', ' ')}.",
+                     float(resolved.quantity(quantity)), constant=True)
+            for name, (quantity, unit) in listed["constants"].items()
+        ),
+    )  # fmt: skip
 
 
 def _observed(name: str, meanings: Mapping[str, str]) -> Variable:
@@ -205,72 +202,16 @@ def _observed(name: str, meanings: Mapping[str, str]) -> Variable:
     return Variable(name, "output", OBSERVED_UNITS.get(name, "K"), meaning)
 
 
-def _constant(name: str, value: float) -> Variable:
-    meaning = f"The design's {CONSTANTS[name].replace('_', ' ')}."
-    return Variable(name, "local", CONSTANT_UNITS.get(name, "N*m"), meaning, value, constant=True)
-
-
 IDENTIFIER = "joint"  # Of the model: the binary's name
-CELSIUS = {"name": "degC", "offset": "-273.15"}
+STEP = 0.1
+"""Communication step that a client proposes [s]: for heat; a moving joint wants steps that resolve its motion."""
 
 
 def model_description(
     name: str, guid: str, description: str, variables: Sequence[Variable], sources: Sequence[str], stop: float
 ) -> str:
     """Return the file; `stop` [s] is the end of the experiment that a client proposes."""
-    root = Xml.Element(
-        "fmiModelDescription", fmiVersion="2.0", modelName=name, guid=guid, description=description,
-        generationTool="tvimdesign", variableNamingConvention="flat",
+    return document(
+        "model_description", name=name, guid=guid, description=description, variables=variables, sources=sources,
+        stop=stop, step=STEP, identifier=IDENTIFIER, units=UNITS,
     )  # fmt: skip
-    simulation = Xml.SubElement(
-        root, "CoSimulation", modelIdentifier=IDENTIFIER, canHandleVariableCommunicationStepSize="true",
-        canInterpolateInputs="true", canGetAndSetFMUstate="true", canSerializeFMUstate="true",
-    )  # fmt: skip
-    files = Xml.SubElement(simulation, "SourceFiles")
-    for source in sources:
-        Xml.SubElement(files, "File", name=source)
-    _units(root, {variable.unit for variable in variables})
-    Xml.SubElement(root, "DefaultExperiment", startTime="0", stopTime=numbers(stop), stepSize=numbers(STEP))
-    listed = Xml.SubElement(root, "ModelVariables")
-    for reference, variable in enumerate(variables):
-        _variable(listed, reference, variable)
-    _structure(root, variables)
-    return document(root)
-
-
-STEP = 0.1
-"""Communication step that a client proposes [s]: for heat; a moving joint wants steps that resolve its motion."""
-
-
-def _units(root: Xml.Element, used: set[str]) -> None:
-    defined = Xml.SubElement(root, "UnitDefinitions")
-    for name in sorted(used):
-        unit = Xml.SubElement(defined, "Unit", name=name)
-        Xml.SubElement(unit, "BaseUnit", {base: str(power) for base, power in UNITS[name].items()})
-        if name == "K":
-            Xml.SubElement(unit, "DisplayUnit", CELSIUS)
-
-
-def _variable(listed: Xml.Element, reference: int, variable: Variable) -> None:
-    variability = "constant" if variable.constant else "tunable" if variable.causality == "parameter" else "continuous"
-    kind = {"name": variable.name, "valueReference": str(reference), "description": variable.meaning,
-            "causality": variable.causality, "variability": variability}  # fmt: skip
-    if variable.causality in ("parameter", "local"):
-        kind["initial"] = "exact"
-    if variable.causality == "output":
-        kind["initial"] = "calculated"
-    real = {"unit": variable.unit}
-    if variable.unit == "K":
-        real["displayUnit"] = CELSIUS["name"]
-    if variable.start is not None:
-        real["start"] = numbers(variable.start)
-    Xml.SubElement(Xml.SubElement(listed, "ScalarVariable", kind), "Real", real)
-
-
-def _structure(root: Xml.Element, variables: Sequence[Variable]) -> None:
-    structure = Xml.SubElement(root, "ModelStructure")
-    for group in ("Outputs", "InitialUnknowns"):
-        unknowns = Xml.SubElement(structure, group)
-        for place, variable in enumerate(variables, start=1):
-            if variable.causality == "output":
-                Xml.SubElement(unknowns, "Unknown", index=str(place))

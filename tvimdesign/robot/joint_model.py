@@ -87,6 +87,12 @@ class RigidBody:
     inertia: tuple[tuple[float, float, float], ...]  # Tensor about the centre of mass [kg*m^2], three rows
     mesh: str  # File in metres, relative to the folder of the model
 
+    @property
+    def moments(self) -> dict[str, float]:
+        """The six entries of the tensor that differ, by their names in model files."""
+        (xx, xy, xz), (_, yy, yz), (_, _, zz) = self.inertia
+        return {"ixx": xx, "ixy": xy, "ixz": xz, "iyy": yy, "iyz": yz, "izz": zz}
+
     def about_axis(self) -> float:
         """Return the moment of inertia about the rotor's axis [kg*m^2], by the parallel axes."""
         return self.inertia[2][2] + self.mass * (self.centre[0] ** 2 + self.centre[1] ** 2)
