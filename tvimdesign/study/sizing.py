@@ -4,12 +4,11 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
-from importlib.resources import files
-from typing import Any, Self
+from functools import partial
+from typing import Self
 
 from tvimdesign.base.errors import InputError, UnitError
-from tvimdesign.base.record import plain_data
+from tvimdesign.base.record import own_data, own_template
 from tvimdesign.base.units import format_quantity, from_si, parse_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, table_for
@@ -18,14 +17,6 @@ from tvimdesign.study.written_studies import SCHEMA_FILE
 SIZED_MODE = "shear"
 SMALLEST, LARGEST = 0.02, 0.2  # Diameters [m] that a study is made for
 _BAND = 0.2  # Share by which the stiffness may lie to either side of the one that is required
-_SCALED = {
-    "coil_diameter": (0.04, 0.09, 0.25), "placement_radius": (0.25, 0.39, 0.48), "core_radius": (0.07, 0.11, 0.2),
-    "link_thickness": (0.03, 0.045, 0.09), "pcl_inner_radius": (0.1, 0.16, 0.35),
-    "pcl_outer_radius": (0.18, 0.29, 0.44), "wall_thickness": (0.017, 0.035, 0.06),
-    "floor_thickness": (0.025, 0.055, 0.09), "hub_depth": (0.0, 0.02, 0.2), "rotor_rim": (0.013, 0.02, 0.04),
-    "rotor_thickness": (0.02, 0.04, 0.07),
-}  # fmt: skip
-"""Least value, start and largest value of what scales with a module, over its diameter."""
 _WIRE = 0.0011 / (2.28 * 0.0894) ** 0.25
 """Wire [m] of the shipped elbow over the fourth root of its springs' stiffness [N m/rad] times its diameter [m]: the
 rate of a spring is E d^4 / (64 D n)."""
@@ -38,6 +29,7 @@ _EXAMPLES = {
     "torque": "8 N.m", "stiffness": "1 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
     "stroke": "6 deg", "stiff_time": "300 s",
 }  # fmt: skip
+_sizes = partial(own_data, __file__, "sizes.yaml")
 STROKE = "0.104 rad"  # Stroke to either side of rest, unless given
 _PRELOAD = (1.15, 0.216, 0.5)
 """Least preload angle over the stroke; its start and its largest value beyond the stroke [rad]."""
@@ -174,11 +166,6 @@ def _stiffness(text: str) -> tuple[float, float]:
     return low, high
 
 
-@cache
-def _sizes() -> dict[str, Any]:
-    return dict(plain_data(files("tvimdesign.study").joinpath("sizes.yaml").read_text(encoding="utf-8")))
-
-
 def diameters() -> dict[str, float]:
     """Return the diameter [m] that each set of hardware suits."""
     return {name: parse_quantity(entry["diameter"], "mm") for name, entry in _sizes()["sets"].items()}
@@ -193,7 +180,7 @@ def hardware_by_fit(task: JointTask) -> list[str]:
 def records_of(hardware: str) -> set[str]:
     """Return the names that a set of hardware gives values, without those that all sets share."""
     entry, shared = _sizes()["sets"][hardware], _sizes()["shared"]
-    return set(re.findall(r"(?m)^(\w+):", f"{shared[entry['springs']]}{entry['module']}"))
+    return set(re.findall(_NAMES, f"{shared[entry['springs']]}{entry['module']}"))
 
 
 def study_text(
@@ -205,96 +192,36 @@ def study_text(
     """
     entry, shared, over = _sizes()["sets"][hardware], _sizes()["shared"], _over(task)
     low, high = task.stiffness
-    made = "below spreaders" if over else "made to the layer's outline"
-    heater = f"peltier_module: {_heater(task)}   # {made}; its driver sets its volts; the air cools\n"
-    band = min(max(high / low, _BANDS[0]), _CAUTIOUS_BAND if task.cautious else _BANDS[1])
     caution = shared["cautious"] if task.cautious and entry["springs"] == "adjusted" and not over else ""
-    soft = f"softening_band: {band:.3g}   # soft within the stiffness that is asked, not only near it\n"
-    about = "to either side of rest" + ("; assumed, as --stroke was not given" if task.assumes_stroke else "")
-    stroke = f"stroke: {task.stroke:.4g} rad  # {about}\n"
-    cut_out = _CUT_OUT if task.diameter > _ROOMY * diameters()[hardware] else ""
-    stiff = "" if math.isinf(task.stiff_time) else f'  stiffening_time: "<= {task.stiff_time:.4g} s"\n'
-    supplied = "" if math.isinf(task.current) else f'  peak_current: "<= {task.current:.4g} A"\n'
-    process = f"process: {task.process}\n" if task.process else ""
-    module = _last_of_each(
-        f"{stroke}{shared['common']}{caution}{cut_out}{soft}{heater}{shared[entry['springs']]}{entry['module']}"
-        f"{process}{over.get('module', '')}"
-    )
+    template = own_template(__file__, "sized.yaml.jinja", last_of_each=_last_of_each, mm=_mm, digits=_digits)
+    text: str = template.render(
+        task=task, name=name, mode=SIZED_MODE, schema=SCHEMA_FILE, entry=entry, shared=shared, over=over,
+        caution=caution, named=[*re.findall(_NAMES, caution), "softening_band", "plausible"], heater=_heater(task),
+        limitless=math.inf,
+        band=min(max(high / low, _BANDS[0]), _CAUTIOUS_BAND if task.cautious else _BANDS[1]),
+        roomy=task.diameter > _ROOMY * diameters()[hardware], ranges=_vary(task, widen, entry),
+        tolerances=_last_of_each(f"{_sizes()['tolerances'][entry['springs']]}\n{over.get('tolerances', '')}"),
+    )  # fmt: skip
     if record:
         choice, other = record
-        module = re.sub(
-            rf"(?m)^  {choice}: (\S+).*$", rf"  {choice}: {other}   # in place of \1: limits conflict", module
-        )
-    tolerances = _last_of_each("\n".join([_sizes()["tolerances"][entry["springs"]], over.get("tolerances", "")]))
-    title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft within {task.time:.4g} s"
-    return f"""# {title}. Written by `tvimdesign size`.
-# {_caution(task, caution)}
-#   tvimdesign run FILE        optimises it again after a change
-#   tvimdesign explore FILE    shows it in a browser, with sliders
-# yaml-language-server: $schema={SCHEMA_FILE}
-tvimdesign: 1
-name: {name}
-mode: {SIZED_MODE}
-
-module:
-{module}
-vary:                                  # ranges that follow the diameter
-{_vary(task, widen, entry)}
-require:
-  joint_stiffness@hot: [">= {low:.4g} N.m/rad", "<= {high:.4g} N.m/rad"]   # without damping; as heating stops, too
-  holding_torque: ">= {task.torque:.4g} N.m"
-  envelope_diameter: "<= {_mm(task.diameter)}"
-  response_time: "<= {task.time:.4g} s"
-{stiff}  peak_voltage: "<= {task.voltage:.4g} V"
-{supplied}  current_margin: ">= 0 A"             # of the heater
-  heater_temperature_margin: ">= 5 K"
-  structure_temperature_margin: ">= 0 K"
-  friction_share: "<= {task.friction:.1f}"             # over the springs' torque at full stroke
-  spring_fatigue_safety: ">= 1.2"      # for 1e6 full strokes
-  layer_edge_safety: ">= 1"            # the bond at the layer's edges
-  pin_foot_safety: ">= 1"              # the pins' fillets
-
-minimize: module_mass
-
-operating_points:
-  cold: {{temperature: 30 degC, frequency: 1 Hz}}
-  hot: {{temperature: 80 degC, frequency: 1 Hz}}
-
-tolerances:
-  standard: true
-{tolerances}
-robust: {{yield: 95 %{", plausible: 79 %" if task.cautious else ""}}}
-
-solver: {{starts: 1, seed: 1}}
-"""
-
-
-def _caution(task: JointTask, values: str) -> str:
-    """Return what gives room for the assumed values, in words."""
-    if not task.cautious:
-        return "No room for assumed values: `size` found no hardware with it."
-    named = ", ".join([*re.findall(r"(?m)^(\w+):", values), "softening_band", "plausible"])
-    return f"Room for assumed values: {named}."
+        text = re.sub(rf"(?m)^  {choice}: (\S+).*$", rf"  {choice}: {other}   # in place of \1: limits conflict", text)
+    return f"{text}\n"
 
 
 _ROOMY = 0.93
 """Share of the diameter that hardware suits from which the longer cut-out, of a fitting temperature, has room."""
-_CUT_OUT = "heater_fuse: microtemp_g4a         # a thermal fuse of 104 degC, below what the structure bears\n"
+_NAMES = r"(?m)^(\w+):"  # Names that lines of a study's section give values
 
 
 def _inputs() -> dict[str, Input]:
     return {row.name: row for row in table_for(SIZED_MODE).inputs}
 
 
-def _indented(lines: str) -> str:
-    return "".join(f"  {line}\n" for line in lines.splitlines())
-
-
 def _last_of_each(lines: str, without: str = "") -> str:
     """Return indented lines without one, and those that a later one of the same name replaces."""
-    named = {line.partition(":")[0]: line for line in lines.splitlines()}
+    named = {line.partition(":")[0]: line for line in lines.splitlines() if line}
     named.pop(without, None)
-    return _indented("\n".join(named.values()))
+    return "".join(f"  {line}\n" for line in named.values())
 
 
 def _vary(task: JointTask, widen: float, entry: dict[str, str]) -> str:
@@ -308,7 +235,7 @@ def _vary(task: JointTask, widen: float, entry: dict[str, str]) -> str:
     )
     bought = f"catalog: {entry.get('wires', 'metric')}, " if widen == 1.0 else ""
     lines = [f"wire_diameter: {{{bought}from: {thin}, to: {thick}}}"]
-    for name, factors in _SCALED.items():
+    for name, factors in _sizes()["scaled"].items():
         least, start, most = (
             _mm(min(max(wider * factor * task.diameter, beyond * rows[name].lower), rows[name].upper))
             for factor, beyond, wider in zip(factors, (1.0, 1.1, 1.2), reach, strict=True)
@@ -342,3 +269,7 @@ def _heater(task: JointTask) -> str:
 
 def _mm(length: float) -> str:
     return f"{from_si(length, 'mm'):.3g} mm"
+
+
+def _digits(value: float, digits: int = 4) -> str:
+    return f"{value:.{digits}g}"
