@@ -32,7 +32,7 @@ def test_cell_at_the_optimum_is_the_optimum(optimised, result):
     assert result["pcl_thickness"].magnitude == pytest.approx(0.6, rel=1e-6)  # the end of its range, which is active
     # Mass and volume trade along a flat valley there, so what is minimised says whether it is the same optimum.
     reference, weights = result.design.solution["reference"], result.design.study["minimize"]
-    first = dict(zip(optimised.plan.columns, optimised.stored_cells[0].answer.values, strict=True))
+    first = dict(zip(optimised.plan.columns, optimised.stored_cells[0].values, strict=True))
     cell, alone = (
         sum(w * values[n] / reference[n] for n, w in weights.items()) for values in (first, result.design.values)
     )

@@ -16,7 +16,7 @@ import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.sweep_study import joined
 from tvimdesign.study.tree import tree_of_file
-from tvimdesign.sweep.plan import Cell, SweptStudy, plan_of
+from tvimdesign.sweep.plan import Cell, plan_of
 from tvimdesign.sweep.pool import Pool
 from tvimdesign.sweep.run_sweep import Executor, run_sweep
 from tvimdesign.sweep.shards import Shards
@@ -129,9 +129,9 @@ def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(study_fi
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{ROOT}")
     sweep_plan = plan(study_file, "sweep.over.pcl_inner_radius=[20 mm]")
     cells = [Cell(f"{number:032x}", sweep_plan.points.texts(number)) for number in range(3)]
-    spent = Pool(SweptStudy.of(sweep_plan), tmp_path, 1).answer(cells, lambda _: None)
+    spent = Pool(sweep_plan, tmp_path, 1).answer(cells, lambda _: None)
     shards = Shards(tmp_path, sweep_plan.columns)
-    stored_answers = [stored.answer for stored in shards.cells(cell.key for cell in cells)]
+    stored_answers = list(shards.cells(cell.key for cell in cells))
     assert [stored.status for stored in stored_answers] == ["evaluated", "evaluated", "crashed"]
     assert stored_answers[2].reason.startswith("its process ended with code -9")
     assert (spent.cells, spent.died) == (3, 2)

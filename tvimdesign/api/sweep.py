@@ -20,9 +20,9 @@ from tvimdesign.report.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
 from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.plan import Cell as AskedCell
-from tvimdesign.sweep.plan import CellAnswer, SweepPlan, SweptStudy, plan_of
+from tvimdesign.sweep.plan import CellAnswer, SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import CellKeys, Executor
-from tvimdesign.sweep.shards import Shards, StoredCell, columns, status_values
+from tvimdesign.sweep.shards import Shards, columns, status_values
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -57,7 +57,7 @@ class Sweep(Generic[StudyT]):
     """Every cell in its order: of a grid the last axis changes fastest."""
 
     plan: SweepPlan
-    stored_cells: Sequence[StoredCell]
+    stored_cells: Sequence[CellAnswer]
     """What each cell came to, in SI."""
     study_of: Callable[[StudyTree], StudyT]
     """Makes the study of a cell."""
@@ -67,7 +67,7 @@ class Sweep(Generic[StudyT]):
     @property
     def warm_solves(self) -> int:
         """Return how many cells were optimised from the study's own optimum alone."""
-        return sum(cell.answer.warm for cell in self.stored_cells)
+        return sum(answer.warm for answer in self.stored_cells)
 
     def table(self, *names: str, verdicts: bool = False) -> pd.DataFrame:
         """Return a row a cell: where it stands, how it ended, and the named outputs; else those the study asks about.
@@ -96,11 +96,9 @@ class Sweep(Generic[StudyT]):
         return frame
 
     def _row(self, number: int, heads: Sequence[str], wanted: Sequence[str], places: Mapping[str, int]) -> Any:
-        answer = self.stored_cells[number].answer
+        answer = self.stored_cells[number]
         values = tuple(answer.values[places[name]] for name in wanted)
-        values_shown = status_values(
-            StoredCell(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted]
-        )
+        values_shown = status_values(answer._replace(values=values), [self.plan.unit(name) for name in wanted])
         numbers = (math.nan if value is None else value for value in (*self.plan.axis_values(number), *values_shown))
         return dict(zip([*heads, *wanted], numbers, strict=True))
 
@@ -135,13 +133,13 @@ class Sweep(Generic[StudyT]):
 
     @cached_property
     def _answers(self) -> CellAnswers:
-        return CellAnswers(SweptStudy.of(self.plan))
+        return CellAnswers(self.plan)
 
     def __len__(self) -> int:
         return len(self.stored_cells)
 
     def __getitem__(self, number: int) -> Cell[StudyT]:
-        answer, texts = self.stored_cells[number].answer, self.plan.points.texts(range(len(self))[number])
+        answer, texts = self.stored_cells[number], self.plan.points.texts(range(len(self))[number])
         names = [axis.name for axis in self.plan.axes]
         return Cell(dict(zip(names, texts, strict=True)), answer.status, answer.reason, self, texts)
 
@@ -180,13 +178,13 @@ def swept(
         return Sweep(plan, list(Shards(Path(out), plan.columns).cells(every)), study_of, Path(out))
 
 
-def _here(plan: SweepPlan, say: Any) -> list[StoredCell]:
-    answers, cells = CellAnswers(SweptStudy.of(plan)), list[StoredCell]()
+def _here(plan: SweepPlan, say: Any) -> list[CellAnswer]:
+    answers, cells = CellAnswers(plan), list[CellAnswer]()
     known: dict[tuple[str, ...], CellAnswer] = {}
     for number in range(plan.count):
         say(f"cell {number + 1} of {plan.count}")
         texts = plan.points.texts(number)
         if texts not in known:
             known[texts] = answers.answer(AskedCell("", texts))
-        cells.append(StoredCell(known[texts], 0.0))
+        cells.append(known[texts])
     return cells

@@ -13,7 +13,7 @@ from tvimdesign.solve.nlp.constraints import constraints_of, in_words, refuse_im
 from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import exceeded, is_met, sorted_by_acceptance
 from tvimdesign.study import Study, drawn, given, read_tree
-from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy, Texts, set_in
+from tvimdesign.sweep.plan import Cell, CellAnswer, SweepPlan, Texts, set_in
 
 MOST_KEPT = 8  # Problems that stay: cells of one kind mostly follow one another
 _LONGEST_REASON = 300  # Letters of a reason at most
@@ -22,16 +22,16 @@ _LONGEST_REASON = 300  # Letters of a reason at most
 class CellAnswers:
     """Answers the cells of a sweep."""
 
-    def __init__(self, job: SweptStudy) -> None:
-        self._job = job
+    def __init__(self, plan: SweepPlan) -> None:
+        self._plan = plan
         self._searches: OrderedDict[Texts, AnchoredSearch] = OrderedDict()
 
     def answer(self, cell: Cell) -> CellAnswer:
         """Evaluate or optimise a cell; one that has no design, or is none, says so."""
         try:
-            study = read_tree(set_in(self._job.tree, self._job.names, cell.texts))
+            study = read_tree(self._plan.cell_tree(cell.texts))
             refuse_impossible(study)
-            return self._evaluated(study) if self._job.evaluate else self._optimised(study, cell.texts)
+            return self._evaluated(study) if self._plan.task == "evaluate" else self._optimised(study, cell.texts)
         except InfeasibleError as error:
             return self._nothing("infeasible", error)
         except InputError as error:
@@ -41,12 +41,12 @@ class CellAnswers:
 
     def search_of(self, texts: Texts) -> AnchoredSearch:
         """Return the search for the optimum of a cell: it starts at the optimum for the cell's words."""
-        words = tuple("" if number else text for text, number in zip(texts, self._job.numbers, strict=True))
+        words = tuple("" if number else text for text, number in zip(texts, self._plan.numbers, strict=True))
         if words not in self._searches:
-            named = [(name, text) for name, text in zip(self._job.names, words, strict=True) if text]
-            followed = [name for name, number in zip(self._job.names, self._job.numbers, strict=True) if number]
-            tree = set_in(self._job.tree, [name for name, _ in named], [text for _, text in named])
-            self._searches[words] = AnchoredSearch(read_tree(tree), followed, read_tree(self._job.tree))
+            named = [(name, text) for name, text in zip(self._plan.names, words, strict=True) if text]
+            followed = [name for name, number in zip(self._plan.names, self._plan.numbers, strict=True) if number]
+            tree = set_in(self._plan.tree, [name for name, _ in named], [text for _, text in named])
+            self._searches[words] = AnchoredSearch(read_tree(tree), followed, read_tree(self._plan.tree))
             if len(self._searches) > MOST_KEPT:
                 self._searches.popitem(last=False)
         self._searches.move_to_end(words)
@@ -87,11 +87,11 @@ class CellAnswers:
             status=status,
             reason=_short("; ".join(f"violates {in_words(limit, study.table)}" for limit in violated)),
             violated=len(violated), margin=_number(min(margins, default=math.nan)),
-            values=tuple(_value(name, study, values, chosen) for name in self._job.columns),
+            values=tuple(_value(name, study, values, chosen) for name in self._plan.columns),
         )  # fmt: skip
 
     def _nothing(self, status: str, error: TvimError) -> CellAnswer:
-        return CellAnswer(status, _short(str(error)), None, None, (None,) * len(self._job.columns))
+        return CellAnswer(status, _short(str(error)), None, None, (None,) * len(self._plan.columns))
 
 
 def _value(name: str, study: Study, values: dict[str, float], chosen: dict[str, Any]) -> float | str | None:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, NamedTuple, Self
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -131,9 +131,9 @@ ALWAYS = ("module_mass", "envelope_diameter", "response_time")
 
 @dataclass(frozen=True)
 class SweepPlan:
-    """Plan of a sweep, cell by cell."""
+    """Plan of a sweep, cell by cell; it can be pickled."""
 
-    tree: StudyTree  # The study without `sweep` and `front`
+    tree: StudyTree  # The study without `sweep` and `front`; its folder is a whole path, as workers may start elsewhere
     study: Study
     block: SweepBlock
     written: StudyTree  # As it was written, its sweep included
@@ -159,6 +159,16 @@ class SweepPlan:
         return read_tree(self.cell_tree(self.points.texts(0)))
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """The settings of each cell, as `--set` takes them."""
+        return tuple(axis.name for axis in self.axes)
+
+    @property
+    def numbers(self) -> tuple[bool, ...]:
+        """Which of the settings a search can follow from another cell's optimum."""
+        return tuple(axis.number for axis in self.axes)
+
+    @property
     def task(self) -> Literal["evaluate", "optimize"]:
         """Return what is done in each cell."""
         return "optimize" if self.first.task == "optimize" and self.block.task != "evaluate" else "evaluate"
@@ -169,7 +179,7 @@ class SweepPlan:
 
     def cell_tree(self, texts: Texts) -> StudyTree:
         """Return the study of a cell, as it would be written."""
-        return set_in(self.tree, [axis.name for axis in self.axes], texts)
+        return set_in(self.tree, self.names, texts)
 
     @cached_property
     def columns(self) -> tuple[str, ...]:
@@ -223,7 +233,8 @@ def plan_of(tree: StudyTree) -> SweepPlan:
         raise InputError(
             f"require: {listed}: a sweep simulates no duty and no controller; leave it out, or `run` a cell"
         )
-    plan = SweepPlan(without_section(without_section(tree, "sweep"), "front"), study, block, tree)
+    cells_tree = replace(without_section(without_section(tree, "sweep"), "front"), folder=tree.folder.resolve())
+    plan = SweepPlan(cells_tree, study, block, tree)
     if plan.count > block.most:
         raise InputError(
             f"{tree.file}: sweep: {plan.count} cells; the limit is {block.most}; take fewer values on an axis, sample "
@@ -280,23 +291,3 @@ class CellAnswer(NamedTuple):
     values: tuple[float | str | None, ...]
     """SI, in the order of the columns; words of what is chosen; None where there is none."""
     warm: bool = False  # True if the search began at another cell's optimum and found this one's
-
-
-@dataclass(frozen=True)
-class SweptStudy:
-    """A study, and what is set in each of its cells; it can be pickled."""
-
-    tree: StudyTree
-    names: tuple[str, ...]  # Settings of each cell, as `--set` takes it
-    numbers: tuple[bool, ...]  # Which of them a search can follow from another cell's optimum
-    columns: tuple[str, ...]
-    evaluate: bool
-
-    @classmethod
-    def of(cls, plan: SweepPlan) -> Self:
-        """Return the work of a plan; its folder is a whole path, since a worker may start in another one."""
-        axes = plan.axes
-        return cls(
-            replace(plan.tree, folder=plan.tree.folder.resolve()), tuple(axis.name for axis in axes),
-            tuple(axis.number for axis in axes), plan.columns, plan.task == "evaluate",
-        )  # fmt: skip

@@ -27,7 +27,7 @@ from tvimdesign.base.child_process import follow_parent, line_writer, read_lines
 from tvimdesign.base.environment import NAMES
 from tvimdesign.base.errors import OutputError, TvimError
 from tvimdesign.base.processes import last_line
-from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy
+from tvimdesign.sweep.plan import Cell, CellAnswer, SweepPlan
 from tvimdesign.sweep.shards import Shards, ShardWriter
 
 CHUNK = 0.5  # Seconds that a chunk is to take
@@ -37,10 +37,10 @@ MOST = 1000  # Cells in one
 class CellQueue:
     """The cells that are left, by kind: a worker stays with the kind it has compiled a module or a problem for."""
 
-    def __init__(self, cells: Iterable[Cell], job: SweptStudy, workers: int) -> None:
+    def __init__(self, cells: Iterable[Cell], plan: SweepPlan, workers: int) -> None:
         """Sort the cells by the words they are set to."""
         self._groups: dict[Hashable, deque[Cell]] = {}
-        self._numbers, self._workers = job.numbers, max(workers, 1)
+        self._numbers, self._workers = plan.numbers, max(workers, 1)
         self._at: dict[int, Hashable] = {}
         self._alone: set[str] = set()
         self._seconds = 0.0
@@ -125,8 +125,8 @@ class _Worker:
 class Pool:
     """Some worker processes on one job, which keep their cells in shards of a folder."""
 
-    def __init__(self, job: SweptStudy, folder: Path, workers: int) -> None:
-        self._job, self._folder, self._count = job, folder, workers
+    def __init__(self, plan: SweepPlan, folder: Path, workers: int) -> None:
+        self._plan, self._folder, self._count = plan, folder, workers
         self._lines: queue.Queue[tuple[int, str | None]] = queue.Queue()
         self._workers: dict[int, _Worker] = {}
         self._started = 0
@@ -137,7 +137,7 @@ class Pool:
     def answer(self, cells: Sequence[Cell], heard: Heard) -> Usage:
         """Answer every cell; `heard` is called after each chunk. Raises OutputError, TvimError if workers fail."""
         with tempfile.TemporaryFile() as self._errors:
-            return self._answer(CellQueue(cells, self._job, self._count), min(self._count, len(cells)), heard)
+            return self._answer(CellQueue(cells, self._plan, self._count), min(self._count, len(cells)), heard)
 
     def _answer(self, left: CellQueue, processes: int, heard: Heard) -> Usage:
         spent = Usage()
@@ -173,7 +173,7 @@ class Pool:
         )  # fmt: skip
         read_lines(process, lambda line: self._lines.put((number, line)))
         worker = self._workers[number] = _Worker(number, process)
-        job = pickle.dumps((self._job, str(self._folder)))
+        job = pickle.dumps((self._plan, str(self._folder)))
         self._tell(worker, base64.b64encode(job).decode())
         self._feed(worker, left)
 
@@ -208,7 +208,7 @@ class Pool:
         spent.died += 1
         if not spent.cells and spent.died > self._count * MOST_DEATHS:
             raise TvimError(f"no worker process comes to its first cell: the last ended with code {code}: {complaint}")
-        shards = Shards(self._folder, self._job.columns)
+        shards = Shards(self._folder, self._plan.columns)
         again = [cell for cell in worker.chunk if cell.key not in shards]
         spent.cells += len(worker.chunk) - len(again)
         if len(again) == 1:
@@ -223,9 +223,9 @@ class Pool:
 
     def _give_up(self, cell: Cell, code: int, complaint: str) -> None:
         """Keep a cell that ends whoever computes it."""
-        nothing = (None,) * len(self._job.columns)
+        nothing = (None,) * len(self._plan.columns)
         reason = f"its process ended with code {code}" + (f": {complaint}" if complaint else "")
-        with ShardWriter(self._folder, self._job.columns) as shard:
+        with ShardWriter(self._folder, self._plan.columns) as shard:
             shard.append([(cell.key, CellAnswer("crashed", reason, None, None, nothing), 0.0)])
 
 
@@ -237,9 +237,9 @@ def main() -> int:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     os.environ.update(dict.fromkeys(NAMES, "1"))  # there is a process for each core
     say = line_writer()
-    job, folder = pickle.loads(base64.b64decode(sys.stdin.readline()))
-    answers = CellAnswers(job)
-    with ShardWriter(Path(folder), job.columns) as shard:
+    plan, folder = pickle.loads(base64.b64decode(sys.stdin.readline()))
+    answers = CellAnswers(plan)
+    with ShardWriter(Path(folder), plan.columns) as shard:
         for line in sys.stdin:
             began, spent = time.perf_counter(), time.process_time()
             try:

@@ -12,7 +12,7 @@ from tvimdesign import __version__
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.study import Options, Study, given, read_tree
-from tvimdesign.sweep.plan import Cell, SweepPlan, SweptStudy, Texts, axis_value
+from tvimdesign.sweep.plan import Cell, SweepPlan, Texts, axis_value
 from tvimdesign.sweep.pool import Pool, Usage
 from tvimdesign.sweep.shards import Shards
 
@@ -63,25 +63,25 @@ def run_sweep(plan: SweepPlan, folder: Path, executor: Executor, say: Say) -> Sw
     """Compute every cell of this part that the store in the folder does not have. Raises OutputError, TvimError."""
     say("looking for cells that are there")
     cell_keys, points = CellKeys(plan), plan.points
-    work, keys = SweptStudy.of(plan), [cell_keys.key(points.texts(number)) for number in range(plan.count)]
+    keys = [cell_keys.key(points.texts(number)) for number in range(plan.count)]
     first, parts = executor.part
-    known, own = Shards(folder, work.columns), range(first - 1, len(keys), parts)
+    known, own = Shards(folder, plan.columns), range(first - 1, len(keys), parts)
     waiting = {keys[number]: Cell(keys[number], points.texts(number)) for number in own if keys[number] not in known}
     reused = len(own) - sum(keys[number] in waiting for number in own)
     spent, there = Usage(), known
     if waiting:
-        spent = _answered(work, list(waiting.values()), folder, executor, say)
-        there = Shards(folder, work.columns)
+        spent = _answered(plan, list(waiting.values()), folder, executor, say)
+        there = Shards(folder, plan.columns)
     missing = sum(key not in there for key in keys)
     return SweepDone(len(keys), reused, len(own) - reused, missing, spent, () if missing else tuple(keys))
 
 
-def _answered(work: SweptStudy, cells: list[Cell], folder: Path, executor: Executor, say: Say) -> Usage:
+def _answered(plan: SweepPlan, cells: list[Cell], folder: Path, executor: Executor, say: Say) -> Usage:
     def heard(spent: Usage) -> None:
         say(f"cell {min(spent.cells + 1, len(cells))} of {len(cells)}")
 
     heard(Usage())
-    return Pool(work, folder, executor.workers or os.cpu_count() or 1).answer(cells, heard)
+    return Pool(plan, folder, executor.workers or os.cpu_count() or 1).answer(cells, heard)
 
 
 _NOT_OF_THE_DESIGN = {"name", "description", "front", "write", "catalog_folder"}

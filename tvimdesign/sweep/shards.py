@@ -12,7 +12,7 @@ import sqlite3
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Any, NamedTuple, Self
+from typing import NamedTuple, Self
 
 from tvimdesign import __version__
 from tvimdesign.base.atomic_files import TABLE_ENCODING, make_folder, whole_file
@@ -83,13 +83,6 @@ class ShardWriter:
             raise
 
 
-class StoredCell(NamedTuple):
-    """One cell as a shard has it."""
-
-    answer: CellAnswer
-    seconds: float
-
-
 class Shards:
     """All cells that the shards of a folder hold, by key; only where they stand is kept in memory."""
 
@@ -106,14 +99,16 @@ class Shards:
     def __len__(self) -> int:
         return len(self._places)
 
-    def cells(self, keys: Iterator[str]) -> Iterator[StoredCell]:
-        """Yield the cells of some keys, in their order. Raises KeyError for one that is not there."""
+    def cells(self, keys: Iterator[str]) -> Iterator[CellAnswer]:
+        """Yield the answers of some keys, in their order. Raises KeyError for one that is not there."""
         opened = [path.open("rb") for path, _ in self._files]
         try:
             for key in keys:
                 file, place = self._places[key]
                 opened[file].seek(place)
-                yield _stored_cell(json.loads(opened[file].readline()), self._files[file][1])
+                _, status, reason, violated, margin, values, warm, _ = json.loads(opened[file].readline())
+                own = tuple(values[i] for i in self._files[file][1])
+                yield CellAnswer(status, reason, violated, margin, own, bool(warm))
         finally:
             for stream in opened:
                 stream.close()
@@ -144,13 +139,6 @@ def _columns_of(head: bytes) -> list[str] | None:
     except ValueError:
         return None
     return header.get("columns") if isinstance(header, dict) else None
-
-
-def _stored_cell(line: list[Any], places: Sequence[int]) -> StoredCell:
-    _, status, reason, violated, margin, values, warm, seconds = line
-    return StoredCell(
-        CellAnswer(status, reason, violated, margin, tuple(values[i] for i in places), bool(warm)), seconds
-    )
 
 
 Value = float | int | str | None
@@ -200,13 +188,12 @@ def _about(plan: SweepPlan, name: str) -> str:
 def rows(plan: SweepPlan, keys: Iterable[str], shards: Shards) -> Iterator[list[Value]]:
     """Yield every cell as a row of the table, in order, numbers in the units of the columns."""
     units = [plan.unit(name) for name in plan.columns]
-    for number, cell in enumerate(shards.cells(iter(keys))):
-        yield [number + 1, *plan.axis_values(number), *status_values(cell, units)]
+    for number, answer in enumerate(shards.cells(iter(keys))):
+        yield [number + 1, *plan.axis_values(number), *status_values(answer, units)]
 
 
-def status_values(cell: StoredCell, units: Sequence[str]) -> list[Value]:
+def status_values(answer: CellAnswer, units: Sequence[str]) -> list[Value]:
     """Return what a cell came to, in the units of the columns."""
-    answer = cell.answer
     values = [_in_unit(value, unit) for value, unit in zip(answer.values, units, strict=True)]
     margin = None if answer.margin is None else rounded(answer.margin)
     return [answer.status, answer.violated, margin, answer.reason, *values]
