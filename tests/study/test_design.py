@@ -17,8 +17,9 @@ from tvimdesign.base.errors import CatalogError, InputError, TvimError
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.study import Study, StudyError, given, read_study, read_study_text, read_tree
-from tvimdesign.study.design import JsonPlaces, design_json, read_design, write_design
+from tvimdesign.study.design import design_json, json_root, read_design, write_design
 from tvimdesign.study.sections import written
+from tvimdesign.study.text.yaml_text import place_of
 from tvimdesign.study.tree import tree_of_values
 
 
@@ -163,23 +164,22 @@ def test_places_are_those_of_yaml(indent):
     plain: dict[str, Any] = json.loads(design_json(shipped_design("paper_compression")))
     plain["name"] = 'a "quote", a \\, {[ and é'
     text = json.dumps(plain, indent=indent, ensure_ascii=False)
-    places = JsonPlaces(text.encode())
+    root = json_root(text.encode())
     loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     every = [item for item in marks(yaml.compose(text, Loader=loader)) if "@" not in item[0]]
     for path, line, column in random.Random(1).sample(every, 30):
-        assert (places.at(path).line, places.at(path).column) == (line, column)
+        assert (place_of(root, path).line, place_of(root, path).column) == (line, column)
 
 
 def test_a_step_that_is_not_there_is_where_the_last_one_is():
-    places = JsonPlaces(b'{"a": [1,\n {"b": 2}], "c": 3}')
-    assert [(places.at(path).line, places.at(path).column) for path in ("a.1.b.x", "a.7", "c.d", "", "z")] == [
-        (2, 3), (1, 2), (2, 13), (1, 1), (1, 1),
-    ]  # fmt: skip
+    root = json_root(b'{"a": [1,\n {"b": 2}], "c": 3}')
+    places = [place_of(root, path) for path in ("a.1.b.x", "a.7", "c.d", "", "z")]
+    assert [(place.line, place.column) for place in places] == [(2, 3), (1, 2), (2, 13), (1, 1), (1, 1)]
 
 
 @pytest.mark.parametrize("data", [b"", b"{", b"\xff\xfe\x00", b"[" * 5000])
 def test_of_a_broken_file_no_line_is_known(data):
-    assert JsonPlaces(data).at("a").line == 0
+    assert place_of(json_root(data), "a").line == 0
 
 
 Read = Callable[..., Study]

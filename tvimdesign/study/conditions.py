@@ -12,6 +12,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import yaml
+
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Choice, Input
@@ -19,37 +21,12 @@ from tvimdesign.study.resolve import given
 from tvimdesign.study.study import Range, Requirement, Robust, Study, Vary
 from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, printable, read_text
 from tvimdesign.study.text.values import ROUNDING
-from tvimdesign.study.text.yaml_text import Mapping, compose
+from tvimdesign.study.text.yaml_text import LOADER, place_of
 
 _OWN_GROUPS = ("Layout", "Springs", "Cost")
 _OWN_CHOICES = ("spring_material", "heater_fuse")  # a fuse goes by its design's temperatures
 _ASKED_OF_THE_LAYOUT = ("stroke",)
 """Inputs that stand with the layout and are no dimension of it: what the joint must do."""
-
-
-class Places:
-    """The places of a study's keys; raises what `read_study` raises where the file is no study."""
-
-    def __init__(self, path: Path) -> None:
-        """Read the file once more, for its lines and columns alone."""
-        self.file = printable(path)
-        problems = Mistakes(self.file)
-        self._root = compose(read_text(path, problems), problems)
-
-    def at(self, path: str) -> At:
-        """Place of a key such as `module.current`; where it is not written, of the section it would stand in."""
-        node, place = self._root, At(self._root.line, self._root.column)
-        for word in path.split("."):
-            if not isinstance(node, Mapping) or word not in node.entries:
-                break
-            key, node = node.entries[word]
-            place = At(key.line, key.column)
-        return place
-
-    def text(self, path: str) -> str:
-        """Return the place of a key as `file:line:column`."""
-        at = self.at(path)
-        return f"{self.file}:{at.line}:{at.column}"
 
 
 @dataclass(frozen=True)
@@ -59,10 +36,23 @@ class Case:
     path: Path
     study: Study
 
+    @property
+    def file(self) -> str:
+        """Its file, as messages name it."""
+        return printable(self.path)
+
     @cached_property
-    def places(self) -> Places:
-        """Places of its keys."""
-        return Places(self.path)
+    def _root(self) -> Any:
+        return yaml.compose(read_text(self.path, Mistakes(self.file)), Loader=LOADER)
+
+    def at(self, path: str) -> At:
+        """Return the place of a key such as `module.current`, or of the section that it would stand in."""
+        return place_of(self._root, path)
+
+    def place(self, path: str) -> str:
+        """Return that place as `file:line:column`."""
+        at = self.at(path)
+        return f"{self.file}:{at.line}:{at.column}"
 
     @cached_property
     def values(self) -> dict[str, Any]:
@@ -98,8 +88,8 @@ def differences(cases: Sequence[Case]) -> list[Mistake]:
 
 
 def _problem(of: Case, path: str, message: str, expected: str, hint: str = "") -> Mistake:
-    at = of.places.at(path)
-    return Mistake(of.places.file, at.line, at.column, path, message, expected, hint)
+    at = of.at(path)
+    return Mistake(of.file, at.line, at.column, path, message, expected, hint)
 
 
 def refuse_repeated(cases: Sequence[Case]) -> None:
@@ -107,7 +97,7 @@ def refuse_repeated(cases: Sequence[Case]) -> None:
     paths = [case.path.resolve() for case in cases]
     repeated = [case for i, case in enumerate(cases) if paths[i] in paths[:i]]
     if repeated:
-        raise StudyError([Mistake(case.places.file, 0, 0, "", "given twice", "different studies") for case in repeated])
+        raise StudyError([Mistake(case.file, 0, 0, "", "given twice", "different studies") for case in repeated])
 
 
 def _evaluated_only(cases: Sequence[Case]) -> Iterator[Mistake]:
@@ -115,7 +105,7 @@ def _evaluated_only(cases: Sequence[Case]) -> Iterator[Mistake]:
     optimised = [case for case in cases if case.study.vary]
     for case in cases:
         if optimised and not case.study.vary:
-            other = optimised[0].places.text("vary")
+            other = optimised[0].place("vary")
             yield _problem(
                 case, "vary", f"missing: this study is evaluated only, that of {other} is optimised",
                 "`vary` and `minimize` in every study or in none", "each is to be optimised for itself",
@@ -129,14 +119,12 @@ def _unequal_conditions(first: Case, other: Case) -> Iterator[Mistake]:
         row = first.study.table.by_name.get(name)
         if isinstance(row, Input) and row.record and row.record[0] in differing:
             continue  # another record, which is reported
-        message = f"{mine[name].words} here, {theirs[name].words} in {first.places.text(theirs[name].path)}"
+        message = f"{mine[name].words} here, {theirs[name].words} in {first.place(theirs[name].path)}"
         yield _problem(other, mine[name].path, message, "the same in every study that is compared")
     for case, lacking, names in ((first, other, theirs), (other, first, mine)):
         for point in dict.fromkeys(name.partition(".")[0] for name in names if "." in name):
             if point not in lacking.study.operating_points:
-                message = (
-                    f"there is no operating point {point} here, as in {case.places.text(f'operating_points.{point}')}"
-                )
+                message = f"there is no operating point {point} here, as in {case.place(f'operating_points.{point}')}"
                 yield _problem(lacking, "operating_points", message, "the same operating points in every study")
 
 
@@ -221,14 +209,14 @@ def _unequal_requirements(cases: Sequence[Case], other: Case) -> Iterator[Mistak
         theirs, mine = (_limits_on(common, case) for case in (earlier, other))
         for key in dict.fromkeys([*mine, *theirs]):
             if key not in mine:
-                place = earlier.places.text(f"require.{key[0]}")
+                place = earlier.place(f"require.{key[0]}")
                 message = f"{_limit(other, theirs[key])} is not required here, and is in {place}"
                 yield _problem(other, "require", message, _ALIKE, f"add {_line(theirs[key])}")
             elif key not in theirs:
-                message = f"{_limit(other, mine[key])} is required here, and not in {earlier.places.text('require')}"
+                message = f"{_limit(other, mine[key])} is required here, and not in {earlier.place('require')}"
                 yield _problem(other, f"require.{key[0]}", message, _ALIKE, f"add {_line(mine[key])} there")
             elif not _same(mine[key].limit, theirs[key].limit):
-                place = earlier.places.text(f"require.{key[0]}")
+                place = earlier.place(f"require.{key[0]}")
                 message = f"{_limit(other, mine[key])} here, {_limit(other, theirs[key])} in {place}"
                 yield _problem(other, f"require.{key[0]}", message, _ALIKE)
 

@@ -3,8 +3,8 @@
 import json
 import math
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -24,7 +24,7 @@ from tvimdesign.study.sections import written
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.mistakes import At, Mistakes, StudyError, is_folder, ordinary_bytes, printable, quoted, step
 from tvimdesign.study.text.values import below, limits
-from tvimdesign.study.text.yaml_text import LOADER
+from tvimdesign.study.text.yaml_text import LOADER, place_of
 from tvimdesign.study.tree import tree_of_values
 
 MAX_BYTES = 10_000_000
@@ -277,35 +277,16 @@ def _stop(problems: Mistakes, data: bytes, version: object) -> None:
     if isinstance(version, str) and version != __version__:
         message = f"another version wrote it: {quoted(version)}, this is {__version__}"
         problems.add(_NOWHERE, "tvimdesign", message, hint=_AGAIN)
-    places = JsonPlaces(data)
-    located = ((mistake, places.at(mistake.path)) for mistake in problems.items)
+    root = json_root(data)
+    located = ((mistake, place_of(root, mistake.path)) for mistake in problems.items)
     problems.items = [replace(mistake, line=at.line, column=at.column) for mistake, at in located]
     problems.stop()
 
 
-class JsonPlaces:
-    """Lines and columns of the values in a JSON file, which is YAML too; a broken file has none."""
-
-    def __init__(self, data: bytes) -> None:
-        self._root: Any = None
-        try:
-            text = data.decode(json.detect_encoding(data), "surrogatepass")
-            json.loads(text)
-            self._root = yaml.compose(text, Loader=LOADER)
-        except (ValueError, RecursionError, yaml.YAMLError):
-            return
-
-    def at(self, path: str) -> At:
-        """Return the place of a path such as `study.module.current`, or of the last of its steps that exists."""
-        node = place = self._root
-        for name in re.findall(r"[^.\[\]]+", path):
-            if isinstance(node, yaml.MappingNode):
-                entries = {key.value: (key, value) for key, value in node.value}
-            elif isinstance(node, yaml.SequenceNode):
-                entries = {str(number): (item, item) for number, item in enumerate(node.value)}
-            else:
-                break
-            if name not in entries:
-                break
-            place, node = entries[name]
-        return At(place.start_mark.line + 1, place.start_mark.column + 1) if place else At(0, 0)
+def json_root(data: bytes) -> Any:
+    """Return the YAML node of a JSON file, which knows its lines; None of a broken file."""
+    with suppress(ValueError, RecursionError, yaml.YAMLError):
+        text = data.decode(json.detect_encoding(data), "surrogatepass")
+        json.loads(text)
+        return yaml.compose(text, Loader=LOADER)
+    return None

@@ -43,7 +43,7 @@ def compare_studies(
         raise InputError("compare takes results of finished runs alone, without studies, --points and --set")
     cases = labelled(_results(paths) if all(finished) else _studies(paths, settings), paths)
     texts = {label: _study_text(case, settings) for label, case in cases.items()}
-    of_file = {case.places.file: label for label, case in cases.items()}
+    of_file = {case.file: label for label, case in cases.items()}
     unequal = [f"{of_file[each.file]}, {each.path}: {each.message}" for each in differences([*cases.values()])]
     with Command(out, overwrite=overwrite, as_json=as_json) as command:
         answers_by_label = {label: empty_answer() for label in cases}

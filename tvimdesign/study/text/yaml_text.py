@@ -176,6 +176,22 @@ def _note_syntax(error: yaml.YAMLError, text: str, problems: Mistakes, fixed: At
     problems.add(fixed or place, "", f"not valid YAML ({complaint or 'unreadable'})", hint=hint)
 
 
+def place_of(root: Any, path: str) -> At:
+    """Return the place of a path such as `study.module.current` in a YAML node, or of its last step that exists."""
+    node = place = root
+    for name in re.findall(r"[^.\[\]]+", path):
+        if isinstance(node, yaml.MappingNode):
+            entries = {key.value: (key, value) for key, value in node.value}
+        elif isinstance(node, yaml.SequenceNode):
+            entries = {str(number): (item, item) for number, item in enumerate(node.value)}
+        else:
+            break
+        if name not in entries:
+            break
+        place, node = entries[name]
+    return At(place.start_mark.line + 1, place.start_mark.column + 1) if place else At(0, 0)
+
+
 # --- from nodes back to text ---
 
 _WIDTH = 120
