@@ -10,7 +10,7 @@ import pytest
 from comparable import COARSE, COMPRESSION, SHEAR, written
 from support import Command
 
-from tvimdesign.report.compare.compare_studies import StudyRequest, answers
+from tvimdesign.report.compare.compare_studies import answers
 
 PICTURES = {f"fronts.{ending}" for ending in ("png", "pdf", "svg")}
 
@@ -158,7 +158,7 @@ def test_process_that_dies_leaves_the_other(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(elsewhere))
     out.mkdir()
     beside: list[list[Path]] = []
-    studies = [StudyRequest("gone", tmp_path / "gone.yaml"), StudyRequest("there", path)]
+    studies = {"gone": tmp_path / "gone.yaml", "there": path}
     handed_over: list[tuple[str, dict[str, Any]]] = []
     answered = answers(
         studies, out, 2, lambda _: None, lambda: beside.append([*out.iterdir(), *elsewhere.iterdir()]),

@@ -10,7 +10,7 @@ from tvimdesign.base.units import from_si
 from tvimdesign.page.blocks import Cell, Drawn, Facts, Grid, Head, Page, Section
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import axis_label, number
-from tvimdesign.report.output.page_sections import number_cell
+from tvimdesign.report.output.page_sections import grid, number_cell
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, MASS, TORQUE, UNANSWERED
 from tvimdesign.study.atlas_studies import Atlas
@@ -58,17 +58,14 @@ def figure_data(plan: Atlas, cells: Sequence[AtlasCell]) -> dict[str, Any]:
                 "bands": [_band(cell) for cell in front],
             }
         )
-    densest = {
-        (cell.torque, cell.cycle): cell.density
-        for cell in sorted((cell for cell in cells if cell.status == OPTIMAL), key=lambda cell: cell.density)
-    }
+    modules = sorted((cell for cell in cells if cell.status == OPTIMAL), key=lambda cell: cell.density)
+    densest = {(cell.torque, cell.cycle): cell.density for cell in modules}
     density = [[densest.get((torque, cycle)) for cycle in plan.cycles] for torque in plan.torques]
     doubtful = {(cell.torque, cell.cycle) for cell in cells if cell.status == UNANSWERED} - densest.keys()
     places = [[plan.cycles.index(cycle), plan.torques.index(torque)] for torque, cycle in sorted(doubtful)]
-    map_data = {"torques": plan.torques, "cycles": plan.cycles, "density": density, "unanswered": places}
     return {
         "series": series,
-        "map": map_data,
+        "map": {"torques": plan.torques, "cycles": plan.cycles, "density": density, "unanswered": places},
         "caption": "Larger marks: more energy a cycle. Thin lines: intervals of assumed values. Grey: empty; ?: open.",
     }
 
@@ -102,10 +99,7 @@ def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, flo
     statuses = Counter(cell.status for cell in cells)
     answered = sum(count for status, count in statuses.items() if status != UNANSWERED)
     facts = [
-        (
-            "Torque, cycle",
-            f"{plan.torques[0]:g} to {plan.torques[-1]:g} N·m, {plan.cycles[0]:g} to {plan.cycles[-1]:g} s",
-        ),
+        ("Torque, cycle", f"{_ends(plan.torques)} N·m, {_ends(plan.cycles)} s"),
         ("Soft", f"at most {plan.softness:g} N·m/rad a newton metre of torque held"),
         ("Cells", f"{len(cells)}: {', '.join(f'{count} {status}' for status, count in statuses.items())}"),
         ("Families", f"{counts['families']:g}, {counts['computed']:g} computed now"),
@@ -120,6 +114,10 @@ def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, flo
     files = {"atlas.csv": "every cell", "atlas.png": "the figure", "atlas.svg": "for print", "atlas.pdf": "for print"}
     verdict = f"{number(100.0 * answered / len(cells))} % of the cells answered"
     return command.page("Atlas", "the lightest modules", verdict, [Facts(facts)], sections, files=files)
+
+
+def _ends(values: Sequence[float]) -> str:
+    return f"{values[0]:g} to {values[-1]:g}"
 
 
 def _in_short(title: str, cells: Sequence[AtlasCell]) -> str:
@@ -175,21 +173,6 @@ def _grid(modules: Sequence[AtlasCell]) -> Grid:
 
 
 def _empty(cells: Sequence[AtlasCell]) -> Grid:
-    heads = [
-        Head("kind"),
-        Head("torque [N·m]", True),
-        Head("cycle [s]", True),
-        Head("status"),
-        Head("limits that end it"),
-    ]
-    rows = [
-        [
-            Cell(cell.kind),
-            number_cell(cell.torque),
-            number_cell(cell.cycle),
-            Cell(cell.status),
-            Cell("; ".join(cell.limits)),
-        ]
-        for cell in cells
-    ]
-    return Grid("Cells without a module", heads, rows)
+    heads = ("kind", "torque [N·m]", "cycle [s]", "status", "limits that end it")
+    rows = [(c.kind, number(c.torque), number(c.cycle), c.status, "; ".join(c.limits)) for c in cells]
+    return grid("Cells without a module", heads, rows, right=(1, 2), code=())

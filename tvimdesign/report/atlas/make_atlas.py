@@ -1,7 +1,5 @@
 """The command atlas, from a plan to a finished folder."""
 
-import csv
-import io
 import time
 from collections import Counter
 from pathlib import Path
@@ -9,7 +7,7 @@ from pathlib import Path
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.atlas.atlas_page import STUDIES, atlas_page, figure_data, rows_of
 from tvimdesign.report.output.command import Command
-from tvimdesign.report.output.numbers import head
+from tvimdesign.report.output.numbers import csv_text, head
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.study.atlas_studies import Atlas
@@ -33,17 +31,11 @@ def make_atlas(
         command.progress("gathering the cells")
         cells = cells_of(atlas, folder.path)
         rows = rows_of(cells)
-        text = io.StringIO()
-        writer = csv.DictWriter(text, list(dict.fromkeys(name for row in rows for name in row)), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        folder.write("atlas.csv", text.getvalue())
+        folder.write("atlas.csv", csv_text(rows, list(dict.fromkeys(name for row in rows for name in row))))
         for cell in cells:
             if cell.status == OPTIMAL:
-                study = study_of(atlas, cell)
-                folder.write(
-                    f"{STUDIES}/{cell.name}.yaml", study_text(study, f"Cell {cell.name} of an atlas", folder.path)
-                )
+                text = study_text(study_of(atlas, cell), f"Cell {cell.name} of an atlas", folder.path)
+                folder.write(f"{STUDIES}/{cell.name}.yaml", text)
         summary = {
             **head(), "cells": len(cells), "statuses": dict(Counter(cell.status for cell in cells)), **counts,
             "rows": rows,

@@ -5,7 +5,7 @@ import queue
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -57,10 +57,10 @@ def compare_studies(
             for (label, case), path in zip(cases.items(), paths, strict=True):
                 answers_by_label[label] = finished_run(design_file(path), case.study.table, which)
         else:
-            requests = [StudyRequest(label, case.path) for label, case in cases.items()]
+            studies_by_label = {label: case.path for label, case in cases.items()}
             start_plotter = command.start_plotter if plots else lambda: None
             answers_by_label |= answers(
-                requests, command.folder.path, points, command.progress, start_plotter, settings, keep
+                studies_by_label, command.folder.path, points, command.progress, start_plotter, settings, keep
             )
         outcome = comparison.Outcome(cases, answers_by_label, unequal)
         outcome.seconds["all answers"] = time.perf_counter() - began
@@ -161,13 +161,6 @@ HALF_DONE = ".studies."
 _CRASHED = TvimError.exit_code + 2
 
 
-class StudyRequest(NamedTuple):
-    """One study to answer, and what it is called meanwhile."""
-
-    label: str
-    path: Path
-
-
 class _Child(NamedTuple):
     label: str
     process: subprocess.Popen[str]
@@ -177,7 +170,7 @@ class _Child(NamedTuple):
 
 
 def answers(
-    requests: Sequence[StudyRequest],
+    studies: Mapping[str, Path],
     out: Path,
     points: int,
     progress: Progress,
@@ -187,29 +180,22 @@ def answers(
 ) -> dict[str, dict[str, Any]]:
     """Return what each study's job found, by label; a job that died has its reason under `troubles`.
 
-    Parameters
-    ----------
-    out
-        Folder in which the jobs write into a folder of their own, which is removed at the end.
-    when_idle
-        Called as soon as nothing more is to be started: from then on a core is free.
-    settings
-        Changes to every study, each `name=value`.
-    keep
-        Called with a label and what is found so far, after each step of a job.
+    Jobs write into a folder of their own within `out`, which is removed at the end. `when_idle` is called as soon as
+    nothing more is to be started: from then on a core is free. `keep` is called with a label and what is found so far,
+    after each step of a job.
     """
-    waiting, running = list(requests), list[_Child]()
+    waiting, running = list(studies), list[_Child]()
     answers_by_label: dict[str, dict[str, Any]] = {}
     lines: queue.Queue[tuple[str, str | None]] = queue.Queue()
     with tempfile.TemporaryDirectory(dir=out, prefix=HALF_DONE) as folder:
         try:
             while waiting or running:
                 while waiting and len(running) < AT_ONCE:
-                    number = len(requests) - len(waiting)
-                    study = waiting.pop(0)
-                    progress(f"{study.label}, preparing the equations")
-                    others = [other.path for other in requests if other is not study]
-                    running.append(_start(study, others, (points, settings), Path(folder) / str(number), lines))
+                    stem = Path(folder) / str(len(studies) - len(waiting))
+                    label = waiting.pop(0)
+                    progress(f"{label}, preparing the equations")
+                    paths = [studies[label], *(path for other, path in studies.items() if other != label)]
+                    running.append(_start(label, paths, (points, settings), stem, lines))
                 label, line = lines.get()
                 child = next(child for child in running if child.label == label)
                 if line is not None:
@@ -227,23 +213,23 @@ def answers(
             for child in running:
                 child.process.kill()
                 child.process.wait()
-    return {study.label: answers_by_label[study.label] for study in requests}
+    return {label: answers_by_label[label] for label in studies}
 
 
 def _start(
-    study: StudyRequest, others: Sequence[Path], how: tuple[int, Sequence[str]], stem: Path,
+    label: str, studies: Sequence[Path], how: tuple[int, Sequence[str]], stem: Path,
     lines: queue.Queue[tuple[str, str | None]],
 ) -> _Child:  # fmt: skip
-    """Start a child process; `how` is the count of points of a front, and the settings."""
+    """Start a child process for the first of some studies; `how` is the points of a front, and the settings."""
     out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
-    paths = [str(path.resolve()) for path in (study.path, out, *others)]
+    paths = [str(path.resolve()) for path in (studies[0], out, *studies[1:])]
     with errors.open("wb") as stream:
         process = start_child(
             "tvimdesign.report.compare.comparison_job", [*paths[:2], str(how[0]), json.dumps(list(how[1])), *paths[2:]],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
         )  # fmt: skip
-    read_lines(process, lambda line: lines.put((study.label, line)))
-    return _Child(study.label, process, out, errors, time.perf_counter())
+    read_lines(process, lambda line: lines.put((label, line)))
+    return _Child(label, process, out, errors, time.perf_counter())
 
 
 def _finish(child: _Child) -> dict[str, Any]:

@@ -114,7 +114,12 @@ class Outcome:
             "fronts": [
                 {
                     "study": label, "first": first, "second": second,
-                    "points": [self._point(point) for point in front["points"]],
+                    "points": [
+                        {"where": point["where"],
+                         "values": {name: finite_in(value, self.unit(name)) for name, value in point["values"].items()},
+                         "si": point["values"], "current_profiles": point["current_profiles"]}
+                        for point in front["points"]
+                    ],
                     **{kind: front[kind] for kind in ("dominated", "failures", "notes")},
                 }
                 for (first, second), fronts in self.fronts.items() for label, front in fronts.items()
@@ -136,15 +141,6 @@ class Outcome:
         for (first, second), fronts in self.fronts.items():
             for label, front in fronts.items():
                 yield from ((label, f"{first} against {second}", point) for point in front["points"])
-
-    def _point(self, point: dict[str, Any]) -> dict[str, Any]:
-        values = {name: finite_in(value, self.unit(name)) for name, value in point["values"].items()}
-        return {
-            "where": point["where"],
-            "values": values,
-            "si": point["values"],
-            "current_profiles": point["current_profiles"],
-        }
 
     # --- what follows ---
 
@@ -172,13 +168,9 @@ class Outcome:
         return f"With {count if self.differences else alike}, {COMPARISONS[self.which]}: {'; '.join(reported)}."
 
     def _without_design(self) -> list[str]:
-        return [
-            f"no feasible design was found for {label}, so that the modules are compared as drawn"
-            if self.which == "drawn"
-            else f"no feasible design was found for {label}"
-            for label, trouble in self.troubles
-            if trouble["step"] == "optimised"
-        ]
+        so = ", so that the modules are compared as drawn" if self.which == "drawn" else ""
+        without = [label for label, trouble in self.troubles if trouble["step"] == "optimised"]
+        return [f"no feasible design was found for {label}{so}" for label in without]
 
     def _violated(self, which: str) -> list[str]:
         answers = {label: self.answers[label][which]["broken"] for label in self.designs[which]}

@@ -19,7 +19,6 @@ from tvimdesign.report.output.terminal import Progress, print_section, progress_
 from tvimdesign.study import Study
 
 PARTLY_DONE = "partly done"  # Status in a manifest
-_AGAIN = "repeat the command with --overwrite"
 
 
 class Command:
