@@ -34,8 +34,7 @@ def _line(tag: str, cells: Sequence[str]) -> str:
     return "<tr>" + "".join(f'<{tag} style="text-align:left">{escape(cell)}</{tag}>' for cell in cells) + "</tr>"
 
 
-_RESOLUTION = 110
-"""Dots per inch on a screen."""
+_RESOLUTION = 110  # Dots per inch on a screen
 
 
 def drawn(drawing: Drawing, study: str) -> Figure:

@@ -28,8 +28,7 @@ if TYPE_CHECKING:
     from tvimdesign.report.output.results_format import LimitEntry, RunResults, UncertaintyEntry
 
 
-StudyT = TypeVar("StudyT")
-"""The study of Python users, which makes results."""
+StudyT = TypeVar("StudyT")  # The study of Python users, which makes results
 
 
 class NoDesignError(InfeasibleError):

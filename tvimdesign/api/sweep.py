@@ -57,12 +57,9 @@ class Sweep(Generic[StudyT]):
     """Every cell in its order: of a grid the last axis changes fastest."""
 
     plan: SweepPlan
-    stored_cells: Sequence[CellAnswer]
-    """What each cell came to, in SI."""
-    study_of: Callable[[StudyTree], StudyT]
-    """Makes the study of a cell."""
-    folder: Path | None = None
-    """Where it is written; None if it is not written."""
+    stored_cells: Sequence[CellAnswer]  # What each cell came to, in SI
+    study_of: Callable[[StudyTree], StudyT]  # Makes the study of a cell
+    folder: Path | None = None  # Where it is written; None if it is not written
 
     @property
     def warm_solves(self) -> int:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Argument, Option
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cli import options
@@ -34,7 +35,7 @@ def _print_version(requested: bool) -> None:
 @app.callback()
 def _options(
     version: Annotated[
-        bool, typer.Option("--version", help="Print the version.", callback=_print_version, is_eager=True)
+        bool, Option("--version", help="Print the version.", callback=_print_version, is_eager=True)
     ] = False,
 ) -> None:
     pass
@@ -48,13 +49,13 @@ def run(
     cad: options.Cad = True,
     plots: options.Plots = True,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Continue the front of an earlier run in that folder that was stopped.")
+        bool, Option("--resume", help="Continue the front of an earlier run in that folder that was stopped.")
     ] = False,
-    prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
-    full: Annotated[bool, typer.Option("--full", help="Print the tables, too, as summary.txt has them.")] = False,
+    prove: Annotated[bool, Option("--prove", help="Solve every combination of listed choices as well.")] = False,
+    full: Annotated[bool, Option("--full", help="Print the tables, too, as summary.txt has them.")] = False,
     time_limit: options.TimeLimit = "",
     verified: Annotated[
-        bool, typer.Option("--verify", help="Check the design against finite elements after it, as `verify` does.")
+        bool, Option("--verify", help="Check the design against finite elements after it, as `verify` does.")
     ] = False,
     fe_python: options.FePython = "",
     settings: options.Settings = None,
@@ -97,21 +98,19 @@ def check(study: options.StudyFile, settings: options.Settings = None, json: opt
 @app.command()
 def new(
     file: Annotated[
-        Path | None, typer.Argument(help="Study file to write; study.yaml, or the example's name, unless given.")
+        Path | None, Argument(help="Study file to write; study.yaml, or the example's name, unless given.")
     ] = None,
-    example: Annotated[
-        str, typer.Option("--example", help="A shipped study to start from.", autocompletion=options.examples)
-    ] = "",
+    example: Annotated[str, Option(help="A shipped study to start from.", autocompletion=options.examples)] = "",
     result: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--from",
             metavar="RESULT",
             help="design.json or folder of a run: write its module as a study that `run` answers the same.",
             autocompletion=options.designs_and_studies,
         ),
     ] = None,
-    list_all: Annotated[bool, typer.Option("--list", help="List the shipped studies.")] = False,
+    list_all: Annotated[bool, Option("--list", help="List the shipped studies.")] = False,
 ) -> None:
     """Write a study to start from. It is commented, or a shipped one, or the module of a result."""
     from tvimdesign.report.run.study_files import list_examples, write_new_study
@@ -124,37 +123,29 @@ def new(
 
 @app.command()
 def size(
-    torque: Annotated[str, typer.Option("--torque", help="Torque that the frozen joint holds, such as '8 N.m'.")] = "",
+    torque: Annotated[str, Option(help="Torque that the frozen joint holds, such as '8 N.m'.")] = "",
     stiffness: Annotated[
         str,
-        typer.Option(
-            "--stiffness",
-            help="Of the soft joint, without its damping: '1.5 N.m/rad' (20 % to either side), or '1 to 2 N.m/rad'. "
-            "An eighth of the torque a radian is usual.",
+        Option(
+            help="Of the soft joint, without its damping: '1.5 N.m/rad' (20 % to either side), or '1 to 2 N.m/rad'. An "
+            "eighth of the torque a radian is usual."
         ),
     ] = "",
-    diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")] = "",
-    time: Annotated[str, typer.Option("--time", help="Time within which it gets soft, such as '60 s'.")] = "",
-    supply: Annotated[str, typer.Option("--supply", help="Voltage, and its current if limited: '24 V, 3 A'.")] = "",
-    stiff_time: Annotated[
-        str, typer.Option("--stiff-time", help="Time within which it gets stiff again; any unless given.")
-    ] = "",
-    stroke: Annotated[
-        str, typer.Option("--stroke", help="Angle that the soft joint turns to either side; 0.104 rad unless given.")
-    ] = "",
+    diameter: Annotated[str, Option(help="Largest outer diameter, 20 to 200 mm.")] = "",
+    time: Annotated[str, Option(help="Time within which it gets soft, such as '60 s'.")] = "",
+    supply: Annotated[str, Option(help="Voltage, and its current if limited: '24 V, 3 A'.")] = "",
+    stiff_time: Annotated[str, Option(help="Time within which it gets stiff again; any unless given.")] = "",
+    stroke: Annotated[str, Option(help="Angle that the soft joint turns to either side; 0.104 rad unless given.")] = "",
     process: Annotated[
         str,
-        typer.Option(
-            "--process",
+        Option(
             metavar="RECORD",
             help="Process that makes the parts, such as print_pei_9085 or machine_6061; one that suits the diameter "
             "unless given.",
             autocompletion=options.processes,
         ),
     ] = "",
-    file: Annotated[Path, typer.Option("--study", help="Study file to write, and to edit afterwards.")] = Path(
-        "joint.yaml"
-    ),
+    file: Annotated[Path, Option("--study", help="Study file to write, and to edit afterwards.")] = Path("joint.yaml"),
     out: options.Out = None,
     overwrite: options.Overwrite = False,
     cad: options.Cad = True,
@@ -188,7 +179,7 @@ def schema() -> None:
 def cad(
     design: Annotated[
         Path,
-        typer.Argument(
+        Argument(
             metavar="DESIGN|STUDY",
             help="design.json of a run, or a study file.",
             autocompletion=options.designs_and_studies,
@@ -204,40 +195,35 @@ def cad(
     make_parts(design, out or options.default_folder(design), overwrite=overwrite, as_json=json)
 
 
-app.command()(robot)
-app.command()(simulate)
-app.command()(tolerate)
-app.command()(verify)
+for of_one in (robot, simulate, tolerate, verify):
+    app.command()(of_one)
 
 
 @app.command()
 def fit(
     files: Annotated[
-        list[Path] | None, typer.Argument(metavar="FILE...", help="Measured data: text, CSV, Excel, TRIOS, RepTate.")
+        list[Path] | None, Argument(metavar="FILE...", help="Measured data: text, CSV, Excel, TRIOS, RepTate.")
     ] = None,
     kind: Annotated[
         str,
-        typer.Option(
+        Option(
             "--as",
             metavar="KIND",
             help="Kind of measurement; found by its columns unless given. See --kinds.",
             autocompletion=options.kinds,
         ),
     ] = "",
-    kinds: Annotated[bool, typer.Option("--kinds", help="List the kinds: columns needed, what can be set.")] = False,
+    kinds: Annotated[bool, Option("--kinds", help="List the kinds: columns needed, what can be set.")] = False,
     settings: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="Say what the files do not, such as arm='100 mm'."),
+        list[str] | None, Option("--set", metavar="NAME=VALUE", help="Say what the files do not, such as arm='100 mm'.")
     ] = None,
     columns: Annotated[
-        Path | None, typer.Option("--columns", help="Column map (YAML): which column is what, units, decimal sign.")
+        Path | None, Option(help="Column map (YAML): which column is what, units, decimal sign.")
     ] = None,
-    record: Annotated[str, typer.Option("--record", help="Write what was measured as a record of this name.")] = "",
-    based_on: Annotated[str, typer.Option("--based-on", help="The record that has all that was not measured.")] = "",
-    catalog: Annotated[Path, typer.Option("--catalog", help="Folder of your records.")] = Path("my_records"),
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for the results; results/<first file>-fit unless given.")
-    ] = None,
+    record: Annotated[str, Option(help="Write what was measured as a record of this name.")] = "",
+    based_on: Annotated[str, Option(help="The record that has all that was not measured.")] = "",
+    catalog: Annotated[Path, Option(help="Folder of your records.")] = Path("my_records"),
+    out: Annotated[Path | None, Option(help="Folder for the results; results/<first file>-fit unless given.")] = None,
     overwrite: options.Overwrite = False,
     plots: options.Plots = True,
     json: options.AsJson = False,
@@ -256,10 +242,8 @@ def fit(
     )  # fmt: skip
 
 
-app.command()(compare)
-app.command()(sweep)
-app.command()(atlas)
-app.command()(explore)
+for of_several in (compare, sweep, atlas, explore):
+    app.command()(of_several)
 
 
 @app.command()
@@ -272,12 +256,10 @@ def paper_check(json: options.AsJson = False) -> None:
 
 @app.command()
 def rows(
-    mode: Annotated[
-        str, typer.Option("--mode", help="Mode whose rows are listed.", autocompletion=options.modes)
-    ] = "shear",
+    mode: Annotated[str, Option(help="Mode whose rows are listed.", autocompletion=options.modes)] = "shear",
     match: Annotated[
         str,
-        typer.Argument(
+        Argument(
             metavar="[GROUP|WORD]",
             help="A group, or a word for what is looked for: 'stiffness', 'weight', 'power supply'.",
             autocompletion=options.rows,

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
 from tvimdesign.cli import options
 from tvimdesign.simulation.virtual_tests import TESTS
@@ -12,10 +12,7 @@ from tvimdesign.simulation.virtual_tests import TESTS
 def robot(
     result: options.ResultOfRun,
     timestep: Annotated[
-        str,
-        typer.Option(
-            "--timestep", metavar="TIME", help="Time step of the simulation, such as '0.5 ms'; chosen unless given."
-        ),
+        str, Option(metavar="TIME", help="Time step of the simulation, such as '0.5 ms'; chosen unless given.")
     ] = "",
     out: options.Out = None,
     overwrite: options.Overwrite = False,
@@ -32,9 +29,7 @@ def robot(
 
 def simulate(
     study: options.StudyOrDesign,
-    test: Annotated[
-        str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.", autocompletion=options.tests)
-    ] = "",
+    test: Annotated[str, Option(help=f"Virtual test: {', '.join(TESTS)}.", autocompletion=options.tests)] = "",
     out: options.Out = None,
     overwrite: options.Overwrite = False,
     settings: options.Settings = None,
@@ -63,7 +58,7 @@ def verify(
 
 def tolerate(
     study: options.StudyOrDesign,
-    samples: Annotated[int, typer.Option("--samples", help="Modules drawn; the next power of two.")] = 65536,
+    samples: Annotated[int, Option(help="Modules drawn; the next power of two.")] = 65536,
     out: options.Out = None,
     overwrite: options.Overwrite = False,
     json: options.AsJson = False,
@@ -78,16 +73,16 @@ def tolerate(
 def compare(
     studies: Annotated[
         list[Path],
-        typer.Argument(
+        Argument(
             metavar="STUDY|RESULT...",
             help="Study files of any modes, or folders (or design.json) of finished runs.",
             autocompletion=options.designs_and_studies,
         ),
     ],
     out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given.")
+        Path | None, Option(help="Folder for the results; results/<first>-vs-<second> unless given.")
     ] = None,
-    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; no fronts unless given.")] = 0,
+    points: Annotated[int, Option(min=0, help="Points of each front; no fronts unless given.")] = 0,
     overwrite: options.Overwrite = False,
     plots: options.Plots = True,
     settings: options.Settings = None,
@@ -126,16 +121,13 @@ def sweep(
 
 
 def atlas(
-    plan: Annotated[Path | None, typer.Argument(metavar="[PLAN]", help="Plan; the shipped one unless given.")] = None,
-    kinds: Annotated[
-        list[str] | None, typer.Option("--kind", help="Kind of module; repeat it. All unless given.")
-    ] = None,
+    plan: Annotated[Path | None, Argument(metavar="[PLAN]", help="Plan; the shipped one unless given.")] = None,
+    kinds: Annotated[list[str] | None, Option("--kind", help="Kind of module; repeat it. All unless given.")] = None,
     out: options.Out = None,
     overwrite: options.Overwrite = False,
     resume: options.Resume = False,
     reuse: Annotated[
-        list[Path] | None,
-        typer.Option("--reuse", metavar="FOLDER", help="Atlas whose families are taken, too; repeat it."),
+        list[Path] | None, Option(metavar="FOLDER", help="Atlas whose families are taken, too; repeat it.")
     ] = None,
     workers: options.Workers = 0,
     plots: options.Plots = True,
@@ -153,21 +145,17 @@ def atlas(
 def explore(
     source: Annotated[
         Path,
-        typer.Argument(
+        Argument(
             metavar="STUDY|RESULT|SWEEP|ATLAS",
             help="Study file, folder or design.json of a run, or folder of a sweep or an atlas.",
             autocompletion=options.designs_and_studies,
         ),
     ],
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder of what is done; results/<name>-explore unless given.")
-    ] = None,
-    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port; a free one unless given.")] = 0,
-    token: Annotated[
-        str, typer.Option("--token", help="Secret in the address, for one that stays; drawn unless given.")
-    ] = "",
-    browse: Annotated[bool, typer.Option("--open/--no-open", help="Open the page in the browser.")] = True,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Begin again, without what was done before.")] = False,
+    out: Annotated[Path | None, Option(help="Folder of what is done; results/<name>-explore unless given.")] = None,
+    port: Annotated[int, Option(min=0, max=65535, help="Port; a free one unless given.")] = 0,
+    token: Annotated[str, Option(help="Secret in the address, for one that stays; drawn unless given.")] = "",
+    browse: Annotated[bool, Option("--open/--no-open", help="Open the page in the browser.")] = True,
+    overwrite: Annotated[bool, Option("--overwrite", help="Begin again, without what was done before.")] = False,
     settings: options.Settings = None,
 ) -> None:
     """Evaluate and optimise with sliders in a browser. This machine serves the page."""

@@ -5,7 +5,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
 _STUDIES = (".yaml", ".yml")
 
@@ -53,21 +53,21 @@ def _files(incomplete: str, endings: tuple[str, ...]) -> list[str]:
     return [f"{prefix}{path.name}" for path in shown if path.suffix in endings] + folders
 
 
-StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (YAML).", autocompletion=study_files)]
+StudyFile = Annotated[Path, Argument(metavar="STUDY", help="Study file (YAML).", autocompletion=study_files)]
 StudyOrDesign = Annotated[
     Path,
-    typer.Argument(
+    Argument(
         metavar="STUDY|DESIGN",
         help="Study file, or design.json or folder of a run.",
         autocompletion=designs_and_studies,
     ),
 ]
 ResultOfRun = Annotated[
-    Path, typer.Argument(metavar="RESULT", help="Folder or design.json of a run.", autocompletion=designs_and_studies)
+    Path, Argument(metavar="RESULT", help="Folder or design.json of a run.", autocompletion=designs_and_studies)
 ]
 Settings = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--set",
         metavar="NAME=VALUE",
         help="Change the study for this once, as often as needed: pcl_thickness='1.2 mm' fixes an input or a choice, "
@@ -76,29 +76,26 @@ Settings = Annotated[
     ),
 ]
 Out = Annotated[
-    Path | None, typer.Option("--out", help="Folder for the results; results/<name of the study's file> unless given.")
+    Path | None, Option("--out", help="Folder for the results; results/<name of the study's file> unless given.")
 ]
-Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the results of an earlier run in that folder.")]
-Cad = Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, 3MF, drawings, assembly.")]
-Plots = Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")]
+Overwrite = Annotated[bool, Option("--overwrite", help="Replace the results of an earlier run in that folder.")]
+Cad = Annotated[bool, Option("--cad/--no-cad", help="Make the parts: STEP, 3MF, drawings, assembly.")]
+Plots = Annotated[bool, Option("--plots/--no-plots", help="Draw the plots.")]
 TimeLimit = Annotated[
-    str, typer.Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min.")
+    str, Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min.")
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print results as JSON.")]
+AsJson = Annotated[bool, Option("--json", help="Print results as JSON.")]
 FePython = Annotated[
-    str,
-    typer.Option("--fe-python", metavar="PATH", help="A Python that has netgen and ngsolve; this one unless given."),
+    str, Option("--fe-python", metavar="PATH", help="A Python that has netgen and ngsolve; this one unless given.")
 ]
-Workers = Annotated[int, typer.Option("--workers", min=0, help="Processes here; as many as processors unless given.")]
+Workers = Annotated[int, Option("--workers", min=0, help="Processes here; as many as processors unless given.")]
 Shard = Annotated[
     str,
-    typer.Option(
+    Option(
         "--shard", metavar="I/N", help="Compute part I of N: a job of a batch system's array; all share the folder."
     ),
 ]
-Resume = Annotated[
-    bool, typer.Option("--resume", help="Go on in that folder: cells that are there are not computed again.")
-]
+Resume = Annotated[bool, Option("--resume", help="Go on in that folder: cells that are there are not computed again.")]
 
 
 def changes(settings: Sequence[str] | None, time_limit: str) -> list[str]:

@@ -115,12 +115,10 @@ class Session:
         self._since: State = self.history.state
         self._number = 0
         self._timer: asyncio.TimerHandle | None = None
-        self.answers: dict[str, Reply] = {}
-        """The last quick answer and the last exact one, for pages that come later."""
+        self.answers: dict[str, Reply] = {}  # The last quick answer and the last exact one, for pages that come later
         self._design: dict[str, str] | None = None
         self.parts = PartsMaker(folder, send, self._parts_made)
-        self.draft: Reply | None = None
-        """The last draft in 3-D, or why there is none, for pages that come later."""
+        self.draft: Reply | None = None  # The last draft in 3-D, or why there is none, for pages that come later
         self.drafter = WorkerProcess("tvimdesign.explore.draft_worker", [], self._drafted, low_priority=True)
         self.solver = WorkerProcess(
             "tvimdesign.explore.answer_worker", [str(source), str(folder), *settings], self._answered

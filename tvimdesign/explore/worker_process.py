@@ -46,8 +46,7 @@ class WorkerProcess:
         self._under_way: Job | None = None
         self._waiting: Job | None = None
         self._interrupted = False
-        self._ended = 0
-        """Times it has ended by itself since its last answer."""
+        self._ended = 0  # Times it has ended by itself since its last answer
         self._closed = False
         self._start()
 

@@ -125,8 +125,7 @@ Block = Grid | Facts | Words | Points | Steps | Warned | Listing | Picture | Dra
 class Section:
     """One part of the page, under a heading of its own."""
 
-    name: str
-    """The end of its address: `report.html#name`."""
+    name: str  # The end of its address: `report.html#name`
     title: str
     blocks: Sequence[Block]
     folded: bool = False  # True if only the heading is shown until it is opened

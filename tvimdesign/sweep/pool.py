@@ -131,8 +131,7 @@ class Pool:
         self._workers: dict[int, _Worker] = {}
         self._started = 0
         self._deaths: Counter[str] = Counter()
-        self._errors: IO[bytes]
-        """What all of them write to standard error."""
+        self._errors: IO[bytes]  # What all of them write to standard error
 
     def answer(self, cells: Sequence[Cell], heard: Heard) -> Usage:
         """Answer every cell; `heard` is called after each chunk. Raises OutputError, TvimError if workers fail."""

@@ -29,8 +29,7 @@ class CellTable:
         self._names = [column.name for column in columns(plan)]
         self._units = {column.name: column.unit for column in columns(plan)}
         self._every = -(-plan.count // MOST_DRAWN)
-        self.every_listed = -(-plan.count // MOST_LISTED)
-        """Each how many-th cell the page has."""
+        self.every_listed = -(-plan.count // MOST_LISTED)  # Each how many-th cell the page has
         study = plan.first
         wanted = [*study.minimize, *(limit.output for limit in study.require), *ALWAYS]
         apart = {axis.name for axis in plan.axes}
@@ -38,18 +37,12 @@ class CellTable:
         """Outputs of the figure and of the screen."""
         self.least = [name for name in (study.minimize or self.shown) if name not in apart]
         self._ended: Counter[str] = Counter()
-        self.best: dict[str, dict[str, Any]] = {}
-        """By minimised output: the feasible cell with the least value."""
-        self.drawn: list[dict[str, Value]] = []
-        """Rows of the figure."""
-        self.listed: list[dict[str, Value]] = []
-        """Rows of the page."""
-        self.failed: list[dict[str, Value]] = []
-        """Rows of the first cells without an answer."""
-        self.failures = 0
-        """Count of the cells without an answer."""
-        self.keeping = 0
-        """Count of the feasible cells."""
+        self.best: dict[str, dict[str, Any]] = {}  # By minimised output: the feasible cell with the least value
+        self.drawn: list[dict[str, Value]] = []  # Rows of the figure
+        self.listed: list[dict[str, Value]] = []  # Rows of the page
+        self.failed: list[dict[str, Value]] = []  # Rows of the first cells without an answer
+        self.failures = 0  # Count of the cells without an answer
+        self.keeping = 0  # Count of the feasible cells
 
     @property
     def statuses(self) -> dict[str, int]:

@@ -128,8 +128,7 @@ class _Sheet:
 
     def __init__(self) -> None:
         self.figure = new_figure(_HIGH, _WIDE)
-        self.left = _HIGH - _BOTTOM - NAME_STRIP
-        """Inches from the foot of the page up to the next line."""
+        self.left = _HIGH - _BOTTOM - NAME_STRIP  # Inches from the foot of the page up to the next line
 
     def text(self, text: str, at: float = 0.0, size: float = _SIZE, **more: Any) -> None:
         """Write at a distance from the left margin [inches], on the line of now."""

@@ -34,7 +34,8 @@ def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | flo
         if isinstance(value, str) and value != free:
             moved.append(f"{name} {value} instead of {free}")
         elif isinstance(value, float) and isinstance(free, float) and abs(value - free) > _NEAR * abs(value):
-            moved.append(f"{name} {choice_text(name, value, table)} instead of {_between(name, free, table)}")
+            shown = f"{from_si(free, table.unit(name)):.4g}"
+            moved.append(f"{name} {choice_text(name, value, table)} instead of {shown}")
     if not moved:
         return "Going standard costs nothing: the best design has listed sizes anyway."
     cost = ", ".join(f"{name} {share:+.1%}" for name, share in shares(best, between).items())
@@ -139,10 +140,6 @@ def shares(standard: Standard, other: Standard) -> dict[str, float]:
 def choice_text(name: str, word: str | float, table: Table) -> str:
     """Return a record's name as it is, a listed size in its unit."""
     return word if isinstance(word, str) else format_quantity(word, table.unit(name))
-
-
-def _between(name: str, value: float, table: Table) -> str:
-    return f"{from_si(value, table.unit(name)):.4g}"
 
 
 def _count(number: int, what: str) -> str:

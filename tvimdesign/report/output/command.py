@@ -37,13 +37,11 @@ class Command:
         """
         self.out, self.as_json, self.resume = out, as_json, resume
         self.failures: list[TvimError] = []
-        self.missing: list[str] = []
-        """Libraries that are not installed, which is no failure."""
+        self.missing: list[str] = []  # Libraries that are not installed, which is no failure
         self._claim, self._plots, self._progress = (overwrite, resume, keep), plots, progress
         self._plotter: PlotProcess | None = None
         self._drawn = False
-        self.headline, self.shown = "", list[Section]()
-        """Lines printed at the end; `page` sets both."""
+        self.headline, self.shown = "", list[Section]()  # Lines printed at the end; `page` sets both
         self._stack = ExitStack()
 
     def __enter__(self) -> Self:

@@ -187,16 +187,9 @@ def range_text(interval: Mapping[str, Any] | None) -> str:
 
 
 def csv_text(rows: Iterable[Mapping[str, Any]], columns: Sequence[str] = (), digits: int = 0) -> str:
-    """Return rows as CSV.
+    """Return rows as CSV; what a row lacks, or has as None, is empty.
 
-    Parameters
-    ----------
-    rows : Iterable of Mapping
-        Cells by their columns; what a row lacks, or has as None, is empty.
-    columns : Sequence of str, optional
-        Columns, in order; those of the first row unless given.
-    digits : int, optional
-        Significant digits of floats; all that they have unless given.
+    Columns are those of the first row, and floats have all their digits, unless given.
     """
     listed, stream = list(rows), io.StringIO()
     heads = columns or (list(listed[0]) if listed else [])

@@ -10,13 +10,24 @@ from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
-from tvimdesign.report.output.numbers import all_finite, csv_text, finite, head, in_unit, number, number_entry, percent
+from tvimdesign.report.output.numbers import (
+    NumberEntry,
+    all_finite,
+    csv_text,
+    finite,
+    head,
+    in_unit,
+    number,
+    number_entry,
+    percent,
+)
 from tvimdesign.report.output.results_format import (
     Answered,
-    BestConstant,
     CheckEntry,
     ControlEntry,
+    CoolingEntry,
     DutyEntry,
+    IdealizationEntry,
     IntervalEntry,
     ShareEntry,
     ValueEntry,
@@ -24,7 +35,7 @@ from tvimdesign.report.output.results_format import (
 )
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.duty import SHARE, ControlResult, DutyResult
-from tvimdesign.solve.nlp.solution import ActiveConstraint, YieldReached
+from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import Design, catalog_of
 
@@ -54,36 +65,39 @@ def provenance(name: str, design: Design, table: Table, find_record: FindRecord)
         return Provenance("study", "set by the study")
     if row.per_point:
         return Provenance("study", "an operating point of the study")
-    if (record := _record_of(row, design, table)) and not _without(record[0], row, design, table):
-        return _of_record(*record, row, design, table, find_record)
+    if place := _place_in_record(row, design, table):
+        return _of_record(*place, row, design, table, find_record)
     status, _, source = row.source.partition(": ")
     return Provenance(status, source, *(_of_factor(row, design, table, find_record) or (row.low, row.high)))
 
 
-def _record_of(row: Input, design: Design, table: Table) -> tuple[str, str] | None:
-    """Return (choice, field) that an input comes from, if from a record: one bought whole before any other."""
-    if row.stock_record is None:
-        return row.record
-    chosen = table.quantity(row.stock_record[0])
+def _choice(name: str, table: Table) -> Choice:
+    chosen = table.quantity(name)
     assert isinstance(chosen, Choice)
-    is_whole = design.choices.get(chosen.name, "none") not in chosen.options
-    return row.stock_record if is_whole else row.record
+    return chosen
 
 
-def _without(choice: str, row: Input, design: Design, table: Table) -> bool:
-    """Return whether an input with a default of its own comes from a choice that stands for no record."""
-    chosen = table.quantity(choice)
-    assert isinstance(chosen, Choice)
-    return row.falls_back and design.choices[choice] in chosen.options
+def _place_in_record(row: Input, design: Design, table: Table) -> tuple[str, str] | None:
+    """Return (choice, field) that an input comes from, if from a record: one bought whole before any other.
+
+    An input with a default of its own comes from no choice that stands for no record.
+    """
+    place = row.record
+    if row.stock_record is not None:
+        bought = row.stock_record[0]
+        is_whole = design.choices.get(bought, "none") not in _choice(bought, table).options
+        place = row.stock_record if is_whole else place
+    if place and row.falls_back and design.choices[place[0]] in _choice(place[0], table).options:
+        return None
+    return place
 
 
 def _of_factor(row: Input, design: Design, table: Table, find_record: FindRecord) -> Ends | None:
     """Return the range of a factor of a chosen record's value, as the record has it."""
     if row.range_of is None:
         return None
-    chosen = table.quantity(row.range_of[0])
-    assert isinstance(chosen, Choice)
-    entry = find_record(chosen.category or "", design.choices[row.range_of[0]]).entries.get(row.range_of[1])
+    choice, field = row.range_of
+    entry = find_record(_choice(choice, table).category or "", design.choices[choice]).entries.get(field)
     return entry.share_of_range if entry else None
 
 
@@ -91,21 +105,20 @@ def _of_record(
     choice: str, field: str, row: Input, design: Design, table: Table, find_record: FindRecord
 ) -> Provenance:
     """Return the source in the chosen record; that of the row if there is no such record any more."""
-    chosen = table.quantity(choice)
-    assert isinstance(chosen, Choice)
-    if design.choices[choice] in chosen.options:
-        return Provenance("chosen", f"{choice} is {design.choices[choice]}; such a module needs none")
+    chosen, word = _choice(choice, table), design.choices[choice]
+    if word in chosen.options:
+        return Provenance("chosen", f"{choice} is {word}; such a module needs none")
     try:
-        record = find_record(chosen.category or "", design.choices[choice])
+        record = find_record(chosen.category or "", word)
     except CatalogError:
         return Provenance("record", row.source)
     entry = record.entries.get(field)
-    if entry is None and row.falls_back:
+    if entry is not None:
+        return Provenance(entry.status, f"{record.category}/{record.name}: {entry.source}", entry.low, entry.high)
+    if row.falls_back:
         status, _, source = row.source.partition(": ")
         return Provenance(status, source)
-    if entry is None:
-        return Provenance("chosen", f"{record.category}/{record.name} has no {field}")
-    return Provenance(entry.status, f"{record.category}/{record.name}: {entry.source}", entry.low, entry.high)
+    return Provenance("chosen", f"{record.category}/{record.name} has no {field}")
 
 
 _MULTIPLES = {2.0: "twice", 3.0: "three times"}
@@ -247,9 +260,6 @@ def results(answer: StudyResult, table: Table) -> Answered:
         return [check_row(check, table, ends.get(check.output)) for check in checks]
 
     constant = answer.solution.constant if answer.solution else None
-    best: BestConstant | None = (
-        {"objective": constant.objective, "values": entries(constant.values)} if constant else None
-    )
     return {
         **head(),
         "name": design.name,
@@ -264,26 +274,20 @@ def results(answer: StudyResult, table: Table) -> Answered:
         "accepting": rows(answer.accepted),
         "accepted_in_vain": list(answer.accepted_in_vain),
         "idealizations": [
-            {
-                "choice": idealization.choice,
-                "word": idealization.word,
-                "instead": idealization.instead,
-                "leaves_out": idealization.leaves_out,
-                "as_drawn": {
-                    name: number_entry(value, table.unit(name)) for name, value in idealization.as_drawn.items()
-                },
-            }
-            for idealization in answer.idealizations
+            cast("IdealizationEntry", vars(one) | {"as_drawn": number_entries(one.as_drawn, table)})
+            for one in answer.idealizations
         ],
         "current_profiles": design.current_profiles,
         "at_default_currents": entries(answer.constant_current),
-        "cooling": {
-            "able": answer.cooling.able,
-            "used": answer.cooling.used,
-            "unpowered": {n: number_entry(v, table.unit(n)) for n, v in answer.cooling.unpowered.items()},
-        },
-        "best_constant_currents": best,
-        "yield_reached": yield_entry(reached, table) if reached else None,
+        "cooling": cast(
+            "CoolingEntry", vars(answer.cooling) | {"unpowered": number_entries(answer.cooling.unpowered, table)}
+        ),
+        "best_constant_currents": (
+            {"objective": constant.objective, "values": entries(constant.values)} if constant else None
+        ),
+        "yield_reached": (
+            cast("Yield", asdict(reached) | {"nominal": number_entries(reached.nominal, table)}) if reached else None
+        ),
         "choosing": choosing_data(
             answer.solution.choosing if answer.solution else None, table, choices_with_margins(answer)
         ),
@@ -291,10 +295,15 @@ def results(answer: StudyResult, table: Table) -> Answered:
     }
 
 
+def number_entries(values: Mapping[str, float], table: Table) -> dict[str, NumberEntry]:
+    """Return numbers (SI) by full name, each in the unit that people read."""
+    return {name: number_entry(value, table.unit(name)) for name, value in values.items()}
+
+
 def duty_entry(duty: DutyResult, table: Table) -> DutyEntry:
     """Return the result of a duty, with units."""
     return {
-        "values": {name: number_entry(value, table.unit(name)) for name, value in duty.values.items()},
+        "values": number_entries(duty.values, table),
         "exceeded": list(duty.exceeded),
         "settling_time": number_entry(duty.settling, "min"),
         "energy_a_day": number_entry(duty.energy_a_day, "kJ"),
@@ -315,12 +324,6 @@ def control_entry(control: ControlResult) -> ControlEntry:
         "controlled": cast("ShareEntry", asdict(control.controlled)),
         "stays_soft": cast("ShareEntry", asdict(control.stays_soft)),
     }
-
-
-def yield_entry(reached: YieldReached, table: Table) -> Yield:
-    """Return the account of a yield that was asked for, with units."""
-    nominal = {name: number_entry(value, table.unit(name)) for name, value in reached.nominal.items()}
-    return cast("Yield", asdict(reached) | {"nominal": nominal})
 
 
 def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> ValueEntry:

@@ -42,14 +42,7 @@ def verdict_of(answered: AnsweredStudy) -> Verdict:
 def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = None) -> list[str]:
     """Return the screen's lines but the last, `look_first`; none is wider than `width` unless a name is.
 
-    Parameters
-    ----------
-    answered : AnsweredStudy
-        The result.
-    width : int
-        Columns.
-    seconds : float, optional
-        How long the run took; a file is the same every time without it.
+    `seconds` is how long the run took; a file is the same every time without it.
     """
     answer = answered.result
     parts = [verdict_of(answered).text, f"{answer.design.name} ({answer.design.mode})"]

@@ -45,8 +45,7 @@ class FrontOfRun:
         self.study, self.table = study, table
         self.outputs: tuple[str, ...] = study.front.of if study.front else ()
         self.front: Front | None = None
-        self.entry: FrontEntry | None = None
-        """The front as plain data."""
+        self.entry: FrontEntry | None = None  # The front as plain data
         self.optimum: Point | None = None
         self._memory = FolderMemory(folder, study) if study.front and folder else None
         self._built: list[tuple[Optimizer, list[Run]]] = []

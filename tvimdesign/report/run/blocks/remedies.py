@@ -48,14 +48,7 @@ class Remedies:
     def of(self, check: ConstraintCheck, lines: Sequence[str], *, cheap: bool = False) -> Remedy:
         """Return the first line that cures; else the last one, or why it does not cure; empty without lines.
 
-        Parameters
-        ----------
-        check : ConstraintCheck
-            The advice or rating that the design does not follow.
-        lines : Sequence of str
-            Lines of the study, the best first.
-        cheap : bool, optional
-            Leave out what needs a search.
+        `check` is the advice or rating that the design does not follow. A `cheap` remedy needs no search.
         """
         refusal: str | None = ""
         failed: set[str] = set()

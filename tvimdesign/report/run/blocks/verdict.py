@@ -64,17 +64,7 @@ class Verdict:
 
 
 def verdict(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence[RunWarning]) -> Verdict:
-    """Return the verdict by the first rule that applies.
-
-    Parameters
-    ----------
-    answer : StudyResult
-        The evaluated or optimised study.
-    uncertainty : Mapping
-        What `Uncertainty.data` returns; empty if it was not computed.
-    warnings : Sequence of RunWarning
-        The warnings of the run, the gravest first.
-    """
+    """Return the verdict by the first rule that applies; `uncertainty` is empty if it was not computed."""
     if not answer.has_design:
         return Verdict("infeasible", _infeasible(answer))
     return (
