@@ -300,16 +300,17 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
     """Return what `--full` and the page add: thresholds, cooling, idealizations, choices, yield."""
-    table = table_for(answer.design.mode)
+    table, value = table_for(answer.design.mode), _Values(answer, uncertainty)
     facts = [
         Fact("Soft", _soft(answer)),
-        Fact("Stiff", list(_stiff(answer, uncertainty))),
-        Fact("Temperatures", [_temperatures(answer)]),
-        Fact("Frozen", _frozen_stiffnesses(_Values(answer, uncertainty))),
-        Fact("Held", list(_creep(_Values(answer, uncertainty), answer))),
+        Fact("Stiff", list(_stiff(value, answer))),
+        Fact("Temperatures", [" < ".join(f"{words} {from_si(kelvin, 'degC'):.0f} {pretty('degC')}"
+                                         for words, kelvin in temperatures_in_order(answer.design).items())]),
+        Fact("Frozen", [f"{value(name)} {words}" for name, words in _FROZEN.items() if name in value.values]),
+        Fact("Held", list(_creep(value, answer))),
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
-        Fact("Cost", list(_cost(_Values(answer, uncertainty), answer.design.choices))),
+        Fact("Cost", list(_cost(value, answer.design.choices))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table),
         *_yield(answer, uncertainty, table),
@@ -317,14 +318,12 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
     return [fact for fact in facts if fact.parts]
 
 
-def _frozen_stiffnesses(value: _Values) -> list[str]:
-    """Name the three stiffnesses of the frozen joint at its cold point."""
-    names = {
-        "joint_stiffness_in_play": "at the link, its core leaning in the bearing's play",
-        "joint_stiffness_at_link@cold": "at the link, its core upright",
-        "joint_stiffness@cold": "at the hub, without the link",
-    }
-    return [f"{value(name)} {words}" for name, words in names.items() if name in value.values]
+_FROZEN = {
+    "joint_stiffness_in_play": "at the link, its core leaning in the bearing's play",
+    "joint_stiffness_at_link@cold": "at the link, its core upright",
+    "joint_stiffness@cold": "at the hub, without the link",
+}
+"""The three stiffnesses of the frozen joint at its cold point."""
 
 
 def _creep(value: _Values, answer: StudyResult) -> Iterator[str]:
@@ -358,10 +357,10 @@ def _soft(answer: StudyResult) -> list[str]:
     return [soft_in_words(answer.design, table_for(answer.design.mode)), *notes, *filter(None, [stalling])]
 
 
-def _stiff(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]:
+def _stiff(value: _Values, answer: StudyResult) -> Iterator[str]:
     """Say what stiff means, when the layer is frozen, and what cooling by current buys."""
     yield stiff_in_words(answer.design, table_for(answer.design.mode))
-    yield f"frozen {_Values(answer, uncertainty)('frozen_time')} after heating stops"
+    yield f"frozen {value('frozen_time')} after heating stops"
     if not answer.cooling.able:
         yield "cooled by the air alone: this heater cannot cool"
     elif not answer.cooling.used:
@@ -369,12 +368,6 @@ def _stiff(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]
     else:
         time = answer.cooling.unpowered.get("frozen_time", math.inf)
         yield f"{'never' if math.isinf(time) else f'{number(time, _DIGITS)} s'} if the heaters are switched off"
-
-
-def _temperatures(answer: StudyResult) -> str:
-    """Return what happens to a switch at which temperature, the lowest first."""
-    ordered = temperatures_in_order(answer.design).items()
-    return " < ".join(f"{words} {from_si(kelvin, 'degC'):.0f} {pretty('degC')}" for words, kelvin in ordered)
 
 
 def time_over_rise(softening: Curves, time: float) -> float:
@@ -411,16 +404,14 @@ def _idealized(idealization: Any, answer: StudyResult, table: Table) -> str:
     required = [limit["output"] for limit in answer.design.study["require"]]
     headlines = ["spring_stiffness", "least_spring_stiffness", *(row.name for row in table.outputs if row.headline)]
     first = dict.fromkeys(name for name in (*required, *headlines) if name in idealization.as_drawn)
-    values = "; ".join(_as_drawn(name, idealization.as_drawn[name], answer, table) for name in list(first)[:2])
+    shown = []
+    for name in list(first)[:2]:
+        unit, drawn = table.unit(name), idealization.as_drawn[name]
+        there = "no module" if math.isnan(drawn) else with_unit(drawn, unit)
+        shown.append(f"; {name} {in_unit(answer.design.value(name), unit)}, as drawn {there}")
     count = len(idealization.as_drawn)
     rows = f"{count} values, marked in results.csv" if count else "no value here is another for it"
-    return f"{idealization.text}: {idealization.leaves_out} ({rows})" + (f"; {values}" if values else "")
-
-
-def _as_drawn(name: str, drawn: float, answer: StudyResult, table: Table) -> str:
-    unit = table.unit(name)
-    there = "no module" if math.isnan(drawn) else with_unit(drawn, unit)
-    return f"{name} {in_unit(answer.design.value(name), unit)}, as drawn {there}"
+    return f"{idealization.text}: {idealization.leaves_out} ({rows}){''.join(shown)}"
 
 
 def front_fact(front: Any, table: Table) -> list[Fact]:

@@ -15,7 +15,7 @@ from tvimdesign.report.run.blocks.verdict import TO_MEASURE, measure_first
 from tvimdesign.report.run.blocks.warnings import unreached_points
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
-from tvimdesign.solve.result import ConstraintCheck, StudyResult
+from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.design import Design
 
 _MOVES = 0.02  # Share of an output's variance from which an input counts as moving it
@@ -146,18 +146,16 @@ def checks_grid(answer: StudyResult) -> Grid:
              if check.origin == "require" or check.worst <= NOTHING or is_active(check, answer)]  # fmt: skip
     hidden = len(answer.checks) - len(shown)
     note = f"{hidden} rules of the machine are not active." if hidden else ""
-    rows = [_check_row(check, answer, table) for check in shown]
+    rows = []
+    for check in shown:
+        stands = "violated" if not check.met else "active" if is_active(check, answer) else "ok"
+        stands = "open" if check in answer.undecided else stands
+        because = "the study" if check.origin == "require" else check.origin
+        margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least
+        value, unit = value_text(answer, check.output, table, rounded=True), pretty(table.unit(check.output))
+        rows.append((stands, check.text, value, unit, margin, because))
     heads = ("", "limit", "value", "unit", "margin", "because")
     return grid("Limits", heads, rows, right=(2, 4), code=(), toned=(0,), note=note)
-
-
-def _check_row(check: ConstraintCheck, answer: StudyResult, table: Table) -> tuple[str, ...]:
-    stands = "violated" if not check.met else "active" if is_active(check, answer) else "ok"
-    stands = "open" if check in answer.undecided else stands
-    because = "the study" if check.origin == "require" else check.origin
-    margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least
-    value = value_text(answer, check.output, table, rounded=True)
-    return stands, check.text, value, pretty(table.unit(check.output)), margin, because
 
 
 _FAINT = 1e-6  # Share of a range below which a value in it is zero
@@ -235,14 +233,16 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
     """Return what to measure, and how, with the limits that it decides on and their share of cases, the least first."""
     limits: dict[str, list[str]] = {}
     for limit, share in uncertainty["held"].items():
-        first = measure_first(limit.partition(" ")[0], uncertainty)
-        limits.setdefault(first, []).append(f"{limit.partition(' ')[0]} {100.0 * share:.3g} %")
+        output = limit.partition(" ")[0]
+        limits.setdefault(measure_first(output, uncertainty), []).append(f"{output} {100.0 * share:.3g} %")
     ranges = {entry["name"]: f"{range_text(entry)} {entry['unit']}" for entry in uncertainty["unmeasured"]}
-    rows = [
-        (first or "no single input", number(values[first]["value"]) if first else "", ranges.get(first, ""),
-         _counted(limits[first]), _test_of(values[first]["source"] if first else ""))
-        for first in sorted(limits, key=lambda name: not name)
-    ]  # fmt: skip
+    rows = []
+    for first in sorted(limits, key=lambda name: not name):
+        decided, more = limits[first][:_NAMED], len(limits[first]) - _NAMED
+        met = ", ".join([*decided, *([f"{more} more"] if more > 0 else [])])
+        value, source = (number(values[first]["value"]), values[first]["source"]) if first else ("", "")
+        test = source.partition("test: ")[2] or ("its maker's sheet, or the built part" if source else "the built part")
+        rows.append((first or "no single input", value, ranges.get(first, ""), met, test))
     heads = ("measure first", "assumed", "range", "limits met in a share of cases", "test")
     note = (
         "Before the first module: tests by docs/how-to/my-printer.md, small prints that you draw. The others: on that "
@@ -261,13 +261,3 @@ def doubts_grid(uncertainty: Mapping[str, Any], table: Table) -> Grid:
         shares.setdefault(limit.partition(" ")[0], share)
     rows = [(name, f"{100.0 * share:.3g} %", table.output(name).description) for name, share in shares.items()]
     return grid("What these limits are about", ("limit on", "met in", "meaning"), rows, right=(1,))
-
-
-def _counted(limits: Sequence[str]) -> str:
-    """Return the first of some limits, and how many more there are."""
-    return ", ".join([*limits[:_NAMED], *([f"{len(limits) - _NAMED} more"] if len(limits) > _NAMED else [])])
-
-
-def _test_of(source: str) -> str:
-    """Return the test that an input's source names."""
-    return source.partition("test: ")[2] or ("its maker's sheet, or the built part" if source else "the built part")

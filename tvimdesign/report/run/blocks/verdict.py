@@ -19,7 +19,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
@@ -39,11 +39,7 @@ _MOST_NAMED = 2  # Unmeasured inputs that a verdict names, and one more rather t
 
 TO_MEASURE = "Measure first"  # First words of the table that lists all of them
 
-Kind = Literal[
-    "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build_one",
-    "build", "unassessed",
-]  # fmt: skip
-_TONES: dict[Kind, Tone] = {
+_TONES: dict[str, Tone] = {
     "infeasible": "bad", "unfit": "bad", "rating": "bad", "margins_missed": "bad", "temperature": "warn",
     "add_margins": "warn", "not_yet": "warn", "measure": "warn", "build_one": "warn", "build": "good",
     "unassessed": "good",
@@ -54,7 +50,7 @@ _TONES: dict[Kind, Tone] = {
 class Verdict:
     """The advice on a result, with its reason."""
 
-    kind: Kind
+    kind: str  # One of `_TONES`
     text: str
 
     @property
@@ -124,8 +120,8 @@ def _violation(check: ConstraintCheck, table: Table) -> str:
 
 
 def _above_rating(answer: StudyResult) -> Verdict | None:
-    names = answer.design.above_rating
-    return Verdict("rating", f"Above a rating: {', '.join(map(label, names))} below 0") if names else None
+    names = ", ".join(map(label, answer.design.above_rating))
+    return Verdict("rating", f"Above a rating: {names} below 0") if names else None
 
 
 def _margins_missed(answer: StudyResult) -> Verdict | None:

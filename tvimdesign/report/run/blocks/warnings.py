@@ -50,9 +50,8 @@ def warnings_of(answer: StudyResult, doubts: Sequence[str], deadline: Deadline =
     from_records = [_other("doubt", line=doubt) for doubt in doubts]
     if not answer.has_design:
         return from_records
-    own = [*_of_choices(answer), *_of_the_switch(answer), *_of_advice(answer, deadline)]
-    warnings = [*own, *_of_points(answer), *_of_the_search(answer)]
-    return sorted([*warnings, *from_records], key=lambda warning: _LEVELS.index(warning.level))
+    own = [*_of_the_module(answer), *_of_advice(answer, deadline), *_of_points(answer), *_of_the_search(answer)]
+    return sorted([*own, *from_records], key=lambda warning: _LEVELS.index(warning.level))
 
 
 hints = partial(own_data, __file__, "warnings.yaml")  # Texts on each advice and rating, and on what else is warned of
@@ -75,12 +74,9 @@ def _other(kind: str, **places: str) -> RunWarning:
     return RunWarning(text, cure, entry.get("level", ""), entry.get("but", ""))
 
 
-def _of_choices(answer: StudyResult) -> Iterator[RunWarning]:
+def _of_the_module(answer: StudyResult) -> Iterator[RunWarning]:
     if answer.design.choices.get("heater_fuse") == "none":
         yield _other("unguarded")
-
-
-def _of_the_switch(answer: StudyResult) -> Iterator[RunWarning]:
     if math.isinf(answer.design.value("response_time")):
         yield _other("never_soft")
     elif math.isinf(answer.design.value("stiffening_time")):
