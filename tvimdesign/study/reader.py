@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from tvimdesign.study.sections import NAMES, SECTIONS
 from tvimdesign.study.sections.goals import is_simulated
 from tvimdesign.study.sections.sweeps import SweepBlock
 from tvimdesign.study.study import Study
-from tvimdesign.study.text.mistakes import Mistakes, is_folder, one_of, quoted
+from tvimdesign.study.text.mistakes import Mistakes, RefusedError, is_folder, one_of, quoted
 from tvimdesign.study.text.values import Reading, text, unknown_keys
 from tvimdesign.study.text.yaml_text import Node, Text
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_text
@@ -75,24 +76,25 @@ def _mode(problems: Mistakes, node: Node | None, tree: StudyTree, table: TableOf
     if node is None:
         problems.add(tree.root, "mode", "missing", expected, f"write 'mode: {MODES[0]}'")
         return ""
-    word = text(problems, node, "mode", expected)
-    if word is None:
-        return ""
-    try:
-        table(word)
-    except InputError:
-        problems.unknown(node, "mode", f"mode: {quoted(word)}", word, MODES)
-        return next(iter(get_close_matches(word.lower(), MODES, n=1)), "")
-    return word
+    with suppress(RefusedError):
+        word = text(problems, node, "mode", expected)
+        try:
+            table(word)
+        except InputError:
+            problems.unknown(node, "mode", f"mode: {quoted(word)}", word, MODES)
+            return next(iter(get_close_matches(word.lower(), MODES, n=1)), "")
+        return word
+    return ""
 
 
 def _catalog_folder(problems: Mistakes, node: Node | None, beside: Path) -> Path | None:
     if node is None or (isinstance(node, Text) and node.empty):
         return None
-    word = text(problems, node, "catalog", "a folder of records, relative to the study")
-    if word is None or is_folder(beside / word):
-        return None if word is None else beside / word
-    problems.add(node, "catalog", f"there is no folder {quoted(word)} beside the study", "a folder of records")
+    with suppress(RefusedError):
+        word = text(problems, node, "catalog", "a folder of records, relative to the study")
+        if is_folder(beside / word):
+            return beside / word
+        problems.add(node, "catalog", f"there is no folder {quoted(word)} beside the study", "a folder of records")
     return None
 
 

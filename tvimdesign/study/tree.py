@@ -6,6 +6,7 @@ From Python values to the nodes a study is read from, so that what a script give
 import os
 from collections.abc import Mapping as Mapped
 from collections.abc import Sequence as Sequenced
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from numbers import Integral, Real
 from pathlib import Path
@@ -17,6 +18,7 @@ from tvimdesign.study.text.mistakes import (
     At,
     Mistake,
     Mistakes,
+    RefusedError,
     StudyError,
     check_characters,
     printable,
@@ -53,11 +55,11 @@ def tree_of_text(source: str, file: str, name: str, folder: Path) -> StudyTree:
     """Return the tree of a study's text. Raises StudyError if it is no YAML or no study."""
     problems = Mistakes(file)
     root = compose(check_characters(source, problems), problems)
-    if not isinstance(root, Mapping):
+    if isinstance(root, Mapping):
+        return StudyTree(root, file, name, folder, problems=tuple(problems.items))
+    with suppress(RefusedError):
         misfit(problems, root, "", "a study: lines such as 'mode: shear'")
-        problems.stop()
-    assert isinstance(root, Mapping)  # else the problems have stopped it
-    return StudyTree(root, file, name, folder, problems=tuple(problems.items))
+    raise StudyError(problems.items)
 
 
 def tree_of_file(path: str | os.PathLike[str], settings: Sequenced[str] = ()) -> StudyTree:

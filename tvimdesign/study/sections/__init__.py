@@ -22,8 +22,7 @@ _TEXT: Schema = {"type": ["string", "number", "null"]}
 
 
 def _read_format(reading: Reading, node: Node | None) -> None:
-    version = None if node is None else whole(reading.problems, node, "tvimdesign")
-    if node is not None and version is not None and version != FORMAT:
+    if node is not None and (version := whole(reading.problems, node, "tvimdesign")) != FORMAT:
         message = f"this version of tvimdesign does not read format {version}"
         reading.problems.add(node, "tvimdesign", message, str(FORMAT))
 
@@ -34,7 +33,6 @@ def _words(name: str, meaning: str) -> Section:
             return ""
         if not isinstance(node, Text):
             misfit(reading.problems, node, name, "a text")
-            return ""
         if len(node.value) > _LONGEST[name]:
             message = f"{len(node.value)} characters, the limit is {_LONGEST[name]}"
             reading.problems.add(node, name, message, "a shorter text")

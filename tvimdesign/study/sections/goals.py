@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Collection
+from contextlib import suppress
 
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
@@ -10,7 +11,7 @@ from tvimdesign.device import Output, Simulated, Table
 from tvimdesign.device.core.softening import CONTROL, DUTY
 from tvimdesign.study.sections import section
 from tvimdesign.study.study import CONTROLLED, FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement, Study
-from tvimdesign.study.text.mistakes import one_of, quoted, step
+from tvimdesign.study.text.mistakes import At, RefusedError, one_of, quoted, step
 from tvimdesign.study.text.values import (
     Reading,
     below,
@@ -18,6 +19,7 @@ from tvimdesign.study.text.values import (
     exactly,
     misfit,
     number,
+    readable,
     si_value,
     text,
     unknown_keys,
@@ -36,49 +38,49 @@ def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...
     requirements: list[Requirement] = []
     for name, (key, value) in entries(reading.problems, node, "require", "outputs, each with its limits").items():
         path = step("require", name)
-        row = (_simulated if is_simulated(name, reading.points) else named_output)(reading, key, path, name)
-        if row is None:
-            continue
-        read = _limits(reading, value, path, name, row)
-        floors = [limit.limit for limit in read if limit.sense == ">="]
-        ceilings = [limit.limit for limit in read if limit.sense == "<="]
-        if floors and ceilings and below(min(ceilings), max(floors)):
-            floor, ceiling = format_quantity(max(floors), row.unit), format_quantity(min(ceilings), row.unit)
-            message = f"cannot be both at least {floor} and at most {ceiling}"
-            reading.problems.add(value, path, message, "limits that leave room between them")
-        requirements += read
+        with suppress(RefusedError):
+            row = (_simulated if is_simulated(name, reading.points) else named_output)(reading, key, path, name)
+            read = _limits(reading, value, path, name, row)
+            floors = [limit.limit for limit in read if limit.sense == ">="]
+            ceilings = [limit.limit for limit in read if limit.sense == "<="]
+            if floors and ceilings and below(min(ceilings), max(floors)):
+                floor, ceiling = format_quantity(max(floors), row.unit), format_quantity(min(ceilings), row.unit)
+                message = f"cannot be both at least {floor} and at most {ceiling}"
+                reading.problems.add(value, path, message, "limits that leave room between them")
+            requirements += read
     return (*requirements, *reading.section("task")["require"])
 
 
 def _read_minimize(reading: Reading, node: Node | None) -> dict[str, float]:
     """Return the weight of each output that is to be small; every problem is noted."""
-    weights = _weights(reading, node)
+    weights: dict[str, float] = {}
+    if isinstance(node, Text) and not node.empty:
+        with suppress(RefusedError):
+            named_output(reading, node, "minimize", node.value)
+            weights = {node.value: 1.0}
+    else:
+        expected = "the name of an output, or outputs with their weights"
+        named = entries(reading.problems, node, "minimize", expected)
+        weights = readable(lambda name, entry: _weight(reading, name, *entry), named)
     if node is not None and reading.has("minimize") and not reading.has("vary"):
         reading.problems.add(node, "minimize", "nothing may change: `vary` is missing", "both or neither")
     return weights
 
 
-def _weights(reading: Reading, node: Node | None) -> dict[str, float]:
-    if isinstance(node, Text) and not node.empty:
-        row = named_output(reading, node, "minimize", node.value)
-        return {} if row is None else {node.value: 1.0}
-    weights: dict[str, float] = {}
-    expected = "the name of an output, or outputs with their weights"
-    for name, (key, value) in entries(reading.problems, node, "minimize", expected).items():
-        path = step("minimize", name)
-        if named_output(reading, key, path, name) is None:
-            continue
-        weight = number(reading.problems, value, path, "a weight, a number above 0")
-        if weight is not None and weight <= 0:
-            reading.problems.add(value, path, f"the weight {weight:g} is not above 0", "a number above 0")
-        elif weight is not None:
-            weights[name] = weight
-    return weights
+def _weight(reading: Reading, name: str, key: Text, node: Node) -> float:
+    path = step("minimize", name)
+    named_output(reading, key, path, name)
+    weight = number(reading.problems, node, path, "a weight, a number above 0")
+    if weight <= 0:
+        reading.problems.refuse(node, path, f"the weight {weight:g} is not above 0", "a number above 0")
+    return weight
 
 
 def _read_front(reading: Reading, node: Node | None) -> FrontOptions | None:
     """Return the outputs to be traded and the count of points; every problem is noted."""
-    front = _traded_outputs(reading, node)
+    front = None
+    with suppress(RefusedError):
+        front = _traded_outputs(reading, node)
     if node is not None and reading.has("front") and not reading.has("vary"):
         expected = "`vary` and `minimize` with it"
         reading.problems.add(node, "front", "nothing may change: `vary` is missing", expected)
@@ -86,63 +88,62 @@ def _read_front(reading: Reading, node: Node | None) -> FrontOptions | None:
 
 
 def _traded_outputs(reading: Reading, node: Node | None) -> FrontOptions | None:
-    expected = "'{of: [response_time, module_mass], points: 12}'"
+    expected, add = "'{of: [response_time, module_mass], points: 12}'", reading.problems.refuse
     known = list(FrontOptions.model_fields)
     parts = unknown_keys(reading.problems, entries(reading.problems, node, "front", expected), "front", "key", known)
     if node is None or not parts:
         return None
     outputs = parts.get("of")
     if not isinstance(outputs, Sequence) or len(outputs.items) not in (2, 3):
-        reading.problems.add(
-            outputs or node, "front.of", "are not two or three outputs", "[response_time, module_mass]"
-        )
-        return None
-    names = [_traded(reading, item, f"front.of[{i}]") for i, item in enumerate(outputs.items)]
-    count = whole(reading.problems, parts["points"], "front.points") if "points" in parts else None
-    if None in names:
-        return None
-    if len(set(names)) < len(names):
-        reading.problems.add(outputs, "front.of", "names an output twice", "two or three different ones")
-        return None
+        add(outputs or node, "front.of", "are not two or three outputs", "[response_time, module_mass]")
+    listed = dict(enumerate(outputs.items))
+    names = readable(lambda i, item: read_output(reading, item, f"front.of[{i}]"), listed)
+    points = {"points": whole(reading.problems, parts["points"], "front.points")} if "points" in parts else {}
+    if len(names) < len(listed):
+        raise RefusedError
+    if len(set(names.values())) < len(names):
+        add(outputs, "front.of", "names an output twice", "two or three different ones")
     least, most = FEWEST_POINTS, MOST_POINTS
-    if count is not None and not least <= count <= most:
-        reading.problems.add(parts["points"], "front.points", f"{count} points", f"{least} to {most}")
-        return None
-    return FrontOptions(of=tuple(filter(None, names)), **({} if count is None else {"points": count}))
+    for count in points.values():
+        if not least <= count <= most:
+            add(parts["points"], "front.points", f"{count} points", f"{least} to {most}")
+    return FrontOptions(of=tuple(names.values()), **points)
 
 
-def _traded(reading: Reading, node: Node, path: str) -> str | None:
+def read_output(reading: Reading, node: Node, path: str) -> str:
+    """Return the full name of an output. Raises RefusedError where it is none."""
     word = text(reading.problems, node, path, "the name of an output")
-    if word is None or not isinstance(node, Text):
-        return None
-    return word if named_output(reading, node, path, word) else None
+    named_output(reading, node, path, word)
+    return word
 
 
-def named_output(reading: Reading, key: Text, path: str, name: str) -> Output | None:
-    """Return the output a full name means, None (and a problem) where it means none."""
+def named_output(reading: Reading, key: At, path: str, name: str) -> Output:
+    """Return the output a full name means. Raises RefusedError (a problem is noted) where it means none."""
     base, at, point = name.partition("@")
     points = reading.points
     row = reading.table.by_name.get(base)
-    add = reading.problems.add
+    refuse = reading.problems.refuse
     if row is None or (isinstance(row, Output) and row.hidden):
         names = [name.partition("@")[0] for name in reading.table.names(list(points)[:1])]
         reading.unknown_quantity(key, path, "output", base, names, point if point in points else "")
-    elif not isinstance(row, Output):
-        add(key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`")
-    elif row.instant:
-        add(key, path, "changes during the switch and has no single value", "an output with one value")
-    elif isinstance(row, Simulated):
+        raise RefusedError
+    if not isinstance(row, Output):
+        refuse(
+            key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`"
+        )
+    if row.instant:
+        refuse(key, path, "changes during the switch and has no single value", "an output with one value")
+    if isinstance(row, Simulated):
         instead = f"limit `{base}@{row.state}`" if row.state else _INSTEAD
-        add(key, path, "is simulated once a design is found", "an output that is computed", instead)
-    elif row.per_point and not at:
-        add(key, path, "has a value at each operating point", one_of([f"{base}@{name}" for name in points]))
-    elif row.per_point and point not in points:
+        refuse(key, path, "is simulated once a design is found", "an output that is computed", instead)
+    if row.per_point and not at:
+        refuse(key, path, "has a value at each operating point", one_of([f"{base}@{name}" for name in points]))
+    if row.per_point and point not in points:
         reading.problems.unknown(key, path, f"operating point: {quoted(point)}", point, points)
-    elif at and not row.per_point:
-        add(key, path, "is the same at every operating point", repr(base), f"leave out {quoted('@' + point)}")
-    else:
-        return row
-    return None
+        raise RefusedError
+    if at and not row.per_point:
+        refuse(key, path, "is the same at every operating point", repr(base), f"leave out {quoted('@' + point)}")
+    return row
 
 
 def is_simulated(name: str, points: Collection[str]) -> bool:
@@ -150,57 +151,45 @@ def is_simulated(name: str, points: Collection[str]) -> bool:
     return name.partition("@")[2] in {DUTY, CONTROL} - set(points)
 
 
-def _simulated(reading: Reading, key: Text, path: str, name: str) -> Output | None:
-    """Return the output that is limited in a duty or under the controller, None (and a problem) where there is none."""
+def _simulated(reading: Reading, key: Text, path: str, name: str) -> Output:
+    """Return the output that is limited in a duty or under the controller. Raises RefusedError where there is none."""
     base, _, state = name.partition("@")
     given = reading.table.by_name.get(base)
     own = isinstance(given, Simulated) and given.state == state
     row = given if own and isinstance(given, Output) else named_output(reading, key, path, base)
-    if row is None:
-        return None
     duty, control = reading.section("duty"), reading.section("control")
     if not (duty.switches_per_hour if state == DUTY else control.draws):
         wanted = f"`{DUTY}: {{switches_per_hour: 6}}`" if state == DUTY else f"`{CONTROL}: {{draws: 64}}`"
-        reading.problems.add(key, path, f"the study has no {state}", wanted)
-    elif not own and base not in (reading.table.behind_supplied if state == DUTY else CONTROLLED):
+        reading.problems.refuse(key, path, f"the study has no {state}", wanted)
+    if not own and base not in (reading.table.behind_supplied if state == DUTY else CONTROLLED):
         expected = (
             "an output of the switch, such as peak_heater_temperature" if state == DUTY else one_of(list(CONTROLLED))
         )
-        reading.problems.add(key, path, f"is not simulated in a {state}", expected)
-    else:
-        return row
-    return None
+        reading.problems.refuse(key, path, f"is not simulated in a {state}", expected)
+    return row
 
 
 def _limits(reading: Reading, node: Node, path: str, name: str, row: Output) -> list[Requirement]:
-    if isinstance(node, Sequence):
-        if not 1 <= len(node.items) <= MOST_LIMITS:
-            reading.problems.add(node, path, f"a list of {len(node.items)} limits", f"1 to {MOST_LIMITS} limits")
-            return []
-        read = [read_limit(reading, item, f"{path}[{i}]", name, row) for i, item in enumerate(node.items)]
-        return [requirement for requirement in read if requirement is not None]
-    requirement = read_limit(reading, node, path, name, row)
-    return [] if requirement is None else [requirement]
+    if not isinstance(node, Sequence):
+        return [read_limit(reading, node, path, name, row)]
+    if not 1 <= len(node.items) <= MOST_LIMITS:
+        reading.problems.refuse(node, path, f"a list of {len(node.items)} limits", f"1 to {MOST_LIMITS} limits")
+    listed = dict(enumerate(node.items))
+    return list(readable(lambda i, item: read_limit(reading, item, f"{path}[{i}]", name, row), listed).values())
 
 
-def read_limit(reading: Reading, node: Node, path: str, name: str, row: Output) -> Requirement | None:
-    """Return one limit on an output, None (and a problem) where it is none."""
+def read_limit(reading: Reading, node: Node, path: str, name: str, row: Output) -> Requirement:
+    """Return one limit on an output. Raises RefusedError (a problem is noted) where it is none."""
     unit = "" if row.unit == "1" else f" {row.unit}"
     expected = f"a limit such as '<= 5{unit}' or '>= 5{unit}'"
     word = text(reading.problems, node, path, expected)
-    if word is None:
-        return None
-    parts = _LIMIT.fullmatch(word)
     if several := _several(word):
         listed = ", ".join(f'"{limit}"' for limit in several)
-        reading.problems.add(node, path, f"{len(several)} limits in one text", f"a list: [{listed}]")
-        return None
+        reading.problems.refuse(node, path, f"{len(several)} limits in one text", f"a list: [{listed}]")
+    parts = _LIMIT.fullmatch(word)
     if parts is None:
         misfit(reading.problems, node, path, expected)
-        return None
     limit = si_value(reading.problems, node, path, parts["quantity"], row.unit)
-    if limit is None:
-        return None
     return Requirement(output=name, sense="<=" if parts["sense"] == "<=" else ">=", limit=limit, text=word)
 
 
@@ -256,18 +245,10 @@ def rating_names(table: Table) -> list[str]:
 def _read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
     """Return the accepted ratings by the quantity's name, one name or a list of them; every problem is noted."""
     known = rating_names(reading.table)
-    if node is None or (isinstance(node, Text) and node.empty):
-        return ()
-    if not isinstance(node, Text | Sequence):
-        misfit(reading.problems, node, "accept", f"a list of ratings: {', '.join(known)}")
-        return ()
-    items: list[tuple[str, Node]] = [("accept", node)] if isinstance(node, Text) else []
-    items += [(f"accept[{i}]", item) for i, item in enumerate(node.items)] if isinstance(node, Sequence) else []
     accepted: list[str] = []
-    for path, item in items:
+
+    def read(path: str, item: Node) -> None:
         name = text(reading.problems, item, path, one_of(known))
-        if name is None:
-            continue
         if name in accepted:
             reading.problems.add(item, path, f"names {quoted(name)} twice", "each rating once")
         elif name in known:
@@ -276,6 +257,14 @@ def _read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
             reading.problems.add(item, path, f"{name} is no rating of a material or a bought part", one_of(known))
         else:
             reading.unknown_quantity(item, path, "rating", name, known)
+
+    if isinstance(node, Sequence):
+        readable(read, {f"accept[{i}]": item for i, item in enumerate(node.items)})
+    elif isinstance(node, Text) and not node.empty:
+        readable(read, {"accept": node})
+    elif node is not None and not isinstance(node, Text):
+        with suppress(RefusedError):
+            misfit(reading.problems, node, "accept", f"a list of ratings: {', '.join(known)}")
     return tuple(accepted)
 
 

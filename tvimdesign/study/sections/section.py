@@ -13,7 +13,7 @@ from pydantic.fields import FieldInfo
 from tvimdesign.device import Choice, Input, Output, Simulated, Table
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.mistakes import Mistakes, step
-from tvimdesign.study.text.values import Reading, entries, exactly, flag, in_unit, number, unknown_keys, whole
+from tvimdesign.study.text.values import Reading, entries, exactly, flag, in_unit, number, readable, unknown_keys, whole
 from tvimdesign.study.text.yaml_text import Node
 
 Schema: TypeAlias = dict[str, Any]
@@ -136,9 +136,9 @@ def _read(problems: Mistakes, node: Node | None, path: str, model: type[_Model])
     fields = model.model_fields
     given = entries(problems, node, path, f"settings: {', '.join(fields)}")
     known = unknown_keys(problems, given, path, "setting", list(fields))
-    read = {name: _value(problems, value, step(path, name), fields[name]) for name, value in known.items()}
+    read = readable(lambda name, value: _value(problems, value, step(path, name), fields[name]), known)
     try:
-        return model(**{name: value for name, value in read.items() if value is not None})
+        return model(**read)
     except ValidationError as error:
         for fault in error.errors():
             name = str(fault["loc"][0])

@@ -18,8 +18,18 @@ from tvimdesign.study.study import (
     Study,
     WriteOptions,
 )
-from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted, step
-from tvimdesign.study.text.values import Reading, choice, entries, exactly, in_unit, misfit, quantity, unknown_keys
+from tvimdesign.study.text.mistakes import Mistakes, RefusedError, one_of, quoted, step
+from tvimdesign.study.text.values import (
+    Reading,
+    entries,
+    exactly,
+    misfit,
+    quantities,
+    quantity,
+    read_input,
+    readable,
+    unknown_keys,
+)
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 
 MOST_POINTS = 20
@@ -28,29 +38,22 @@ _POINT = re.compile(section.POINT)
 
 def _read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
     """Return the inputs (SI) and choices the study sets; every problem is noted."""
-    module: dict[str, float | str] = {}
-    for name, (key, value) in entries(
-        reading.problems, node, "module", "names of the module's inputs, each with a value"
-    ).items():
-        path, row = step("module", name), reading.table.by_name.get(name)
-        read: float | str | None = None
-        if isinstance(row, Choice):
-            read = choice(reading, value, path, row)
-        elif isinstance(row, Input) and not row.per_point:
-            read = quantity(reading.problems, value, path, row)
-        elif isinstance(row, Input):
-            reading.problems.add(
-                key, path, "belongs to an operating point", "it under `operating_points`, for each point"
-            )
-        elif row is not None:
-            reading.problems.add(key, path, "is a result and cannot be set", "an input", "limit it under `require`")
-        else:
-            reading.unknown_quantity(
-                key, path, "input or choice", name, [row.name for row in section.settable(reading.table)]
-            )
-        if read is not None:
-            module[name] = read
-    return {**module, **reading.section("task")["module"]}
+    expected = "names of the module's inputs, each with a value"
+    named = entries(reading.problems, node, "module", expected)
+    return {**readable(lambda name, entry: _set(reading, name, *entry), named), **reading.section("task")["module"]}
+
+
+def _set(reading: Reading, name: str, key: Text, value: Node) -> float | str:
+    path, row, refuse = step("module", name), reading.table.by_name.get(name), reading.problems.refuse
+    if isinstance(row, Choice) or (isinstance(row, Input) and not row.per_point):
+        return read_input(reading, value, path, row)
+    if isinstance(row, Input):
+        refuse(key, path, "belongs to an operating point", "it under `operating_points`, for each point")
+    if row is not None:
+        refuse(key, path, "is a result and cannot be set", "an input", "limit it under `require`")
+    known = [row.name for row in section.settable(reading.table)]
+    reading.unknown_quantity(key, path, "input or choice", name, known)
+    raise RefusedError
 
 
 def _read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, float]]:
@@ -78,17 +81,14 @@ def _read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, flo
 
 
 def _point(reading: Reading, node: Node, path: str, rows: dict[str, Input]) -> dict[str, float]:
-    values: dict[str, float] = {}
     expected = "values such as " + _examples(list(rows), rows)
+    known = {}
     for name, (key, value) in entries(reading.problems, node, path, expected).items():
-        where = step(path, name)
-        if name not in rows:
-            reading.problems.unknown(key, where, "input of an operating point", name, rows)
-            continue
-        read = quantity(reading.problems, value, where, rows[name])
-        if read is not None:
-            values[name] = read
-    return values
+        if name in rows:
+            known[name] = value
+        else:
+            reading.problems.unknown(key, step(path, name), "input of an operating point", name, rows)
+    return readable(lambda name, value: quantity(reading.problems, value, step(path, name), rows[name]), known)
 
 
 def _standard(point: str, rows: dict[str, Input]) -> dict[str, float]:
@@ -174,15 +174,11 @@ def _read(reading: Reading, node: Node | None) -> dict[str, GivenCurrent]:
     if reading.has("vary") and phases_given and node is not None:
         hint = "a search finds them: `profile`, or the inputs of constant currents under `vary`"
         problems.add(node, "currents", "given currents belong to a module that is evaluated", "no `vary` beside", hint)
-    currents = {}
-    for phase, value in unknown_keys(problems, phases_given, "currents", "phase", phases).items():
-        given = _given(reading, value, step("currents", phase))
-        if given is not None:
-            currents[phase] = given
-    return currents
+    known = unknown_keys(problems, phases_given, "currents", "phase", phases)
+    return readable(lambda phase, value: _given(reading, value, step("currents", phase)), known)
 
 
-def _given(reading: Reading, node: Node, path: str) -> GivenCurrent | None:
+def _given(reading: Reading, node: Node, path: str) -> GivenCurrent:
     problems = reading.problems
     parts = entries(problems, node, path, _EXPECTED)
     known = unknown_keys(problems, parts, path, "series", list(_SERIES))
@@ -191,11 +187,11 @@ def _given(reading: Reading, node: Node, path: str) -> GivenCurrent | None:
     missing = [name for name in _SERIES if name not in parts]
     if parts and missing:
         problems.add(node, path, f"has no {' and no '.join(missing)}", _EXPECTED)
-    series = {name: _series(reading, known[name], step(path, name), unit)
-              for name, unit in _SERIES.items() if name in known}  # fmt: skip
-    moments, currents = series.get("moments"), series.get("currents")
-    if moments is None or currents is None:
-        return None
+    units = {name: unit for name, unit in _SERIES.items() if name in known}
+    series = readable(lambda name, unit: _series(reading, known[name], step(path, name), unit), units)
+    if len(series) < len(_SERIES):
+        raise RefusedError
+    moments, currents = series["moments"], series["currents"]
     before = len(problems.items)
     if len(moments) != len(currents):
         problems.add(node, path, f"{len(moments)} moments and {len(currents)} currents", "a current for each moment")
@@ -203,22 +199,19 @@ def _given(reading: Reading, node: Node, path: str) -> GivenCurrent | None:
         problems.add(node, path, f"begins at {format_quantity(moments[0], 's')}", "0 s, the phase's start, at first")
     if any(later <= earlier for earlier, later in pairwise(moments)):
         problems.add(node, path, "the moments do not rise", "each moment later than the one before")
-    return None if len(problems.items) > before else GivenCurrent(moments=moments, currents=currents)
+    if len(problems.items) > before:
+        raise RefusedError
+    return GivenCurrent(moments=moments, currents=currents)
 
 
-def _series(reading: Reading, node: Node, path: str, unit: str) -> tuple[float, ...] | None:
-    """Return the values of one series in SI, or None with a problem noted."""
+def _series(reading: Reading, node: Node, path: str, unit: str) -> tuple[float, ...]:
+    """Return the values of one series in SI. Raises RefusedError, with a problem noted."""
     problems = reading.problems
     if not isinstance(node, Sequence):
         misfit(problems, node, path, f"a list of quantities in {unit}")
-        return None
     if not 2 <= len(node.items) <= MOST_MOMENTS:
-        problems.add(node, path, f"{len(node.items)} values", f"2 to {MOST_MOMENTS}")
-        return None
-    read = [in_unit(problems, item, step(path, str(place)), unit, f"a quantity in {unit}")
-            for place, item in enumerate(node.items)]  # fmt: skip
-    values = tuple(value for value in read if value is not None)
-    return values if len(values) == len(read) else None
+        problems.refuse(node, path, f"{len(node.items)} values", f"2 to {MOST_MOMENTS}")
+    return quantities(problems, node, path, unit)
 
 
 CURRENTS = section.Section(

@@ -3,23 +3,25 @@
 A sweep as plain data: axes with their values or ranges, and the arrangement of cells.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from tvimdesign.device import Choice, Input, Table
-from tvimdesign.study.sections.goals import named_output, read_limit
+from tvimdesign.study.sections.goals import named_output, read_limit, read_output
 from tvimdesign.study.sections.section import Schema, Section, mapping, output_name, set_schema, settable, shape
-from tvimdesign.study.text.mistakes import quoted, step
+from tvimdesign.study.text.mistakes import RefusedError, quoted, step
 from tvimdesign.study.text.values import (
     ROUNDING,
     Reading,
+    all_readable,
     below,
     difference_unit,
     entries,
     in_unit,
     misfit,
     quantity,
-    text,
+    readable,
     unknown_keys,
     whole,
     word_of,
@@ -87,54 +89,44 @@ _FIELDS: Schema = {
     "most": {**_COUNT, "description": f"largest number of cells; default {MOST_CELLS}"},
 }
 """The keys; those that depend on the mode are completed by `_schema`."""
-_MOST_SEED = 2**32 - 1
+_WHOLE_NUMBERS = {"count": (1, 10**9), "seed": (0, 2**32 - 1), "most": (1, 10**9)}  # Keys, with their ends
 _EXAMPLE = "'over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 20}}'"
 
 
 def _read(reading: Reading, node: Node | None) -> SweepBlock | None:
     """Return what is swept, None where nothing is; every problem is noted."""
-    parts = unknown_keys(
-        reading.problems, entries(reading.problems, node, "sweep", _EXAMPLE), "sweep", "key", list(_FIELDS)
-    )
+    problems = reading.problems
+    parts = unknown_keys(problems, entries(problems, node, "sweep", _EXAMPLE), "sweep", "key", list(_FIELDS))
     if node is None or not parts:
         return None
-    method = word_of(reading.problems, parts.get("method"), "sweep.method", METHODS) or (
-        "list" if "cells" in parts else "grid"
-    )
-    before = len(reading.problems.items)
-    if method == "list":
-        axes, rows = _listed(reading, parts, node)
-    else:
-        axes, rows = _axes(reading, parts, node, method), ()
-    count = _count(reading, parts, node, method)
+    usual = "list" if "cells" in parts else "grid"
+    method = word_of(problems, parts.get("method"), "sweep.method", METHODS) or usual
+    before = len(problems.items)
+    axes, rows = _listed(reading, parts, node) if method == "list" else (_axes(reading, parts, node, method), ())
+    counts = _counts(reading, parts, node, method)
     block = SweepBlock(
-        method=method, axes=axes, rows=rows, task=word_of(reading.problems, parts.get("task"), "sweep.task", TASKS),
-        count=count, seed=_number(reading, parts, "seed", 0, _MOST_SEED) or 0 if "seed" in parts else 1,
-        outputs=_outputs(reading, parts.get("outputs")),
+        method=method, axes=axes, rows=rows, task=word_of(problems, parts.get("task"), "sweep.task", TASKS),
+        outputs=_outputs(reading, parts.get("outputs")), **counts,
     )  # fmt: skip
-    most = _number(reading, parts, "most", 1, 10**9)
-    if len(reading.problems.items) > before:
-        return None
-    return block if most is None else replace(block, most=most)
+    return None if len(problems.items) > before else block
 
 
-def _number(reading: Reading, parts: dict[str, Node], key: str, least: int, most: int) -> int | None:
-    if key not in parts:
-        return None
-    value = whole(reading.problems, parts[key], step("sweep", key))
-    if value is not None and not least <= value <= most:
-        reading.problems.add(parts[key], step("sweep", key), f"{value} does not fit here", f"{least} to {most}")
-        return None
-    return value
-
-
-def _count(reading: Reading, parts: dict[str, Node], node: Node, method: str) -> int:
+def _counts(reading: Reading, parts: dict[str, Node], node: Node, method: str) -> dict[str, int]:
+    """Return the whole numbers that are given."""
     if method in SAMPLED and "count" not in parts:
         reading.problems.add(node, "sweep", f"how many cells are drawn is missing ({method})", "'count: 256', for one")
     elif method not in SAMPLED and "count" in parts:
         message = f"a {method} has as many cells as its axes give"
         reading.problems.add(parts["count"], "sweep.count", message, "'count' at a range of `over`")
-    return _number(reading, parts, "count", 1, 10**9) or 0
+
+    def read(key: str, part: Node) -> int:
+        (least, most), path = _WHOLE_NUMBERS[key], step("sweep", key)
+        value = whole(reading.problems, part, path)
+        if not least <= value <= most:
+            reading.problems.refuse(part, path, f"{value} does not fit here", f"{least} to {most}")
+        return value
+
+    return readable(read, {key: parts[key] for key in _WHOLE_NUMBERS if key in parts})
 
 
 def _outputs(reading: Reading, node: Node | None) -> tuple[str, ...]:
@@ -142,16 +134,12 @@ def _outputs(reading: Reading, node: Node | None) -> tuple[str, ...]:
         return ()
     if isinstance(node, Text) and node.value == EVERY_OUTPUT:
         return (EVERY_OUTPUT,)
-    if not isinstance(node, Sequence):
+    if isinstance(node, Sequence):
+        listed = dict(enumerate(node.items))
+        return tuple(readable(lambda i, item: read_output(reading, item, f"sweep.outputs[{i}]"), listed).values())
+    with suppress(RefusedError):
         misfit(reading.problems, node, "sweep.outputs", f"a list of outputs, or {EVERY_OUTPUT}")
-        return ()
-    names = []
-    for i, item in enumerate(node.items):
-        path = f"sweep.outputs[{i}]"
-        word = text(reading.problems, item, path, "the name of an output")
-        if word and isinstance(item, Text) and named_output(reading, item, path, word):
-            names.append(word)
-    return tuple(names)
+    return ()
 
 
 # --- axes ---
@@ -164,64 +152,72 @@ def _axes(reading: Reading, parts: dict[str, Node], node: Node, method: str) -> 
     named = entries(reading.problems, over, "sweep.over", _EXAMPLE)
     if not named and (over is None or isinstance(over, Mapping | Text)):
         reading.problems.add(over or node, "sweep.over", "nothing is swept: it has no axis", _EXAMPLE)
-    axes = []
-    for name, (key, value) in named.items():
-        path = step("sweep.over", name)
-        axis = _axis(reading, key, path, name)
-        if axis is None:
-            continue
-        if isinstance(value, Mapping):
-            spanned = _range(reading, value, path, axis, method)
-            axes += [spanned] if spanned else []
-        else:
-            axes.append(replace(axis, values=_values(reading, value, path)))
-    return tuple(axes)
+    return tuple(readable(lambda name, entry: _swept(reading, name, *entry, method), named).values())
+
+
+def _swept(reading: Reading, name: str, key: Text, node: Node, method: str) -> SweptAxis:
+    path = step("sweep.over", name)
+    axis = _axis(reading, key, path, name)
+    if isinstance(node, Mapping):
+        return _range(reading, node, path, axis, method)
+    if not isinstance(node, Sequence) or not node.items:
+        message = "is an empty list" if isinstance(node, Sequence) else "is no list of values"
+        reading.problems.refuse(node, path, message, "[a, b, c], or {from: ..., to: ..., count: ...}")
+    listed = dict(enumerate(node.items))
+    return replace(axis, values=tuple(readable(lambda i, item: _one(reading, item, f"{path}[{i}]"), listed).values()))
+
+
+def _one(reading: Reading, node: Node, path: str) -> Text:
+    if not isinstance(node, Text) or node.empty:
+        misfit(reading.problems, node, path, "one value")
+    return node
 
 
 def _listed(
     reading: Reading, parts: dict[str, Node], node: Node
 ) -> tuple[tuple[SweptAxis, ...], tuple[tuple[Text, ...], ...]]:
     """Read the axes and rows of `cells: [{pcl_thickness: 1 mm, current: 1 A}, ...]`."""
-    expected = "a list such as [{pcl_thickness: 1 mm, current: 1 A}, ...]"
+    expected, add = "a list such as [{pcl_thickness: 1 mm, current: 1 A}, ...]", reading.problems.add
     cells = parts.get("cells")
     if "over" in parts:
-        reading.problems.add(
-            parts["over"], "sweep.over", "a list of cells has no axes of its own", "'cells', or a grid"
-        )
+        add(parts["over"], "sweep.over", "a list of cells has no axes of its own", "'cells', or a grid")
     if not isinstance(cells, Sequence) or not cells.items:
-        reading.problems.add(cells or node, "sweep.cells", "there is no list of cells", expected)
+        add(cells or node, "sweep.cells", "there is no list of cells", expected)
         return (), ()
     axes: dict[str, SweptAxis] = {}
     rows = []
     for i, item in enumerate(cells.items):
         path = f"sweep.cells[{i}]"
         named = entries(reading.problems, item, path, expected)
-        for name, (key, value) in named.items():
-            axis = axes.get(name) or _axis(reading, key, step(path, name), name)
-            if i and axis and name not in axes:
-                reading.problems.add(key, step(path, name), "is not in the first cell", "the same names in each cell")
-            elif axis:
-                axes[name] = axis
-            if not isinstance(value, Text) or value.empty:
-                misfit(reading.problems, value, step(path, name), "one value")
+        for name, (key, _) in named.items():
+            with suppress(RefusedError):
+                axis = axes.get(name) or _axis(reading, key, step(path, name), name)
+                if i and name not in axes:
+                    add(key, step(path, name), "is not in the first cell", "the same names in each cell")
+                else:
+                    axes[name] = axis
+        texts = readable(
+            lambda where, value: _one(reading, value, where),
+            {step(path, name): value for name, (_, value) in named.items()},
+        )
         if missing := [name for name in axes if name not in named]:
-            reading.problems.add(item, path, f"has no {' and no '.join(missing)}", "the same names in each cell")
+            add(item, path, f"has no {' and no '.join(missing)}", "the same names in each cell")
         else:
-            rows.append(tuple(cell_text for name in axes if isinstance(cell_text := named[name][1], Text)))
+            rows.append(tuple(texts[step(path, name)] for name in axes if step(path, name) in texts))
     return tuple(axes.values()), tuple(rows)
 
 
-def _axis(reading: Reading, key: Text, path: str, name: str) -> SweptAxis | None:
-    """Return the axis that a name under `over` means, still without values."""
+def _axis(reading: Reading, key: Text, path: str, name: str) -> SweptAxis:
+    """Return the axis that a name under `over` means, still without values. Raises RefusedError."""
     section, _, path_in_section = name.partition(".")
     if not path_in_section:
         return _of_module(reading, key, path, name)
     if section not in _SWEPT_SECTIONS:
         reading.problems.unknown(key, path, f"section to sweep in: {quoted(section)}", section, _SWEPT_SECTIONS)
-        return None
+        raise RefusedError
     if section == "require":
         row = named_output(reading, key, path, path_in_section)
-        return SweptAxis(name, row.unit, whole=False, number=False) if row else None
+        return SweptAxis(name, row.unit, whole=False, number=False)
     point = path_in_section.partition(".")[2] if section == "operating_points" else ""
     value = reading.table.by_name.get(point)
     if isinstance(value, Input) and value.per_point:
@@ -229,80 +225,54 @@ def _axis(reading: Reading, key: Text, path: str, name: str) -> SweptAxis | None
     return SweptAxis(name, "", whole=False, number=False)
 
 
-def _of_module(reading: Reading, key: Text, path: str, name: str) -> SweptAxis | None:
-    row = reading.table.by_name.get(name)
+def _of_module(reading: Reading, key: Text, path: str, name: str) -> SweptAxis:
+    row, refuse = reading.table.by_name.get(name), reading.problems.refuse
     if isinstance(row, Choice):
         return SweptAxis(name, "", whole=False, number=False)
     if isinstance(row, Input) and not row.per_point:
         return SweptAxis(name, row.unit, whole=row.integer, number=not row.integer)
     if isinstance(row, Input):
-        reading.problems.add(key, path, "belongs to an operating point", f"'operating_points.hot.{name}', for one")
-    elif row is not None:
-        reading.problems.add(key, path, "is a result and cannot be set", f"'require.{name}' to sweep a limit on it")
-    else:
-        names = [quantity.name for quantity in reading.table.quantities if isinstance(quantity, Choice | Input)]
-        reading.unknown_quantity(key, path, "input or choice", name, names)
-    return None
-
-
-def _values(reading: Reading, node: Node, path: str) -> tuple[Text, ...]:
-    if not isinstance(node, Sequence) or not node.items:
-        empty = isinstance(node, Sequence)
-        message = "is an empty list" if empty else "is no list of values"
-        reading.problems.add(node, path, message, "[a, b, c], or {from: ..., to: ..., count: ...}")
-        return ()
-    for i, item in enumerate(node.items):
-        if not isinstance(item, Text) or item.empty:
-            misfit(reading.problems, item, f"{path}[{i}]", "one value")
-    return tuple(item for item in node.items if isinstance(item, Text))
+        refuse(key, path, "belongs to an operating point", f"'operating_points.hot.{name}', for one")
+    if row is not None:
+        refuse(key, path, "is a result and cannot be set", f"'require.{name}' to sweep a limit on it")
+    names = [quantity.name for quantity in reading.table.quantities if isinstance(quantity, Choice | Input)]
+    reading.unknown_quantity(key, path, "input or choice", name, names)
+    raise RefusedError
 
 
 # --- ranges ---
 
 
-def _range(reading: Reading, node: Mapping, path: str, axis: SweptAxis, method: str) -> SweptAxis | None:
-    parts = unknown_keys(reading.problems, node.entries, path, "key", _RANGE_KEYS)
-    ends = _ends(reading, node, parts, path, axis)
-    if ends is None:
-        return None
-    (lower, sense), (upper, other) = ends
-    logarithmic = word_of(reading.problems, parts.get("spacing"), f"{path}.spacing", _SPACINGS) == "logarithmic"
-    if sense != other:
-        reading.problems.add(node, path, f"begins with {sense} and ends with {other}", "the same sense at both ends")
-    elif not below(lower, upper):
-        reading.problems.add(node, path, "the range is upside down or has no length", "from < to", "swap the two")
-    elif logarithmic and lower <= 0.0:
-        reading.problems.add(parts["from"], f"{path}.from", "a logarithmic range begins above 0", "a value above 0")
-    else:
-        count = _steps(reading, node, parts, path, axis, (lower, upper), method)
-        return replace(axis, sense=sense, range=SweptRange(lower, upper, count, logarithmic))
-    return None
-
-
-def _ends(
-    reading: Reading, node: Mapping, parts: dict[str, Node], path: str, axis: SweptAxis
-) -> tuple[tuple[float, Sense], tuple[float, Sense]] | None:
-    """Both ends of a range; None (and a problem) where one is missing or wrong."""
+def _range(reading: Reading, node: Mapping, path: str, axis: SweptAxis, method: str) -> SweptAxis:
+    problems = reading.problems
+    parts = unknown_keys(problems, node.entries, path, "key", _RANGE_KEYS)
     if not axis.unit:
-        reading.problems.add(node, path, "has no numbers between two ends", "a list of values [..., ...]")
-        return None
-    if missing := [key for key in ("from", "to") if key not in parts]:
-        reading.problems.add(node, path, f"{' and '.join(map(repr, missing))} missing", "{from: ..., to: ...}")
-        return None
-    first, last = (_end(reading, parts[key], f"{path}.{key}", axis) for key in ("from", "to"))
-    return None if first is None or last is None else (first, last)
+        problems.refuse(node, path, "has no numbers between two ends", "a list of values [..., ...]")
+    ends = {key: parts[key] for key in ("from", "to") if key in parts}
+    if missing := [key for key in ("from", "to") if key not in ends]:
+        problems.refuse(node, path, f"{' and '.join(map(repr, missing))} missing", "{from: ..., to: ...}")
+    read = all_readable(lambda key, end: _end(reading, end, f"{path}.{key}", axis), ends)
+    (lower, sense), (upper, other) = read["from"], read["to"]
+    logarithmic = word_of(problems, parts.get("spacing"), f"{path}.spacing", _SPACINGS) == "logarithmic"
+    if sense != other:
+        problems.refuse(node, path, f"begins with {sense} and ends with {other}", "the same sense at both ends")
+    if not below(lower, upper):
+        problems.refuse(node, path, "the range is upside down or has no length", "from < to", "swap the two")
+    if logarithmic and lower <= 0.0:
+        problems.refuse(parts["from"], f"{path}.from", "a logarithmic range begins above 0", "a value above 0")
+    count = _steps(reading, node, parts, path, axis, (lower, upper), method)
+    return replace(axis, sense=sense, range=SweptRange(lower, upper, count, logarithmic))
 
 
-def _end(reading: Reading, node: Node, path: str, axis: SweptAxis) -> tuple[float, Sense] | None:
+def _end(reading: Reading, node: Node, path: str, axis: SweptAxis) -> tuple[float, Sense]:
     """Return an end of a range in SI, with its sense if it is a limit."""
     section, _, output = axis.name.partition(".")
     if section == "require":
         limit = read_limit(reading, node, path, output, reading.table.output(output.partition("@")[0]))
-        return (limit.limit, limit.sense) if limit else None
+        return limit.limit, limit.sense
     row = reading.table.quantity(axis.name.rpartition(".")[2])
     assert isinstance(row, Input)  # what has a unit and is no limit
-    value = quantity(reading.problems, node, path, row)
-    return None if value is None else (value, "")
+    return quantity(reading.problems, node, path, row), ""
 
 
 def _steps(
@@ -310,29 +280,27 @@ def _steps(
     method: str,
 ) -> int:  # fmt: skip
     """Return the number of values of a range in a grid; 0 in a sample."""
-    given = [key for key in ("count", "step") if key in parts]
+    given, problems = [key for key in ("count", "step") if key in parts], reading.problems
     if method in SAMPLED:
         for key in given:
-            reading.problems.add(parts[key], f"{path}.{key}", f"a sample ({method}) draws between the ends", "no steps")
+            problems.add(parts[key], f"{path}.{key}", f"a sample ({method}) draws between the ends", "no steps")
         return 0
-    whole_steps = axis.whole and not given
-    if len(given) != 1 and not whole_steps:
-        reading.problems.add(node, path, "needs 'count' or 'step', one of the two", "{from: ..., to: ..., count: 20}")
-        return 0
+    if len(given) != 1 and (given or not axis.whole):
+        problems.refuse(node, path, "needs 'count' or 'step', one of the two", "{from: ..., to: ..., count: 20}")
     if "count" in parts:
-        count = whole(reading.problems, parts["count"], f"{path}.count")
-        if count is not None and count < 2:
-            reading.problems.add(parts["count"], f"{path}.count", f"{count} values between two ends", "2 or more")
-        return count or 0
+        count = whole(problems, parts["count"], f"{path}.count")
+        if count < 2:
+            problems.refuse(parts["count"], f"{path}.count", f"{count} values between two ends", "2 or more")
+        return count
     if "spacing" in parts:
-        reading.problems.add(parts["spacing"], f"{path}.spacing", "steps are even", "'count' with a spacing")
-    width: float | None = 1.0
+        problems.add(parts["spacing"], f"{path}.spacing", "steps are even", "'count' with a spacing")
+    width = 1.0
     if "step" in parts:
-        unit = difference_unit(axis.unit)
-        width = in_unit(reading.problems, parts["step"], f"{path}.step", unit, f"a step in {unit}")
-    if width is None or width <= 0.0:
-        reading.problems.add(parts["step"], f"{path}.step", "leads nowhere", "a step above zero")
-        return 0
+        unit, steps = difference_unit(axis.unit), {f"{path}.step": parts["step"]}
+        read = readable(lambda where, node: in_unit(problems, node, where, unit, f"a step in {unit}"), steps)
+        width = sum(read.values())
+        if width <= 0.0:
+            problems.refuse(parts["step"], f"{path}.step", "leads nowhere", "a step above zero")
     return int((ends[1] - ends[0]) / width * (1.0 + ROUNDING) + ROUNDING) + 1
 
 

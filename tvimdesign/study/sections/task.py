@@ -10,6 +10,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator
+from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -23,16 +24,18 @@ from tvimdesign.device import Choice, Input, Table
 from tvimdesign.device.core.task import ARM, GROUP
 from tvimdesign.study.sections import section
 from tvimdesign.study.study import GivenTrajectory, Requirement, Study
-from tvimdesign.study.text.mistakes import step
+from tvimdesign.study.text.mistakes import RefusedError, step
 from tvimdesign.study.text.values import (
     Reading,
-    choice,
+    all_readable,
     entries,
     exactly,
     flag,
     in_unit,
     misfit,
-    quantity,
+    quantities,
+    read_input,
+    readable,
     text,
     unknown_keys,
 )
@@ -186,23 +189,16 @@ def _read(reading: Reading, node: Node | None) -> dict[str, Any]:
     trajectory = None
     for name, value in known.items():
         path = step("task", name)
-        if name in _URDF:
-            continue
-        if name == "trajectory":
-            trajectory = _trajectory(reading, value, path)
-            continue
-        if name in _ALLOWED:
-            output, unit = _ALLOWED[name][0], reading.table.unit(_ALLOWED[name][0])
-            limit = in_unit(problems, value, path, unit, f"a quantity in {unit}")
-            if limit is not None:
+        with suppress(RefusedError):
+            if name == "trajectory":
+                trajectory = _trajectory(reading, value, path)
+                module["trajectory"] = "given"
+            elif name in _ALLOWED:
+                output, unit = _ALLOWED[name][0], reading.table.unit(_ALLOWED[name][0])
+                limit = in_unit(problems, value, path, unit, f"a quantity in {unit}")
                 limits.append(Requirement(output=output, sense="<=", limit=limit, text=f"<= {exactly(limit, unit)}"))
-            continue
-        row = rows[name]
-        read = choice(reading, value, path, row) if isinstance(row, Choice) else quantity(problems, value, path, row)
-        if read is not None:
-            module[name] = read
-    if trajectory is not None:
-        module["trajectory"] = "given"
+            elif name in rows:
+                module[name] = read_input(reading, value, path, rows[name])
     module = {**_from_urdf(reading, known, module.get("arm_length")), **module}
     return {"module": module, "require": tuple(limits), "trajectory": trajectory}
 
@@ -212,57 +208,48 @@ def _from_urdf(reading: Reading, known: dict[str, Node], length: Any) -> dict[st
     if not known.keys() & _URDF:
         return {}
     first = next(name for name in _URDF if name in known)
-    given = [text(reading.problems, known.get(name, known[first]), step("task", name), f"the {meaning}")
-             for name, meaning in _URDF.items()]  # fmt: skip
-    if None in given:
-        return {}
-    try:
-        if len(known.keys() & _URDF) < len(_URDF):
-            raise InputError(f"`{first}` stands alone")
-        arm = arm_of(_content(reading.folder / str(given[0])), str(given[1]))
-        length = length or arm.length
-        shares = {"arm_length": length, "arm_mass": arm.mass, "arm_centre_share": arm.centre / length,
-                  "arm_inertia_share": arm.inertia / (arm.mass * length**2)}  # fmt: skip
-        for name, value in shares.items():
-            row = reading.table.quantity(name)
-            assert isinstance(row, Input)
-            if not row.lower <= value <= row.upper:
-                raise InputError(f"its {name} is {exactly(value, row.unit)}")
-    except InputError as error:
-        reading.problems.add(known[first], step("task", first), str(error), "`urdf: arm.urdf` and `joint: elbow`")
-        return {}
-    return shares
-
-
-def _trajectory(reading: Reading, node: Node, path: str) -> GivenTrajectory | None:
-    """Return the trajectory of a mapping or of a CSV file, or None with a problem noted."""
-    problems = reading.problems
-    if not isinstance(node, Mapping):
-        word = text(problems, node, path, _EXPECTED)
+    with suppress(RefusedError):
+        urdf, joint = all_readable(
+            lambda name, meaning: text(reading.problems, known.get(name, known[first]), step("task", name),
+                                       f"the {meaning}"), _URDF
+        ).values()  # fmt: skip
         try:
-            return None if word is None else _checked(*_of_csv(reading.folder / word), at_rest=False)
+            if len(known.keys() & _URDF) < len(_URDF):
+                raise InputError(f"`{first}` stands alone")
+            arm = arm_of(_content(reading.folder / urdf), joint)
+            length = length or arm.length
+            shares = {"arm_length": length, "arm_mass": arm.mass, "arm_centre_share": arm.centre / length,
+                      "arm_inertia_share": arm.inertia / (arm.mass * length**2)}  # fmt: skip
+            for name, value in shares.items():
+                row = reading.table.quantity(name)
+                assert isinstance(row, Input)
+                if not row.lower <= value <= row.upper:
+                    raise InputError(f"its {name} is {exactly(value, row.unit)}")
         except InputError as error:
-            problems.add(node, path, str(error), _EXPECTED)
-            return None
-    fields = GivenTrajectory.model_fields
-    known = unknown_keys(problems, node.entries, path, "series", list(fields))
-    series = []
-    for name, unit in (("moments", "s"), ("angles", "rad")):
-        items = known.get(name)
-        if not isinstance(items, Sequence):
-            misfit(problems, items or node, step(path, name), _EXPECTED)
-            return None
-        where = [(item, step(step(path, name), str(place))) for place, item in enumerate(items.items)]
-        read = [in_unit(problems, item, at, unit, f"a quantity in {unit}") for item, at in where]
-        series.append([value for value in read if value is not None])
-        if len(series[-1]) < len(read):
-            return None
-    at_rest = flag(problems, known["at_rest"], step(path, "at_rest")) if "at_rest" in known else True
+            expected = "`urdf: arm.urdf` and `joint: elbow`"
+            reading.problems.refuse(known[first], step("task", first), str(error), expected)
+        return shares
+    return {}
+
+
+def _trajectory(reading: Reading, node: Node, path: str) -> GivenTrajectory:
+    """Return the trajectory of a mapping or of a CSV file. Raises RefusedError, with a problem noted."""
+    problems = reading.problems
     try:
-        return _checked(series[0], series[1], at_rest=at_rest is not False)
+        if not isinstance(node, Mapping):
+            return _checked(*_of_csv(reading.folder / text(problems, node, path, _EXPECTED)), at_rest=False)
+        known = unknown_keys(problems, node.entries, path, "series", list(GivenTrajectory.model_fields))
+        series = []
+        for name, unit in (("moments", "s"), ("angles", "rad")):
+            items, at = known.get(name), step(path, name)
+            if not isinstance(items, Sequence):
+                misfit(problems, items or node, at, _EXPECTED)
+            series.append(list(quantities(problems, items, at, unit)))
+        at_rest = readable(lambda key, rest: flag(problems, rest, step(path, key)),
+                           {key: known[key] for key in ("at_rest",) if key in known})  # fmt: skip
+        return _checked(*series, at_rest=at_rest.get("at_rest", True))
     except InputError as error:
-        problems.add(node, path, str(error), _EXPECTED)
-        return None
+        problems.refuse(node, path, str(error), _EXPECTED)
 
 
 def _checked(moments: list[float], angles: list[float], *, at_rest: bool) -> GivenTrajectory:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable
+from contextlib import suppress
 from functools import partial
 from typing import Any
 
@@ -12,7 +13,7 @@ from tvimdesign.device import Input, Output, Table
 from tvimdesign.study.sections.section import NUMBER, NUMBER_VALUE, POINT, Schema, Section, described, mapping, shape
 from tvimdesign.study.study import Robust, Study, Tolerance
 from tvimdesign.study.text import values
-from tvimdesign.study.text.mistakes import one_of, quoted, step
+from tvimdesign.study.text.mistakes import RefusedError, one_of, quoted, step
 from tvimdesign.study.text.yaml_text import Mapping, Node, Text
 
 STANDARD = "standard"
@@ -64,41 +65,38 @@ def _read_tolerances(reading: values.Reading, node: Node | None) -> dict[str, To
     if isinstance(node, Text) and node.value == STANDARD:
         return standard_tolerances(reading.table)
     expected = f"{STANDARD}, or names of inputs, each with a plus-minus value"
-    tolerances: dict[str, Tolerance] = {}
     section = values.entries(reading.problems, node, "tolerances", expected)
-    if STANDARD in section and values.flag(reading.problems, section[STANDARD][1], step("tolerances", STANDARD)):
-        tolerances = standard_tolerances(reading.table)
-    for name, (key, value) in section.items():
-        if name == STANDARD:
-            continue
+    tolerances: dict[str, Tolerance] = {}
+    for name, (key, value) in sorted(section.items(), key=lambda entry: entry[0] != STANDARD):
         path = step("tolerances", name)
-        row = _input(reading, key, path, name)
-        read = None if row is None else _tolerance(reading, value, path, row, tolerances.get(name))
-        if read is not None:
-            tolerances[name] = read
+        with suppress(RefusedError):
+            if name != STANDARD:
+                row = _input(reading, key, path, name)
+                tolerances[name] = _tolerance(reading, value, path, row, tolerances.get(name))
+            elif values.flag(reading.problems, value, path):
+                tolerances = standard_tolerances(reading.table)
     return tolerances
 
 
-def _input(reading: values.Reading, key: Text, path: str, name: str) -> Input | None:
+def _input(reading: values.Reading, key: Text, path: str, name: str) -> Input:
     base, _, point = name.partition("@")
-    row = reading.table.by_name.get(base)
-    if point and isinstance(row, Input) and row.per_point and point not in reading.points:
-        reading.problems.unknown(key, path, f"operating point: {quoted(point)}", point, reading.points)
-        return None
-    if isinstance(row, Input) and not row.integer and row.per_point == bool(point):
-        return row
+    row, refuse = reading.table.by_name.get(base), reading.problems.refuse
     if row is None:
         names = [quantity.name for quantity in reading.table.inputs if not quantity.integer]
         reading.unknown_quantity(key, path, "input", base, names)
-    elif isinstance(row, Input) and row.integer:
-        reading.problems.add(key, path, "counts whole things and has no tolerance")
-    elif isinstance(row, Input):
-        expected = f"{base}@<operating point>" if row.per_point else repr(base)
-        reading.problems.add(key, path, "belongs to an operating point" if row.per_point else "has no points", expected)
-    else:
+        raise RefusedError
+    if not isinstance(row, Input):
         what = "is a result" if isinstance(row, Output) else "is a word"
-        reading.problems.add(key, path, f"{what} and has no tolerance of its own", "an input")
-    return None
+        refuse(key, path, f"{what} and has no tolerance of its own", "an input")
+    if point and row.per_point and point not in reading.points:
+        reading.problems.unknown(key, path, f"operating point: {quoted(point)}", point, reading.points)
+        raise RefusedError
+    if row.integer:
+        refuse(key, path, "counts whole things and has no tolerance")
+    if row.per_point != bool(point):
+        expected = f"{base}@<operating point>" if row.per_point else repr(base)
+        refuse(key, path, "belongs to an operating point" if row.per_point else "has no points", expected)
+    return row
 
 
 def _forms(row: Input) -> str:
@@ -107,100 +105,82 @@ def _forms(row: Input) -> str:
     return f"a plus-minus value such as '0.1{'' if unit == '1' else ' ' + unit}'{share}, or {{plus_minus: ...}}"
 
 
-def _tolerance(
-    reading: values.Reading, node: Node, path: str, row: Input, standard: Tolerance | None
-) -> Tolerance | None:
+def _tolerance(reading: values.Reading, node: Node, path: str, row: Input, standard: Tolerance | None) -> Tolerance:
     if isinstance(node, Text):
-        size = _read_size(reading, node, path, row)
-        return None if size is None else Tolerance(**size, source="the study", status="stated")
+        return Tolerance(**_read_size(reading, node, path, row), source="the study", status="stated")
     if not isinstance(node, Mapping) or not node.entries:
         values.misfit(reading.problems, node, path, _forms(row))
-        return None
     before = len(reading.problems.items)
     parts = values.unknown_keys(reading.problems, node.entries, path, "key", _KEYS)
-    read = _read_parts(reading, parts, path, row)
+    read = values.readable(lambda key, part: _part(reading, part, f"{path}.{key}", key, row), parts)
     given = [key for key in ("plus_minus", "row") if key in parts]
     if len(given) == 2 or (not given and standard is None):
         problem = "both 'plus_minus' and 'row'" if given else "'plus_minus' missing"
         reading.problems.add(node, path, problem, _forms(row))
-    if len(reading.problems.items) > before:
-        return None
+    if len(reading.problems.items) > before or len(read) < len(parts):
+        raise RefusedError
     fields = {} if standard is None else standard.model_dump()
     if given:
         fields |= {"plus_minus": None, "share": None, "row": None, "source": "the study", "status": "stated"}
-    return Tolerance(**{**fields, **read})
+    for part in read.values():
+        fields |= part
+    return Tolerance(**fields)
 
 
-def _read_parts(reading: values.Reading, parts: dict[str, Node], path: str, row: Input) -> dict[str, Any]:
-    """Return the fields a study states, without those that are wrong, which are noted."""
-    read: dict[str, Any] = {}
-    if "plus_minus" in parts:
-        read |= _read_size(reading, parts["plus_minus"], f"{path}.plus_minus", row) or {}
-    if "row" in parts:
-        read |= _read_row(reading, parts["row"], f"{path}.row", row)
-    if "distribution" in parts:
-        word = values.word_of(reading.problems, parts["distribution"], f"{path}.distribution", ["normal", "uniform"])
-        read |= {"distribution": word} if word else {}
-    if "sigma" in parts:
-        sigma = _sigmas(reading, parts["sigma"], f"{path}.sigma")
-        read |= {} if sigma is None else {"sigma": sigma}
-    if "adjustable" in parts:
-        read |= {"adjustable": values.flag(reading.problems, parts["adjustable"], f"{path}.adjustable") or False}
-    if "adjusted_to" in parts:
-        left = _read_size(reading, parts["adjusted_to"], f"{path}.adjusted_to", row)
-        if left is not None and "share" in left:
-            reading.problems.add(parts["adjusted_to"], f"{path}.adjusted_to", "is a share", f"a value in {row.unit}")
-        elif left is not None:
-            read |= {"adjusted_to": left["plus_minus"]}
-    return read
+def _part(reading: values.Reading, node: Node, path: str, key: str, row: Input) -> dict[str, Any]:
+    """Return the fields that a study states under a key."""
+    match key:
+        case "plus_minus":
+            return _read_size(reading, node, path, row)
+        case "row":
+            return {"row": _read_row(reading, node, path, row)}
+        case "distribution":
+            return {"distribution": values.word_of(reading.problems, node, path, ["normal", "uniform"])}
+        case "sigma":
+            return {"sigma": _sigmas(reading, node, path)}
+        case "adjustable":
+            return {"adjustable": values.flag(reading.problems, node, path)}
+    left = _read_size(reading, node, path, row)
+    if "share" in left:
+        reading.problems.refuse(node, path, "is a share", f"a value in {row.unit}")
+    return {"adjusted_to": left["plus_minus"]}
 
 
-def _read_size(reading: values.Reading, node: Node, path: str, row: Input) -> dict[str, float] | None:
+def _read_size(reading: values.Reading, node: Node, path: str, row: Input) -> dict[str, float]:
     """Return a plus-minus value in SI, or a share of the value if it is written in percent."""
-    word = values.text(reading.problems, node, path, _forms(row))
-    if word is None:
-        return None
+    word, refuse = values.text(reading.problems, node, path, _forms(row)), reading.problems.refuse
     share = _SHARE.fullmatch(word)
     unit = "1" if share else values.difference_unit(row.unit)
     value = values.si_value(reading.problems, node, path, share["number"] if share else word, unit)
-    if value is None:
-        return None
     if value < 0.0 or (share and value >= 100.0):
         limit = "0 to 100 %" if share else "0 or more: it counts to either side"
-        reading.problems.add(node, path, f"{quoted(word)} cannot be a tolerance", limit)
-        return None
+        refuse(node, path, f"{quoted(word)} cannot be a tolerance", limit)
     if share and row.unit == "degC":
-        reading.problems.add(node, path, f"{quoted(word)}: a temperature has no share", _forms(row))
-        return None
+        refuse(node, path, f"{quoted(word)}: a temperature has no share", _forms(row))
     if not share and row.upper - row.lower < value:
         span = f"{format_quantity(row.lower, row.unit)} to {format_quantity(row.upper, row.unit)}"
-        reading.problems.add(node, path, f"{quoted(word)} is wider than all that {row.name} may be", span)
-        return None
+        refuse(node, path, f"{quoted(word)} is wider than all that {row.name} may be", span)
     return {"share": value / 100.0} if share else {"plus_minus": value}
 
 
-def _read_row(reading: values.Reading, node: Node, path: str, row: Input) -> dict[str, str]:
+def _read_row(reading: values.Reading, node: Node, path: str, row: Input) -> str:
     rows = tolerance_rows(reading.table)
     word = values.text(reading.problems, node, path, one_of(rows))
-    if word is None:
-        return {}
     if word not in rows:
         reading.problems.unknown(node, path, f"row that gives a tolerance: {quoted(word)}", word, rows)
-        return {}
+        raise RefusedError
     try:
         parse_quantity(f"1 {reading.table.unit(word)}", values.difference_unit(row.unit))
     except UnitError:
-        reading.problems.add(node, path, f"{word} is in {reading.table.unit(word)}", f"a row in {row.unit}")
-        return {}
-    return {"row": word}
+        reading.problems.refuse(node, path, f"{word} is in {reading.table.unit(word)}", f"a row in {row.unit}")
+    return word
 
 
-def _sigmas(reading: values.Reading, node: Node, path: str) -> float | None:
+def _sigmas(reading: values.Reading, node: Node, path: str) -> float:
     expected = f"a count of standard deviations, above 0 and at most {_MOST_SIGMAS:g}"
     value = values.number(reading.problems, node, path, expected)
-    if value is not None and not 0.0 < value <= _MOST_SIGMAS:
-        reading.problems.add(node, path, f"{value:g} is out of range", expected)
-        return None
+    if not 0.0 < value <= _MOST_SIGMAS:
+        reading.problems.refuse(node, path, f"{value:g} is out of range", expected)
     return value
 
 
@@ -209,32 +189,27 @@ def _read_robust(reading: values.Reading, node: Node | None) -> Robust | None:
     expected = "{sigma: 3} or {yield: 99 %}"
     given = values.entries(reading.problems, node, "robust", expected)
     parts = values.unknown_keys(reading.problems, given, "robust", "key", list(_ROBUST_KEYS))
-    if not parts:
+    if node is None or not parts:
         return None
-    assert node is not None
     if len(parts) > 1 and "sigma" in parts:
         other = next(key for key in parts if key != "sigma")
-        reading.problems.add(node, "robust", f"both 'sigma' and '{other}'", expected)
-        return None
+        reading.problems.refuse(node, "robust", f"both 'sigma' and '{other}'", expected)
     if "yield" not in parts and "sigma" not in parts:
-        reading.problems.add(node, "robust", "'plausible' without 'yield'", "{yield: 95 %, plausible: 80 %}")
-        return None
+        reading.problems.refuse(node, "robust", "'plausible' without 'yield'", "{yield: 95 %, plausible: 80 %}")
     if not reading.section("tolerances"):
         message = "there is nothing to be robust against: `tolerances` is missing"
         reading.problems.add(node, "robust", message, "`tolerances: standard`, for one")
     if "sigma" in parts:
-        sigma = _sigmas(reading, parts["sigma"], "robust.sigma")
-        return None if sigma is None else Robust(sigma=sigma)
-    shares = {key: _share(reading, value, f"robust.{key}") for key, value in parts.items()}
-    return None if None in shares.values() else Robust(share=shares["yield"], plausible=shares.get("plausible"))
+        return Robust(sigma=_sigmas(reading, parts["sigma"], "robust.sigma"))
+    shares = values.all_readable(lambda key, value: _share(reading, value, f"robust.{key}"), parts)
+    return Robust(share=shares["yield"], plausible=shares.get("plausible"))
 
 
-def _share(reading: values.Reading, node: Node, path: str) -> float | None:
-    """Return a share of modules or of cases; None after a mistake."""
+def _share(reading: values.Reading, node: Node, path: str) -> float:
+    """Return a share of modules or of cases."""
     share = values.number(reading.problems, node, path, "a share such as 99 %")
-    if share is not None and not 0.5 < share < 1.0 - 1e-9:
-        reading.problems.add(node, path, f"{share:g} is out of range", "above 50 % and below 100 %")
-        return None
+    if not 0.5 < share < 1.0 - 1e-9:
+        reading.problems.refuse(node, path, f"{share:g} is out of range", "above 50 % and below 100 %")
     return share
 
 

@@ -10,17 +10,19 @@ from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.sections.section import Schema, Section, described, mapping, settable, shape, value_schema
 from tvimdesign.study.sections.settings import written_value
 from tvimdesign.study.study import Options, Range, Study, Vary
-from tvimdesign.study.text.mistakes import one_of, quoted, step
+from tvimdesign.study.text.mistakes import RefusedError, one_of, quoted, step
 from tvimdesign.study.text.values import (
     ROUNDING,
     Reading,
+    all_readable,
     below,
-    choice,
     entries,
     expected_for,
     in_unit,
     misfit,
     quantity,
+    read_input,
+    readable,
     record,
     text,
     unknown_keys,
@@ -42,21 +44,18 @@ def _read(reading: Reading, node: Node | None) -> dict[str, Vary]:
 def _ranges(reading: Reading, node: Node | None) -> dict[str, Vary]:
     rows: dict[str, Input | Choice] = {row.name: row for row in reading.table.inputs if row.variable}
     rows |= {row.name: row for row in reading.table.choices}
-    ranges: dict[str, Vary] = {}
-    for name, (key, value) in entries(
-        reading.problems, node, "vary", "names of variables, each with a range or list"
-    ).items():
+    known = {}
+    expected = "names of variables, each with a range or list"
+    for name, (key, value) in entries(reading.problems, node, "vary", expected).items():
         path = step("vary", name)
-        row = rows.get(name)
-        if row is not None:
-            read = _input(reading, value, path, row) if isinstance(row, Input) else _choice(reading, value, path, row)
-            ranges |= {} if read is None else {name: read}
+        if name in rows:
+            known[name] = value
         elif name in reading.table.by_name:
             message, hint = _fixed(reading, name)
             reading.problems.add(key, path, message, one_of(list(rows)), hint)
         else:
             reading.unknown_quantity(key, path, "variable", name, rows)
-    return ranges
+    return readable(lambda name, value: _allowed(reading, value, step("vary", name), rows[name]), known)
 
 
 def _fixed(reading: Reading, name: str) -> tuple[str, str]:
@@ -69,21 +68,22 @@ def _fixed(reading: Reading, name: str) -> tuple[str, str]:
     return "cannot be varied", "give it under `module`"
 
 
-def _input(reading: Reading, node: Node, path: str, row: Input) -> Vary | None:
-    expected = _forms(row)
+def _allowed(reading: Reading, node: Node, path: str, row: Input | Choice) -> Vary:
+    if isinstance(row, Choice):
+        if not isinstance(node, Mapping) or list(node.entries) != ["choose"]:
+            misfit(reading.problems, node, path, "a list of names {choose: [...]}")
+        return _listed(reading, node.entries["choose"][1], path, row)
     if isinstance(node, Sequence):
         return _pair(reading, node, path, row)
     if not isinstance(node, Mapping) or not node.entries:
-        misfit(reading.problems, node, path, expected)
-        return None
+        misfit(reading.problems, node, path, _forms(row))
     kinds = [kind for kind in ("choose", "catalog") if kind in node.entries]
     steps = row.integer or "step" in node.entries
     span = ["from", "to", "step"] if steps else ["from", "to", "start"]
     known = {"choose": ["choose"], "catalog": ["catalog", "from", "to"]}.get(kinds[0] if kinds else "", span)
-    before = len(reading.problems.items)
     parts = unknown_keys(reading.problems, node.entries, path, f"key beside {kinds[0]!r}" if kinds else "key", known)
-    if len(reading.problems.items) > before:
-        return None
+    if len(parts) < len(node.entries):
+        raise RefusedError
     if "choose" in parts:
         return _listed(reading, parts["choose"], path, row)
     if "catalog" in parts:
@@ -101,118 +101,89 @@ def _forms(row: Input) -> str:
     )
 
 
-def _pair(reading: Reading, node: Sequence, path: str, row: Input) -> Range | None:
+def _pair(reading: Reading, node: Sequence, path: str, row: Input) -> Range:
     if len(node.items) != 2:
         message = f"a list of {len(node.items)} does not fit here" if node.items else "the list is empty"
-        reading.problems.add(node, path, message, _forms(row), "write several values as {choose: [...]}")
-        return None
-    lower, upper = (quantity(reading.problems, item, f"{path}[{i}]", row) for i, item in enumerate(node.items))
-    return _checked(reading, node, path, row, (lower, upper, None))
+        reading.problems.refuse(node, path, message, _forms(row), "write several values as {choose: [...]}")
+    ends = _quantities(reading, {f"{path}[{i}]": item for i, item in enumerate(node.items)}, row)
+    return _checked(reading, node, path, row, *ends.values())
 
 
-def _span(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Range | None:
+def _span(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Range:
     values = _ends(reading, node, parts, path, row)
-    if values is None:
-        return None
-    where = parts.get("start", node)
-    return _checked(reading, where, path, row, (values["from"], values["to"], values.get("start")))
+    return _checked(reading, parts.get("start", node), path, row, values["from"], values["to"], values.get("start"))
 
 
-def _ends(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> dict[str, float] | None:
-    """Return the values of `from`, `to` and the keys beside them, or None with a problem noted."""
+def _quantities(reading: Reading, nodes: dict[str, Node], row: Input) -> dict[str, float]:
+    """Return values of an input by their paths; raises RefusedError, once all are read, if any is refused."""
+    return all_readable(lambda path, node: quantity(reading.problems, node, path, row), nodes)
+
+
+def _ends(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> dict[str, float]:
+    """Return the values of `from`, `to` and the keys beside them. Raises RefusedError, with a problem noted."""
     missing = [key for key in ("from", "to") if key not in parts]
     if missing:
         reading.problems.add(node, path, f"{' and '.join(map(repr, missing))} missing", _forms(row))
-    values = {key: quantity(reading.problems, value, f"{path}.{key}", row) for key, value in parts.items()}
-    read = {key: value for key, value in values.items() if value is not None}
-    return None if missing or len(read) < len(values) else read
+    values = _quantities(reading, {f"{path}.{key}": value for key, value in parts.items()}, row)
+    if missing:
+        raise RefusedError
+    return dict(zip(parts, values.values(), strict=True))
 
 
-def _steps(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Options | None:
+def _steps(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Options:
     """Return sizes evenly spaced between two ends, such as quarters of a coil; whole things by default one by one."""
-    place = parts.get("step", node)
+    place, refuse = parts.get("step", node), reading.problems.refuse
     width = 1.0
     if "step" in parts:
-        read = in_unit(reading.problems, place, f"{path}.step", row.unit, expected_for(row))
-        if read is None or not _makes_steps(reading, place, f"{path}.step", row, read):
-            return None
-        width = read
+        width = in_unit(reading.problems, place, f"{path}.step", row.unit, expected_for(row))
+        if width <= 0.0:
+            refuse(place, f"{path}.step", "a step of that size leads nowhere", "a step above zero")
+        if row.integer and not width.is_integer():
+            refuse(place, f"{path}.step", "counts whole things", "a whole step")
     values = _ends(reading, node, {key: parts[key] for key in ("from", "to") if key in parts}, path, row)
-    if values is None:
-        return None
     lower, upper = values["from"], values["to"]
     if below(upper, lower):
-        reading.problems.add(node, path, "the range is upside down", "from < to", "swap the two")
-        return None
+        refuse(node, path, "the range is upside down", "from < to", "swap the two")
     count = int((upper - lower) / width * (1.0 + ROUNDING) + ROUNDING) + 1
     if count > MOST_OPTIONS:
-        reading.problems.add(place, path, f"{count} sizes from end to end", f"1 to {MOST_OPTIONS}", "a longer step")
-        return None
+        refuse(place, path, f"{count} sizes from end to end", f"1 to {MOST_OPTIONS}", "a longer step")
     return Options(values=tuple(lower + i * width for i in range(count)))
 
 
-def _makes_steps(reading: Reading, place: Node, path: str, row: Input, width: float) -> bool:
-    """Return whether a step is positive, and whole if whole things are counted."""
-    if width <= 0.0:
-        reading.problems.add(place, path, "a step of that size leads nowhere", "a step above zero")
-    elif row.integer and not width.is_integer():
-        reading.problems.add(place, path, "counts whole things", "a whole step")
-    return width > 0.0 and (not row.integer or width.is_integer())
-
-
 def _checked(
-    reading: Reading, node: Node, path: str, row: Input, values: tuple[float | None, float | None, float | None]
-) -> Range | None:
-    lower, upper, start = values
-    if lower is None or upper is None:
-        return None
+    reading: Reading, node: Node, path: str, row: Input, lower: float, upper: float, start: float | None = None
+) -> Range:
+    low, high = format_quantity(lower, row.unit), format_quantity(upper, row.unit)
     if row.integer:
-        reading.problems.add(node, path, "counts whole things, which a range cannot hold", _forms(row))
-    elif not below(lower, upper):
-        low, high = format_quantity(lower, row.unit), format_quantity(upper, row.unit)
+        reading.problems.refuse(node, path, "counts whole things, which a range cannot hold", _forms(row))
+    if not below(lower, upper):
         message = f"the range ends where it begins, at {low}" if math.isclose(lower, upper, rel_tol=ROUNDING) else ""
         hint = "to fix it, set it under `module`" if message else "swap the two"
-        reading.problems.add(
-            node, path, message or f"the range is upside down: from {low} to {high}", "from < to", hint
-        )
-    elif start is not None and (below(start, lower) or below(upper, start)):
-        low, high = format_quantity(lower, row.unit), format_quantity(upper, row.unit)
+        message = message or f"the range is upside down: from {low} to {high}"
+        reading.problems.refuse(node, path, message, "from < to", hint)
+    if start is not None and (below(start, lower) or below(upper, start)):
         shown = format_quantity(start, row.unit)
-        reading.problems.add(node, f"{path}.start", f"{shown} lies outside the range", f"{low} to {high}")
-    else:
-        return Range(lower=lower, upper=upper, start=start)
-    return None
+        reading.problems.refuse(node, f"{path}.start", f"{shown} lies outside the range", f"{low} to {high}")
+    return Range(lower=lower, upper=upper, start=start)
 
 
-def _choice(reading: Reading, node: Node, path: str, row: Choice) -> Options | None:
-    if not isinstance(node, Mapping) or list(node.entries) != ["choose"]:
-        misfit(reading.problems, node, path, "a list of names {choose: [...]}")
-        return None
-    return _listed(reading, node.entries["choose"][1], path, row)
-
-
-def _listed(reading: Reading, node: Node, path: str, row: Input | Choice) -> Options | None:
+def _listed(reading: Reading, node: Node, path: str, row: Input | Choice) -> Options:
     path = f"{path}.choose"
     if not isinstance(node, Sequence):
         misfit(reading.problems, node, path, "a list [..., ...]")
-        return None
     if not 1 <= len(node.items) <= MOST_OPTIONS:
         message = f"the list has {len(node.items)} values" if node.items else "the list is empty"
-        reading.problems.add(node, path, message, f"1 to {MOST_OPTIONS} values")
-        return None
+        reading.problems.refuse(node, path, message, f"1 to {MOST_OPTIONS} values")
     values: list[float | str] = []
-    for index, item in enumerate(node.items):
-        where = f"{path}[{index}]"
-        read = (
-            quantity(reading.problems, item, where, row)
-            if isinstance(row, Input)
-            else choice(reading, item, where, row)
-        )
-        if read is not None and _has(values, read):
-            reading.problems.add(item, where, f"{_shown(item)} stands twice in the list", "each value once")
-        elif read is not None:
-            values.append(read)
-    return Options(values=tuple(values)) if len(values) == len(node.items) else None
+
+    def read(where: str, item: Node) -> None:
+        value = read_input(reading, item, where, row)
+        if _has(values, value):
+            reading.problems.refuse(item, where, f"{_shown(item)} stands twice in the list", "each value once")
+        values.append(value)
+
+    all_readable(read, {f"{path}[{index}]": item for index, item in enumerate(node.items)})
+    return Options(values=tuple(values))
 
 
 def _check_against_module(reading: Reading, vary: dict[str, Vary], module: dict[str, float | str]) -> None:
@@ -263,45 +234,39 @@ def _shown(node: Node) -> str:
 # --- sizes one can buy ---
 
 
-def _read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> Options | None:
+def _read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> Options:
     """Return the sizes a catalogue record lists for an input, within `from` and `to` where they are given."""
     node = parts["catalog"]
-    ends = {key: quantity(reading.problems, parts[key], f"{path}.{key}", row) for key in ("from", "to") if key in parts}
+    ends = {key: parts[key] for key in ("from", "to") if key in parts}
+    read = readable(lambda key, end: quantity(reading.problems, end, f"{path}.{key}", row), ends)
     name = text(reading.problems, node, f"{path}.catalog", f"the name of a record in the category {row.sizes_in[0]}")
-    sizes = [] if name is None else _sizes(reading, node, f"{path}.catalog", name, row)
-    if not sizes or None in ends.values():
-        return None
-    lower, upper = ends.get("from"), ends.get("to")
-    low = row.lower if lower is None else lower
-    high = row.upper if upper is None else upper
+    sizes = _sizes(reading, node, f"{path}.catalog", name, row)
+    if len(read) < len(ends):
+        raise RefusedError
+    low, high = read.get("from", row.lower), read.get("to", row.upper)
     if below(high, low):
-        reading.problems.add(parts.get("from", node), path, "the range is upside down", "from < to", "swap the two")
-        return None
+        place = parts.get("from", node)
+        reading.problems.refuse(place, path, "the range is upside down", "from < to", "swap the two")
     within = tuple(size for size in sizes if not below(size, low) and not below(high, size))
-    if within:
-        return Options(values=within, source=name)
-    first, last = format_quantity(sizes[0], row.unit), format_quantity(sizes[-1], row.unit)
-    message = f"{name} has no size from {format_quantity(low, row.unit)} to {format_quantity(high, row.unit)}"
-    reading.problems.add(node, path, message, f"part of {first} to {last}")
-    return None
+    if not within:
+        first, last = format_quantity(sizes[0], row.unit), format_quantity(sizes[-1], row.unit)
+        message = f"{name} has no size from {format_quantity(low, row.unit)} to {format_quantity(high, row.unit)}"
+        reading.problems.refuse(node, path, message, f"part of {first} to {last}")
+    return Options(values=within, source=name)
 
 
 def _sizes(reading: Reading, node: Node, path: str, name: str, row: Input) -> list[float]:
-    """Return every size the record lists, smallest first; none (and a problem) where it lists none."""
+    """Return every size the record lists, smallest first. Raises RefusedError where it lists none."""
     category, of, column = row.sizes_in
-    sizes_record = record(reading, node, path, category, name)
-    if sizes_record is None:
-        return []
     try:
-        table = sizes_record.table(of)
+        table = record(reading, node, path, category, name).table(of)
     except CatalogError as error:
-        reading.problems.add(node, path, str(error))
-        return []
+        reading.problems.refuse(node, path, str(error))
     sizes = sorted({float(line[column]) for line in table if column in line})
     if not sizes:
         columns = ", ".join(sorted({listed for line in table for listed in line}))
         message = f"{name} lists no {column}, only {columns or 'nothing'}"
-        reading.problems.add(node, path, message, "a record that lists it")
+        reading.problems.refuse(node, path, message, "a record that lists it")
     return sizes
 
 

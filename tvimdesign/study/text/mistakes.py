@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
+from typing import NoReturn
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import own_data
@@ -52,6 +53,10 @@ class Mistake:
         return f"{place}: " + "; ".join(part for part in (what, expected, self.hint) if part)
 
 
+class RefusedError(Exception):
+    """A value cannot be used; why is noted."""
+
+
 class StudyError(InputError):
     """A study cannot be used; holds every problem found, in the order of the file."""
 
@@ -79,6 +84,11 @@ class Mistakes:
         """Note one problem."""
         one_line = "; ".join(message.splitlines())
         self.items.append(Mistake(place.file or self.file, place.line, place.column, path, one_line, expected, hint))
+
+    def refuse(self, place: At, path: str, message: str, expected: str = "", hint: str = "") -> NoReturn:
+        """Note one problem of a value that cannot be used. Raises RefusedError."""
+        self.add(place, path, message, expected, hint)
+        raise RefusedError
 
     @property
     def full(self) -> bool:

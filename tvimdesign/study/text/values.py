@@ -7,14 +7,14 @@ from collections.abc import Mapping as Mapped
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn, TypeVar
 
 from tvimdesign.base.errors import CatalogError, UnitError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import exact_digits, format_quantity, from_si, parse_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
-from tvimdesign.study.text.mistakes import At, Mistakes, nearest, one_of, quoted, step, synonyms
+from tvimdesign.study.text.mistakes import At, Mistakes, RefusedError, nearest, one_of, quoted, step, synonyms
 from tvimdesign.study.text.yaml_text import Broken, Mapping, Node, Sequence, Text
 
 LONGEST_VALUE = 200
@@ -23,6 +23,9 @@ ROUNDING = 1e-9
 _WHOLE = re.compile(r"0|-?[1-9][0-9]{0,17}")
 _OCTAL = re.compile(r"[+-]?0[0-9]")
 _FLAGS = {"true": True, "True": True, "false": False, "False": False}
+K = TypeVar("K")
+T = TypeVar("T")
+R = TypeVar("R")
 
 
 @dataclass(frozen=True)
@@ -39,9 +42,11 @@ class Reading:
     values: dict[str, Any] = field(default_factory=dict)  # The sections that have been read
 
     def section(self, name: str) -> Any:
-        """Return the value of a section; it is read when it is first asked for."""
+        """Return the value of a section, None of a refused one; it is read when it is first asked for."""
         if name not in self.values:
-            self.values[name] = self.readers[name](self, self.nodes.get(name))
+            self.values[name] = None
+            with suppress(RefusedError):
+                self.values[name] = self.readers[name](self, self.nodes.get(name))
         return self.values[name]
 
     @property
@@ -91,84 +96,104 @@ def entries(problems: Mistakes, node: Node | None, path: str, expected: str) -> 
     if isinstance(node, Mapping):
         return node.entries
     if node is not None and not (isinstance(node, Text) and node.empty):
-        misfit(problems, node, path, expected)
+        with suppress(RefusedError):
+            misfit(problems, node, path, expected)
     return {}
 
 
-def misfit(problems: Mistakes, node: Node, path: str, expected: str) -> None:
-    """Note that a node has the wrong shape, or nothing where that was noted already."""
+def readable(read: Callable[[K, T], R], nodes: Mapped[K, T]) -> dict[K, R]:
+    """Return what is read of some values, without those that are refused."""
+    values = {}
+    for name, node in nodes.items():
+        with suppress(RefusedError):
+            values[name] = read(name, node)
+    return values
+
+
+def all_readable(read: Callable[[K, T], R], nodes: Mapped[K, T]) -> dict[K, R]:
+    """Return what is read of some values; raises RefusedError, once all are read, if any is refused."""
+    values = readable(read, nodes)
+    if len(values) < len(nodes):
+        raise RefusedError
+    return values
+
+
+def misfit(problems: Mistakes, node: Node, path: str, expected: str) -> NoReturn:
+    """Note that a node has the wrong shape, or nothing where that was noted already. Raises RefusedError."""
     if isinstance(node, Broken):
-        return
+        raise RefusedError
     if isinstance(node, Text):
         what = "no value" if node.empty else f"the value {quoted(node.value)}"
     else:
         what = "a list" if isinstance(node, Sequence) else "a mapping (name: value)"
-    problems.add(node, path, f"{what} does not fit here", expected)
+    problems.refuse(node, path, f"{what} does not fit here", expected)
 
 
-def text(problems: Mistakes, node: Node, path: str, expected: str) -> str | None:
-    """Return the text of a scalar, None (and a problem) where there is none or it is over-long."""
+# What follows notes why a value cannot be used, and raises RefusedError then.
+
+
+def text(problems: Mistakes, node: Node, path: str, expected: str) -> str:
+    """Return the text of a scalar that is not over-long."""
     if not isinstance(node, Text) or node.empty:
         misfit(problems, node, path, expected)
-        return None
     if len(node.value) > LONGEST_VALUE:
         message = f"{quoted(node.value)} has {len(node.value)} characters, the limit is {LONGEST_VALUE}"
-        problems.add(node, path, message, expected)
-        return None
+        problems.refuse(node, path, message, expected)
     return node.value.strip()
 
 
 def word_of(problems: Mistakes, node: Node | None, path: str, known: Collection[str]) -> str:
     """Return one of some words; empty if none is written, or (with a problem) another one."""
-    word = None if node is None else text(problems, node, path, one_of(list(known)))
-    if node is not None and word is not None and word not in known:
+    with suppress(RefusedError):
+        word = "" if node is None else text(problems, node, path, one_of(list(known)))
+        if node is None or word in known:
+            return word
         problems.unknown(node, path, f"{path.rpartition('.')[2]}: {quoted(word)}", word, known)
-    return word if word is not None and word in known else ""
+    return ""
 
 
-def whole(problems: Mistakes, node: Node, path: str) -> int | None:
+def whole(problems: Mistakes, node: Node, path: str) -> int:
     """Return a whole number written in plain digits."""
     expected = "a whole number in plain digits"
     word = text(problems, node, path, expected)
-    if word is None:
-        return None
     if not _WHOLE.fullmatch(word):
         misfit(problems, node, path, expected)
-        return None
     return int(word)
 
 
-def flag(problems: Mistakes, node: Node, path: str) -> bool | None:
+def flag(problems: Mistakes, node: Node, path: str) -> bool:
     """Return true or false; YAML's other words for them (yes, on) are refused, as they surprise."""
     word = text(problems, node, path, "true or false")
-    if word is not None and word not in _FLAGS:
+    if word not in _FLAGS:
         misfit(problems, node, path, "true or false")
-    return _FLAGS.get(word or "")
+    return _FLAGS[word]
 
 
-def number(problems: Mistakes, node: Node, path: str, expected: str = "a number") -> float | None:
+def number(problems: Mistakes, node: Node, path: str, expected: str = "a number") -> float:
     """Return a number without a unit."""
     return in_unit(problems, node, path, "1", expected)
 
 
-def in_unit(problems: Mistakes, node: Node, path: str, unit: str, expected: str) -> float | None:
+def in_unit(problems: Mistakes, node: Node, path: str, unit: str, expected: str) -> float:
     """Return the SI value of a quantity that must have the dimension of `unit`."""
-    word = text(problems, node, path, expected)
-    if word is None:
-        return None
-    return si_value(problems, node, path, word, unit)
+    return si_value(problems, node, path, text(problems, node, path, expected), unit)
 
 
-def si_value(problems: Mistakes, node: Node, path: str, word: str, unit: str) -> float | None:
-    """Return the SI value of a word that stands in a node, None (and a problem) where it is no such quantity."""
+def quantities(problems: Mistakes, node: Sequence, path: str, unit: str) -> tuple[float, ...]:
+    """Return the SI values of a list of quantities in a unit."""
+    listed, expected = {str(place): item for place, item in enumerate(node.items)}, f"a quantity in {unit}"
+    read = all_readable(lambda place, item: in_unit(problems, item, step(path, place), unit, expected), listed)
+    return tuple(read.values())
+
+
+def si_value(problems: Mistakes, node: Node, path: str, word: str, unit: str) -> float:
+    """Return the SI value of a word that stands in a node."""
     if _OCTAL.match(word):
-        problems.add(node, path, f"{quoted(word)} starts with a zero, which some read as octal", hint="leave it out")
-        return None
+        problems.refuse(node, path, f"{quoted(word)} starts with a zero, which some read as octal", hint="leave it out")
     try:
         return parse_quantity(word, unit)
     except UnitError as error:
-        problems.add(node, path, str(error))
-        return None
+        problems.refuse(node, path, str(error))
 
 
 def exactly(value: float, unit: str) -> str:
@@ -187,44 +212,34 @@ def difference_unit(unit: str) -> str:
     return "K" if unit == "degC" else unit
 
 
-def quantity(problems: Mistakes, node: Node, path: str, row: Input) -> float | None:
+def quantity(problems: Mistakes, node: Node, path: str, row: Input) -> float:
     """Return the SI value of an input, which must lie within the row's own limits."""
     value = in_unit(problems, node, path, row.unit, expected_for(row))
-    if value is None:
-        return None
     shown = quoted(node.value.strip()) if isinstance(node, Text) else ""
     if row.integer and not value.is_integer():
-        problems.add(node, path, f"{shown} is not a whole number", "a whole number")
-        return None
+        problems.refuse(node, path, f"{shown} is not a whole number", "a whole number")
     if below(value, row.lower):
-        problems.add(
-            node, path, f"{shown} is below the lower limit {format_quantity(row.lower, row.unit)}", limits(row)
-        )
-        return None
+        lower = format_quantity(row.lower, row.unit)
+        problems.refuse(node, path, f"{shown} is below the lower limit {lower}", limits(row))
     if below(row.upper, value):
-        problems.add(
-            node, path, f"{shown} is above the upper limit {format_quantity(row.upper, row.unit)}", limits(row)
-        )
-        return None
+        upper = format_quantity(row.upper, row.unit)
+        problems.refuse(node, path, f"{shown} is above the upper limit {upper}", limits(row))
     return value
 
 
-def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
+def choice(reading: Reading, node: Node, path: str, row: Choice) -> str:
     """Return the name of a record that is on the row's category, or one of the row's options."""
     word = text(reading.problems, node, path, "the name of a record" if row.category else "one of the options")
-    if word is None:
-        return None
     if word in row.options:
         return word
     if row.category:
-        known_record = record(reading, node, path, row.category, word)
-        return word if known_record else None
+        return record(reading, node, path, row.category, word).name
     reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
-    return None
+    raise RefusedError
 
 
-def record(reading: Reading, node: Node, path: str, category: str, name: str) -> Record | None:
-    """Return a record of the catalogue, None (and a problem) where there is none or its file is wrong."""
+def record(reading: Reading, node: Node, path: str, category: str, name: str) -> Record:
+    """Return a record of the catalogue."""
     try:
         known = reading.catalog.names(category)
         if name in known:
@@ -232,7 +247,12 @@ def record(reading: Reading, node: Node, path: str, category: str, name: str) ->
         reading.problems.unknown(node, path, f"record in the category {category}: {quoted(name)}", name, known)
     except CatalogError as error:
         reading.problems.add(node, path, str(error))
-    return None
+    raise RefusedError
+
+
+def read_input(reading: Reading, node: Node, path: str, row: Input | Choice) -> float | str:
+    """Return the SI value of an input, or the word of a choice."""
+    return choice(reading, node, path, row) if isinstance(row, Choice) else quantity(reading.problems, node, path, row)
 
 
 def below(value: float, limit: float) -> bool:
