@@ -22,11 +22,12 @@ def compare_with_differences(model: DeviceFunctions, numbers: Mapping[str, float
     """Compare the derivatives of every output by every input with those of differences."""
     inputs, cycle = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("cycle", len(model.switch_names))
     supplied = np.array([numbers[name] for name in model.switch_names])
-    jacobian = ca.Function("jacobian", [inputs, cycle], [ca.jacobian(model.every_output(inputs, cycle), inputs)])
+    every = model.outputs(model.output_names)
+    jacobian = ca.Function("jacobian", [inputs, cycle], [ca.jacobian(every(inputs, cycle), inputs)])
     exact = np.asarray(ca.DM(jacobian(model.start, supplied)).full())
     which = [i for i, name in enumerate(model.names) if name != "rotor_cells"]  # a shape, not a number
-    shown = differences(lambda x: model.every_output(x, supplied), model.start, which, 1e-4)
-    values = np.asarray(model.every_output(model.start, supplied)).ravel()
+    shown = differences(lambda x: every(x, supplied), model.start, which, 1e-4)
+    values = np.asarray(every(model.start, supplied)).ravel()
     # What a relative change of the input does to the output, relative: the two agree to 1e-6 of the larger.
     relative = np.abs(model.start[which]) / np.where(values == 0.0, 1.0, np.abs(values))[:, None]
     error = np.abs(exact[:, which] - shown) * relative
@@ -48,10 +49,11 @@ def test_outputs_of_compression_have_the_derivatives_of_differences(squeezed_mod
 def test_derivatives_by_the_switch_are_those_of_differences(unity, numbers):
     supplied = np.array([numbers[name] for name in unity.switch_names])
     cycle = ca.MX.sym("cycle", len(supplied))
-    jacobian = ca.Function("jacobian", [cycle], [ca.jacobian(unity.every_output(unity.start, cycle), cycle)])
+    every = unity.outputs(unity.output_names)
+    jacobian = ca.Function("jacobian", [cycle], [ca.jacobian(every(unity.start, cycle), cycle)])
     # Steps within 0.1 %: the margin of the thermal cut-out has a kink 0.2 % above the heater's temperature.
-    shown = differences(lambda x: unity.every_output(unity.start, x), supplied, list(range(len(supplied))), 5e-4)
-    values = np.abs(np.asarray(unity.every_output(unity.start, supplied)).ravel())[:, None]
+    shown = differences(lambda x: every(unity.start, x), supplied, list(range(len(supplied))), 5e-4)
+    values = np.abs(np.asarray(every(unity.start, supplied)).ravel())[:, None]
     exact = np.asarray(ca.DM(jacobian(supplied)).full())
     # Of a small rest of two large numbers, as the margin to a hot point that is just reached, the larger counts.
     allowed = 1e-9 * np.maximum(np.maximum(values, np.abs(exact * supplied)), 1e-6)

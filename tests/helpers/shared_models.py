@@ -15,7 +15,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 MOST_MODELS = 10
 """Kinds of model whose equations are kept, those used last: each is some ten megabytes."""
-EQUATIONS = ("_symbols", "_settled", "_known", "phases", "engines", "output_names", "every_output", "functions")
+EQUATIONS = ("_symbols", "_settled", "_known", "phases", "engines", "output_names", "functions")
 
 _by_kind: OrderedDict[Hashable, DeviceFunctions] = OrderedDict()
 _begin, _outputs = DeviceFunctions.__init__, DeviceFunctions.outputs

@@ -254,10 +254,8 @@ def drawn_modules(resolved: ResolvedModule, count: int) -> list[tuple[Array, Lag
         for part, share in zip(parts, point, strict=False):
             moved = values.get(part.name, part.nominal) + float(part.ppf(share)) - part.nominal
             values[part.name] = min(max(moved, part.lower), part.upper)
-        inputs = resolved.functions.start.copy()
-        for name, value in values.items():
-            if name in resolved.functions.index:
-                inputs[resolved.functions.index[name]] = value
+        known = {name: value for name, value in values.items() if name in resolved.functions.index}
+        inputs = resolved.functions.inputs(known)
         modules.append((inputs, Lags(*(lags * LAG_RANGE ** (2.0 * point[-2:] - 1.0)).tolist())))
     return modules
 

@@ -141,26 +141,32 @@ class DeviceFunctions:
         """Return every output's full name in the table's order."""
         return self.table.names(self.points)
 
+    def inputs(self, values: Mapping[str, float]) -> NDArray[np.float64]:
+        """Return the numbers of the device with some of them, by name, replaced."""
+        inputs = self.start.copy()
+        for name, value in values.items():
+            inputs[self.index[name]] = value
+        return inputs
+
     def outputs(self, wanted: Sequence[str], instead: Mapping[str, float] | None = None) -> Any:
         """Return the function (inputs, switch) -> the wanted outputs, one vector.
 
         `instead` fixes quantities, by full name, that would otherwise be computed.
         """
-        inputs, cycle, given = self._symbols
-        known = {**given, **self._cycle, **instead} if instead else self._known
+        if instead:
+            return self._function_of(wanted, {**self._symbols[2], **self._cycle, **instead})
+        return self.built(" ".join(["outputs", *wanted]), lambda: self._function_of(wanted, self._known))
+
+    def _function_of(self, wanted: Sequence[str], known: dict[str, Any]) -> Any:
         values = self.table.resolve(known, wanted)
         # Rows of the table write out what they need: a third to two thirds of the operations are repeats. CasADi's own
         # option would look for them in every derivative again.
-        return ca.Function("outputs", [inputs, cycle], [ca.cse(ca.vertcat(*(values[name] for name in wanted)))])
-
-    @built_once
-    def every_output(self) -> Any:
-        """Return the function of all outputs, for evaluation and derivatives."""
-        return self.outputs(self.output_names)
+        written = ca.cse(ca.vertcat(*(values[name] for name in wanted)))
+        return ca.Function("outputs", [*self._symbols[:2]], [written])
 
     def values(self, inputs: NDArray[np.float64], cycle: Mapping[str, float]) -> dict[str, float]:
         """Return every output in SI by full name."""
-        return self._evaluated(self.every_output, self.output_names, inputs, cycle)
+        return self.some_values(self.output_names, inputs, cycle)
 
     def some_values(
         self, wanted: Sequence[str], inputs: NDArray[np.float64], cycle: Mapping[str, float]
@@ -168,20 +174,15 @@ class DeviceFunctions:
         """Return the wanted outputs in SI: quicker than all of them on a first call."""
         if not wanted:
             return {}
-        return self._evaluated(self.built(" ".join(wanted), lambda: self.outputs(wanted)), wanted, inputs, cycle)
+        vector = [cycle[name] for name in self.switch_names]
+        numbers = np.asarray(self.outputs(wanted)(inputs, vector)).ravel()
+        return dict(zip(wanted, (float(number) for number in numbers), strict=True))
 
     def built(self, key: str, build: Callable[[], Any]) -> Any:
         """Return what a key stands for, built when first asked for, for all devices of one structure."""
         if key not in self._built:
             self._built[key] = build()
         return self._built[key]
-
-    def _evaluated(
-        self, function: Any, names: Sequence[str], inputs: NDArray[np.float64], cycle: Mapping[str, float]
-    ) -> dict[str, float]:
-        vector = [cycle[name] for name in self.switch_names]
-        numbers = np.asarray(function(inputs, vector)).ravel()
-        return dict(zip(names, (float(number) for number in numbers), strict=True))
 
 
 @dataclass(frozen=True)

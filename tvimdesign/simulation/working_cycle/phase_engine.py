@@ -71,11 +71,6 @@ class PhaseEngine:
         given = Tape.of([phase._inputs], [constants, _heating_time(phase._stack, current), ca.vertcat(first)])
         return motion, given
 
-    @property
-    def motion(self) -> Motion:
-        """The equation of motion of state, lip and integrals."""
-        return self.recorded[0]
-
     @cached_property
     def start(self) -> Tape:
         """Record the state that a phase goes on from."""

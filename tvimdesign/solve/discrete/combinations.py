@@ -77,12 +77,8 @@ class ExactCombinations:
 
 def _inputs(mixed: Optimizer, exact: Optimizer, run: Run) -> Array:
     """Return a mixed problem's end as inputs of the exact problem, whose records bring their own numbers."""
-    inputs = exact.model.start.copy()
-    for free in exact.free:
-        inputs[exact.model.index[free.name]] = run.inputs[mixed.model.index[free.name]]
-    for current in exact.currents:
-        inputs[exact.model.index[current.row]] = run.inputs[mixed.model.index[current.row]]
-    return inputs
+    names = [*(free.name for free in exact.free), *(current.row for current in exact.currents)]
+    return exact.model.inputs({name: run.inputs[mixed.model.index[name]] for name in names})
 
 
 def _carried(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Run:

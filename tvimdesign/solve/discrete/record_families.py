@@ -192,9 +192,7 @@ def _left(study: Study, model: MixedDevice, mixture: Mixture, limits: Sequence[C
     cycle = dict.fromkeys(model.switch_names, np.inf)
     places, messages = [], []
     for place in range(len(mixture.records)):
-        inputs = model.start.copy()
-        for other, name in enumerate(mixture.shares):
-            inputs[model.index[name]] = float(other == place)
+        inputs = model.inputs({name: float(other == place) for other, name in enumerate(mixture.shares)})
         values = model.some_values(outputs, inputs, cycle)
         broken = [limit for limit in limits if not limit.residual(values[limit.output]) <= ALGEBRAIC_TOLERANCE]
         messages += [unchangeable(limit, model.table, values[limit.output], study) for limit in broken]

@@ -107,10 +107,9 @@ class Relaxation:
         best = min((run for other in others for run in other.optima), key=order, default=None)
         if self.optima or best is None or self.optimizer.deadline.passed:
             return []
-        begin, index = self.optimizer.model.start.copy(), self.optimizer.model.index
-        for free in self.optimizer.free:
-            if free.name in best.start.end:
-                begin[index[free.name]] = min(max(best.start.end[free.name], free.lower), free.upper)
+        ends = best.start.end
+        within = [free for free in self.optimizer.free if free.name in ends]
+        begin = self.optimizer.model.inputs({f.name: min(max(ends[f.name], f.lower), f.upper) for f in within})
         run = self._from_one_of_each(self._mixed(begin, {}))
         if run.start.converged:
             self._take([run])

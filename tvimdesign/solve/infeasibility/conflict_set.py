@@ -157,7 +157,7 @@ def second_try(optimizer: Optimizer, run: Run) -> Run:
     Its start counts the iterations of all.
     """
     elastic = ElasticMode(optimizer)
-    settled = elastic.settle(_weights(elastic), _begin(optimizer, run))
+    settled = elastic.settle(_weights(elastic), optimizer.model.inputs(run.start.begin))
     if not settled.conflict_search:
         return run
     again = optimizer.solve(begin=settled.run.inputs, unknowns=settled.run.unknowns)
@@ -183,19 +183,12 @@ def _least_violation(elastic: ElasticMode, failed: Sequence[Run], progress: Prog
         progress(f"searching for the design of least violation, from start {number} of {len(failed)}")
         settled = elastic.settle(weights, run.inputs, run.unknowns)
         if not settled.converged:
-            settled = elastic.settle(weights, _begin(elastic.optimizer, run))
+            settled = elastic.settle(weights, elastic.optimizer.model.inputs(run.start.begin))
         if settled.converged:
             solutions.append(settled)
         if settled.conflict_search:
             break
     return min(solutions, key=lambda solution: float(weights @ solution.slacks), default=None)
-
-
-def _begin(optimizer: Optimizer, run: Run) -> Array:
-    inputs = optimizer.model.start.copy()
-    for name, value in run.start.begin.items():
-        inputs[optimizer.model.index[name]] = value
-    return inputs
 
 
 def _conflicting(elastic: ElasticMode, least: ElasticSolution, progress: Progress) -> tuple[list[int], Array]:

@@ -62,6 +62,11 @@ class FeasibilityScreen:
         worst: Array = np.max(self._residuals(points), axis=0, initial=-1.0)  # there may be no limit
         return np.nan_to_num(worst, nan=NOWHERE, posinf=NOWHERE)
 
+    def inputs(self, unknowns: Array) -> Array:
+        """Return the inputs of the study's start with the free numbers in their places."""
+        numbers = zip(self._optimizer.free, unknowns, strict=True)
+        return self._optimizer.model.inputs({free.name: free.to_value(unknown) for free, unknown in numbers})
+
     def _unknowns(self, inputs: Array) -> Array:
         index = self._optimizer.model.index
         return np.array([free.to_unknown(inputs[index[free.name]]) for free in self._optimizer.free])
@@ -145,7 +150,7 @@ def best_drawn(optimizer: Optimizer, screen: FeasibilityScreen, within: Mapping[
     points = lower + np.random.default_rng(optimizer.study.solver.seed).random((count, _POINTS)) * (upper - lower)
     worst = screen.worst(points)
     best = int(np.argmin(worst))
-    return _inputs_at(optimizer, points[:, best]), float(worst[best])
+    return screen.inputs(points[:, best]), float(worst[best])
 
 
 def least_broken(
@@ -171,12 +176,4 @@ def least_broken(
         worst, Bounds(lower, upper), maxiter=_GENERATIONS, popsize=_EACH, seed=seed,
         polish=False, tol=0.0, updating="deferred", vectorized=True, callback=look,
     )  # fmt: skip
-    return _inputs_at(optimizer, answer.x), float(answer.fun)
-
-
-def _inputs_at(optimizer: Optimizer, unknowns: Array) -> Array:
-    """Return the inputs of the study's start with the free numbers in their places."""
-    inputs: Array = optimizer.model.start.copy()
-    for free, unknown in zip(optimizer.free, unknowns, strict=True):
-        inputs[optimizer.model.index[free.name]] = free.to_value(unknown)
-    return inputs
+    return screen.inputs(answer.x), float(answer.fun)

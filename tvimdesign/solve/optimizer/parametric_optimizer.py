@@ -81,11 +81,8 @@ class ParametricOptimizer:
     @staticmethod
     def _clipped(at: Mapping[str, float], optimizer: Optimizer, ranges: Mapping[str, Range]) -> Array:
         """Return a design within the present ranges, to start at without an optimum's multipliers."""
-        begin = optimizer.model.start.copy()
-        for name, value in at.items():
-            ends = ranges.get(name)
-            begin[optimizer.model.index[name]] = min(max(value, ends.lower), ends.upper) if ends else value
-        return begin
+        inside = {name: min(max(at[name], ends.lower), ends.upper) for name, ends in ranges.items() if name in at}
+        return optimizer.model.inputs({**at, **inside})
 
     def _moved(self, study: Study, reference: Mapping[str, float] | None) -> Optimizer:
         """Return the built optimizer with other parameters; nothing compiled changes."""

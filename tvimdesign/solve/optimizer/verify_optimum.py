@@ -147,11 +147,7 @@ def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], se
     values = optimizer.model.values(run.inputs, cycle.values)
     response = Response(optimizer, run) if run.start.converged else None
     limits = _active_constraints(optimizer, run, values, response)
-    tolerances = [
-        CYCLE_TOLERANCE if constraints.on_cycle(optimizer.table, limit.output) else constraints.ALGEBRAIC_TOLERANCE
-        for limit in optimizer.problem.limits
-    ]
-    feasible = all(held.residual <= tolerance for held, tolerance in zip(limits, tolerances, strict=True))
+    feasible = all(is_met(limit, values[limit.output], optimizer.table) for limit in optimizer.problem.limits)
     ended = all(np.isfinite(cycle.values[event]) for event in optimizer.problem.events)
     if run.start.converged:
         status = OPTIMAL if feasible else "converged, but a check outside the solver fails"
@@ -182,12 +178,7 @@ def _goal_flat(optimizer: Optimizer, run: Run, starts: tuple[Start, ...]) -> boo
     parameters = optimizer.parameters(Objective(optimizer.study.minimize))
     if np.any(optimizer.problem.at(run.unknowns, parameters).gradient):
         return False
-    begins = []
-    for start in starts:
-        inputs = optimizer.model.start.copy()
-        for name, value in start.begin.items():
-            inputs[optimizer.model.index[name]] = value
-        begins.append(optimizer.guess(inputs))
+    begins = [optimizer.guess(optimizer.model.inputs(start.begin)) for start in starts]
     return not any(np.any(optimizer.problem.at(unknowns, parameters).gradient) for unknowns in begins)
 
 

@@ -11,12 +11,12 @@ import numpy as np
 from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.simulation.working_cycle.current_profile import Array, CurrentProfile
-from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, in_words, make_constraint, on_cycle
+from tvimdesign.solve.nlp.constraints import in_words, make_constraint
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Progress, Run, Trace, meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
+from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, is_met
 from tvimdesign.study import Options, Study
 
 OUT_OF_TIME = "the time limit of the search was over: raise `solver.time_limit`"
@@ -258,8 +258,7 @@ class Tradeoff:
         values = {name: every[name] for name in problem.known}
         table = optimizer.table
         for limit in problem.limits:
-            tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
-            if not limit.residual(values[limit.output]) <= tolerance:
+            if not is_met(limit, values[limit.output], table):
                 value = format_quantity(values[limit.output], table.unit(limit.output))
                 return f"converged, but simulated it violates {in_words(limit, table)}: {value}"
         for bound in objective.bounds:
