@@ -24,7 +24,7 @@ from tvimdesign.solve.nlp import constraints
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.parametric_optimizer import Moved, ParametricOptimizer
+from tvimdesign.solve.optimizer.optimum_near import NearOptimum, optimum_near
 from tvimdesign.solve.optimizer.refinements import put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import exceeded, is_met, verify_optimum
 from tvimdesign.solve.result import ConstraintCheck
@@ -141,11 +141,8 @@ class Engine:
         self._base, self._compiled = base, compiled
         self._study = read_tree(base)
         self._models: list[QuickModel] = []
-        self._problem: ParametricOptimizer | None = None
-        self._last: Moved | None = None
+        self._last: NearOptimum | None = None
         self._free: tuple[Mapping[str, Any], Study] | None = None
-        self._reference_of: tuple[QuickModel, bytes, list[str]] | None = None
-        self._references: dict[str, float] = {}
         self._last_answer: Answer | None = None
 
     def answer(self, state: State, stage: Stage, progress: Progress = lambda _: None) -> Answer:
@@ -179,7 +176,7 @@ class Engine:
         if not moved.converged:
             return Answer({"status": "no optimum near the last one; the search from every start follows"})
         self._last = moved
-        optimum = {name: float(moved.run.inputs[self._problem_index(name)]) for name in study.vary}
+        optimum = moved.run.start.end
         known = given(study)
         evaluated = self._evaluated(study, known, optimum)
         shown = shown_design(study, free, known, evaluated.values, moved.active, moved.ends)
@@ -187,36 +184,14 @@ class Engine:
         shown["curves"] = all_finite(evaluated.curves)
         return Answer({"status": "", **shown}, None, _module(study, evaluated.values, evaluated.words))
 
-    def _problem_index(self, name: str) -> int:
-        assert self._problem is not None
-        return int(self._problem.optimizer.model.index[name])
-
-    def _optimum(self, study: Study, state: State) -> Moved:
+    def _optimum(self, study: Study, state: State) -> NearOptimum:
         """Return the optimum near the last one, or near the controls' values, such as a result's design."""
-        if self._problem is None or not self._problem.fits(study):
-            self._problem, self._last = ParametricOptimizer(study), None
-        reference = self._reference(study, self._problem)
-        if self._last:
-            return self._problem.solve(study, self._last.run, reference)
-        hand, start = given(self._read(tree_of(self._base, state, "evaluate"))), given(study)
+        optimizer = Optimizer(study)
+        if self._last and self._last.run.start.end.keys() == {free.name for free in optimizer.free}:
+            return optimum_near(optimizer, self._last.run.start.end)
+        hand = given(self._read(tree_of(self._base, state, "evaluate")))
         at = {name: float(hand[name]) for name, allowed in study.vary.items() if isinstance(allowed, Range)}
-        return self._problem.solve(study, None, reference, at if any(at[name] != start[name] for name in at) else None)
-
-    def _reference(self, study: Study, problem: ParametricOptimizer) -> dict[str, float]:
-        """Return the objectives at the study's own start, if it differs from that of the built problem."""
-        known = given(study)
-        model, built = self._model(study, known), problem.optimizer
-        start = model.inputs(known)
-        if np.array_equal(start, built.model.start):
-            return {}
-        key = model, start.tobytes(), list(study.minimize)
-        if self._reference_of == key:
-            return self._references
-        values = model.evaluate(start).values
-        horizon = values["horizon"]
-        objectives = {name: values[name] if np.isfinite(values[name]) else horizon for name in study.minimize}
-        self._reference_of, self._references = key, {name: value or 1.0 for name, value in objectives.items()}
-        return self._references
+        return optimum_near(optimizer, at, or_start=True)
 
     def _evaluated(self, study: Study, known: Mapping[str, Any], optimum: Mapping[str, float]) -> Evaluated:
         """Raises InputError in the study's words where there is no such module; `known` is what the study gives."""

@@ -141,7 +141,8 @@ def test_the_kernel_of_the_table_agrees_with_casadi(study):
     model = DeviceFunctions(table, given(read), tuple(read.operating_points), read.solver.cells)
     moving = ["wire_diameter", "coil_diameter", "preload_angle", "pcl_inner_radius", "pcl_flexural_modulus", "current"]
     places = [(0, model.index[name]) for name in moving]
-    function = of_columns(model.every_output, [model.start, np.full(len(model.switch_names), 50.0)], places)
+    base = [model.start, np.full(len(model.switch_names), 50.0)]
+    function = of_columns(model.outputs(model.output_names), base, places)
     random = np.random.default_rng(1)
     columns = np.array([[model.start[i]] for _, i in places]) * random.uniform(0.99, 1.01, (len(moving), 21))
     values, expected = Kernel(function)(columns), np.asarray(function(columns))

@@ -161,7 +161,7 @@ class DeviceFunctions:
         values = self.table.resolve(known, wanted)
         # Rows of the table write out what they need: a third to two thirds of the operations are repeats. CasADi's own
         # option would look for them in every derivative again.
-        written = ca.cse(ca.vertcat(*(values[name] for name in wanted)))
+        written = ca.densify(ca.cse(ca.vertcat(*(values[name] for name in wanted))))
         return ca.Function("outputs", [*self._symbols[:2]], [written])
 
     def values(self, inputs: NDArray[np.float64], cycle: Mapping[str, float]) -> dict[str, float]:

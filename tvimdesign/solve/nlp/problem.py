@@ -22,7 +22,6 @@ from tvimdesign.simulation.working_cycle.current_profile import Array, ramp_time
 from tvimdesign.simulation.working_cycle.cycle import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, PhaseOutputs
-from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
 from tvimdesign.solve.nlp.problem_parts import CycleModel, Free, FreeCurrent, Parameters, Peak, Places, Point
@@ -92,10 +91,10 @@ class Problem:
 
     @cached_property
     def _outputs(self) -> Tape:
-        """Record the wanted outputs: of inputs and of what the cycle supplies."""
-        inputs, cycle = ca.SX.sym("inputs", len(self.model.names)), ca.SX.sym("cycle", len(self.model.switch_names))
-        values = self.model.outputs(self.wanted).call([inputs, cycle], True, False)[0]
-        return Tape.of([inputs, cycle], [ca.densify(values)])
+        """The wanted outputs, recorded once for a structure: of inputs and of what the cycle supplies."""
+        function = self.model.outputs(self.wanted)
+        tape: Tape = self.model.built(" ".join(["tape of", *self.wanted]), lambda: Tape.of_function(function))
+        return tape
 
     @cached_property
     def _limit_rows(self) -> tuple[NDArray[np.int64], Array, Array]:
