@@ -14,7 +14,7 @@ from support import ROOT, Command, called, environment, run_process, store_equat
 
 from tvimdesign.base.processes import LIMIT
 
-pytest_plugins = ["shared_models", "shear_designs"]
+pytest_plugins = ["shear_designs"]
 
 # As the command line does: tests make many objects and keep most, and looking for garbage among them takes its time.
 gc.set_threshold(200_000, 20, 20)

@@ -9,9 +9,8 @@ pay less for a second than the other, because it was drawn slower.
 import math
 from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
-from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError, TvimError
 from tvimdesign.device import Input, Table
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -21,17 +20,10 @@ from tvimdesign.solve.nlp.mixture import discrete_records
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import OPTIMAL, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.optimum_near import optimum_near
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Study, given
-
-
-class Anchor(NamedTuple):
-    """The optimum that searches begin at, and the problem it was found with, which is built once."""
-
-    study: Study
-    optimizer: Optimizer
-    run: Run
 
 
 class AnchoredSearch:
@@ -74,21 +66,18 @@ class AnchoredSearch:
         return common([at_its_start(self._normal)]) if self._normal.vary else None
 
     @cached_property
-    def _anchor(self) -> Anchor | None:
-        """The anchor's optimum; None where it has none."""
-        alive: list[Anchor] = []
+    def _anchor(self) -> dict[str, float] | None:
+        """The free numbers at the anchor's optimum; None where it has none."""
+        optima: list[Run] = []
 
-        def remember(optimizer: Optimizer, runs: list[Run]) -> None:
-            converged = [run for run in runs if run.start.converged]
-            if converged:
-                best = min(converged, key=lambda run: run.start.objective)
-                alive.append(Anchor(self._anchor_study, optimizer, best))
+        def remember(_: Optimizer, runs: list[Run]) -> None:
+            optima.extend(run for run in runs if run.start.converged)
 
         try:
             optimize(self._anchor_study, reference=self._reference, keep=remember)
         except (InfeasibleError, InputError, TimeOverError):
             return None
-        return alive[0] if alive else None
+        return min(optima, key=lambda run: run.start.objective).start.end if optima else None
 
     def _warm(self, study: Study, table: Table) -> Solution | None:
         """Return the optimum sought from the anchor's; None if that is impossible or no optimum results."""
@@ -97,12 +86,10 @@ class AnchoredSearch:
         has_lists = discrete_sizes(study, table).names or len(discrete_records(study, table)) > 1
         if has_lists or study.robust or study.profile.pieces():
             return None
-        anchor = self._anchor
-        optimizer = anchor.optimizer.with_records(study) if anchor else None
-        if anchor is None or optimizer is None:
+        if self._anchor is None:
             return None
-        optimizer.deadline = Deadline(study.solver.time_limit)
-        run = optimizer.solve(warm=anchor.run.trace)
+        optimizer = Optimizer(study, self._reference)
+        run = optimum_near(optimizer, self._anchor).run
         if not run.start.converged:
             return None
         solution = verify_optimum(optimizer, run, (run.start,), optimizer.seconds)

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.record import Record
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
@@ -61,7 +62,10 @@ def built_once(build: Callable[[Any], Any]) -> Any:
 
 
 class DeviceFunctions:
-    """One device with its records chosen. Devices that differ in numbers alone share their functions."""
+    """One device with its records chosen.
+
+    Devices that differ in numbers alone share their functions, those of records too that no quantity reads itself.
+    """
 
     def __init__(self, table: Table, given: Mapping[str, Any], points: Sequence[str], cells: int) -> None:
         """Index the numbers of `given`; records and options stay constants. `cells` divides the polymer layer."""
@@ -74,8 +78,10 @@ class DeviceFunctions:
         self.words = {name: value for name, value in given.items() if name not in self.index}
         self.switch_names = tuple(row.name for row in table.supplied)
         self._rotor_cells = int(self.start[self.index["rotor_cells"]])  # A shape, not a number of the model
+        read = {need for row in table.outputs for need in row.needs}
+        structural = {name: word for name, word in self.words.items() if name in read or not isinstance(word, Record)}
         self._built = STRUCTURES.functions_of(
-            (table, self.names, self.words, self.points, cells, self._rotor_cells, *self._apart)
+            (table, self.names, structural, self.points, cells, self._rotor_cells, *self._apart)
         )
         """What is built, by the name of its property or by the outputs of a function."""
 

@@ -153,7 +153,7 @@ class Trees:
     sizes: Sizes
 
     def of(self, families: Sequence[Family]) -> list[Relaxation]:
-        """Return the problem of each family, built once for all families that differ in numbers alone.
+        """Return the problem of each family.
 
         Raises InfeasibleError where every family violates a limit that nothing free can cure, TimeOverError where the
         time is over before the first problem is built.
@@ -167,7 +167,7 @@ class Trees:
                 self.deadline.check("a family of records was found that no fixed limit excludes")
             try:
                 family = possible(self.study, whole)
-                optimizer = self._built(family, trees)
+                optimizer = self._built(family)
             except InfeasibleError as error:  # a limit that nothing free can mend, with these records
                 refused.append(error)
                 continue
@@ -186,12 +186,9 @@ class Trees:
         """Return the problems of single combinations of records, over the reference of the families."""
         return ExactCombinations(self._optimizer, self.sizes)
 
-    def _built(self, family: Family, trees: Sequence[Relaxation]) -> Optimizer:
+    def _built(self, family: Family) -> Optimizer:
         if not family.mixtures:
-            study = with_records(self.study, family.records)
-            alike = (relaxation.optimizer.with_records(study) for relaxation in trees if not relaxation.sizes.mixtures)
-            built = next(filter(None, alike), None)
-            return built or self._optimizer(family.records)
+            return self._optimizer(family.records)
         error: SimulationError | None = None
         for first in _beginnings(family.mixtures):
             records = dict(family.records)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from copy import copy
 from dataclasses import replace
 from typing import Any
 
@@ -113,26 +112,6 @@ class Optimizer:
         assert isinstance(vary, Range)  # the reader sees to that
         slew = float(self.model.start[self.model.index["current_slew"]])
         return FreeCurrent(phase, row, pieces, vary.lower, vary.upper, slew)
-
-    def with_records(self, study: Study) -> Optimizer | None:
-        """Return the problem for a study that differs in its records alone, if only their numbers count.
-
-        Nothing is built: such numbers are parameters. None where a row reads a table of a record that differs, or an
-        option. Raises InfeasibleError as a new one does.
-        """
-        numbers = given(study)
-        read = {need for row in self.table.outputs for need in row.needs}
-        model = copy(self.model)
-        model.words = {name: numbers[name] for name in self.model.words}
-        if any(model.words[name] != word for name, word in self.model.words.items() if name in read):
-            return None
-        model.start = np.array([float(numbers[name]) for name in model.names])
-        other = copy(self)
-        other.study, other.model = study, model
-        other.seconds = {"set_up": 0.0, "solve": 0.0}
-        other.kept_constraints(constraints_of(study, self.table, model.words))
-        other._begin()
-        return other
 
     def _problem(self, limits: list[Constraint], objectives: Sequence[str]) -> Problem:
         return Problem(
