@@ -3,9 +3,8 @@
 The joint is heated until soft, kept so by its hold current, cooled until stiff, and left without current until the
 next switch. The engine steps these phases as it does those of one cycle; only the first state is another.
 
-The controller of a module on other modules: parts within their tolerances, assumed values anywhere in their ranges.
-
-The constants are those of the module as drawn; all else differs, thermistor and driver too.
+The controller of a module is tried on other modules: its constants are those of the module as drawn, parts differ
+within their tolerances, assumed values, thermistor and driver anywhere in their ranges.
 """
 
 from collections.abc import Collection, Mapping

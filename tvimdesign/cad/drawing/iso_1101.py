@@ -1,7 +1,8 @@
 """Tolerance frames by ISO 1101 and the marks of datums by ISO 5459, drawn as lines: no font has all their symbols."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 
@@ -23,11 +24,6 @@ class Frame:
         """Texts of the boxes behind the symbol."""
         return (self.within, *self.datums)
 
-    @property
-    def width(self) -> float:
-        """On paper [mm]."""
-        return _HIGH + 0.8 + sum(map(_cell, self.cells))
-
 
 def _cell(text: str) -> float:
     return _LETTER * len(text) + 1.8
@@ -38,7 +34,7 @@ def draw_frames(sheet: DrawingSheet, frames: Sequence[Frame], at: Point) -> None
     x, y = at
     for frame in frames:
         _box(sheet, x, y, _HIGH + 0.8)
-        SYMBOLS[frame.asks](sheet, (x + 0.5 * (_HIGH + 0.8), y + 0.5 * _HIGH))
+        SYMBOLS[frame.asks].draw(sheet, (x + 0.5 * (_HIGH + 0.8), y + 0.5 * _HIGH))
         left = x + _HIGH + 0.8
         for text in frame.cells:
             _box(sheet, left, y, _cell(text))
@@ -51,46 +47,30 @@ def _box(sheet: DrawingSheet, x: float, y: float, width: float) -> None:
     sheet.lines([(x, y), (x + width, y), (x + width, y + _HIGH), (x, y + _HIGH), (x, y)], "FINE")
 
 
-def _circle(sheet: DrawingSheet, at: Point, radius: float) -> None:
-    sheet.space.add_circle(sheet.at(at), radius / sheet.scale, dxfattribs={"layer": "FINE"})
+class Symbol(NamedTuple):
+    """A symbol about its middle [mm]: radii of circles, lines, and the radius of a half circle on a base line."""
+
+    circles: tuple[float, ...] = ()
+    lines: tuple[tuple[Point, ...], ...] = ()
+    arch: float = 0.0
+
+    def draw(self, sheet: DrawingSheet, at: Point) -> None:
+        """Draw it about a place on paper."""
+        x, y = at
+        for radius in self.circles:
+            sheet.space.add_circle(sheet.at(at), radius / sheet.scale, dxfattribs={"layer": "FINE"})
+        for line in self.lines:
+            sheet.lines([(x + right, y + up) for right, up in line], "FINE")
+        if self.arch:
+            base = sheet.at((x, y + self.lines[0][0][1]))
+            sheet.space.add_arc(base, self.arch / sheet.scale, 0.0, 180.0, dxfattribs={"layer": "FINE"})
 
 
-def _position(sheet: DrawingSheet, at: Point) -> None:
-    x, y = at
-    _circle(sheet, at, 0.9)
-    sheet.lines([(x - 1.6, y), (x + 1.6, y)], "FINE")
-    sheet.lines([(x, y - 1.6), (x, y + 1.6)], "FINE")
-
-
-def _coaxial(sheet: DrawingSheet, at: Point) -> None:
-    _circle(sheet, at, 0.8)
-    _circle(sheet, at, 1.5)
-
-
-def _cylindrical(sheet: DrawingSheet, at: Point) -> None:
-    x, y = at
-    _circle(sheet, at, 0.9)
-    for side in (-1.0, 1.0):
-        sheet.lines([(x + 1.15 * side - 0.6, y - 1.5), (x + 1.15 * side + 0.6, y + 1.5)], "FINE")
-
-
-def _run_out(sheet: DrawingSheet, at: Point) -> None:
-    x, y = at
-    sheet.lines([(x - 1.3, y - 1.3), (x + 1.3, y + 1.3)], "FINE")
-    sheet.lines([(x + 0.2, y + 1.0), (x + 1.3, y + 1.3), (x + 1.0, y + 0.2)], "FINE")
-
-
-def _profile(sheet: DrawingSheet, at: Point) -> None:
-    x, y = at
-    sheet.lines([(x - 1.5, y - 0.7), (x + 1.5, y - 0.7)], "FINE")
-    sheet.space.add_arc(sheet.at((x, y - 0.7)), 1.5 / sheet.scale, 0.0, 180.0, dxfattribs={"layer": "FINE"})
-
-
-SYMBOLS: dict[str, Callable[[DrawingSheet, Point], None]] = {
-    "position": _position,
-    "coaxial": _coaxial,
-    "cylindrical": _cylindrical,
-    "run-out": _run_out,
-    "profile": _profile,
+SYMBOLS = {
+    "position": Symbol((0.9,), (((-1.6, 0.0), (1.6, 0.0)), ((0.0, -1.6), (0.0, 1.6)))),
+    "coaxial": Symbol((0.8, 1.5)),
+    "cylindrical": Symbol((0.9,), (((-1.75, -1.5), (-0.55, 1.5)), ((0.55, -1.5), (1.75, 1.5)))),
+    "run-out": Symbol((), (((-1.3, -1.3), (1.3, 1.3)), ((0.2, 1.0), (1.3, 1.3), (1.0, 0.2)))),
+    "profile": Symbol((), (((-1.5, -0.7), (1.5, -0.7)),), 1.5),
 }
-"""How each symbol is drawn about its middle, by what it asks: ISO 1101, table of symbols."""
+"""By what each asks: ISO 1101, table of symbols."""

@@ -1,7 +1,5 @@
 """Curves to draw: the layer's temperatures over each phase, and stiffness and damping against temperature.
 
-Solid fraction of the layer at a temperature: one number outside melting, an interval inside it.
-
 Inside the melting range the solid fraction of a polymer depends on what came before. Cooled from the melt the layer is
 still liquid; heated it follows the equilibrium curve, which the record knows to some kelvin only. A metal, a wax or a
 glass follows that curve both ways.

@@ -5,11 +5,9 @@ better than the best design there. A box whose bound is no better than the best 
 halved between two sizes, and its halves are solved warm from it. The bound is local, it holds as far as the starts go:
 so every different optimum they came to is a box of its own to begin with.
 
-Pseudo-costs: the past rises of bounds after divisions, which tell the best list to divide a box along.
-
-Pseudo-costs, the usual rule of branch and bound: T. Achterberg, T. Koch, A. Martin, Branching rules revisited,
-Operations Research Letters 33 (2005) 42-54. A list whose division raises the bounds of both halves is divided first;
-one whose entries are as good as one another, whose halves would all be divided alike, is divided last.
+Pseudo-costs, the past rises of bounds after divisions, tell the list to divide a box along: T. Achterberg, T. Koch, A.
+Martin, Branching rules revisited, Operations Research Letters 33 (2005) 42-54. A list whose division raises the bounds
+of both halves is divided first; one whose entries are as good as one another is divided last.
 """
 
 import math

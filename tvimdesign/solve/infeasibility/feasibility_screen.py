@@ -4,7 +4,6 @@ The limits of arithmetic alone need no working cycle: they are a few dozen funct
 those violates all. Designs all over the ranges that keep them say where to look before a study is infeasible.
 
 Searches that begin at a few starts can end in a valley in which some limits cannot be met, though they can elsewhere.
-For this reason two of 200 random studies were reported infeasible; eighty random designs held a feasible one.
 Source: R. Storn, K. Price, Differential evolution, Journal of Global Optimization 11 (1997) 341-359, by scipy.
 """
 

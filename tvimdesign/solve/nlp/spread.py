@@ -3,9 +3,7 @@
 A function takes one row for each contributor and one column a module, and returns one row for each output. Nothing here
 knows what a module is; `solve/uncertainty/tolerance.py` does.
 
-Mean and standard deviation of algebraic outputs whose inputs spread, as expressions the optimiser can differentiate.
-
-For independent, symmetric inputs of standard deviation s_j about their values x_j, to second order in s:
+Moments of algebraic outputs, for independent, symmetric inputs of standard deviation s_j, to second order in s:
 mean = f + 1/2 sum f_jj s_j^2, variance = sum (f_j s_j)^2; all derivatives are exact.
 Source: Taylor series of moments, e.g. JCGM 100:2008 (GUM), 5.1.2 with its note.
 """

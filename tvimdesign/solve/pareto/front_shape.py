@@ -137,8 +137,6 @@ def candidates(ends: Array) -> Array:
     axes = np.array([[1.0, -1.0, 0.0], [1.0, 1.0, -2.0]]) / np.sqrt([[2.0], [6.0]])
     corners = _corners(ends @ axes.T)
     triangles = [(corners[0], corner, other) for corner, other in itertools.pairwise(corners[1:])]
-    if len(corners) == 2:
-        triangles = [(corners[0], corners[1], corners[1])]
     steps = [(i, j) for i in range(_STEPS + 1) for j in range(_STEPS + 1 - i)]
     flat = [a + (i * (b - a) + j * (c - a)) / _STEPS for a, b, c in triangles for i, j in steps]
     return np.array(flat) @ axes
@@ -152,14 +150,11 @@ def farthest(places: Array, taken: Array) -> tuple[Array, float]:
 
 
 def _corners(points: Array) -> list[Array]:
-    """Corners of the convex hull of points of a plane, counter-clockwise from the leftmost; two of points in line."""
-    from scipy.spatial import ConvexHull, QhullError
+    """Corners of the convex hull of points of a plane that are not in line, counter-clockwise from the leftmost."""
+    from scipy.spatial import ConvexHull
 
     ordered = points[np.lexsort((points[:, 1], points[:, 0]))]
-    try:
-        around = ConvexHull(ordered).vertices
-    except QhullError:
-        return [ordered[0], ordered[-1]]
+    around = ConvexHull(ordered).vertices
     return list(ordered[np.roll(around, -int(np.argmin(around)))])
 
 
