@@ -16,7 +16,7 @@ import os
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -35,11 +35,16 @@ from tvimdesign.study.study import Options
 
 STUDIES = Path(__file__).resolve().parents[1] / "studies"
 FRESH = {
-    "elbow_of_polycarbonate": 6, "elbow_machined": 5, "ankle": 5, "finger": 4, "wrist_joint": 5,
-    "wrist_compression": 13, "machined_compression": 12,
+    "elbow_of_polycarbonate": 6, "elbow_machined_own_pins": 5, "ankle_own_pins": 5, "finger_own_pins": 4,
+    "wrist_joint_own_pins": 5, "wrist_compression_own_pins": 13, "machined_compression": 12,
 }  # fmt: skip
 """Studies within whose ranges validation draws modules that nobody optimized, and how many of each."""
-FRESH_BY_FE = FRESH | {"ankle": 6, "wrist_joint": 6, "wrist_compression": 22, "machined_compression": 17}
+FRESH_BY_FE = FRESH | {
+    "ankle_own_pins": 6,
+    "wrist_joint_own_pins": 6,
+    "wrist_compression_own_pins": 22,
+    "machined_compression": 17,
+}
 """The same for the structure, which FE solves."""
 FRESH_SEED = 2026
 _CHUNK = 20_000
@@ -102,7 +107,7 @@ class Draws:
             drawn = self._draw(_CHUNK)
             feasible = self._keeping(drawn, tally)
             for index in feasible[: count - count_kept]:
-                yield self._design({name: float(values[index]) for name, values in drawn.items()}, int(index))
+                yield self._design(drawn, int(index), tally.drawn - _CHUNK)
             count_kept += len(feasible)
 
     def first(self, tally: Tally) -> Design | None:
@@ -111,7 +116,14 @@ class Draws:
         feasible = self._keeping(drawn, tally)
         if not feasible.size:
             return None
-        return self._design({name: float(values[feasible[0]]) for name, values in drawn.items()}, int(feasible[0]))
+        return self._design(drawn, int(feasible[0]), 0)
+
+    def numbered(self, numbers: Collection[int]) -> Iterator[tuple[int, Design]]:
+        """Yield the draws of these numbers, which `keeping_rules` names, whether they keep today's rules or not."""
+        for before in range(0, 1 + max(numbers, default=-1), _CHUNK):
+            drawn = self._draw(_CHUNK)
+            for number in sorted(number for number in numbers if before <= number < before + _CHUNK):
+                yield number, self._design(drawn, number - before, before)
 
     def _draw(self, count: int) -> dict[str, NDArray[np.float64]]:
         drawn = {}
@@ -139,16 +151,16 @@ class Draws:
         tally.drawn += count
         return np.flatnonzero(keeps)
 
-    def _design(self, drawn: dict[str, float], index: int) -> Design:
-        """Return a design with every number that follows from its inputs alone."""
-        known: dict[str, Any] = self._known | drawn
+    def _design(self, chunk: dict[str, NDArray[np.float64]], index: int, before: int) -> Design:
+        """Return a draw of a chunk, `before` draws on, with every number that follows from its inputs alone."""
+        known: dict[str, Any] = self._known | {name: float(values[index]) for name, values in chunk.items()}
         visible = [row.name for row in self._rows if not row.hidden]
         values = {name: float(value) for name, value in known.items() if isinstance(value, int | float)}
         with np.errstate(all="ignore"):
             values |= {name: float(value) for name, value in self.table.evaluate(known, visible).items()}
         choices = {row.name: str(getattr(known[row.name], "name", known[row.name])) for row in self.table.choices}
         return Design(
-            tvimdesign="0", name=f"{self.study.name}, draw {index}", mode=self.study.mode, status="evaluated",
+            tvimdesign="0", name=f"{self.study.name}, draw {before + index}", mode=self.study.mode, status="evaluated",
             choices=choices, values=values, study={},
         )  # fmt: skip
 

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from fresh import COARSER, modules
+from fresh import COARSER, fresh_modules
 from models import case_of
 from run import alone, solved_by
 
@@ -29,9 +29,9 @@ from tvimdesign.study.design import Design
 CASES = Path(__file__).with_name("drawn.yaml")
 SEED = 7
 COUNTS = {
-    "wrist_joint": 11, "finger_of_stock_springs": 8, "elbow_machined": 3, "elbow_of_polycarbonate": 3,
-    "driven_joint": 2, "paper_shear": 2, "ankle": 3, "machined_compression": 12, "wrist_compression": 26,
-    "compare_compression": 8,
+    "wrist_joint_own_pins": 11, "finger_of_stock_springs": 8, "elbow_machined_own_pins": 3, "elbow_of_polycarbonate": 3,
+    "driven_joint": 2, "paper_shear": 2, "ankle_own_pins": 3, "machined_compression": 12,
+    "wrist_compression_own_pins": 26, "compare_compression": 8,
 }  # fmt: skip
 """Modules drawn within the ranges of each study."""
 
@@ -39,7 +39,7 @@ COUNTS = {
 def in_turn(studies: list[str]) -> Iterator[tuple[str, str, Design, ResolvedModule]]:
     """Return name, study, design and module of each draw, one of each study after another."""
     drawn = [
-        [(f"{study}_{SEED}_{place}", study, *each) for place, each in enumerate(modules(study, SEED, COUNTS[study]))]
+        [(f"{study}_{SEED}_{number}", study, *each) for number, *each in fresh_modules(study, SEED, COUNTS[study])]
         for study in studies
     ]
     return (each for of_studies in zip_longest(*drawn) for each in of_studies if each)

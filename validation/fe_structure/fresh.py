@@ -13,7 +13,8 @@ import argparse
 import csv
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from itertools import islice
 from pathlib import Path
 
 from models import study_file
@@ -35,22 +36,28 @@ NAMES = ("hub", "link", "core", "plate", "floor", "rotor_vanes_and_plate", "hous
          "plate_stress", "edge_traction", "seat_traction")  # fmt: skip
 
 
-def modules(study: str, seed: int, count: int) -> Iterator[tuple[Design, ResolvedModule]]:
-    """Return random designs of a study, with what FE needs, each as a module too."""
+def modules(study: str, seed: int, numbers: Collection[int]) -> Iterator[tuple[int, Design, ResolvedModule]]:
+    """Return random designs of a study by their numbers, with what FE needs, each as a module too."""
     read = read_study(study_file(study))
-    for design in Draws(read, seed).keeping_rules(count, Tally()):
+    for number, design in Draws(read, seed).numbered(numbers):
         varied = {name: design.values[name] for name in read.vary if name in design.values}
         module = ResolvedModule(read, {**given(read), **varied})
         at_points = module.table.evaluate(module.values, AT_POINTS)
         design.values.update({name: float(value) for name, value in at_points.items()})
-        yield design, module
+        yield number, design, module
+
+
+def fresh_modules(study: str, seed: int, count: int) -> Iterator[tuple[int, Design, ResolvedModule]]:
+    """Return the first random designs of a study that keep today's rules."""
+    first = Draws(read_study(study_file(study)), seed).keeping_rules(count, Tally())
+    return modules(study, seed, {int(design.name.rpartition(" ")[2]) for design in first})
 
 
 def rows_of(study: str, work: Path, fe_python: Path, solved: set[str]) -> Iterator[list[str]]:
-    """Solve the random designs of a study but those solved; a design without a mesh gives a row without values."""
-    for place, (design, module) in enumerate(modules(study, FRESH_SEED, FRESH_BY_FE[study])):
-        if str(place) in solved:
-            continue
+    """Solve random designs until there are `FRESH_BY_FE`; a design without a mesh gives a row without values."""
+    every = fresh_modules(study, FRESH_SEED, FRESH_BY_FE[study])
+    unsolved = (each for each in every if str(each[0]) not in solved)
+    for place, design, module in islice(unsolved, max(FRESH_BY_FE[study] - len(solved), 0)):
         folder = work / f"{study}_{place}"
         if not (folder / "inputs.json").exists():
             export_parts(design, folder)
@@ -76,9 +83,10 @@ def compared(model: float, fe: float) -> tuple[str, str, str]:
 
 def with_model(study: str, rows: list[list[str]]) -> list[list[str]]:
     """Return rows of a study with today's model beside the same FE."""
-    models = [comparison.model_values(module) for _, module in modules(study, FRESH_SEED, FRESH_BY_FE[study])]
+    numbers = {int(row[1]) for row in rows}
+    models = {str(place): comparison.model_values(module) for place, _, module in modules(study, FRESH_SEED, numbers)}
     return [
-        [study, place, name, *compared(models[int(place)][name], float(fe))]
+        [study, place, name, *compared(models[place][name], float(fe))]
         if fe
         else [study, place, name, model, fe, ratio]
         for _, place, name, model, fe, ratio in rows

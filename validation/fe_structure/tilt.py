@@ -52,14 +52,13 @@ def table_rows() -> list[list[str]]:
 
 def drawn_modules(rows: list[list[str]]) -> dict[tuple[str, str, str], ResolvedModule]:
     """Return the modules of rows by study, seed and draw."""
-    places: dict[tuple[str, str], set[str]] = defaultdict(set)
+    numbers: dict[tuple[str, str], set[int]] = defaultdict(set)
     for study, seed, draw, *_ in rows:
-        places[study, seed].add(draw)
+        numbers[study, seed].add(int(draw))
     return {
-        (study, seed, str(place)): module
-        for (study, seed), wanted in places.items()
-        for place, (_, module) in enumerate(modules(study, int(seed), 1 + max(map(int, wanted))))
-        if str(place) in wanted
+        (study, seed, str(number)): module
+        for (study, seed), wanted in numbers.items()
+        for number, _, module in modules(study, int(seed), wanted)
     }
 
 
@@ -80,7 +79,7 @@ def main() -> None:
     fresh = []
     for name in () if requested.model else requested.modules:
         study, _, draw = name.partition(":")
-        *_, (design, module) = modules(study, requested.seed, int(draw) + 1)
+        ((_, design, module),) = modules(study, requested.seed, {int(draw)})
         folder = requested.work.resolve() / f"{study}_{requested.seed}_{draw}"
         if not (folder / "inputs.json").exists():
             export_parts(design, folder)

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import csv
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
@@ -42,18 +43,16 @@ def path_of(study: str) -> Path:
     return studies().get(study, PAST / f"{study}.yaml")
 
 
-def designs(study: str, count: int) -> Iterator[Fresh]:
-    """Return the first random designs that soften."""
+def designs(study: str, numbers: Collection[int]) -> Iterator[Fresh]:
+    """Return the random designs of these numbers that soften; of no numbers, of all that keep today's rules."""
     path = path_of(study)
-    read, count_drawn = read_study(path), 0
-    for place, design in enumerate(Draws(read, FRESH_SEED).keeping_rules(MOST, Tally())):
+    read = read_study(path)
+    draws = Draws(read, FRESH_SEED)
+    for design in (design for _, design in draws.numbered(numbers)) if numbers else draws.keeping_rules(MOST, Tally()):
         drawn = {name: design.values[name] for name in read.vary if name in design.values}
         model = model_of(path, **drawn)
         if "softening_time" in product_times(model):
-            yield Fresh(f"draw {place}", model, drawn)
-            count_drawn += 1
-        if count_drawn == count:
-            return
+            yield Fresh(design.name.rpartition(", ")[2], model, drawn)
 
 
 def intervals(study: str, module: dict[str, float]) -> dict[str, tuple[float, float]]:
@@ -66,7 +65,7 @@ def intervals(study: str, module: dict[str, float]) -> dict[str, tuple[float, fl
 
 def fresh_rows(study: str) -> Iterator[list[str]]:
     """Return the rows of a study's random designs; a plane whose steps do not settle takes four times as many."""
-    for fresh in designs(study, FRESH[study]):
+    for fresh in islice(designs(study, ()), FRESH[study]):
         stated = intervals(study, fresh.module)
         try:
             rows = list(rows_of(study, fresh.name, fresh.model))

@@ -5,7 +5,7 @@ from collections import defaultdict
 
 import numpy as np
 import pytest
-from random_designs import Draws, Tally
+from random_designs import Draws
 from scipy.integrate import solve_bvp
 from support import ROOT, study_path
 
@@ -77,9 +77,9 @@ def drawn_modules(study: str, seed: int, draws: set[int]) -> dict[int, ResolvedM
     """Return random modules of a study by their draw, as validation/fe_structure/tilt.py draws them."""
     past = ROOT / f"validation/fe_structure/studies/{study}.yaml"
     read, modules = read_study(past if past.exists() else study_path(study)), {}
-    for place, design in enumerate(Draws(read, seed).keeping_rules(1 + max(draws), Tally())):
+    for number, design in Draws(read, seed).numbered(draws):
         varied = {name: design.values[name] for name in read.vary if name in design.values}
-        modules[place] = ResolvedModule(read, {**given(read), **varied})
+        modules[number] = ResolvedModule(read, {**given(read), **varied})
     return modules
 
 
