@@ -177,7 +177,8 @@ def _listed(items: Sequence[Item]) -> str:
 def _unless_fitting(kinds: Sequence[str], items: Sequence[Item]) -> str:
     """Return what a step says first if no listed type of a part fits; empty if all fit."""
     missing = _listed([item for item in items if item.kind in kinds and not item.fits])
-    return f"No listed {missing} fits: leave this step until one is found, by the list of parts. " if missing else ""
+    how = "by the list of parts and the run's warnings"
+    return f"No listed {missing} fits: leave this step until one is found, {how}. " if missing else ""
 
 
 def _needs(needs: Mapping[str, Any]) -> str:
