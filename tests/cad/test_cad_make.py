@@ -60,6 +60,9 @@ def test_every_file_is_there_and_every_check_holds(made):
         for piece in ("casting_mould", "casting_lid", "setting_fork")
         for folder, form in (("print", "stl"), ("print", "3mf"), ("drawings", "dxf"), ("drawings", "pdf"))
     }
+    expected |= {
+        f"{folder}/test_pieces.{form}" for folder, form in (("step", "step"), ("print", "stl"), ("print", "3mf"))
+    }
     cast = "pcl_arc" if design.mode == "shear" else "pcl_block"
     for kind in ("housing", "rotor", "link", "retainer", "heater", cast):
         expected |= {f"drawings/{kind}.dxf", f"drawings/{kind}.pdf"}

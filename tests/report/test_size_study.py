@@ -75,15 +75,15 @@ def test_a_study_without_room_follows_one_with_room():
 def test_a_study_without_room_names_a_diameter_that_has_some(monkeypatch):
     task, tried = JointTask.read(**WRIST), []
 
-    def hardware(asked: JointTask) -> str:
-        tried.append(asked)
-        return "middle" if asked.diameter > roomy else ""
+    def hardware(joint: JointTask) -> str:
+        tried.append(joint)
+        return "middle" if joint.diameter > roomy else ""
 
     monkeypatch.setattr(study_files, "_hardware", hardware)
     roomy = 0.083
     assert no_room(task, lambda _: None).endswith("may miss a limit; --diameter '84 mm' leaves room, by estimate")
-    assert all(asked.cautious for asked in tried)
-    assert [round(1e3 * asked.diameter, 6) for asked in tried] == [77.0, 84.0]
+    assert all(joint.cautious for joint in tried)
+    assert [round(1e3 * joint.diameter, 6) for joint in tried] == [77.0, 84.0]
     roomy = 1.0
     assert no_room(task, lambda _: None).endswith("; no --diameter up to '98 mm' leaves room by estimate, either")
     assert no_room(replace(task, diameter=0.2), lambda _: None).endswith("the module may miss a limit")

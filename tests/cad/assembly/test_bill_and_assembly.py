@@ -350,7 +350,9 @@ def test_a_part_that_does_not_fit_is_not_fitted():
     design = design_of("misfit", {})
     misfit = Item("thermal_cutout", 1, False, "", f"Does not fit. {NOT_TO_BE_ORDERED}: 5MA3", 0.6, ())
     (step,) = (step.text for step in steps_with(design, misfit) if "Crimp the thermal cut-out" in step.text)
-    assert step.startswith("No listed thermal cutout fits: leave this step until one is found, by the list of parts and the run's")
+    assert step.startswith(
+        "No listed thermal cutout fits: leave this step until one is found, by the list of parts and the run's"
+    )
     assert not any("No listed" in step.text for step in steps_with(design))
 
 

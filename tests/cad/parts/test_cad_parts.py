@@ -1,7 +1,7 @@
 """The solids against the model's rows and each other; drill points, dowels, bonded tangs and the casting jig."""
 
 from collections.abc import Mapping
-from math import atan2, degrees, hypot, radians, sin, tan
+from math import atan2, degrees, hypot, pi, radians, sin, tan
 
 import cadquery as cq
 import numpy as np
@@ -17,7 +17,7 @@ from tvimdesign.cad.drawing.drawing_sheet import figure
 from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, with_wider_holes
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
-from tvimdesign.cad.geometry.features import Cylinder, holes
+from tvimdesign.cad.geometry.features import Cylinder, holes, upright_cylinders
 from tvimdesign.cad.geometry.kinds import PRODUCTION, kind_of
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.cad.inspection.inspect import casting_checks, casting_gap, part_checks
@@ -264,6 +264,24 @@ def test_the_jig_s_gap_and_room_are_the_part_s(name):
     block = cq.Solid.makeBox(around.xlen, around.ylen, around.zlen, cq.Vector(around.xmin, around.ymin, around.zmin))
     rooms = [room.Volume() for room in block.cut(*pieces).Solids()]
     assert any(room == pytest.approx(solids[kind].Volume(), rel=1e-6) for room in rooms), rooms
+
+
+def test_the_test_pieces_try_sizes_about_what_the_process_assumes():
+    mode, changes = CAST["keyed arc"]
+    dims = dimensions(design_of("trial", changes, mode))
+    (solid,) = jigs.trial(dims).Solids()
+    assert solid.isValid()
+    assert jigs.tried(dims, "walls") == [0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 2.0]
+    assert jigs.tried(dims, "gaps") == [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
+    rounds = [(face.concave, round(2.0 * face.radius, 6)) for face in upright_cylinders(solid)]
+    holes = [(True, 6.0 + 2.0 * gap) for gap in jigs.tried(dims, "gaps")]
+    pins = [(False, size) for size in (*jigs.tried(dims, "pins"), 6.0)]
+    assert sorted(rounds) == sorted(holes + pins)
+    # Cut halfway up: walls 10 mm long, round pins, and what windows of 5, 10, 15 and 20 mm leave of a wall of 2 mm.
+    half = solid.intersect(cq.Solid.makeBox(200.0, 200.0, 0.1, cq.Vector(0.0, 0.0, 5.0))).Volume() / 0.1
+    assert jigs.tried(dims, "bridges") == [5.0, 10.0, 15.0, 20.0]
+    rods = sum(0.25 * pi * size**2 for _, size in pins)
+    assert half == pytest.approx(10.0 * sum(jigs.tried(dims, "walls")) + rods + 2.0 * (80.0 - 50.0), rel=1e-6)
 
 
 def test_lids_and_dams_that_do_not_fit_fail_their_checks():

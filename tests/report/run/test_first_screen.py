@@ -345,7 +345,7 @@ def test_a_limit_in_doubt_stands_beside_what_to_measure_for_it():
     ]
     doubts = doubts_grid(uncertainty, table_for("shear")).rows
     assert [row[0].text for row in doubts] == ["pin_margin", "key_margin", "core_web"]
-    assert doubts[0][2].text == "Diameter of the rotor's pins beyond the process's least"
+    assert doubts[1][2].text == "Diameter of the keys beyond the process's least pin"
 
 
 def test_a_requirement_depends_on_what_decides_its_limit_most_in_doubt():

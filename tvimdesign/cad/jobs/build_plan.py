@@ -95,6 +95,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
         *inspections,
         *(Work(name=kind, do=partial(_casting_jig, kind), named=True) for kind in jigs.DRAWN),
         *(setting if coils else ()),
+        Work(name=jigs.TRIAL, do=_test_pieces, named=True),
         Work(name="plates", do=_plates, needs=_plated(kinds, bool(coils)), named=True, words="print beds"),
         Work(name="inspect_casting", do=_inspect_casting, needs=(jigs.part_of(kinds), *jigs.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
@@ -167,6 +168,14 @@ def _setting_fork(job: Job) -> list[SolidCheck]:
     return _fixture(job, jigs.FORK, solid)
 
 
+def _test_pieces(job: Job) -> list[SolidCheck]:
+    """Make what a printer is tried with: its holes as drawn, for they say by how much others are to be widened."""
+    if job.design.choices["making_method"] == "milled":
+        return []
+    solid, what = one_solid(jigs.TRIAL, lambda: jigs.trial(job.dims)), _of_structure(job, jigs.TRIAL)
+    return [*_step(job.folder, solid, what), _print(job, jigs.TRIAL, solid, what, jigs.MAKING[jigs.TRIAL], wider=0.0)]
+
+
 def _fixture(job: Job, kind: str, solid: cq.Solid) -> list[SolidCheck]:
     """Write a fixture, which is made of what the structure is made of."""
     _keep(job.folder / "kept" / _SOLID, solid)
@@ -205,11 +214,17 @@ def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
     return [SolidCheck(cad_report.step(what.name), off, _READ_BACK, off <= _READ_BACK, text)]
 
 
-def _print(job: Job, kind: str, solid: cq.Solid, what: Product, making: Production) -> SolidCheck:
-    """Write what a printer gets. A mesh that does not close is a check that fails, and its files are left out."""
+def _print(
+    job: Job, kind: str, solid: cq.Solid, what: Product, making: Production, *, wider: float | None = None
+) -> SolidCheck:
+    """Write what a printer gets, upright holes `wider`, by default by the process's compensation.
+
+    A mesh that does not close is a check that fails, and its files are left out.
+    """
+    wider = job.dims.hole_compensation if wider is None else wider
     name = cad_report.print_stl(kind)
     try:
-        lying = print_files.as_printed(solid, making, job.dims.hole_compensation, reamed_places(job.dims))
+        lying = print_files.as_printed(solid, making, wider, reamed_places(job.dims))
         body, distance = print_files.printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))

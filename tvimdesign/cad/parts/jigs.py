@@ -1,4 +1,4 @@
-"""Fixtures: the fork that holds the rotor, and the jig that a PCL arc or block is cast in.
+"""Fixtures: the fork that holds the rotor, the jig that a PCL arc or block is cast in, and pieces that try a printer.
 
 The jig is a mould with a dam as high as the part, and a lid that lies on the dam. Both are drawn around the part where
 it stands in the module, so that the jig is closed by construction: the dam's height is the layer's thickness, pockets
@@ -26,10 +26,13 @@ CAST_AT = 80.0  # Temperature of mould and lid while the PCL is cast [degC]; it 
 COLOUR = (0.55, 0.62, 0.50)
 FORK = "setting_fork"
 FORK_COUNT = STOPS
+TRIAL = "test_pieces"
+TRIAL_COUNT = 2  # The pin of one is tried in the holes of the other
 MAKING: Mapping[str, Production] = {
     "casting_mould": Production(drawn=True, down="bottom", why="flat: dam and pins grow upwards, no support"),
     "casting_lid": Production(drawn=True, down="top", why="outer face on the bed: pockets open upwards, no support"),
     FORK: Production(drawn=True, down="top", why="the bridge on the bed: legs grow upwards, no support"),
+    TRIAL: Production(down="bottom", why="flat, without support: bridges are what is tried"),
 }
 """How fixtures are printed, by name."""
 
@@ -105,3 +108,53 @@ def fork(dims: Dimensions) -> cq.Shape:
     beside = 0.5 * (dims.stop_tooth_span + dims.stop_angle)
     bridge = sector(inner, outer, dims.stop_tooth_span + 2.0 * dims.stop_angle - play, top, top + BRIDGE)
     return join(bridge, [turned(leg, side * beside) for side in (1.0, -1.0)])
+
+
+TRIED: Mapping[str, tuple[str, tuple[float, ...]]] = {
+    "walls": ("minimum_wall", (0.5, 0.67, 0.83, 1.0, 1.17, 1.33, 1.67)),
+    "pins": ("minimum_feature", (0.5, 0.75, 1.0, 1.25, 1.5)),
+    "gaps": ("running_clearance", (0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)),
+    "bridges": ("bridge_span", (0.5, 1.0, 1.5, 2.0)),
+}
+"""Rows of the test pieces: the input of a process that each tries, and what is tried over its value."""
+GAUGE = 6.0  # Diameter of the pin that is tried in holes with a gap around it [mm]
+_HIGH, _THICK = 10.0, 5.0  # Height of what stands on the plate, and its thickness [mm]
+_PITCH, _ROW = 10.0, 14.0  # Way from one wall, pin or hole to the next, and from row to row [mm]
+
+
+def tried(dims: Dimensions, row: str) -> list[float]:
+    """Return the sizes in a row of the test pieces [mm], the least first."""
+    name, shares = TRIED[row]
+    return [round(share * float(getattr(dims, name)), 2) for share in shares]
+
+
+def trial(dims: Dimensions) -> cq.Shape:
+    """Draw the test pieces on a plate: rows of walls, of pins, of a pin with holes for another's, and of bridges.
+
+    A bridge is the upper edge of a window in a wall.
+    """
+    walls, pins, gaps, bridges = (tried(dims, row) for row in TRIED)
+    post = max(WALL, dims.minimum_wall)
+    wide = max(_PITCH * (len(gaps) + 1), sum(bridges) + post * (len(bridges) + 1))
+    places = [_PITCH * (column + 0.5) for column in range(len(gaps) + 1)]
+    middles = [_ROW * (row + 0.5) for row in range(len(TRIED))]
+    standing = [_box(x, middles[0], (thick, _HIGH), 0.0, _HIGH) for x, thick in zip(places, walls, strict=False)]
+    standing += [cylinder(0.5 * thick, 0.0, _HIGH, (x, middles[1])) for x, thick in zip(places, pins, strict=False)]
+    standing.append(cylinder(0.5 * GAUGE, 0.0, _HIGH, (places[0], middles[2])))
+    holes = [
+        cylinder(0.5 * GAUGE + gap, -_THICK, 0.0, (x, middles[2])) for x, gap in zip(places[1:], gaps, strict=True)
+    ]
+    standing.append(_box(0.5 * wide, middles[3], (wide, post), 0.0, _HIGH))
+    start = post
+    for span in bridges:
+        holes.append(_box(start + 0.5 * span, middles[3], (span, 2.0 * post), 0.0, _HIGH - post))
+        start += span + post
+    plate = _box(0.5 * wide, 0.5 * _ROW * len(TRIED), (wide, _ROW * len(TRIED)), -_THICK, 0.0)
+    return join(plate, standing).cut(*holes)
+
+
+def _box(x: float, y: float, size: tuple[float, float], bottom: float, top: float) -> cq.Solid:
+    """Draw an upright box about a place, of this size along x and y."""
+    along, across = size
+    corner = cq.Vector(x - 0.5 * along, y - 0.5 * across, bottom)
+    return cq.Solid.makeBox(along, across, top - bottom, corner)

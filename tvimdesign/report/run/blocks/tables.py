@@ -245,8 +245,8 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
         rows.append((first or "no single input", value, ranges.get(first, ""), met, test))
     heads = ("measure first", "assumed", "range", "limits met in a share of cases", "test")
     note = (
-        "Before the first module: tests by docs/how-to/my-printer.md, small prints that you draw. The others: on that "
-        "module, or by the maker's sheet. "
+        "Before the first module: print cad/print/test_pieces.3mf twice and measure it by docs/how-to/my-printer.md. "
+        "The others: on that module, or by the maker's sheet. "
         "`tvimdesign new built.yaml --from FOLDER` keeps all chosen sizes: set what was measured there and "
         "run it. A measured wall or gap still redraws what follows from it; a new search draws other parts."
     )
