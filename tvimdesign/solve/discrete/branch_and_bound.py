@@ -213,13 +213,13 @@ class BranchAndBound:
         division, sizes = self._division(node), node.relaxation.sizes
         values = node.run and node.relaxation.values(node.run)
         halves = division.halves(node.box)
-        asked = [box for box in halves if not (values and sizes.hold(values, box))]
-        answers = self._answers([Task(node.relaxation.place, box, node.run, "within") for box in asked])
-        solved = dict(zip(asked, answers, strict=False))
+        searched = [box for box in halves if not (values and sizes.hold(values, box))]
+        answers = self._answers([Task(node.relaxation.place, box, node.run, "within") for box in searched])
+        solved = dict(zip(searched, answers, strict=False))
         for side, box in enumerate(halves):
             if box in solved:
                 self._take(node, division, side, box, *solved[box])
-            elif box not in asked:  # the best design lies in it
+            elif box not in searched:  # the best design lies in it
                 self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
 
     def _take(self, node: Node, division: Division, side: int, box: Box, run: Run | None, certain: bool) -> None:

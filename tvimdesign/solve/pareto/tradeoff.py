@@ -105,12 +105,12 @@ class Tradeoff:
         Where a design that was found before keeps the bounds and is better, this has ended in a worse optimum: then
         also from there.
         """
-        answer = self._asked(objective, where, partial(self._search, objective, where, near, guess))
+        answer = self._remembered(objective, where, partial(self._search, objective, where, near, guess))
         if isinstance(answer, Point):
             self._leave_time()
         return answer
 
-    def _asked(self, objective: Objective, where: str, search: Callable[[], Point | Failure]) -> Point | Failure:
+    def _remembered(self, objective: Objective, where: str, search: Callable[[], Point | Failure]) -> Point | Failure:
         """Return the answer to a question that is remembered, or else what a search finds in time, which is then."""
         number, self.requests = self.requests, self.requests + 1
         answer = self._memory.recall(number, objective) if self._memory else None
@@ -154,7 +154,7 @@ class Tradeoff:
         """Return a point solved again from another one; None if no better one results."""
         assert point.objective is not None  # the study's own optimum is never asked for again
         search = partial(self._from, other, point.objective, point.where, point.cost)
-        answer = self._asked(point.objective, f"{point.where}, from another side", search)
+        answer = self._remembered(point.objective, f"{point.where}, from another side", search)
         if isinstance(answer, Failure):
             return None
         return replace(answer, where=point.where, root=other.root)

@@ -98,9 +98,9 @@ class JointOfModule:
         names = [row.name for row in self._explained]
         if not {*names} <= {quantity.name for quantity in fit.derived}:
             return fit, []
-        found = {name: fit.value(name) for name in names}
-        if all(np.isfinite(found[row.name]) and row.lower <= found[row.name] <= row.upper for row in self._explained):
-            there = np.array(self.impedance(found), dtype=float)
+        values = {name: fit.value(name) for name in names}
+        if all(np.isfinite(values[row.name]) and row.lower <= values[row.name] <= row.upper for row in self._explained):
+            there = np.array(self.impedance(values), dtype=float)
             misses = np.abs(there / np.array([fit.value("stiffness"), fit.value("damping")]) - 1.0)
             if np.max(misses) < _HELD:
                 return fit, []
