@@ -8,7 +8,7 @@ import numpy as np
 
 from made_measurements.made import Array, Made, block
 from tvimdesign.physics.polymers import polymer, viscoelasticity
-from tvimdesign.simulation.measurement.kinds.flow_curve import carreau
+from tvimdesign.simulation.measurement.kinds.shear_laws import carreau
 from tvimdesign.simulation.measurement.reading.data_file import Block
 
 MODES = [(0.5, 800.0), (0.05, 1.0e4), (0.004, 6.0e4)]
