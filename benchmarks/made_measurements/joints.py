@@ -6,7 +6,7 @@ import numpy as np
 
 from made_measurements.made import Made, block, numbers
 from tvimdesign.physics.motions import motion
-from tvimdesign.simulation.measurement.kinds import frozen_torque, release, torque_angle
+from tvimdesign.simulation.measurement.kinds import release, torque_angle
 
 
 def torque_angle_data(noise: np.random.Generator) -> Made:
@@ -58,7 +58,7 @@ def frozen_torque_data(noise: np.random.Generator) -> Made:
     zeros = (0.0, 0.005, -0.003)
     for zero in zeros:
         angle = np.linspace(zero, zero + 0.08, 60)
-        torque = numbers(frozen_torque.torque_of(angle, {**truth, "zero_angle": zero}))
+        torque = numbers(torque_angle.torque_of(angle, {**truth, "zero_angle": zero}))
         blocks.append(block(angle=angle, torque=torque + noise.normal(0.0, 0.1, 60)))
     sizes = {"layer_inner_radius": "26 mm", "layer_outer_radius": "40 mm", "layer_span": "49 deg"}
     own = {f"zero_angle_{i}": zero for i, zero in enumerate(zeros, start=1)}
