@@ -332,7 +332,7 @@ def test_the_temperatures_of_a_switch_rise_along_their_line():
 
 def test_a_limit_in_doubt_stands_beside_what_to_measure_for_it():
     uncertainty = {
-        "held": {"pin_margin >= 0": 0.5, "key_margin >= 0": 0.75, "core_web >= 0": 0.9},
+        "held": {"pin_margin >= 0": 0.5, "key_margin >= 0": 0.75, "key_margin <= 9": 0.8, "core_web >= 0": 0.9},
         "intervals": {"pin_margin": {"shares": {"minimum_wall": 0.8, "slip_clearance": 0.1}},
                       "key_margin": {"shares": {"minimum_wall": 0.6}}},
         "unmeasured": [{"name": "minimum_wall", "value": 1.2, "low": 0.8, "high": 1.6, "unit": "mm"}],

@@ -226,7 +226,7 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
         files = _papers(jigs.FORK)
         jig.append(Item(jigs.FORK, jigs.FORK_COUNT, True, record, holds, 0.0, files, fixture=True))
     if design.choices["making_method"] == "printed":
-        tries = "Fixture: shows what the printer makes, before all else; how to measure it: docs/how-to/my-printer.md"
+        tries = "Fixture, printed first, its holes as drawn: shows what the printer makes, by docs/how-to/my-printer.md"
         files = _papers(jigs.TRIAL)
         jig.append(Item(jigs.TRIAL, jigs.TRIAL_COUNT, True, record, tries, 0.0, files, fixture=True))
     release = f"Mould release for thermoplastics at {jigs.CAST_AT:g} °C, wiped thinly on mould and lid"

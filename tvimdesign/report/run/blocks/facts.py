@@ -441,7 +441,7 @@ def chosen_fact(answer: StudyResult) -> list[Fact]:
     if not answer.design.study.get("robust"):
         how = [f"best {count}"]
     elif first:
-        how = [f"with margins, {count}", f"ranked without margins, the best is {', '.join(first)}"]
+        how = [f"best with margins {count}", f"without margins the best is {', '.join(first)}"]
     else:
         how = [f"best {count}, ranked without margins"]
     return [Fact("Chosen", [*(f"{label(name)} {word}" for name, word in own.items()), *how], listing=True)]

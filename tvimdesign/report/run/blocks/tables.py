@@ -232,8 +232,7 @@ def moves(name: str, intervals: Mapping[str, Any]) -> list[tuple[str, float]]:
 def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid:
     """Return what to measure, and how, with the limits that it decides on and their share of cases, the least first."""
     limits: dict[str, list[str]] = {}
-    for limit, share in uncertainty["held"].items():
-        output = limit.partition(" ")[0]
+    for output, share in _least_shares(uncertainty).items():
         limits.setdefault(measure_first(output, uncertainty), []).append(f"{output} {100.0 * share:.3g} %")
     ranges = {entry["name"]: f"{range_text(entry)} {entry['unit']}" for entry in uncertainty["unmeasured"]}
     rows = []
@@ -256,8 +255,17 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid
 
 def doubts_grid(uncertainty: Mapping[str, Any], table: Table) -> Grid:
     """Return what each limit in doubt is about, such as between which two parts a gap is, the least met first."""
+    rows = [
+        (name, f"{100.0 * share:.3g} %", table.output(name).description)
+        for name, share in _least_shares(uncertainty).items()
+    ]
+    note = "Parts and gaps: cad/views/section.png, a cut through the axis; the module in report.html, which opens."
+    return grid("What these limits are about", ("limit on", "met in", "meaning"), rows, right=(1,), note=note)
+
+
+def _least_shares(uncertainty: Mapping[str, Any]) -> dict[str, float]:
+    """Return the least share of cases that meet a limit on an output, by output, the least first."""
     shares: dict[str, float] = {}
     for limit, share in sorted(uncertainty["held"].items(), key=lambda entry: entry[1]):
         shares.setdefault(limit.partition(" ")[0], share)
-    rows = [(name, f"{100.0 * share:.3g} %", table.output(name).description) for name, share in shares.items()]
-    return grid("What these limits are about", ("limit on", "met in", "meaning"), rows, right=(1,))
+    return shares
