@@ -63,11 +63,11 @@ def test_a_feasible_design_is_reported_before_a_better_infeasible_one(monkeypatc
 def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch):
     study = Study.model_validate(shipped_answer("paper_reconstructed").design.study)
     order: list[Any] = []
-    histories = result._histories
-    monkeypatch.setattr(result, "_histories", lambda *of: order.append("histories") or histories(*of))
+    history = result.phase_history
+    monkeypatch.setattr(result, "phase_history", lambda *of: order.append("history") or history(*of))
     answered = answer(study, designed=lambda design, _: order.append(design))
     assert order[0] is answered.design
-    assert order[1:] == ["histories"]
+    assert order[1:] == ["history"] * len(answered.histories)
 
 
 @pytest.mark.gate
