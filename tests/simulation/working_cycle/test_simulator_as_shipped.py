@@ -10,8 +10,9 @@ from scipy.integrate import simpson, solve_ivp
 from support import STUDIES, fine, study_path, tight
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.simulation.working_cycle.cycle import SAMPLES, Array, Cycle, Simulator
+from tvimdesign.simulation.working_cycle.cycle import SAMPLES, Array, Cycle, Simulator, Trajectory
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, resolve_study
+from tvimdesign.simulation.working_cycle.phase_results import PhaseResults
 from tvimdesign.study import drawn, read_study
 
 QUICK = ("fast_switch", "paper_shear", "wrist_compression")
@@ -113,15 +114,19 @@ def test_what_is_shown_is_what_is_simulated(build):
     assert all(np.array_equal(line.states, other.trajectories[name].states) for name, line in full.trajectories.items())
 
 
-def test_a_phase_goes_on_beyond_its_end_where_it_is_traced(build):
+def test_a_phase_goes_on_beyond_its_end_where_it_is_simulated_throughout(build):
     model = build()
     simulator = Simulator(model)
     ended = simulator.run(model.start, phases=["softening"])
     time = ended.values["response_time"]
-    traced = simulator.trace("softening", model.start, None, 3.0 * time)
+    drive = simulator.constant_drive("softening", model.start)
+    run, _, _ = model.engines["softening"].simulate(
+        model.start, drive, None, [], 3.0 * time, simulator.tolerance, throughout=True
+    )
+    traced = Trajectory(*PhaseResults(run).sampled(run.instants[-1], SAMPLES))
     assert traced.times[-1] == pytest.approx(3.0 * time, rel=1e-12)
     at_end = traced.at(np.array([1.0 / 3.0]))[:, 0]
-    assert at_end == pytest.approx(ended.trajectory.states[:, -1], abs=5e-3)
+    assert at_end == pytest.approx(ended.trajectories["softening"].states[:, -1], abs=5e-3)
     judge = fine(model).trace("softening", model.start, None, 3.0 * time)
     assert traced.states[:, -1] == pytest.approx(judge.states[:, -1], rel=1e-4, abs=1e-4)
 
@@ -187,7 +192,7 @@ def test_switch_at_the_usual_cells_is_within_the_promised_percent(pair, switch_o
 @pytest.mark.parametrize("design", ["as it is", "sink"])
 def test_energy_is_the_integral_and_the_last_state_fulfils_the_event(design, build, switch_of):
     model, cycle = build(design), switch_of(design)
-    trajectory = cycle.trajectory
+    trajectory = cycle.trajectories["softening"]
     current = model.start[model.index["current"]]
     power_at = model.phases["softening"].watch(["switch_energy"])
     power = [float(power_at(state, current, model.start)) for state in trajectory.states.T]

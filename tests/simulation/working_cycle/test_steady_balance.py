@@ -30,7 +30,7 @@ def test_at_the_hold_current_the_layer_stays_where_the_switch_ended(design, buil
     jacobian = phase.rates.jacobian()
     long = solve_ivp(
         lambda _, y: np.asarray(phase.rates(y, amps, model.start)).ravel(), (0.0, 2e5),
-        cycle.trajectory.states[:, -1], method="BDF", rtol=1e-9, atol=1e-11,
+        cycle.trajectories["softening"].states[:, -1], method="BDF", rtol=1e-9, atol=1e-11,
         jac=lambda _, y: np.asarray(jacobian(y, amps, model.start, 0)[0]),
     )  # fmt: skip
     end = long.y[:, -1]

@@ -40,11 +40,6 @@ class Cycle:
     balances: dict[str, Array]
     """By phase, state and current that stay where the phase ended; none where there is no such state."""
 
-    @property
-    def trajectory(self) -> Trajectory:
-        """The first phase."""
-        return next(iter(self.trajectories.values()))
-
 
 TOLERANCE = 1e-4  # Largest error of a step in the scaled state: values are within 2e-4 of what they converge to (test)
 SAMPLES = 200  # Samples of a phase at least
@@ -100,7 +95,7 @@ class Simulator:
             results = PhaseResults(run)
             results.add_paths(outputs, None)
             values |= {event: moment.time for event, moment in moments.items()} | outputs.values
-            trajectories[name] = self._trajectory(results, outputs.end)
+            trajectories[name] = Trajectory(*results.sampled(outputs.end or run.instants[-1], self.samples))
             stays = [row.name for row in phase_functions.steadies if wanted is None or row.name in wanted]
             standing = results.standing(outputs.end) if stays and outputs.end is not None else None
             if standing is not None:
@@ -108,17 +103,6 @@ class Simulator:
                 balances[name] = np.append(state, standing.current)
                 values |= {quantity: run.value(quantity, state, standing.current) for quantity in stays}
         return Cycle(values, trajectories, balances)
-
-    def _trajectory(self, results: PhaseResults, end: Instant | None) -> Trajectory:
-        times, states, currents = results.sampled(end or results.run.instants[-1], self.samples)
-        return Trajectory(times=times, states=states, currents=currents)
-
-    def trace(self, name: str, inputs: Array, before: Array | None, end: float) -> Trajectory:
-        """Simulate a phase at its constant current for `end` seconds, on beyond what ends it if that is longer."""
-        profile = self.constant_drive(name, inputs)
-        engine = self.model.engines[name]
-        run, _, _ = engine.simulate(inputs, profile, before, [], end, self.tolerance, throughout=True)
-        return self._trajectory(PhaseResults(run), None)
 
     def constant_drive(self, phase: str, inputs: Array) -> CurrentProfile:
         """Return the constant current the inputs ask for in a phase."""
