@@ -17,7 +17,7 @@ from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
-from tvimdesign.report.run.run_page import write_run_page
+from tvimdesign.report.run.run_page import finish
 from tvimdesign.study.tree import tree_of_file
 
 STUDY = study_path("paper_reconstructed")
@@ -68,8 +68,7 @@ def run_page(folder: Path, *, parts: bool = True, more: Mapping[str, bytes] | No
             write_parts(results.path / "cad")
             for name, data in (more or {}).items():
                 atomic_write(results.path / "cad" / name, data)
-        write_run_page(results, answered)
-        results.finish("evaluated", {}, {})
+        finish(results, answered)
     return folder / FILE
 
 

@@ -241,7 +241,7 @@ class Result(Generic[StudyT]):
         from tvimdesign.report.output.command import noting
         from tvimdesign.report.output.plot_process import PlotProcess
         from tvimdesign.report.run.first_screen import write_summary
-        from tvimdesign.report.run.run_page import finish, summary_sheet, write_answer, write_run_page
+        from tvimdesign.report.run.run_page import finish, summary_sheet, write_answer
 
         failures: list[TvimError] = []
         with ResultsFolder(Path(folder), overwrite) as written:
@@ -253,7 +253,6 @@ class Result(Generic[StudyT]):
                     drawing.begin(written.path / "plots", figures, self.name)
                     drawing.add(written.path, summary_sheet(written, self._answered), self.name, "pdf")
                     drawing.finish("save again with overwrite=True")
-            write_run_page(written, self._answered)
             finish(written, self._answered)
         for failure in failures:
             warnings.warn(str(failure), stacklevel=2)

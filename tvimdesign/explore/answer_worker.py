@@ -85,17 +85,12 @@ class DesignFolder(ResultsFolder):
 
 def design_name(design: Design) -> str:
     """Return the name of a design's folder, which depends on choices and numbers alone."""
+    inputs = {row.name for row in table_for(design.mode).inputs}
     numbers = {
-        name: f"{design.values[name]:.9g}"
-        for name in sorted(design.values)
-        if name.partition("@")[0] in _inputs(design)
+        name: f"{value:.9g}" for name, value in sorted(design.values.items()) if name.partition("@")[0] in inputs
     }
     content = json.dumps([design.mode, design.choices, numbers], sort_keys=True)
     return hashlib.sha256(content.encode()).hexdigest()[:16]
-
-
-def _inputs(design: Design) -> set[str]:
-    return {row.name for row in table_for(design.mode).inputs}
 
 
 def report_fragment(folder: Path, answered: AnsweredStudy) -> dict[str, Any]:

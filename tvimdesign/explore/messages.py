@@ -16,42 +16,39 @@ class _Message(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
 
-class SetValue(_Message):
-    """An input, a choice, or a value of an operating point, as text with its unit."""
-
-    kind: Literal["set"]
+class _Change(_Message):
     name: _Name
-    text: _Text
     final: bool = True
     """Whether the control was let go; what it passes through while it is dragged cannot be undone one by one."""
 
 
-class SetLimits(_Message):
+class SetValue(_Change):
+    """An input, a choice, or a value of an operating point, as text with its unit."""
+
+    kind: Literal["set"]
+    text: _Text
+
+
+class SetLimits(_Change):
     """All limits of one required output."""
 
     kind: Literal["require"]
-    name: _Name
     texts: Annotated[tuple[_Text, ...], Field(max_length=10, strict=False)]
-    final: bool = True
 
 
-class SetRange(_Message):
+class SetRange(_Change):
     """The ends of a variable's range."""
 
     kind: Literal["range"]
-    name: _Name
     low: _Text
     high: _Text
-    final: bool = True
 
 
-class SetWeight(_Message):
+class SetWeight(_Change):
     """The weight of a minimised output."""
 
     kind: Literal["weight"]
-    name: _Name
     text: _Text
-    final: bool = True
 
 
 class SetWay(_Message):
@@ -123,20 +120,7 @@ class MakeParts(_Message):
 
 Change = SetValue | SetLimits | SetRange | SetWeight
 Message = Annotated[
-    SetValue
-    | SetLimits
-    | SetRange
-    | SetWeight
-    | SetWay
-    | Step
-    | Pin
-    | OfPin
-    | Point
-    | Save
-    | Confirm
-    | Size
-    | MakeParts,
-    Field(discriminator="kind"),
+    Change | SetWay | Step | Pin | OfPin | Point | Save | Confirm | Size | MakeParts, Field(discriminator="kind")
 ]
 _MESSAGES: TypeAdapter[Message] = TypeAdapter(Message)
 

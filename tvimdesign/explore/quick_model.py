@@ -16,7 +16,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator, Trajectory
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.batch.batch_model import Kernel, pace_of
-from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
+from tvimdesign.solve.batch.cycle_kernel import CycleKernel
 from tvimdesign.solve.batch.phase_kernel import Steps
 from tvimdesign.study import Study, given
 
@@ -52,9 +52,8 @@ class QuickModel:
         self.model = DeviceFunctions(study.table, known, self.points, self.cells)
         self._simulator = Simulator(self.model, _LOOSE, _SAMPLES)
         self._kernel: CycleKernel | None = None
-        self._pace: Pace | None = None
         self._maps = {name: _Drawn(self.model, name) for name in _PHASES if name in self.model.phases}
-        self.set_pace(self.model.start)
+        self._pace = pace_of(self._simulator, self.model.start)
         self._thread = threading.Thread(target=self._record, daemon=True)
         if compiled:
             self._thread.start()
@@ -69,22 +68,18 @@ class QuickModel:
         self._thread.join()
         return self._kernel is not None
 
-    def set_pace(self, inputs: Array) -> None:
-        """Let the steps follow a module from now on."""
-        self._pace = pace_of(self._simulator, inputs)
-
     def inputs(self, known: Mapping[str, Any]) -> Array:
         """Return the vector of a module's numbers."""
         return np.array([float(known[name]) for name in self.model.names])
 
     def evaluate(self, inputs: Array) -> Evaluated:
         """Compute every output of a module and its curves. Raises SimulationError."""
-        kernel, pace = self._kernel, self._pace
-        if kernel is None or pace is None:
+        kernel = self._kernel
+        if kernel is None:
             cycle = self._simulator.run(inputs)
             switch, lines = cycle.values, {name: (line.times, line.states) for name, line in cycle.trajectories.items()}
         else:
-            some, courses = kernel.course(np.delete(inputs, self.model.index["rotor_cells"]), pace)
+            some, courses = kernel.course(np.delete(inputs, self.model.index["rotor_cells"]), self._pace)
             switch = {name: some.get(name, np.inf) for name in self.model.switch_names}
             lines = {name: _line(course) for name, course in courses.items() if course}
         ends = {name: phase.phase.ends for name, phase in self.model.phases.items()}

@@ -147,12 +147,19 @@ class Session:
         match message:
             case messages.SetWay():
                 self._become(self.history.state.model_copy(update={"way": message.way}))
+            case messages.Step(kind="reset"):
+                self._become(self.source.first)
             case messages.Step():
-                self._step(message)
+                (self.history.undo if message.kind == "undo" else self.history.redo)()
+                self._settle()
+                self._ask("quick")
             case messages.Pin():
                 self._pin(message.name)
+            case messages.OfPin(kind="recall"):
+                self._become(self.history.pinned(message.number).state)
             case messages.OfPin():
-                self._of_pin(message)
+                self.history.unpin(message.number)
+                self._settle()
             case messages.Point():
                 self._become(self.source.at_point(message.number, self.history.state))
             case messages.Save():
@@ -183,17 +190,6 @@ class Session:
         self._settle()
         self._ask("quick")
 
-    def _step(self, step: messages.Step) -> None:
-        if step.kind == "reset":
-            self._become(self.source.first)
-            return
-        if step.kind == "undo":
-            self.history.undo()
-        else:
-            self.history.redo()
-        self._settle()
-        self._ask("quick")
-
     def _pin(self, label: str) -> None:
         answer = self.answers.get("quick")
         if answer is None or "values" not in answer["shown"] or answer["number"] != self._number:
@@ -207,13 +203,6 @@ class Session:
                   for name, variable in variables if variable["value"] is not None}  # fmt: skip
         self.history.pin(Pinned(name=label, state=self.history.state, values={**inputs, **texts}))
         self._settle()
-
-    def _of_pin(self, message: messages.OfPin) -> None:
-        if message.kind == "recall":
-            self._become(self.history.pinned(message.number).state)
-        else:
-            self.history.unpin(message.number)
-            self._settle()
 
     def _save(self, file: str) -> Reply:
         if not _FILE.fullmatch(file):

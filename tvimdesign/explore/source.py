@@ -11,7 +11,7 @@ from tvimdesign.explore.messages import Way
 from tvimdesign.explore.state import State, beginning, refuse_other_folders, sized_state
 from tvimdesign.report.atlas.atlas_page import STUDIES, module_points
 from tvimdesign.report.atlas.make_atlas import SUMMARY
-from tvimdesign.report.output.numbers import axis_label
+from tvimdesign.report.run.front_report import points_shown
 from tvimdesign.report.sweep_figures import shown_cells
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.study import Study, read_tree
@@ -54,13 +54,7 @@ class Source:
             return module_points(self.modules)
         if self.front is None or not self.front["points"]:
             return None
-        names, table = list(self.front["units_of_values"]), self.study.table
-        points = [
-            {"number": point["number"], "status": point["status"], "values": [point["values"][name] for name in names]}
-            for point in self.front["points"]
-        ]
-        labels = [axis_label(name, table.unit(name)) for name in names]
-        return {"of": list(self.front["of"]), "names": names, "labels": labels, "points": points}
+        return points_shown(self.front, self.study.table)
 
     def at_point(self, number: int, state: State) -> State:
         """Return the state that shows a point of the front or a cell. Raises InputError if there is none."""

@@ -43,7 +43,7 @@ class WorkerProcess:
         self._low_priority = low_priority
         self._module, self._arguments, self._report = module, list(arguments), report
         self._loop = asyncio.get_running_loop()
-        self._under_way: Job | None = None
+        self.under_way: Job | None = None  # The job that is being answered
         self._waiting: Job | None = None
         self._interrupted = False
         self._ended = 0  # Times it has ended by itself since its last answer
@@ -52,20 +52,15 @@ class WorkerProcess:
 
     def ask(self, job: Job) -> None:
         """Answer a job next; the one that waited is dropped, an interruptible one is interrupted."""
-        if self._under_way is None:
+        if self.under_way is None:
             if self._ended >= _STARTS:
                 self._start()
             self._send(job)
             return
         self._waiting = job
-        if self._under_way.interruptible and not self._interrupted:
+        if self.under_way.interruptible and not self._interrupted:
             self._interrupted = True
             self._child.send_signal(signal.SIGINT)
-
-    @property
-    def under_way(self) -> Job | None:
-        """The job that is being answered."""
-        return self._under_way
 
     @property
     def process(self) -> int:
@@ -106,20 +101,20 @@ class WorkerProcess:
             self._loop.call_soon_threadsafe(function, *arguments)
 
     def _send(self, job: Job) -> None:
-        self._under_way, self._interrupted = job, False
+        self.under_way, self._interrupted = job, False
         assert self._child.stdin is not None
         with contextlib.suppress(OSError, ValueError):  # a worker that has died is started again when that is heard
             self._child.stdin.write(json.dumps({"number": job.number, **job.data}) + "\n")
             self._child.stdin.flush()
 
     def _receive(self, reply: Reply) -> None:
-        job = self._under_way
+        job = self.under_way
         if job is None or reply.get("number") != job.number:
             return
         if "progress" in reply:
             self._report(job, reply)
             return
-        self._under_way, self._ended = None, 0
+        self.under_way, self._ended = None, 0
         waiting, self._waiting = self._waiting, None
         if waiting is not None:
             self._send(waiting)
@@ -131,7 +126,7 @@ class WorkerProcess:
             return
         self._child.wait()
         self._ended += 1
-        job, self._under_way = self._waiting or self._under_way, None
+        job, self.under_way = self._waiting or self.under_way, None
         self._waiting = None
         if self._ended < _STARTS:
             self._start()

@@ -266,6 +266,20 @@ def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:
     }
 
 
+def points_shown(front: Mapping[str, Any], table: Table) -> dict[str, Any]:
+    """Return what a page draws of a front as plain data: its points in the table's units, in the order of `names`."""
+    names = list(front["units_of_values"])
+    return {
+        "of": list(front["of"]),
+        "names": names,
+        "labels": [axis_label(name, table.unit(name)) for name in names],
+        "points": [
+            {"number": point["number"], "status": point["status"], "values": [point["values"][name] for name in names]}
+            for point in front["points"]
+        ],
+    }
+
+
 class FolderMemory:
     """The answers of a trade-off as files, one for each design that was sought, in their order."""
 

@@ -7,7 +7,7 @@ Data of a run's figures: an answer's numbers in the units of the axes.
 
 import json
 from bisect import bisect_left
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -26,31 +26,14 @@ from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_format import FrontEntry, RefusedRun
 from tvimdesign.report.output.tables import results_csv
 from tvimdesign.report.output.terminal import DOT, Progress
+from tvimdesign.report.run import parts_of_design as parts
 from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.blocks import sections
 from tvimdesign.report.run.blocks.facts import Fact, main_facts, more_facts
 from tvimdesign.report.run.blocks.requirements import HEADS, requirements, requirements_grid
-from tvimdesign.report.run.blocks.sections import (
-    assumptions_section,
-    conflict_points,
-    front_section,
-    module_section,
-    reasons_section,
-    search_section,
-    values_grid,
-)
 from tvimdesign.report.run.blocks.verdict import refused, starts_in_words
 from tvimdesign.report.run.first_screen import verdict_of
-from tvimdesign.report.run.parts_of_design import (
-    CYCLE,
-    FOLDER,
-    carried_files,
-    checks_section,
-    materials_section,
-    preview,
-    solids_section,
-    spring_section,
-    steps_section,
-)
+from tvimdesign.report.run.front_report import points_shown
 from tvimdesign.report.run.reasons import why_csv
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves, torque_loop
 from tvimdesign.solve.result import StudyResult
@@ -165,29 +148,24 @@ LISTED = 3  # Parts of a listing that are shown of many
 _COLUMNS = ("current", "electrical_power", "joint_impedance", "joint_stiffness", "joint_damping")
 
 
-def write_run_page(folder: ResultsFolder, answered: AnsweredStudy) -> None:
-    """Write the page of an answered study beside the files that the folder has by then."""
-    write_page(folder, run_page(folder, answered))
-
-
 def run_page(folder: ResultsFolder, answered: AnsweredStudy) -> Page:
-    """Return the page of an answered study."""
-    answer, cad, says = answered.result, folder.path / FOLDER, verdict_of(answered)
-    module = module_section(answered)
-    values = answered.reported["values"]
-    every = Folded(f"All {len(values)} inputs and outputs, with their sources", [values_grid(values)])
-    sections = [folded(Section(module.name, module.title, [*module.blocks, *([every] if answer.has_design else [])]))]
+    """Return the page of an answered study beside the files that the folder has by then."""
+    answer, cad, says = answered.result, folder.path / parts.FOLDER, verdict_of(answered)
+    module = folded(sections.module_section(answered))
+    shown = [module]
     if answer.has_design:
-        sections = _of_a_design(cad, answered, sections)
+        values = answered.reported["values"]
+        every = Folded(f"All {len(values)} inputs and outputs, with their sources", [sections.values_grid(values)])
+        shown = _of_a_design(cad, answered, replace(module, blocks=[*module.blocks, every]))
     return Page(
-        answer.design.name, f"{answer.design.mode} module", says.text, says.tone, glance(answered), preview(cad),
-        [*sections, *_last(folder, answered.tree)], made_by_words(folder), there(folder, _FILES), carried_files(cad),
+        answer.design.name, f"{answer.design.mode} module", says.text, says.tone, glance(answered), parts.preview(cad),
+        [*shown, *_last(folder, answered.tree)], made_by_words(folder), there(folder, _FILES), parts.carried_files(cad),
     )  # fmt: skip
 
 
 def summary_sheet(folder: ResultsFolder, answered: AnsweredStudy) -> Drawing:
     """Return the page's first screen as a drawing for one sheet of paper."""
-    answer, says, picture = answered.result, verdict_of(answered), folder.path / FOLDER / PREVIEW
+    answer, says, picture = answered.result, verdict_of(answered), folder.path / parts.FOLDER / PREVIEW
     data = {
         "title": answer.design.name, "kind": f"{answer.design.mode} module", "status": says.text, "tone": says.tone,
         "heads": ["requirement", *HEADS[1:]],
@@ -206,7 +184,7 @@ def glance(answered: AnsweredStudy) -> list[Block]:
     rows = requirements(answer, uncertainty)
     first: list[Block] = [requirements_grid(rows)] if rows else []
     if not answer.has_design:
-        return [*first, Points([warning.text for warning in answered.warnings]), conflict_points(answered)]
+        return [*first, Points([warning.text for warning in answered.warnings]), sections.conflict_points(answered)]
     facts = [(fact.label, _in_short(fact)) for fact in main_facts(answer, uncertainty)]
     more = [(fact.label, fact.text) for fact in more_facts(answer, uncertainty, answered.front.front)]
     more += [("Starts", text) for text in starts_in_words(answer)]
@@ -230,26 +208,20 @@ def folded(section: Section) -> Section:
     return replace(section, folded=True)
 
 
-def _of_a_design(cad: Path, answered: AnsweredStudy, of_the_module: Sequence[Section]) -> list[Section]:
+def _of_a_design(cad: Path, answered: AnsweredStudy, of_the_module: Section) -> list[Section]:
     """Return figures, front and active constraints, then folded what there is to look up, of the parts if any."""
     path, front = answered.tree.path, answered.reported.get("front")
+    to_look_up = [
+        sections.assumptions_section(answered), *sections.search_section(answered), *parts.checks_section(cad),
+        *parts.materials_section(cad), *parts.steps_section(cad), *parts.spring_section(cad),
+    ]  # fmt: skip
     return [
-        solids_section(cad, path.name if path else "STUDY"),
+        parts.solids_section(cad, path.name if path else "STUDY"),
         cycle_section(answered.result, answered.study.table),
         *([drawn_front(answered.study.table, front)] if front else []),
-        reasons_section(answered),
-        *of_the_module,
-        *map(
-            folded,
-            [
-                assumptions_section(answered),
-                *search_section(answered),
-                *checks_section(cad),
-                *materials_section(cad),
-                *steps_section(cad),
-                *spring_section(cad),
-            ],
-        ),
+        sections.reasons_section(answered),
+        of_the_module,
+        *map(folded, to_look_up),
     ]
 
 
@@ -259,18 +231,14 @@ def cycle_section(answer: StudyResult, table: Table) -> Section:
         "The working cycle, simulated: temperatures, current and power, impedance, and the temperatures through the "
         "layer at the cursor. Softening first, then stiffening."
     )
-    return Section("cycle", "Cycle", [Drawn(CYCLE, "cycle.js", says, cycle_data(answer, table), libraries=["echarts"])])
-
-
-def cycle_data(answer: StudyResult, table: Table) -> dict[str, Any]:
-    """Return each phase's columns over its own time, with what stands beside them."""
     beside = plot_data(answer, table)["cycle"]
-    return {
+    data = {
         "phases": [_phase(name, answer.histories[name]) for name in _PHASES if name in answer.histories],
         "labels": beside["labels"],
         "depths": _rounded(beside["depths"]),
         **{name: beside[name] for name in ("places", "melting", "soft", "stiff")},
     }
+    return Section("cycle", "Cycle", [Drawn(parts.CYCLE, "cycle.js", says, data, libraries=["echarts"])])
 
 
 def _phase(name: str, curves: Curves) -> dict[str, Any]:
@@ -287,21 +255,12 @@ def _rounded(values: Any) -> list[float]:
 
 def drawn_front(table: Table, front: FrontEntry) -> Section:
     """Return the front: its points as curves to brush, and as a table with the file of each design."""
-    names = list(front["units_of_values"])
     says = (
         "The front: each point, and each line, is a whole design. Drag along an axis of the lower figure, or set "
         "its ends below, to keep only the designs within."
     )
-    data = {
-        "of": list(front["of"]),
-        "names": names,
-        "labels": [axis_label(name, table.unit(name)) for name in names],
-        "points": [
-            {"number": point["number"], "status": point["status"], "values": [point["values"][name] for name in names]}
-            for point in front["points"]
-        ],
-    }
-    return front_section(front, names, Drawn("front", "front.js", says, data, libraries=["echarts"]))
+    drawn = Drawn("front", "front.js", says, points_shown(front, table), libraries=["echarts"])
+    return sections.front_section(front, list(front["units_of_values"]), drawn)
 
 
 def refused_page(folder: ResultsFolder, tree: StudyTree, study: Study, reason: str) -> Page:
@@ -348,15 +307,12 @@ def write_results(folder: ResultsFolder, answered: AnsweredStudy) -> None:
 
 
 def finish(folder: ResultsFolder, answered: AnsweredStudy) -> None:
-    """Write the folder's manifest."""
-    result = answered.result
-    folder.finish(result.design.status, inputs_of(answered), result.design.study, result.seconds)
-
-
-def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:
-    """Return the files of the study, if it has one, and of the records the design uses."""
-    path, records = answered.tree.path, record_files(answered.study, answered.result.design.choices)
-    return {"study": path, **records} if path else records
+    """Write the page, and the manifest with the study's file, if it has one, and those of the records in use."""
+    result, path = answered.result, answered.tree.path
+    write_page(folder, run_page(folder, answered))
+    records = record_files(answered.study, result.design.choices)
+    inputs = {"study": path, **records} if path else records
+    folder.finish(result.design.status, inputs, result.design.study, result.seconds)
 
 
 def refused_run(study: Study, error: InfeasibleError) -> RefusedRun:

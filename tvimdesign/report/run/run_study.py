@@ -75,14 +75,7 @@ def run_study(
             command.start_plotter(gives_way=True)
         from tvimdesign.report.run.answered_study import answer_study, drawings
         from tvimdesign.report.run.first_screen import verdict_of, write_summary
-        from tvimdesign.report.run.run_page import (
-            finish,
-            summary_sheet,
-            write_answer,
-            write_failure,
-            write_results,
-            write_run_page,
-        )
+        from tvimdesign.report.run.run_page import finish, summary_sheet, write_answer, write_failure, write_results
         from tvimdesign.solve.search import optimize
 
         best = stack.enter_context(keeping_best(folder))
@@ -120,7 +113,6 @@ def run_study(
         command.add_plot(lambda: summary_sheet(folder, answered), study.name, "pdf")
         folder.look_up_versions()
         command.finish_plots("drawing the plots")
-        write_run_page(folder, answered)
         finish(folder, answered)
 
     show = partial(_print_last, command, parts)

@@ -11,20 +11,8 @@ from tvimdesign.device import Output, Simulated, Table
 from tvimdesign.device.core.softening import CONTROL, DUTY
 from tvimdesign.study.sections import section
 from tvimdesign.study.study import CONTROLLED, FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement, Study
+from tvimdesign.study.text import values
 from tvimdesign.study.text.mistakes import At, RefusedError, one_of, quoted, step
-from tvimdesign.study.text.values import (
-    Reading,
-    below,
-    entries,
-    exactly,
-    misfit,
-    number,
-    readable,
-    si_value,
-    text,
-    unknown_keys,
-    whole,
-)
 from tvimdesign.study.text.yaml_text import Node, Sequence, Text
 
 MOST_LIMITS = 10
@@ -33,17 +21,19 @@ _BETWEEN = re.compile(r"(?P<low>[0-9][^\s]*)(?: (?P<unit>\S+))? (?:to|-) (?P<hig
 _LIMIT = re.compile(r"(?P<sense><=|>=)\s*(?P<quantity>[^\s<>=].*)")
 
 
-def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...]:
+def _read_require(reading: values.Reading, node: Node | None) -> tuple[Requirement, ...]:
     """Return every limit the study sets; every problem is noted."""
     requirements: list[Requirement] = []
-    for name, (key, value) in entries(reading.problems, node, "require", "outputs, each with its limits").items():
+    for name, (key, value) in values.entries(
+        reading.problems, node, "require", "outputs, each with its limits"
+    ).items():
         path = step("require", name)
         with suppress(RefusedError):
             row = (_simulated if is_simulated(name, reading.points) else named_output)(reading, key, path, name)
             read = _limits(reading, value, path, name, row)
             floors = [limit.limit for limit in read if limit.sense == ">="]
             ceilings = [limit.limit for limit in read if limit.sense == "<="]
-            if floors and ceilings and below(min(ceilings), max(floors)):
+            if floors and ceilings and values.below(min(ceilings), max(floors)):
                 floor, ceiling = format_quantity(max(floors), row.unit), format_quantity(min(ceilings), row.unit)
                 message = f"cannot be both at least {floor} and at most {ceiling}"
                 reading.problems.add(value, path, message, "limits that leave room between them")
@@ -51,7 +41,7 @@ def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...
     return (*requirements, *reading.section("task")["require"])
 
 
-def _read_minimize(reading: Reading, node: Node | None) -> dict[str, float]:
+def _read_minimize(reading: values.Reading, node: Node | None) -> dict[str, float]:
     """Return the weight of each output that is to be small; every problem is noted."""
     weights: dict[str, float] = {}
     if isinstance(node, Text) and not node.empty:
@@ -60,23 +50,23 @@ def _read_minimize(reading: Reading, node: Node | None) -> dict[str, float]:
             weights = {node.value: 1.0}
     else:
         expected = "the name of an output, or outputs with their weights"
-        named = entries(reading.problems, node, "minimize", expected)
-        weights = readable(lambda name, entry: _weight(reading, name, *entry), named)
+        named = values.entries(reading.problems, node, "minimize", expected)
+        weights = values.readable(lambda name, entry: _weight(reading, name, *entry), named)
     if node is not None and reading.has("minimize") and not reading.has("vary"):
         reading.problems.add(node, "minimize", "nothing may change: `vary` is missing", "both or neither")
     return weights
 
 
-def _weight(reading: Reading, name: str, key: Text, node: Node) -> float:
+def _weight(reading: values.Reading, name: str, key: Text, node: Node) -> float:
     path = step("minimize", name)
     named_output(reading, key, path, name)
-    weight = number(reading.problems, node, path, "a weight, a number above 0")
+    weight = values.number(reading.problems, node, path, "a weight, a number above 0")
     if weight <= 0:
         reading.problems.refuse(node, path, f"the weight {weight:g} is not above 0", "a number above 0")
     return weight
 
 
-def _read_front(reading: Reading, node: Node | None) -> FrontOptions | None:
+def _read_front(reading: values.Reading, node: Node | None) -> FrontOptions | None:
     """Return the outputs to be traded and the count of points; every problem is noted."""
     front = None
     with suppress(RefusedError):
@@ -87,37 +77,39 @@ def _read_front(reading: Reading, node: Node | None) -> FrontOptions | None:
     return front
 
 
-def _traded_outputs(reading: Reading, node: Node | None) -> FrontOptions | None:
-    expected, add = "'{of: [response_time, module_mass], points: 12}'", reading.problems.refuse
+def _traded_outputs(reading: values.Reading, node: Node | None) -> FrontOptions | None:
+    expected, refuse = "'{of: [response_time, module_mass], points: 12}'", reading.problems.refuse
     known = list(FrontOptions.model_fields)
-    parts = unknown_keys(reading.problems, entries(reading.problems, node, "front", expected), "front", "key", known)
+    parts = values.unknown_keys(
+        reading.problems, values.entries(reading.problems, node, "front", expected), "front", "key", known
+    )
     if node is None or not parts:
         return None
     outputs = parts.get("of")
     if not isinstance(outputs, Sequence) or len(outputs.items) not in (2, 3):
-        add(outputs or node, "front.of", "are not two or three outputs", "[response_time, module_mass]")
+        refuse(outputs or node, "front.of", "are not two or three outputs", "[response_time, module_mass]")
     listed = dict(enumerate(outputs.items))
-    names = readable(lambda i, item: read_output(reading, item, f"front.of[{i}]"), listed)
-    points = {"points": whole(reading.problems, parts["points"], "front.points")} if "points" in parts else {}
+    names = values.readable(lambda i, item: read_output(reading, item, f"front.of[{i}]"), listed)
+    points = {"points": values.whole(reading.problems, parts["points"], "front.points")} if "points" in parts else {}
     if len(names) < len(listed):
         raise RefusedError
     if len(set(names.values())) < len(names):
-        add(outputs, "front.of", "names an output twice", "two or three different ones")
+        refuse(outputs, "front.of", "names an output twice", "two or three different ones")
     least, most = FEWEST_POINTS, MOST_POINTS
     for count in points.values():
         if not least <= count <= most:
-            add(parts["points"], "front.points", f"{count} points", f"{least} to {most}")
+            refuse(parts["points"], "front.points", f"{count} points", f"{least} to {most}")
     return FrontOptions(of=tuple(names.values()), **points)
 
 
-def read_output(reading: Reading, node: Node, path: str) -> str:
+def read_output(reading: values.Reading, node: Node, path: str) -> str:
     """Return the full name of an output. Raises RefusedError where it is none."""
-    word = text(reading.problems, node, path, "the name of an output")
+    word = values.text(reading.problems, node, path, "the name of an output")
     named_output(reading, node, path, word)
     return word
 
 
-def named_output(reading: Reading, key: At, path: str, name: str) -> Output:
+def named_output(reading: values.Reading, key: At, path: str, name: str) -> Output:
     """Return the output a full name means. Raises RefusedError (a problem is noted) where it means none."""
     base, at, point = name.partition("@")
     points = reading.points
@@ -151,7 +143,7 @@ def is_simulated(name: str, points: Collection[str]) -> bool:
     return name.partition("@")[2] in {DUTY, CONTROL} - set(points)
 
 
-def _simulated(reading: Reading, key: Text, path: str, name: str) -> Output:
+def _simulated(reading: values.Reading, key: Text, path: str, name: str) -> Output:
     """Return the output that is limited in a duty or under the controller. Raises RefusedError where there is none."""
     base, _, state = name.partition("@")
     given = reading.table.by_name.get(base)
@@ -169,27 +161,27 @@ def _simulated(reading: Reading, key: Text, path: str, name: str) -> Output:
     return row
 
 
-def _limits(reading: Reading, node: Node, path: str, name: str, row: Output) -> list[Requirement]:
+def _limits(reading: values.Reading, node: Node, path: str, name: str, row: Output) -> list[Requirement]:
     if not isinstance(node, Sequence):
         return [read_limit(reading, node, path, name, row)]
     if not 1 <= len(node.items) <= MOST_LIMITS:
         reading.problems.refuse(node, path, f"a list of {len(node.items)} limits", f"1 to {MOST_LIMITS} limits")
     listed = dict(enumerate(node.items))
-    return list(readable(lambda i, item: read_limit(reading, item, f"{path}[{i}]", name, row), listed).values())
+    return list(values.readable(lambda i, item: read_limit(reading, item, f"{path}[{i}]", name, row), listed).values())
 
 
-def read_limit(reading: Reading, node: Node, path: str, name: str, row: Output) -> Requirement:
+def read_limit(reading: values.Reading, node: Node, path: str, name: str, row: Output) -> Requirement:
     """Return one limit on an output. Raises RefusedError (a problem is noted) where it is none."""
     unit = "" if row.unit == "1" else f" {row.unit}"
     expected = f"a limit such as '<= 5{unit}' or '>= 5{unit}'"
-    word = text(reading.problems, node, path, expected)
+    word = values.text(reading.problems, node, path, expected)
     if several := _several(word):
         listed = ", ".join(f'"{limit}"' for limit in several)
         reading.problems.refuse(node, path, f"{len(several)} limits in one text", f"a list: [{listed}]")
     parts = _LIMIT.fullmatch(word)
     if parts is None:
-        misfit(reading.problems, node, path, expected)
-    limit = si_value(reading.problems, node, path, parts["quantity"], row.unit)
+        values.misfit(reading.problems, node, path, expected)
+    limit = values.si_value(reading.problems, node, path, parts["quantity"], row.unit)
     return Requirement(output=name, sense="<=" if parts["sense"] == "<=" else ">=", limit=limit, text=word)
 
 
@@ -208,7 +200,7 @@ def _write_require(study: Study) -> dict[str, list[str]]:
     for limit in (*study.require, *study.simulated):
         unit = study.table.unit(limit.output)
         same = limit.text.startswith(limit.sense) and _reads_as(limit.text.removeprefix(limit.sense), unit, limit.limit)
-        text = limit.text if same else f"{limit.sense} {exactly(limit.limit, unit)}"
+        text = limit.text if same else f"{limit.sense} {values.exactly(limit.limit, unit)}"
         limits.setdefault(limit.output, []).append(text)
     return limits
 
@@ -242,13 +234,13 @@ def rating_names(table: Table) -> list[str]:
     return [row.name for row in table.outputs if row.ratings]
 
 
-def _read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
+def _read_accept(reading: values.Reading, node: Node | None) -> tuple[str, ...]:
     """Return the accepted ratings by the quantity's name, one name or a list of them; every problem is noted."""
     known = rating_names(reading.table)
     accepted: list[str] = []
 
     def read(path: str, item: Node) -> None:
-        name = text(reading.problems, item, path, one_of(known))
+        name = values.text(reading.problems, item, path, one_of(known))
         if name in accepted:
             reading.problems.add(item, path, f"names {quoted(name)} twice", "each rating once")
         elif name in known:
@@ -259,12 +251,12 @@ def _read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
             reading.unknown_quantity(item, path, "rating", name, known)
 
     if isinstance(node, Sequence):
-        readable(read, {f"accept[{i}]": item for i, item in enumerate(node.items)})
+        values.readable(read, {f"accept[{i}]": item for i, item in enumerate(node.items)})
     elif isinstance(node, Text) and not node.empty:
-        readable(read, {"accept": node})
+        values.readable(read, {"accept": node})
     elif node is not None and not isinstance(node, Text):
         with suppress(RefusedError):
-            misfit(reading.problems, node, "accept", f"a list of ratings: {', '.join(known)}")
+            values.misfit(reading.problems, node, "accept", f"a list of ratings: {', '.join(known)}")
     return tuple(accepted)
 
 

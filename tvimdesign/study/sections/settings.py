@@ -18,35 +18,28 @@ from tvimdesign.study.study import (
     Study,
     WriteOptions,
 )
+from tvimdesign.study.text import values
 from tvimdesign.study.text.mistakes import Mistakes, RefusedError, one_of, quoted, step
-from tvimdesign.study.text.values import (
-    Reading,
-    entries,
-    exactly,
-    misfit,
-    quantities,
-    quantity,
-    read_input,
-    readable,
-    unknown_keys,
-)
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 
 MOST_POINTS = 20
 _POINT = re.compile(section.POINT)
 
 
-def _read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
+def _read_module(reading: values.Reading, node: Node | None) -> dict[str, float | str]:
     """Return the inputs (SI) and choices the study sets; every problem is noted."""
     expected = "names of the module's inputs, each with a value"
-    named = entries(reading.problems, node, "module", expected)
-    return {**readable(lambda name, entry: _set(reading, name, *entry), named), **reading.section("task")["module"]}
+    named = values.entries(reading.problems, node, "module", expected)
+    return {
+        **values.readable(lambda name, entry: _set(reading, name, *entry), named),
+        **reading.section("task")["module"],
+    }
 
 
-def _set(reading: Reading, name: str, key: Text, value: Node) -> float | str:
+def _set(reading: values.Reading, name: str, key: Text, value: Node) -> float | str:
     path, row, refuse = step("module", name), reading.table.by_name.get(name), reading.problems.refuse
     if isinstance(row, Choice) or (isinstance(row, Input) and not row.per_point):
-        return read_input(reading, value, path, row)
+        return values.read_input(reading, value, path, row)
     if isinstance(row, Input):
         refuse(key, path, "belongs to an operating point", "it under `operating_points`, for each point")
     if row is not None:
@@ -56,12 +49,12 @@ def _set(reading: Reading, name: str, key: Text, value: Node) -> float | str:
     raise RefusedError
 
 
-def _read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, float]]:
+def _read_points(reading: values.Reading, node: Node | None) -> dict[str, dict[str, float]]:
     """Return every operating point in full (SI): the study's values over the standard ones over the defaults."""
     rows = {row.name: row for row in reading.table.inputs if row.per_point}
     all_points = {name: _standard(name, rows) for name in STANDARD_POINTS}
     expected = "operating points, each with its " + ", ".join(rows)
-    for name, (key, value) in list(entries(reading.problems, node, "operating_points", expected).items()):
+    for name, (key, value) in list(values.entries(reading.problems, node, "operating_points", expected).items()):
         path = step("operating_points", name)
         if not _POINT.fullmatch(name) or "_at_" in name:
             shown = f"{quoted(name)} cannot name an operating point"
@@ -80,21 +73,23 @@ def _read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, flo
     return all_points
 
 
-def _point(reading: Reading, node: Node, path: str, rows: dict[str, Input]) -> dict[str, float]:
+def _point(reading: values.Reading, node: Node, path: str, rows: dict[str, Input]) -> dict[str, float]:
     expected = "values such as " + _examples(list(rows), rows)
     known = {}
-    for name, (key, value) in entries(reading.problems, node, path, expected).items():
+    for name, (key, value) in values.entries(reading.problems, node, path, expected).items():
         if name in rows:
             known[name] = value
         else:
             reading.problems.unknown(key, step(path, name), "input of an operating point", name, rows)
-    return readable(lambda name, value: quantity(reading.problems, value, step(path, name), rows[name]), known)
+    return values.readable(
+        lambda name, value: values.quantity(reading.problems, value, step(path, name), rows[name]), known
+    )
 
 
 def _standard(point: str, rows: dict[str, Input]) -> dict[str, float]:
     own = STANDARD_POINTS.get(point, {})
-    values = {row.name: own.get(row.name, row.default) for row in rows.values()}
-    return {name: value for name, value in values.items() if value is not None}
+    known = {row.name: own.get(row.name, row.default) for row in rows.values()}
+    return {name: value for name, value in known.items() if value is not None}
 
 
 def _examples(names: list[str], rows: dict[str, Input]) -> str:
@@ -104,13 +99,13 @@ def _examples(names: list[str], rows: dict[str, Input]) -> str:
 
 def written_value(table: Table, name: str, value: float | str) -> str:
     """Return the value of an input or a choice as it is written."""
-    return value if isinstance(value, str) else exactly(value, table.unit(name))
+    return value if isinstance(value, str) else values.exactly(value, table.unit(name))
 
 
 def _write_points(study: Study) -> dict[str, dict[str, str]]:
     return {
-        point: {name: written_value(study.table, name, value) for name, value in values.items()}
-        for point, values in study.operating_points.items()
+        point: {name: written_value(study.table, name, value) for name, value in given.items()}
+        for point, given in study.operating_points.items()
     }
 
 
@@ -119,12 +114,12 @@ def _points_schema(table: Table) -> section.Schema:
     return section.mapping({}, {f"^{section.POINT}$": {"description": "one operating point", **point}})
 
 
-def _check_profile(reading: Reading) -> None:
+def _check_profile(reading: values.Reading) -> None:
     """Note each profile of a current that has no range in which it could change."""
     if not reading.mode:
         return
     vary, vary_node = reading.section("vary"), reading.nodes.get("vary")
-    for phase, (_, node) in entries(Mistakes(""), reading.nodes.get("profile"), "profile", "").items():
+    for phase, (_, node) in values.entries(Mistakes(""), reading.nodes.get("profile"), "profile", "").items():
         if phase not in ProfileOptions.model_fields:
             continue  # it has been noted
         row = reading.table.phase(phase).current_input
@@ -165,30 +160,30 @@ _SERIES = {name: section.unit_of(field) for name, field in GivenCurrent.model_fi
 _EXPECTED = "moments: [0 s, 0.4 s, 8 s] and currents: [0 A, 4 A, 3.8 A], for one"
 
 
-def _read(reading: Reading, node: Node | None) -> dict[str, GivenCurrent]:
+def _read(reading: values.Reading, node: Node | None) -> dict[str, GivenCurrent]:
     """Return the current given for each phase; every problem is noted. A study that searches has none."""
     problems = reading.problems
     phases = list(ProfileOptions.model_fields)
     expected = f"phases, each with its moments and currents: {', '.join(phases)}"
-    phases_given = entries(problems, node, "currents", expected)
+    phases_given = values.entries(problems, node, "currents", expected)
     if reading.has("vary") and phases_given and node is not None:
         hint = "a search finds them: `profile`, or the inputs of constant currents under `vary`"
         problems.add(node, "currents", "given currents belong to a module that is evaluated", "no `vary` beside", hint)
-    known = unknown_keys(problems, phases_given, "currents", "phase", phases)
-    return readable(lambda phase, value: _given(reading, value, step("currents", phase)), known)
+    known = values.unknown_keys(problems, phases_given, "currents", "phase", phases)
+    return values.readable(lambda phase, value: _given(reading, value, step("currents", phase)), known)
 
 
-def _given(reading: Reading, node: Node, path: str) -> GivenCurrent:
+def _given(reading: values.Reading, node: Node, path: str) -> GivenCurrent:
     problems = reading.problems
-    parts = entries(problems, node, path, _EXPECTED)
-    known = unknown_keys(problems, parts, path, "series", list(_SERIES))
+    parts = values.entries(problems, node, path, _EXPECTED)
+    known = values.unknown_keys(problems, parts, path, "series", list(_SERIES))
     if isinstance(node, Text) and node.empty:
-        misfit(problems, node, path, _EXPECTED)
+        values.misfit(problems, node, path, _EXPECTED)
     missing = [name for name in _SERIES if name not in parts]
     if parts and missing:
         problems.add(node, path, f"has no {' and no '.join(missing)}", _EXPECTED)
     units = {name: unit for name, unit in _SERIES.items() if name in known}
-    series = readable(lambda name, unit: _series(reading, known[name], step(path, name), unit), units)
+    series = values.readable(lambda name, unit: _series(reading, known[name], step(path, name), unit), units)
     if len(series) < len(_SERIES):
         raise RefusedError
     moments, currents = series["moments"], series["currents"]
@@ -204,14 +199,14 @@ def _given(reading: Reading, node: Node, path: str) -> GivenCurrent:
     return GivenCurrent(moments=moments, currents=currents)
 
 
-def _series(reading: Reading, node: Node, path: str, unit: str) -> tuple[float, ...]:
+def _series(reading: values.Reading, node: Node, path: str, unit: str) -> tuple[float, ...]:
     """Return the values of one series in SI. Raises RefusedError, with a problem noted."""
     problems = reading.problems
     if not isinstance(node, Sequence):
-        misfit(problems, node, path, f"a list of quantities in {unit}")
+        values.misfit(problems, node, path, f"a list of quantities in {unit}")
     if not 2 <= len(node.items) <= MOST_MOMENTS:
         problems.refuse(node, path, f"{len(node.items)} values", f"2 to {MOST_MOMENTS}")
-    return quantities(problems, node, path, unit)
+    return values.quantities(problems, node, path, unit)
 
 
 CURRENTS = section.Section(

@@ -10,22 +10,8 @@ from typing import Literal
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.sections.goals import named_output, read_limit, read_output
 from tvimdesign.study.sections.section import Schema, Section, mapping, output_name, set_schema, settable, shape
+from tvimdesign.study.text import values
 from tvimdesign.study.text.mistakes import RefusedError, quoted, step
-from tvimdesign.study.text.values import (
-    ROUNDING,
-    Reading,
-    all_readable,
-    below,
-    difference_unit,
-    entries,
-    in_unit,
-    misfit,
-    quantity,
-    readable,
-    unknown_keys,
-    whole,
-    word_of,
-)
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 
 Sense = Literal["<=", ">=", ""]
@@ -93,25 +79,27 @@ _WHOLE_NUMBERS = {"count": (1, 10**9), "seed": (0, 2**32 - 1), "most": (1, 10**9
 _EXAMPLE = "'over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 20}}'"
 
 
-def _read(reading: Reading, node: Node | None) -> SweepBlock | None:
+def _read(reading: values.Reading, node: Node | None) -> SweepBlock | None:
     """Return what is swept, None where nothing is; every problem is noted."""
     problems = reading.problems
-    parts = unknown_keys(problems, entries(problems, node, "sweep", _EXAMPLE), "sweep", "key", list(_FIELDS))
+    parts = values.unknown_keys(
+        problems, values.entries(problems, node, "sweep", _EXAMPLE), "sweep", "key", list(_FIELDS)
+    )
     if node is None or not parts:
         return None
     usual = "list" if "cells" in parts else "grid"
-    method = word_of(problems, parts.get("method"), "sweep.method", METHODS) or usual
+    method = values.word_of(problems, parts.get("method"), "sweep.method", METHODS) or usual
     before = len(problems.items)
     axes, rows = _listed(reading, parts, node) if method == "list" else (_axes(reading, parts, node, method), ())
     counts = _counts(reading, parts, node, method)
     block = SweepBlock(
-        method=method, axes=axes, rows=rows, task=word_of(problems, parts.get("task"), "sweep.task", TASKS),
+        method=method, axes=axes, rows=rows, task=values.word_of(problems, parts.get("task"), "sweep.task", TASKS),
         outputs=_outputs(reading, parts.get("outputs")), **counts,
     )  # fmt: skip
     return None if len(problems.items) > before else block
 
 
-def _counts(reading: Reading, parts: dict[str, Node], node: Node, method: str) -> dict[str, int]:
+def _counts(reading: values.Reading, parts: dict[str, Node], node: Node, method: str) -> dict[str, int]:
     """Return the whole numbers that are given."""
     if method in SAMPLED and "count" not in parts:
         reading.problems.add(node, "sweep", f"how many cells are drawn is missing ({method})", "'count: 256', for one")
@@ -121,41 +109,43 @@ def _counts(reading: Reading, parts: dict[str, Node], node: Node, method: str) -
 
     def read(key: str, part: Node) -> int:
         (least, most), path = _WHOLE_NUMBERS[key], step("sweep", key)
-        value = whole(reading.problems, part, path)
+        value = values.whole(reading.problems, part, path)
         if not least <= value <= most:
             reading.problems.refuse(part, path, f"{value} does not fit here", f"{least} to {most}")
         return value
 
-    return readable(read, {key: parts[key] for key in _WHOLE_NUMBERS if key in parts})
+    return values.readable(read, {key: parts[key] for key in _WHOLE_NUMBERS if key in parts})
 
 
-def _outputs(reading: Reading, node: Node | None) -> tuple[str, ...]:
+def _outputs(reading: values.Reading, node: Node | None) -> tuple[str, ...]:
     if node is None:
         return ()
     if isinstance(node, Text) and node.value == EVERY_OUTPUT:
         return (EVERY_OUTPUT,)
     if isinstance(node, Sequence):
         listed = dict(enumerate(node.items))
-        return tuple(readable(lambda i, item: read_output(reading, item, f"sweep.outputs[{i}]"), listed).values())
+        return tuple(
+            values.readable(lambda i, item: read_output(reading, item, f"sweep.outputs[{i}]"), listed).values()
+        )
     with suppress(RefusedError):
-        misfit(reading.problems, node, "sweep.outputs", f"a list of outputs, or {EVERY_OUTPUT}")
+        values.misfit(reading.problems, node, "sweep.outputs", f"a list of outputs, or {EVERY_OUTPUT}")
     return ()
 
 
 # --- axes ---
 
 
-def _axes(reading: Reading, parts: dict[str, Node], node: Node, method: str) -> tuple[SweptAxis, ...]:
+def _axes(reading: values.Reading, parts: dict[str, Node], node: Node, method: str) -> tuple[SweptAxis, ...]:
     if "cells" in parts:
         reading.problems.add(parts["cells"], "sweep.cells", f"a {method} has no list of cells", "'method: list'")
     over = parts.get("over")
-    named = entries(reading.problems, over, "sweep.over", _EXAMPLE)
+    named = values.entries(reading.problems, over, "sweep.over", _EXAMPLE)
     if not named and (over is None or isinstance(over, Mapping | Text)):
         reading.problems.add(over or node, "sweep.over", "nothing is swept: it has no axis", _EXAMPLE)
-    return tuple(readable(lambda name, entry: _swept(reading, name, *entry, method), named).values())
+    return tuple(values.readable(lambda name, entry: _swept(reading, name, *entry, method), named).values())
 
 
-def _swept(reading: Reading, name: str, key: Text, node: Node, method: str) -> SweptAxis:
+def _swept(reading: values.Reading, name: str, key: Text, node: Node, method: str) -> SweptAxis:
     path = step("sweep.over", name)
     axis = _axis(reading, key, path, name)
     if isinstance(node, Mapping):
@@ -164,17 +154,19 @@ def _swept(reading: Reading, name: str, key: Text, node: Node, method: str) -> S
         message = "is an empty list" if isinstance(node, Sequence) else "is no list of values"
         reading.problems.refuse(node, path, message, "[a, b, c], or {from: ..., to: ..., count: ...}")
     listed = dict(enumerate(node.items))
-    return replace(axis, values=tuple(readable(lambda i, item: _one(reading, item, f"{path}[{i}]"), listed).values()))
+    return replace(
+        axis, values=tuple(values.readable(lambda i, item: _one(reading, item, f"{path}[{i}]"), listed).values())
+    )
 
 
-def _one(reading: Reading, node: Node, path: str) -> Text:
+def _one(reading: values.Reading, node: Node, path: str) -> Text:
     if not isinstance(node, Text) or node.empty:
-        misfit(reading.problems, node, path, "one value")
+        values.misfit(reading.problems, node, path, "one value")
     return node
 
 
 def _listed(
-    reading: Reading, parts: dict[str, Node], node: Node
+    reading: values.Reading, parts: dict[str, Node], node: Node
 ) -> tuple[tuple[SweptAxis, ...], tuple[tuple[Text, ...], ...]]:
     """Read the axes and rows of `cells: [{pcl_thickness: 1 mm, current: 1 A}, ...]`."""
     expected, add = "a list such as [{pcl_thickness: 1 mm, current: 1 A}, ...]", reading.problems.add
@@ -188,7 +180,7 @@ def _listed(
     rows = []
     for i, item in enumerate(cells.items):
         path = f"sweep.cells[{i}]"
-        named = entries(reading.problems, item, path, expected)
+        named = values.entries(reading.problems, item, path, expected)
         for name, (key, _) in named.items():
             with suppress(RefusedError):
                 axis = axes.get(name) or _axis(reading, key, step(path, name), name)
@@ -196,7 +188,7 @@ def _listed(
                     add(key, step(path, name), "is not in the first cell", "the same names in each cell")
                 else:
                     axes[name] = axis
-        texts = readable(
+        texts = values.readable(
             lambda where, value: _one(reading, value, where),
             {step(path, name): value for name, (_, value) in named.items()},
         )
@@ -207,7 +199,7 @@ def _listed(
     return tuple(axes.values()), tuple(rows)
 
 
-def _axis(reading: Reading, key: Text, path: str, name: str) -> SweptAxis:
+def _axis(reading: values.Reading, key: Text, path: str, name: str) -> SweptAxis:
     """Return the axis that a name under `over` means, still without values. Raises RefusedError."""
     section, _, path_in_section = name.partition(".")
     if not path_in_section:
@@ -225,7 +217,7 @@ def _axis(reading: Reading, key: Text, path: str, name: str) -> SweptAxis:
     return SweptAxis(name, "", whole=False, number=False)
 
 
-def _of_module(reading: Reading, key: Text, path: str, name: str) -> SweptAxis:
+def _of_module(reading: values.Reading, key: Text, path: str, name: str) -> SweptAxis:
     row, refuse = reading.table.by_name.get(name), reading.problems.refuse
     if isinstance(row, Choice):
         return SweptAxis(name, "", whole=False, number=False)
@@ -243,20 +235,20 @@ def _of_module(reading: Reading, key: Text, path: str, name: str) -> SweptAxis:
 # --- ranges ---
 
 
-def _range(reading: Reading, node: Mapping, path: str, axis: SweptAxis, method: str) -> SweptAxis:
+def _range(reading: values.Reading, node: Mapping, path: str, axis: SweptAxis, method: str) -> SweptAxis:
     problems = reading.problems
-    parts = unknown_keys(problems, node.entries, path, "key", _RANGE_KEYS)
+    parts = values.unknown_keys(problems, node.entries, path, "key", _RANGE_KEYS)
     if not axis.unit:
         problems.refuse(node, path, "has no numbers between two ends", "a list of values [..., ...]")
     ends = {key: parts[key] for key in ("from", "to") if key in parts}
     if missing := [key for key in ("from", "to") if key not in ends]:
         problems.refuse(node, path, f"{' and '.join(map(repr, missing))} missing", "{from: ..., to: ...}")
-    read = all_readable(lambda key, end: _end(reading, end, f"{path}.{key}", axis), ends)
+    read = values.all_readable(lambda key, end: _end(reading, end, f"{path}.{key}", axis), ends)
     (lower, sense), (upper, other) = read["from"], read["to"]
-    logarithmic = word_of(problems, parts.get("spacing"), f"{path}.spacing", _SPACINGS) == "logarithmic"
+    logarithmic = values.word_of(problems, parts.get("spacing"), f"{path}.spacing", _SPACINGS) == "logarithmic"
     if sense != other:
         problems.refuse(node, path, f"begins with {sense} and ends with {other}", "the same sense at both ends")
-    if not below(lower, upper):
+    if not values.below(lower, upper):
         problems.refuse(node, path, "the range is upside down or has no length", "from < to", "swap the two")
     if logarithmic and lower <= 0.0:
         problems.refuse(parts["from"], f"{path}.from", "a logarithmic range begins above 0", "a value above 0")
@@ -264,7 +256,7 @@ def _range(reading: Reading, node: Mapping, path: str, axis: SweptAxis, method: 
     return replace(axis, sense=sense, range=SweptRange(lower, upper, count, logarithmic))
 
 
-def _end(reading: Reading, node: Node, path: str, axis: SweptAxis) -> tuple[float, Sense]:
+def _end(reading: values.Reading, node: Node, path: str, axis: SweptAxis) -> tuple[float, Sense]:
     """Return an end of a range in SI, with its sense if it is a limit."""
     section, _, output = axis.name.partition(".")
     if section == "require":
@@ -272,12 +264,12 @@ def _end(reading: Reading, node: Node, path: str, axis: SweptAxis) -> tuple[floa
         return limit.limit, limit.sense
     row = reading.table.quantity(axis.name.rpartition(".")[2])
     assert isinstance(row, Input)  # what has a unit and is no limit
-    return quantity(reading.problems, node, path, row), ""
+    return values.quantity(reading.problems, node, path, row), ""
 
 
 def _steps(
-    reading: Reading, node: Mapping, parts: dict[str, Node], path: str, axis: SweptAxis, ends: tuple[float, float],
-    method: str,
+    reading: values.Reading, node: Mapping, parts: dict[str, Node], path: str, axis: SweptAxis,
+    ends: tuple[float, float], method: str,
 ) -> int:  # fmt: skip
     """Return the number of values of a range in a grid; 0 in a sample."""
     given, problems = [key for key in ("count", "step") if key in parts], reading.problems
@@ -288,7 +280,7 @@ def _steps(
     if len(given) != 1 and (given or not axis.whole):
         problems.refuse(node, path, "needs 'count' or 'step', one of the two", "{from: ..., to: ..., count: 20}")
     if "count" in parts:
-        count = whole(problems, parts["count"], f"{path}.count")
+        count = values.whole(problems, parts["count"], f"{path}.count")
         if count < 2:
             problems.refuse(parts["count"], f"{path}.count", f"{count} values between two ends", "2 or more")
         return count
@@ -296,27 +288,29 @@ def _steps(
         problems.add(parts["spacing"], f"{path}.spacing", "steps are even", "'count' with a spacing")
     width = 1.0
     if "step" in parts:
-        unit, steps = difference_unit(axis.unit), {f"{path}.step": parts["step"]}
-        read = readable(lambda where, node: in_unit(problems, node, where, unit, f"a step in {unit}"), steps)
+        unit, steps = values.difference_unit(axis.unit), {f"{path}.step": parts["step"]}
+        read = values.readable(
+            lambda where, node: values.in_unit(problems, node, where, unit, f"a step in {unit}"), steps
+        )
         width = sum(read.values())
         if width <= 0.0:
             problems.refuse(parts["step"], f"{path}.step", "leads nowhere", "a step above zero")
-    return int((ends[1] - ends[0]) / width * (1.0 + ROUNDING) + ROUNDING) + 1
+    return int((ends[1] - ends[0]) / width * (1.0 + values.ROUNDING) + values.ROUNDING) + 1
 
 
 # --- schema ---
 
 
 def _schema(table: Table) -> Schema:
-    values = {row.name: set_schema(row) for row in settable(table)}
+    settings = {row.name: set_schema(row) for row in settable(table)}
     words = {row.name for row in settable(table) if isinstance(row, Choice)}
     quantity: Schema = {"type": ["string", "number"]}
     paths = rf"^({'|'.join(_SWEPT_SECTIONS)})\."
-    over = shape({name: _axis_schema(value, ranged=name not in words) for name, value in values.items()}, [])
+    over = shape({name: _axis_schema(value, ranged=name not in words) for name, value in settings.items()}, [])
     del over["required"]
     over |= {"minProperties": 1, "patternProperties": {paths: _axis_schema(quantity, ranged=True)}}
     cell = {
-        "type": "object", "additionalProperties": False, "properties": values, "patternProperties": {paths: quantity},
+        "type": "object", "additionalProperties": False, "properties": settings, "patternProperties": {paths: quantity},
     }  # fmt: skip
     outputs = [{"const": EVERY_OUTPUT}, {"type": "array", "items": output_name(table)}]
     by_mode: Schema = {"over": over, "cells": {"items": cell}, "outputs": {"anyOf": outputs}}

@@ -24,21 +24,8 @@ from tvimdesign.device import Choice, Input, Table
 from tvimdesign.device.core.task import ARM, GROUP
 from tvimdesign.study.sections import section
 from tvimdesign.study.study import GivenTrajectory, Requirement, Study
+from tvimdesign.study.text import values
 from tvimdesign.study.text.mistakes import RefusedError, step
-from tvimdesign.study.text.values import (
-    Reading,
-    all_readable,
-    entries,
-    exactly,
-    flag,
-    in_unit,
-    misfit,
-    quantities,
-    read_input,
-    readable,
-    text,
-    unknown_keys,
-)
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence
 
 Array = NDArray[np.float64]
@@ -179,11 +166,11 @@ def task_quantities(table: Table) -> dict[str, Input | Choice]:
     return {row.name: row for row in given if row.group == GROUP and row.name != "trajectory"}
 
 
-def _read(reading: Reading, node: Node | None) -> dict[str, Any]:
+def _read(reading: values.Reading, node: Node | None) -> dict[str, Any]:
     """Return what `module`, `require` and `trajectory` take from the section; every problem is noted."""
     problems, rows = reading.problems, task_quantities(reading.table)
-    given = entries(problems, node, "task", "an arm_length, a payload and what the arm does")
-    known = unknown_keys(problems, given, "task", "part of a task", [*rows, *_ALLOWED, "trajectory", *_URDF])
+    given = values.entries(problems, node, "task", "an arm_length, a payload and what the arm does")
+    known = values.unknown_keys(problems, given, "task", "part of a task", [*rows, *_ALLOWED, "trajectory", *_URDF])
     module: dict[str, float | str] = {"task": ARM} if known else {}
     limits: list[Requirement] = []
     trajectory = None
@@ -195,22 +182,24 @@ def _read(reading: Reading, node: Node | None) -> dict[str, Any]:
                 module["trajectory"] = "given"
             elif name in _ALLOWED:
                 output, unit = _ALLOWED[name][0], reading.table.unit(_ALLOWED[name][0])
-                limit = in_unit(problems, value, path, unit, f"a quantity in {unit}")
-                limits.append(Requirement(output=output, sense="<=", limit=limit, text=f"<= {exactly(limit, unit)}"))
+                limit = values.in_unit(problems, value, path, unit, f"a quantity in {unit}")
+                limits.append(
+                    Requirement(output=output, sense="<=", limit=limit, text=f"<= {values.exactly(limit, unit)}")
+                )
             elif name in rows:
-                module[name] = read_input(reading, value, path, rows[name])
+                module[name] = values.read_input(reading, value, path, rows[name])
     module = {**_from_urdf(reading, known, module.get("arm_length")), **module}
     return {"module": module, "require": tuple(limits), "trajectory": trajectory}
 
 
-def _from_urdf(reading: Reading, known: dict[str, Node], length: Any) -> dict[str, float]:
+def _from_urdf(reading: values.Reading, known: dict[str, Node], length: Any) -> dict[str, float]:
     """Return what a URDF gives of the arm, on a `length` [m] unless None; empty without one or with a problem noted."""
     if not known.keys() & _URDF:
         return {}
     first = next(name for name in _URDF if name in known)
     with suppress(RefusedError):
-        urdf, joint = all_readable(
-            lambda name, meaning: text(reading.problems, known.get(name, known[first]), step("task", name),
+        urdf, joint = values.all_readable(
+            lambda name, meaning: values.text(reading.problems, known.get(name, known[first]), step("task", name),
                                        f"the {meaning}"), _URDF
         ).values()  # fmt: skip
         try:
@@ -224,7 +213,7 @@ def _from_urdf(reading: Reading, known: dict[str, Node], length: Any) -> dict[st
                 row = reading.table.quantity(name)
                 assert isinstance(row, Input)
                 if not row.lower <= value <= row.upper:
-                    raise InputError(f"its {name} is {exactly(value, row.unit)}")
+                    raise InputError(f"its {name} is {values.exactly(value, row.unit)}")
         except InputError as error:
             expected = "`urdf: arm.urdf` and `joint: elbow`"
             reading.problems.refuse(known[first], step("task", first), str(error), expected)
@@ -232,20 +221,20 @@ def _from_urdf(reading: Reading, known: dict[str, Node], length: Any) -> dict[st
     return {}
 
 
-def _trajectory(reading: Reading, node: Node, path: str) -> GivenTrajectory:
+def _trajectory(reading: values.Reading, node: Node, path: str) -> GivenTrajectory:
     """Return the trajectory of a mapping or of a CSV file. Raises RefusedError, with a problem noted."""
     problems = reading.problems
     try:
         if not isinstance(node, Mapping):
-            return _checked(*_of_csv(reading.folder / text(problems, node, path, _EXPECTED)), at_rest=False)
-        known = unknown_keys(problems, node.entries, path, "series", list(GivenTrajectory.model_fields))
+            return _checked(*_of_csv(reading.folder / values.text(problems, node, path, _EXPECTED)), at_rest=False)
+        known = values.unknown_keys(problems, node.entries, path, "series", list(GivenTrajectory.model_fields))
         series = []
         for name, unit in (("moments", "s"), ("angles", "rad")):
             items, at = known.get(name), step(path, name)
             if not isinstance(items, Sequence):
-                misfit(problems, items or node, at, _EXPECTED)
-            series.append(list(quantities(problems, items, at, unit)))
-        at_rest = readable(lambda key, rest: flag(problems, rest, step(path, key)),
+                values.misfit(problems, items or node, at, _EXPECTED)
+            series.append(list(values.quantities(problems, items, at, unit)))
+        at_rest = values.readable(lambda key, rest: values.flag(problems, rest, step(path, key)),
                            {key: known[key] for key in ("at_rest",) if key in known})  # fmt: skip
         return _checked(*series, at_rest=at_rest.get("at_rest", True))
     except InputError as error:
@@ -288,7 +277,7 @@ def _content(path: Path) -> str:
 def _write(study: Study) -> dict[str, Any]:
     rows = task_quantities(study.table)
     written: dict[str, Any] = {
-        name: value if isinstance(value, str) else exactly(value, study.table.unit(name))
+        name: value if isinstance(value, str) else values.exactly(value, study.table.unit(name))
         for name, value in study.module.items()
         if name in rows
     }

@@ -10,29 +10,14 @@ from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.sections.section import Schema, Section, described, mapping, settable, shape, value_schema
 from tvimdesign.study.sections.settings import written_value
 from tvimdesign.study.study import Options, Range, Study, Vary
+from tvimdesign.study.text import values
 from tvimdesign.study.text.mistakes import RefusedError, one_of, quoted, step
-from tvimdesign.study.text.values import (
-    ROUNDING,
-    Reading,
-    all_readable,
-    below,
-    entries,
-    expected_for,
-    in_unit,
-    misfit,
-    quantity,
-    read_input,
-    readable,
-    record,
-    text,
-    unknown_keys,
-)
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 
 MOST_OPTIONS = 200
 
 
-def _read(reading: Reading, node: Node | None) -> dict[str, Vary]:
+def _read(reading: values.Reading, node: Node | None) -> dict[str, Vary]:
     """Return what may change by row; every problem is noted."""
     vary, module = _ranges(reading, node), reading.section("module")
     _check_against_module(reading, vary, module)
@@ -41,12 +26,12 @@ def _read(reading: Reading, node: Node | None) -> dict[str, Vary]:
     return _with_start(vary, module)
 
 
-def _ranges(reading: Reading, node: Node | None) -> dict[str, Vary]:
+def _ranges(reading: values.Reading, node: Node | None) -> dict[str, Vary]:
     rows: dict[str, Input | Choice] = {row.name: row for row in reading.table.inputs if row.variable}
     rows |= {row.name: row for row in reading.table.choices}
     known = {}
     expected = "names of variables, each with a range or list"
-    for name, (key, value) in entries(reading.problems, node, "vary", expected).items():
+    for name, (key, value) in values.entries(reading.problems, node, "vary", expected).items():
         path = step("vary", name)
         if name in rows:
             known[name] = value
@@ -55,10 +40,10 @@ def _ranges(reading: Reading, node: Node | None) -> dict[str, Vary]:
             reading.problems.add(key, path, message, one_of(list(rows)), hint)
         else:
             reading.unknown_quantity(key, path, "variable", name, rows)
-    return readable(lambda name, value: _allowed(reading, value, step("vary", name), rows[name]), known)
+    return values.readable(lambda name, value: _allowed(reading, value, step("vary", name), rows[name]), known)
 
 
-def _fixed(reading: Reading, name: str) -> tuple[str, str]:
+def _fixed(reading: values.Reading, name: str) -> tuple[str, str]:
     """Say why a row cannot be varied, and what to do instead."""
     row = reading.table.by_name[name]
     if not isinstance(row, Input):
@@ -68,20 +53,22 @@ def _fixed(reading: Reading, name: str) -> tuple[str, str]:
     return "cannot be varied", "give it under `module`"
 
 
-def _allowed(reading: Reading, node: Node, path: str, row: Input | Choice) -> Vary:
+def _allowed(reading: values.Reading, node: Node, path: str, row: Input | Choice) -> Vary:
     if isinstance(row, Choice):
         if not isinstance(node, Mapping) or list(node.entries) != ["choose"]:
-            misfit(reading.problems, node, path, "a list of names {choose: [...]}")
+            values.misfit(reading.problems, node, path, "a list of names {choose: [...]}")
         return _listed(reading, node.entries["choose"][1], path, row)
     if isinstance(node, Sequence):
         return _pair(reading, node, path, row)
     if not isinstance(node, Mapping) or not node.entries:
-        misfit(reading.problems, node, path, _forms(row))
+        values.misfit(reading.problems, node, path, _forms(row))
     kinds = [kind for kind in ("choose", "catalog") if kind in node.entries]
     steps = row.integer or "step" in node.entries
     span = ["from", "to", "step"] if steps else ["from", "to", "start"]
     known = {"choose": ["choose"], "catalog": ["catalog", "from", "to"]}.get(kinds[0] if kinds else "", span)
-    parts = unknown_keys(reading.problems, node.entries, path, f"key beside {kinds[0]!r}" if kinds else "key", known)
+    parts = values.unknown_keys(
+        reading.problems, node.entries, path, f"key beside {kinds[0]!r}" if kinds else "key", known
+    )
     if len(parts) < len(node.entries):
         raise RefusedError
     if "choose" in parts:
@@ -101,7 +88,7 @@ def _forms(row: Input) -> str:
     )
 
 
-def _pair(reading: Reading, node: Sequence, path: str, row: Input) -> Range:
+def _pair(reading: values.Reading, node: Sequence, path: str, row: Input) -> Range:
     if len(node.items) != 2:
         message = f"a list of {len(node.items)} does not fit here" if node.items else "the list is empty"
         reading.problems.refuse(node, path, message, _forms(row), "write several values as {choose: [...]}")
@@ -109,95 +96,97 @@ def _pair(reading: Reading, node: Sequence, path: str, row: Input) -> Range:
     return _checked(reading, node, path, row, *ends.values())
 
 
-def _span(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Range:
-    values = _ends(reading, node, parts, path, row)
-    return _checked(reading, parts.get("start", node), path, row, values["from"], values["to"], values.get("start"))
+def _span(reading: values.Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Range:
+    ends = _ends(reading, node, parts, path, row)
+    return _checked(reading, parts.get("start", node), path, row, ends["from"], ends["to"], ends.get("start"))
 
 
-def _quantities(reading: Reading, nodes: dict[str, Node], row: Input) -> dict[str, float]:
+def _quantities(reading: values.Reading, nodes: dict[str, Node], row: Input) -> dict[str, float]:
     """Return values of an input by their paths; raises RefusedError, once all are read, if any is refused."""
-    return all_readable(lambda path, node: quantity(reading.problems, node, path, row), nodes)
+    return values.all_readable(lambda path, node: values.quantity(reading.problems, node, path, row), nodes)
 
 
-def _ends(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> dict[str, float]:
+def _ends(reading: values.Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> dict[str, float]:
     """Return the values of `from`, `to` and the keys beside them. Raises RefusedError, with a problem noted."""
     missing = [key for key in ("from", "to") if key not in parts]
     if missing:
         reading.problems.add(node, path, f"{' and '.join(map(repr, missing))} missing", _forms(row))
-    values = _quantities(reading, {f"{path}.{key}": value for key, value in parts.items()}, row)
+    read = _quantities(reading, {f"{path}.{key}": value for key, value in parts.items()}, row)
     if missing:
         raise RefusedError
-    return dict(zip(parts, values.values(), strict=True))
+    return dict(zip(parts, read.values(), strict=True))
 
 
-def _steps(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Options:
+def _steps(reading: values.Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Options:
     """Return sizes evenly spaced between two ends, such as quarters of a coil; whole things by default one by one."""
     place, refuse = parts.get("step", node), reading.problems.refuse
     width = 1.0
     if "step" in parts:
-        width = in_unit(reading.problems, place, f"{path}.step", row.unit, expected_for(row))
+        width = values.in_unit(reading.problems, place, f"{path}.step", row.unit, values.expected_for(row))
         if width <= 0.0:
             refuse(place, f"{path}.step", "a step of that size leads nowhere", "a step above zero")
         if row.integer and not width.is_integer():
             refuse(place, f"{path}.step", "counts whole things", "a whole step")
-    values = _ends(reading, node, {key: parts[key] for key in ("from", "to") if key in parts}, path, row)
-    lower, upper = values["from"], values["to"]
-    if below(upper, lower):
+    ends = _ends(reading, node, {key: parts[key] for key in ("from", "to") if key in parts}, path, row)
+    lower, upper = ends["from"], ends["to"]
+    if values.below(upper, lower):
         refuse(node, path, "the range is upside down", "from < to", "swap the two")
-    count = int((upper - lower) / width * (1.0 + ROUNDING) + ROUNDING) + 1
+    count = int((upper - lower) / width * (1.0 + values.ROUNDING) + values.ROUNDING) + 1
     if count > MOST_OPTIONS:
         refuse(place, path, f"{count} sizes from end to end", f"1 to {MOST_OPTIONS}", "a longer step")
     return Options(values=tuple(lower + i * width for i in range(count)))
 
 
 def _checked(
-    reading: Reading, node: Node, path: str, row: Input, lower: float, upper: float, start: float | None = None
+    reading: values.Reading, node: Node, path: str, row: Input, lower: float, upper: float, start: float | None = None
 ) -> Range:
     low, high = format_quantity(lower, row.unit), format_quantity(upper, row.unit)
     if row.integer:
         reading.problems.refuse(node, path, "counts whole things, which a range cannot hold", _forms(row))
-    if not below(lower, upper):
-        message = f"the range ends where it begins, at {low}" if math.isclose(lower, upper, rel_tol=ROUNDING) else ""
+    if not values.below(lower, upper):
+        message = (
+            f"the range ends where it begins, at {low}" if math.isclose(lower, upper, rel_tol=values.ROUNDING) else ""
+        )
         hint = "to fix it, set it under `module`" if message else "swap the two"
         message = message or f"the range is upside down: from {low} to {high}"
         reading.problems.refuse(node, path, message, "from < to", hint)
-    if start is not None and (below(start, lower) or below(upper, start)):
+    if start is not None and (values.below(start, lower) or values.below(upper, start)):
         shown = format_quantity(start, row.unit)
         reading.problems.refuse(node, f"{path}.start", f"{shown} lies outside the range", f"{low} to {high}")
     return Range(lower=lower, upper=upper, start=start)
 
 
-def _listed(reading: Reading, node: Node, path: str, row: Input | Choice) -> Options:
+def _listed(reading: values.Reading, node: Node, path: str, row: Input | Choice) -> Options:
     path = f"{path}.choose"
     if not isinstance(node, Sequence):
-        misfit(reading.problems, node, path, "a list [..., ...]")
+        values.misfit(reading.problems, node, path, "a list [..., ...]")
     if not 1 <= len(node.items) <= MOST_OPTIONS:
         message = f"the list has {len(node.items)} values" if node.items else "the list is empty"
         reading.problems.refuse(node, path, message, f"1 to {MOST_OPTIONS} values")
-    values: list[float | str] = []
+    options: list[float | str] = []
 
     def read(where: str, item: Node) -> None:
-        value = read_input(reading, item, where, row)
-        if _has(values, value):
+        value = values.read_input(reading, item, where, row)
+        if _has(options, value):
             reading.problems.refuse(item, where, f"{_shown(item)} stands twice in the list", "each value once")
-        values.append(value)
+        options.append(value)
 
-    all_readable(read, {f"{path}[{index}]": item for index, item in enumerate(node.items)})
-    return Options(values=tuple(values))
+    values.all_readable(read, {f"{path}[{index}]": item for index, item in enumerate(node.items)})
+    return Options(values=tuple(options))
 
 
-def _check_against_module(reading: Reading, vary: dict[str, Vary], module: dict[str, float | str]) -> None:
+def _check_against_module(reading: values.Reading, vary: dict[str, Vary], module: dict[str, float | str]) -> None:
     """Note each value under `module` that lies outside what `vary` allows for the same row."""
     node = reading.nodes.get("module")
-    values = node.entries if isinstance(node, Mapping) else {}
-    for name in [name for name in vary if name in module and name in values]:
-        allowed, value, place, row = vary[name], module[name], values[name][1], reading.table.by_name[name]
+    written = node.entries if isinstance(node, Mapping) else {}
+    for name in [name for name in vary if name in module and name in written]:
+        allowed, value, place, row = vary[name], module[name], written[name][1], reading.table.by_name[name]
         if isinstance(allowed, Options) and isinstance(value, str) and value not in allowed.values:
             span = " or ".join(str(option) for option in allowed.values)
         elif isinstance(value, float) and isinstance(row, Input):
             numbers = (allowed.lower, allowed.upper) if isinstance(allowed, Range) else _numbers(allowed.values)
             low, high = min(numbers), max(numbers)
-            if not below(value, low) and not below(high, value):
+            if not values.below(value, low) and not values.below(high, value):
                 continue
             span = f"{format_quantity(low, row.unit)} to {format_quantity(high, row.unit)}"
         else:
@@ -217,14 +206,14 @@ def _with_start(vary: dict[str, Vary], module: dict[str, float | str]) -> dict[s
     return started
 
 
-def _numbers(values: Iterable[float | str]) -> list[float]:
-    return [value for value in values if isinstance(value, float)]
+def _numbers(options: Iterable[float | str]) -> list[float]:
+    return [value for value in options if isinstance(value, float)]
 
 
-def _has(values: list[float | str], value: float | str) -> bool:
+def _has(options: list[float | str], value: float | str) -> bool:
     if isinstance(value, str):
-        return value in values
-    return any(isinstance(other, float) and math.isclose(other, value, rel_tol=ROUNDING) for other in values)
+        return value in options
+    return any(isinstance(other, float) and math.isclose(other, value, rel_tol=values.ROUNDING) for other in options)
 
 
 def _shown(node: Node) -> str:
@@ -234,20 +223,22 @@ def _shown(node: Node) -> str:
 # --- sizes one can buy ---
 
 
-def _read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> Options:
+def _read_sizes(reading: values.Reading, parts: dict[str, Node], path: str, row: Input) -> Options:
     """Return the sizes a catalogue record lists for an input, within `from` and `to` where they are given."""
     node = parts["catalog"]
     ends = {key: parts[key] for key in ("from", "to") if key in parts}
-    read = readable(lambda key, end: quantity(reading.problems, end, f"{path}.{key}", row), ends)
-    name = text(reading.problems, node, f"{path}.catalog", f"the name of a record in the category {row.sizes_in[0]}")
+    read = values.readable(lambda key, end: values.quantity(reading.problems, end, f"{path}.{key}", row), ends)
+    name = values.text(
+        reading.problems, node, f"{path}.catalog", f"the name of a record in the category {row.sizes_in[0]}"
+    )
     sizes = _sizes(reading, node, f"{path}.catalog", name, row)
     if len(read) < len(ends):
         raise RefusedError
     low, high = read.get("from", row.lower), read.get("to", row.upper)
-    if below(high, low):
+    if values.below(high, low):
         place = parts.get("from", node)
         reading.problems.refuse(place, path, "the range is upside down", "from < to", "swap the two")
-    within = tuple(size for size in sizes if not below(size, low) and not below(high, size))
+    within = tuple(size for size in sizes if not values.below(size, low) and not values.below(high, size))
     if not within:
         first, last = format_quantity(sizes[0], row.unit), format_quantity(sizes[-1], row.unit)
         message = f"{name} has no size from {format_quantity(low, row.unit)} to {format_quantity(high, row.unit)}"
@@ -255,11 +246,11 @@ def _read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input)
     return Options(values=within, source=name)
 
 
-def _sizes(reading: Reading, node: Node, path: str, name: str, row: Input) -> list[float]:
+def _sizes(reading: values.Reading, node: Node, path: str, name: str, row: Input) -> list[float]:
     """Return every size the record lists, smallest first. Raises RefusedError where it lists none."""
     category, of, column = row.sizes_in
     try:
-        table = record(reading, node, path, category, name).table(of)
+        table = values.record(reading, node, path, category, name).table(of)
     except CatalogError as error:
         reading.problems.refuse(node, path, str(error))
     sizes = sorted({float(line[column]) for line in table if column in line})
@@ -299,10 +290,10 @@ def _write(study: Study) -> dict[str, Any]:
 
 def _written(table: Table, name: str, allowed: Vary) -> dict[str, Any]:
     if isinstance(allowed, Options):
-        values = [written_value(table, name, value) for value in allowed.values]
+        options = [written_value(table, name, value) for value in allowed.values]
         if allowed.source is None:
-            return {"choose": values}
-        return {"catalog": allowed.source, "from": values[0], "to": values[-1]}
+            return {"choose": options}
+        return {"catalog": allowed.source, "from": options[0], "to": options[-1]}
     ends = {"from": allowed.lower, "to": allowed.upper, "start": allowed.start}
     return {key: written_value(table, name, end) for key, end in ends.items() if end is not None}
 
