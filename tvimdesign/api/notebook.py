@@ -11,12 +11,11 @@ from html import escape
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from tvimdesign.report.output import plot_process
 from tvimdesign.report.output.terminal import Progress, progress_output
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from tvimdesign.report.output.plot_process import Drawing
 
 
 def heading(title: str, more: str) -> str:
@@ -37,7 +36,7 @@ def _line(tag: str, cells: Sequence[str]) -> str:
 _RESOLUTION = 110  # Dots per inch on a screen
 
 
-def drawn(drawing: Drawing, study: str) -> Figure:
+def drawn(drawing: plot_process.Drawing, study: str) -> Figure:
     """Draw a figure, signed with the study's name, that shows in a notebook.
 
     The settings of matplotlib outside it stay as they are.
@@ -45,13 +44,10 @@ def drawn(drawing: Drawing, study: str) -> Figure:
     import matplotlib as mpl
 
     with mpl.rc_context():
-        from tvimdesign.report.figures.theme import SETTINGS, sign
+        from tvimdesign.report.figures.theme import SETTINGS
 
         mpl.rcParams.update(SETTINGS)
-        file, _, function = drawing.figure.partition(".")
-        figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(drawing.data)
-        sign(figure, study)
-        return shown(figure)
+        return shown(plot_process.drawn(drawing, study))
 
 
 def shown(figure: Figure) -> Figure:

@@ -152,7 +152,11 @@ class Result(Generic[StudyT]):
     @property
     def warnings(self) -> list[str]:
         """Advice that the design does not follow, what was not done, and records in doubt."""
-        advice = [f"{check.text}, by {self._margin(check)}: {check.origin}" for check in self._answered.result.warnings]
+        table = self._answered.study.table
+        advice = [
+            f"{check.text}, by {margin_text(check, table).lstrip('-')}: {check.origin}"
+            for check in self._answered.result.warnings
+        ]
         return [*advice, *map(str, self._answered.failures), *self.data.get("doubts", [])]
 
     def __getitem__(self, name: str) -> Quantity[float] | Any:
@@ -217,12 +221,10 @@ class Result(Generic[StudyT]):
 
     def plot(self, name: str = "cycle") -> Figure:
         """Draw a figure by name; in a notebook it shows. Raises InputError for a name there is not."""
-        from tvimdesign.api.notebook import drawn
-
         by_file = {drawing.file: drawing for drawing in drawings(self._answered)}
         if name not in by_file:
             raise InputError(f"the result has no figure {name!r}; there are: {', '.join(by_file) or 'none'}")
-        return drawn(by_file[name], self.name)
+        return notebook.drawn(by_file[name], self.name)
 
     def show(self) -> None:
         """Print the first screen of `tvimdesign run`, without what it says of spread."""
@@ -250,8 +252,8 @@ class Result(Generic[StudyT]):
             figures = drawings(self._answered) if plots else []
             if figures:
                 with PlotProcess() as drawing, noting(failures):
-                    drawing.begin(written.path / "plots", figures, self.name)
-                    drawing.add(written.path, summary_sheet(written, self._answered), self.name, "pdf")
+                    drawing.draw(written.path / "plots", figures, self.name)
+                    drawing.draw(written.path, [summary_sheet(written, self._answered)], self.name, ["pdf"])
                     drawing.finish("save again with overwrite=True")
             finish(written, self._answered)
         for failure in failures:
@@ -291,9 +293,6 @@ class Result(Generic[StudyT]):
         return Path(folder)
 
     # --- what it looks like ---
-
-    def _margin(self, check: Any) -> str:
-        return margin_text(check, self._answered.study.table).lstrip("-")
 
     def __repr__(self) -> str:
         return f"<Result {self.name!r}: {self.design.mode} mode, {self.status}>"

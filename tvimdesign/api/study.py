@@ -290,7 +290,8 @@ class Study:
 
     def _repr_html_(self) -> str:
         study = self.resolved
-        rows = [(f"module.{name}", str(value)) for name, value in _written(self._tree, "module")]
+        module = getattr(self._tree.section("module"), "entries", {})
+        rows = [(f"module.{name}", str(getattr(value, "value", "..."))) for name, (_, value) in module.items()]
         rows += [(f"vary.{name}", _range(name, study)) for name in study.vary]
         rows += [(f"require.{limit.output}", limit.text) for limit in study.require]
         rows += [("minimize", ", ".join(f"{name}: {weight:g}" for name, weight in study.minimize.items()) or "nothing")]
@@ -302,16 +303,8 @@ def _task(study: ResolvedStudy) -> str:
     return f"{study.mode} mode, {what}, {len(study.require)} requirements"
 
 
-def _written(tree: StudyTree, section: str) -> list[tuple[str, Any]]:
-    entries = getattr(tree.section(section), "entries", {})
-    return [(name, getattr(value, "value", "...")) for name, (_, value) in entries.items()]
-
-
 def _range(name: str, study: ResolvedStudy) -> str:
     vary = study.vary[name]
-    if isinstance(vary, Range):
-        values: Sequence[float | str] = (vary.lower, vary.upper)
-    else:
-        values = vary.values
+    values: Sequence[float | str] = (vary.lower, vary.upper) if isinstance(vary, Range) else vary.values
     shown = [value if isinstance(value, str) else format_quantity(value, study.table.unit(name)) for value in values]
     return " to ".join(map(str, shown)) if isinstance(vary, Range) else "one of " + ", ".join(map(str, shown))

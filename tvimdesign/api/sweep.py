@@ -104,8 +104,6 @@ class Sweep(Generic[StudyT]):
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
-        from tvimdesign.api.notebook import shown
-
         table, (first, *others) = self.table(name), [axis.name for axis in self.plan.axes]
         figure = Figure(figsize=(6.0, 3.8), layout="constrained")
         FigureCanvasAgg(figure)
@@ -118,7 +116,7 @@ class Sweep(Generic[StudyT]):
         axes.set(xlabel=_label(first, units[first]), ylabel=_label(name, units[name]))
         if others:
             axes.legend()
-        return shown(figure)
+        return notebook.shown(figure)
 
     def _result(self, texts: tuple[str, ...]) -> Result[StudyT]:
         tree, plan = self.plan.cell_tree(texts), self.plan

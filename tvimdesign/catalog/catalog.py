@@ -69,19 +69,16 @@ class Catalog:
         if (category, name) not in self._records:
             path = self.path(category, name)
             shipped = path.is_relative_to(_SHIPPED)
-            self._records[category, name] = _read_shipped(category, name) if shipped else self._read(category, name)
+            self._records[category, name] = (_read_shipped if shipped else self._read)(category, name, path)
         return self._records[category, name]
 
-    def _read(self, category: str, name: str) -> Record:
-        return self._of_file(category, name, self.path(category, name))
-
-    def _of_file(self, category: str, name: str, path: Path) -> Record:
+    def _read(self, category: str, name: str, path: Path) -> Record:
         tree = self._tree(category, path, ())
         record = _built(category, name, path, tree)
         if "based_on" not in tree:
             return record
         other = self._base(category, path, str(tree["based_on"]))
-        record = replace(record, based_on=self._of_file(category, other.stem, other))
+        record = replace(record, based_on=self._read(category, other.stem, other))
         if problems := meaningless_laws(record):
             raise CatalogError("\n".join(problems))
         return record
@@ -134,9 +131,9 @@ def _built(category: str, name: str, path: Path, tree: dict[str, Tree]) -> Recor
 
 
 @cache
-def _read_shipped(category: str, name: str) -> Record:
+def _read_shipped(category: str, name: str, path: Path) -> Record:
     """Shipped records do not change while the program runs, and are based on none but shipped ones."""
-    return Catalog()._read(category, name)
+    return Catalog()._read(category, name, path)
 
 
 def check_records(catalog: Catalog) -> list[str]:

@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import prod
-from pathlib import Path
 from typing import Any, NamedTuple
 
-from tvimdesign.base.record import Entry, Record, RecordTable, plain_data
+from pydantic import TypeAdapter
+
+from tvimdesign.base.record import Entry, Record, RecordTable, own_data
 
 AGREEMENT = 0.1
 """Share by which a value may differ from what a table of the same record comes to: fits of one melt are no closer."""
@@ -87,16 +88,7 @@ class Category:
         return units
 
 
-def _category(content: dict[str, Any]) -> Category:
-    tables = {name: Columns(**columns) for name, columns in content.pop("tables", {}).items()}
-    follows = {name: PowerLaw(**law) for name, law in content.pop("follows", {}).items()}
-    return Category(tables=tables, follows=follows, **content)
-
-
-CATEGORIES: Mapping[str, Category] = {
-    name: _category(content)
-    for name, content in plain_data(Path(__file__).with_name("categories.yaml").read_text(encoding="utf-8")).items()
-}
+CATEGORIES = TypeAdapter(Mapping[str, Category]).validate_python(own_data(__file__, "categories.yaml"))
 
 
 def following(category: Category, entries: Mapping[str, Entry], tables: Mapping[str, RecordTable]) -> dict[str, Entry]:

@@ -3,7 +3,7 @@
 import math
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -223,15 +223,6 @@ def _caveats(result: Spread) -> Iterator[str]:
 FEWEST, MOST = 1 << 8, 1 << 22  # Modules that may be drawn
 
 
-@dataclass(frozen=True)
-class TolerancedModule:
-    """Module to analyse, the design it was optimised to, and a note on where it came from."""
-
-    resolved: ResolvedModule
-    design: Design | None
-    notes: tuple[str, ...]
-
-
 def tolerate_study(path: Path, out: Path, samples: int, *, overwrite: bool, as_json: bool) -> None:
     """Analyse a study's or a design's tolerances and write a folder. Raises InputError, InfeasibleError,
     and TvimError once all but the figure is done.
@@ -240,17 +231,23 @@ def tolerate_study(path: Path, out: Path, samples: int, *, overwrite: bool, as_j
         raise InputError(f"--samples {samples}: must be {FEWEST} to {MOST}")
     count, threads = power_of_two(samples), os.cpu_count() or 1
     source = design_file(path)
-    study = _study(source)
+    study = Study.model_validate(read_design(source).study) if source.suffix == ".json" else read_study(source)
     with Command(out, overwrite=overwrite, as_json=as_json, plots=study.write.plots) as command:
         folder, progress = command.folder, command.progress
-        subject = _subject(source, study, progress)
-        analysis, seed = Tolerancing(subject.resolved, progress, threads), subject.resolved.study.solver.seed
+        module, optimum, notes = _module(source, study, progress)
+        table, study = module.table, module.study
+        analysis, seed = Tolerancing(module, progress, threads), study.solver.seed
         spread, preload = analysis.analyse(count, seed), analysis.preload(count, seed)
-        table, study = subject.resolved.table, subject.resolved.study
         data = reported(spread, preload, table, study, count)
-        data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]
+        data["notes"] = [*notes, f"Soft is {soft_of_module(module)}."]
         data["sentences"] = sentences(spread, preload, table)
-        _write(folder, source, subject, data, spread, table)
+        folder.write(f"tolerated{source.suffix}", source.read_bytes())
+        if optimum is not None:
+            write_design(optimum, folder.path / "design.json")
+        folder.write_json("tolerances.json", data)
+        folder.write("outputs.csv", csv_text(output_rows(spread, table), digits=6))
+        folder.write("limits.csv", csv_text(limit_rows(spread, table), digits=6))
+        folder.write("contributors.csv", csv_text(contributor_rows(spread, table, study), digits=6))
         command.begin_plots([Drawing("spread", "analysis_figures.spread", figure_data(spread, table))], study.name)
         command.finish_plots()
         page = command.page(
@@ -261,49 +258,23 @@ def tolerate_study(path: Path, out: Path, samples: int, *, overwrite: bool, as_j
     command.report(data, "Tables and figure are")
 
 
-def _study(source: Path) -> Study:
-    return Study.model_validate(read_design(source).study) if source.suffix == ".json" else read_study(source)
-
-
-def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule:
-    """Return the module to analyse: a design as it is, a study evaluated, or the optimum of one."""
-    table = study.table
+def _module(source: Path, study: Study, progress: Progress) -> tuple[ResolvedModule, Design | None, list[str]]:
+    """Return the module to analyse, the optimum that was searched for it, if one was, and where it came from."""
     notes = []
     if not study.tolerances:
-        study = study.model_copy(update={"tolerances": standard_tolerances(table)})
+        study = study.model_copy(update={"tolerances": standard_tolerances(study.table)})
         notes.append("The study gives no tolerances: the standard ones are taken.")
     if source.suffix == ".json":
         design = read_design(source)
         resolved = resolve_design(design)
-        return TolerancedModule(
-            replace(resolved, study=resolved.study.model_copy(update={"tolerances": study.tolerances})),
-            None,
-            (f"Module: the design {source}.", *design.rating_notes, *notes),
-        )
+        module = replace(resolved, study=resolved.study.model_copy(update={"tolerances": study.tolerances}))
+        return module, None, [f"Module: the design {source}.", *design.rating_notes, *notes]
     if not study.vary:
-        return TolerancedModule(resolve_study(study), None, (f"Module: {source}.", *notes))
+        return resolve_study(study), None, [f"Module: {source}.", *notes]
     progress("searching for the optimum")
-    design = _optimum(study, progress)
-    module = f"Module: the optimum of {source}{', robust as it asks' if study.robust else ''}."
-    notes = [module, *design.rating_notes, *notes]
-    return TolerancedModule(resolve_design(design), design, tuple(notes))
-
-
-def _optimum(study: Study, progress: Progress) -> Design:
-    table = study.table
     result = answer(study, progress)
     if not result.has_design:
-        raise InfeasibleError(complaint(result, table))
-    return result.design
-
-
-def _write(
-    folder: ResultsFolder, source: Path, subject: TolerancedModule, data: dict[str, Any], spread: Spread, table: Table
-) -> None:
-    folder.write(f"tolerated{source.suffix}", source.read_bytes())
-    if subject.design is not None:
-        write_design(subject.design, folder.path / "design.json")
-    folder.write_json("tolerances.json", data)
-    folder.write("outputs.csv", csv_text(output_rows(spread, table), digits=6))
-    folder.write("limits.csv", csv_text(limit_rows(spread, table), digits=6))
-    folder.write("contributors.csv", csv_text(contributor_rows(spread, table, subject.resolved.study), digits=6))
+        raise InfeasibleError(complaint(result, study.table))
+    robust = ", robust as it asks" if study.robust else ""
+    notes = [f"Module: the optimum of {source}{robust}.", *result.design.rating_notes, *notes]
+    return resolve_design(result.design), result.design, notes

@@ -41,11 +41,11 @@ class CellAnswers:
 
     def search_of(self, texts: Texts) -> AnchoredSearch:
         """Return the search for the optimum of a cell: it starts at the optimum for the cell's words."""
-        words = tuple("" if number else text for text, number in zip(texts, self._plan.numbers, strict=True))
+        words, axes = self._plan.words(texts), self._plan.axes
         if words not in self._searches:
-            named = [(name, text) for name, text in zip(self._plan.names, words, strict=True) if text]
-            followed = [name for name, number in zip(self._plan.names, self._plan.numbers, strict=True) if number]
-            tree = set_in(self._plan.tree, [name for name, _ in named], [text for _, text in named])
+            named = {axis.name: text for axis, text in zip(axes, words, strict=True) if text}
+            followed = [axis.name for axis in axes if axis.number]
+            tree = set_in(self._plan.tree, list(named), list(named.values()))
             self._searches[words] = AnchoredSearch(read_tree(tree), followed, read_tree(self._plan.tree))
             if len(self._searches) > MOST_KEPT:
                 self._searches.popitem(last=False)

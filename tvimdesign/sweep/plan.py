@@ -159,16 +159,6 @@ class SweepPlan:
         return read_tree(self.cell_tree(self.points.texts(0)))
 
     @property
-    def names(self) -> tuple[str, ...]:
-        """The settings of each cell, as `--set` takes them."""
-        return tuple(axis.name for axis in self.axes)
-
-    @property
-    def numbers(self) -> tuple[bool, ...]:
-        """Which of the settings a search can follow from another cell's optimum."""
-        return tuple(axis.number for axis in self.axes)
-
-    @property
     def task(self) -> Literal["evaluate", "optimize"]:
         """Return what is done in each cell."""
         return "optimize" if self.first.task == "optimize" and self.block.task != "evaluate" else "evaluate"
@@ -177,9 +167,13 @@ class SweepPlan:
         """Return where a cell stands on each axis: numbers in the axis's unit, of limits as well; else the words."""
         return [axis_value(axis, text) for axis, text in zip(self.axes, self.points.texts(cell), strict=True)]
 
+    def words(self, texts: Texts) -> Texts:
+        """Return what a cell is set to, without what a search can follow from another cell's optimum."""
+        return tuple("" if axis.number else text for axis, text in zip(self.axes, texts, strict=True))
+
     def cell_tree(self, texts: Texts) -> StudyTree:
         """Return the study of a cell, as it would be written."""
-        return set_in(self.tree, self.names, texts)
+        return set_in(self.tree, [axis.name for axis in self.axes], texts)
 
     @cached_property
     def columns(self) -> tuple[str, ...]:
@@ -255,7 +249,8 @@ def _refuse_wrong_values(plan: SweepPlan) -> None:
     for place, axis in enumerate(plan.axes):
         listed = [row[place] for row in plan.block.rows] if plan.block.rows else list(axis.values)
         seen = set()
-        for node in listed or [_end(axis, share) for share in (0, 1)]:
+        ends = [axis.range.lower, axis.range.upper] if axis.range else []
+        for node in listed or [Text(0, 0, written(axis, end), plain=False) for end in ends]:
             if node.value in seen:
                 continue
             seen.add(node.value)
@@ -267,11 +262,6 @@ def _refuse_wrong_values(plan: SweepPlan) -> None:
                 problems += [problem for problem in error.problems if problem not in problems]
     if problems:
         raise StudyError(problems)
-
-
-def _end(axis: SweptAxis, share: int) -> Text:
-    assert axis.range is not None  # an axis without values has one
-    return Text(0, 0, written(axis, (axis.range.lower, axis.range.upper)[share]), plain=False)
 
 
 class Cell(NamedTuple):

@@ -40,13 +40,13 @@ class CellQueue:
     def __init__(self, cells: Iterable[Cell], plan: SweepPlan, workers: int) -> None:
         """Sort the cells by the words they are set to."""
         self._groups: dict[Hashable, deque[Cell]] = {}
-        self._numbers, self._workers = plan.numbers, max(workers, 1)
+        self._plan, self._workers = plan, max(workers, 1)
         self._at: dict[int, Hashable] = {}
         self._alone: set[str] = set()
         self._seconds = 0.0
         self._done = 0
         for cell in cells:
-            self._groups.setdefault(self._kind(cell), deque()).append(cell)
+            self._groups.setdefault(self._plan.words(cell.texts), deque()).append(cell)
 
     def __len__(self) -> int:
         return sum(map(len, self._groups.values()))
@@ -68,14 +68,11 @@ class CellQueue:
         """Take cells again whose worker has died; each is tried alone, so that the one to blame is found."""
         self._alone |= {cell.key for cell in cells}
         for cell in reversed(cells):
-            self._groups.setdefault(self._kind(cell), deque()).appendleft(cell)
+            self._groups.setdefault(self._plan.words(cell.texts), deque()).appendleft(cell)
 
     def done(self, cells: int, seconds: float) -> None:
         """Learn what cells take."""
         self._done, self._seconds = self._done + cells, self._seconds + seconds
-
-    def _kind(self, cell: Cell) -> Hashable:
-        return tuple("" if number else text for text, number in zip(cell.texts, self._numbers, strict=True))
 
     def _kind_for(self, worker: int) -> Hashable | None:
         if self._at.get(worker) in self._groups:

@@ -60,17 +60,11 @@ class CellTable:
                 self.drawn.append(row)
             if number % self.every_listed == 0:
                 self.listed.append(row)
-            self._note_end(row)
+            self.keeping += row["violated"] == 0
+            if row["violated"] is None:
+                self.failures += 1
+                self.failed += [row] if len(self.failed) < MOST_FAILED else []
             yield values
-
-    def _note_end(self, row: dict[str, Value]) -> None:
-        """Count a cell by whether it has an answer, and whether it is feasible."""
-        self.keeping += row["violated"] == 0
-        if row["violated"] is not None:
-            return
-        self.failures += 1
-        if len(self.failed) < MOST_FAILED:
-            self.failed.append(row)
 
     def _compare(self, name: str, row: dict[str, Value]) -> None:
         value = row[name]
@@ -112,24 +106,23 @@ class SweptCells:
     def listed(self) -> list[dict[str, Any]]:
         """Return rows of the cells for a page, thinned for a browser."""
         every = -(-self.plan.count // MOST_LISTED)
-        rows = self._rows("WHERE (CAST(cell AS INTEGER) - 1) % ? = 0", [every])
+        rows = _rows(self.folder, "WHERE (CAST(cell AS INTEGER) - 1) % ? = 0", [every])
         return [{**row, "cell": _number(row)} for row in rows]
 
     def cell(self, number: int) -> CellFound:
         """Return a cell by its number. Raises InputError if there is none, and StudyError if it is no study."""
         if not 1 <= number <= self.plan.count:
             raise InputError(f"cell {number}: the sweep has the cells 1 to {self.plan.count}")
-        row = next(iter(self._rows("WHERE cell = ?", [number])), None)
+        row = next(iter(_rows(self.folder, "WHERE cell = ?", [number])), None)
         if row is None:
             raise InputError(f"cell {number}: {self.folder / _TABLE} has no such cell; sweep again with --resume")
         texts = self.plan.points.texts(number - 1)
         changes = {axis.name: text for axis, text in zip(self.plan.axes, texts, strict=True)}
         tree = self.plan.cell_tree(texts)
         study, answered = read_tree(tree), row["violated"] is not None
-        return CellFound(number, changes, tree, study, answered, _at(row, study, self.plan) if answered else {})
-
-    def _rows(self, which: str, values: Sequence[Any]) -> list[dict[str, Value]]:
-        return _rows(self.folder, which, values)
+        found = {name: row[name] for name in study.vary if answered and row.get(name) is not None}
+        at = {name: _text(value, self.plan.unit(name)) for name, value in found.items()}
+        return CellFound(number, changes, tree, study, answered, at)
 
 
 def open_cells(folder: Path) -> SweptCells:
@@ -159,11 +152,6 @@ def _rows(folder: Path, which: str, values: Sequence[Any]) -> list[dict[str, Val
             return [dict(row) for row in cursor]
     except sqlite3.Error as error:
         raise InputError(f"{path}: cannot be read: {error}; `tvimdesign sweep ... --resume` writes it anew") from error
-
-
-def _at(row: dict[str, Value], study: Study, plan: SweepPlan) -> dict[str, str]:
-    """Return the variables of a cell's answer as texts with their units, as far as the table has them."""
-    return {name: _text(row[name], plan.unit(name)) for name in study.vary if row.get(name) is not None}
 
 
 def _number(row: dict[str, Any]) -> int:

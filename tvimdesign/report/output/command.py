@@ -14,7 +14,7 @@ from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.page.blocks import Block, Page, Section, Tone
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
-from tvimdesign.report.output.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.plot_process import ENDINGS, Drawing, PlotProcess
 from tvimdesign.report.output.terminal import Progress, print_section, progress_output, wide_console
 from tvimdesign.study import Study
 
@@ -65,12 +65,12 @@ class Command:
         """Start to draw plots, signed with the study's name, if a plotter was started."""
         self._drawn = bool(drawings)
         if self._plotter and drawings:
-            self._plotter.begin(self.folder.path / folder, drawings, study, vector=vector)
+            self._plotter.draw(self.folder.path / folder, drawings, study, ENDINGS if vector else ENDINGS[:1])
 
     def add_plot(self, make: Callable[[], Drawing], study: str, ending: str) -> None:
         """Start to draw one more plot if there are plots, from what was not known before."""
         if self._plotter and self._drawn:
-            self._plotter.add(self.folder.path, make(), study, ending)
+            self._plotter.draw(self.folder.path, [make()], study, [ending])
 
     def finish_plots(
         self, what: str = "drawing the figure", again: str = "repeat the command with --overwrite"

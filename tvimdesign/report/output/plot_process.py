@@ -21,6 +21,7 @@ from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.processes import FedProcess, Niceness, ProcessorTimeError, communicate
 
+ENDINGS = ("png", "pdf", "svg")
 PROCESSOR_LIMIT = 600.0  # Seconds of processor time for all plots of a command; they take about five
 
 
@@ -30,6 +31,16 @@ class Drawing(NamedTuple):
     file: str
     figure: str
     data: dict[str, Any]
+
+
+def drawn(drawing: Drawing, study: str) -> Any:
+    """Return the figure of a drawing, signed with the study's name."""
+    from tvimdesign.report.figures.theme import sign
+
+    file, _, function = drawing.figure.partition(".")
+    figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(drawing.data)
+    sign(figure, study)
+    return figure
 
 
 class PlotProcess(FedProcess):
@@ -43,15 +54,8 @@ class PlotProcess(FedProcess):
         )  # fmt: skip
         super().__init__(child, Niceness.FAR if gives_way else None)
 
-    def begin(self, folder: Path, drawings: Sequence[Drawing], study: str, *, vector: bool = True) -> None:
-        """Ask for every plot, signed with the study's name, and come back at once; `vector` for PDF and SVG as well."""
-        self._ask(folder, drawings, study, ["png", "pdf", "svg"] if vector else ["png"])
-
-    def add(self, folder: Path, drawing: Drawing, study: str, ending: str) -> None:
-        """Ask for one more file after `begin`, of what was not known before."""
-        self._ask(folder, [drawing], study, [ending])
-
-    def _ask(self, folder: Path, drawings: Sequence[Drawing], study: str, endings: Sequence[str]) -> None:
+    def draw(self, folder: Path, drawings: Sequence[Drawing], study: str, endings: Sequence[str] = ENDINGS) -> None:
+        """Ask for a file of each ending for each plot, signed with the study's name, and come back at once."""
         request = {
             "folder": str(folder.resolve()), "study": study, "endings": endings,
             "drawings": [drawing._asdict() for drawing in drawings],
@@ -83,9 +87,8 @@ def main() -> None:
     gc.disable()  # a tenth of the time; all there ever is to collect is a few figures
     _warm_up()
     request = json.loads(sys.stdin.readline())
-    drawings = [Drawing(**drawing) for drawing in request["drawings"]]
     if sys.platform != "linux":  # a fork is not safe elsewhere
-        _draw(drawings, request)
+        _draw(request)
         _draw_added()
         return
     # Matplotlib is slow and single-threaded: two processes with it loaded share the plots. Taking the interpreter down
@@ -93,7 +96,7 @@ def main() -> None:
     first, other = os.getpid(), os.fork()
     if not other:
         follow_parent(first)
-    _draw(drawings[int(bool(other)) :: 2], request)
+    _draw(request, slice(int(bool(other)), None, 2))
     if other:
         _draw_added()
     if not other or os.waitpid(other, 0)[1] == 0:
@@ -102,10 +105,9 @@ def main() -> None:
 
 
 def _draw_added() -> None:
-    """Draw what `PlotProcess.add` asks for, until there is no more."""
+    """Draw what `PlotProcess.draw` asks for later, until there is no more."""
     for line in sys.stdin:
-        request = json.loads(line)
-        _draw([Drawing(**drawing) for drawing in request["drawings"]], request)
+        _draw(json.loads(line))
 
 
 def _warm_up() -> None:
@@ -124,20 +126,17 @@ def _warm_up() -> None:
     import_module("fontTools.subset")  # what cuts a PDF's fonts
 
 
-def _draw(drawings: Sequence[Drawing], request: dict[str, Any]) -> None:
-    """Write every plot in the first ending, which people look at, before any in another."""
-    from tvimdesign.report.figures.theme import as_file, sign
+def _draw(request: dict[str, Any], part: slice = slice(None)) -> None:
+    """Write every plot, or a part of them, in the first ending, which people look at, before any in another."""
+    from tvimdesign.report.figures.theme import as_file
 
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)
     figures = {}
     first, *others = request["endings"]
-    for drawing in drawings:
-        file, _, function = drawing.figure.partition(".")
-        figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(drawing.data)
-        sign(figure, request["study"])
+    for drawing in (Drawing(**drawing) for drawing in request["drawings"][part]):
+        figure = figures[drawing.file] = drawn(drawing, request["study"])
         atomic_write(folder / f"{drawing.file}.{first}", as_file(figure, first))
-        figures[drawing.file] = figure
     for name, figure in figures.items():
         for ending in others:
             atomic_write(folder / f"{name}.{ending}", as_file(figure, ending))

@@ -15,7 +15,7 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.numbers import finite, in_unit, label, number, number_entry, percent, with_unit
-from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
+from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp import spread
@@ -25,7 +25,7 @@ from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel
-from tvimdesign.solve.uncertainty.uncertain_inputs import Interval, Swing, UnmeasuredInput
+from tvimdesign.solve.uncertainty.uncertain_inputs import Interval, Swing
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
 from tvimdesign.study.text.values import difference_unit
@@ -131,7 +131,16 @@ class Uncertainty:
                 name: interval_entry(name, interval, self.table, uncertainty.before.get(name))
                 for name, interval in uncertainty.intervals.items()
             },
-            "unmeasured": [_unmeasured(unmeasured_input, self.table) for unmeasured_input in uncertainty.unmeasured],
+            "unmeasured": [
+                {
+                    "name": unmeasured.name,
+                    **number_entry(
+                        unmeasured.value, self.table.unit(unmeasured.name), (unmeasured.low, unmeasured.high)
+                    ),
+                    "status": unmeasured.status,
+                }
+                for unmeasured in uncertainty.unmeasured
+            ],
         }
 
 
@@ -160,15 +169,6 @@ def interval_entry(
         "shares": interval.shares,
         "to_halve": list(interval.to_halve),
         "before": None if before is None else number_entry(interval.nominal, unit, before),
-    }
-
-
-def _unmeasured(unmeasured_input: UnmeasuredInput, table: Table) -> UnmeasuredEntry:
-    ends = (unmeasured_input.low, unmeasured_input.high)
-    return {
-        "name": unmeasured_input.name,
-        **number_entry(unmeasured_input.value, table.unit(unmeasured_input.name), ends),
-        "status": unmeasured_input.status,
     }
 
 
