@@ -303,28 +303,23 @@ class History(BaseModel):
         self.pins = [pin for pin in self.pins if pin is not gone]
 
 
-def hash_of(text: bytes) -> str:
-    """Return the fingerprint of a study's file."""
-    return "sha256:" + hashlib.sha256(text).hexdigest()
-
-
 def open_history(folder: Path, study: bytes, first: State, *, overwrite: bool = False) -> History:
     """Return the history in a folder, or a new one. Raises InputError where the folder is another study's.
 
     With `overwrite` a new one replaces that of any study, once something is changed.
     """
-    path = folder / FILE
+    path, fingerprint = folder / FILE, "sha256:" + hashlib.sha256(study).hexdigest()
     if not path.exists():
         if folder.is_dir() and any(folder.iterdir()):
             raise InputError(f"{folder}: holds files that are no explorer's; name another folder with --out")
-        return History(study=hash_of(study), state=first)
+        return History(study=fingerprint, state=first)
     try:
         history = History.model_validate(json.loads(path.read_bytes()))
     except (ValueError, ValidationError) as error:
         raise InputError(f"{path}: not written by `tvimdesign explore`; name another folder with --out") from error
     if overwrite:
-        return History(study=hash_of(study), state=first, saved=history.saved)
-    if history.study != hash_of(study):
+        return History(study=fingerprint, state=first, saved=history.saved)
+    if history.study != fingerprint:
         raise InputError(
             f"{folder}: holds what was explored of another study, or of this one before its file changed; --overwrite "
             "begins again, --out names another folder"

@@ -54,10 +54,9 @@ class Words:
 
 @dataclass(frozen=True)
 class Points:
-    """A list of sentences; `numbered` where the order counts."""
+    """A list of sentences."""
 
     lines: Sequence[str]
-    numbered: bool = False
 
 
 @dataclass(frozen=True)

@@ -16,13 +16,10 @@ from tvimdesign.paper import paper_case, paper_rows
 from tvimdesign.paper.paper_case import (
     Values,
     claims,
-    cycle_values,
     ends,
     from_paper,
-    instrument,
     published_model,
     published_module,
-    published_rate,
     published_values,
 )
 from tvimdesign.physics import spring
@@ -88,7 +85,7 @@ def _creep() -> Values:
 
 def _parallel_springs() -> Values:
     values = published_values()
-    springs = float(spring.output_stiffness(from_paper("springs"), published_rate(), 0.0, 1.0, 0.0))
+    springs = float(spring.output_stiffness(from_paper("springs"), paper_case.published_rate(), 0.0, 1.0, 0.0))
     cold, hot, shown = (values[name] for name in ("pcl_stiffness@cold", "pcl_stiffness@hot", "joint_stiffness@cold"))
     return {
         "thickness": values["pcl_thickness"] * 1e3, "cold": cold, "hot": hot, "springs": springs,
@@ -119,7 +116,7 @@ def _housing() -> Values:
 
 
 def _torque_sensor() -> Values:
-    values, angle, sensor = published_values(), from_paper("release_angle"), instrument("torque_error")
+    values, angle, sensor = published_values(), from_paper("release_angle"), paper_case.instrument("torque_error")
     frozen, springs = (values[name] * angle for name in ("joint_stiffness@cold", "spring_stiffness"))
     return {
         **vars(sensor), "angle": angle, "frozen": frozen, "springs": springs,
@@ -138,7 +135,7 @@ def _small_joint() -> Values:
     shrunk = {row.name: factor * module.values[row.name] for row in module.table.inputs if row.unit == "mm"}
     study = module.study.model_copy(update={"module": {**module.study.module, **shrunk}})
     small = resolve_study(study)
-    values = cycle_values(small.functions)
+    values = paper_case.cycle_values(small.functions)
     limits = [limit for limit in constraints_of(study, small.table, small.values) if limit.output in values]
     violated = [label(limit.output) for limit in limits if not limit.keeps(np.array(values[limit.output]))]
     spread = from_si(standard_tolerances(small.table)["pcl_thickness"].plus_minus or 0.0, "mm")

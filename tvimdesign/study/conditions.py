@@ -6,11 +6,11 @@ PCL) must be the same. Layout and springs are each study's own; so are limits on
 """
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
@@ -60,8 +60,7 @@ class Case:
         return given(self.study)
 
 
-@dataclass(frozen=True)
-class _Condition:
+class _Condition(NamedTuple):
     """Something that must be the same: its name, where it stands in the study, what it is, and that in words."""
 
     name: str
@@ -135,7 +134,8 @@ def _conditions(of: Case) -> Iterator[_Condition]:
         if isinstance(row, Input | Choice) and _is_condition(row):
             vary, value = study.vary.get(row.name), of.values[row.name]
             path = f"vary.{row.name}" if vary else f"module.{row.name}"
-            yield _Condition(row.name, path, (_plain(value), _limits(vary)), _in_words(row, value, vary))
+            plain = replace(value, file="") if isinstance(value, Record) else value
+            yield _Condition(row.name, path, (plain, _limits(vary)), _in_words(row, value, vary))
     for point, values in study.operating_points.items():
         for name, value in values.items():
             words = format_quantity(value, of.study.table.unit(name))
@@ -167,11 +167,6 @@ def _is_condition(row: Input | Choice) -> bool:
     if row.record is not None:
         return row.record[0] not in _OWN_CHOICES and row.group not in _OWN_GROUPS
     return row.group not in _OWN_GROUPS or row.name in _ASKED_OF_THE_LAYOUT
-
-
-def _plain(value: Any) -> Any:
-    """Return a value as it is, and a record without its file."""
-    return replace(value, file="") if isinstance(value, Record) else value
 
 
 def _limits(vary: Vary | None) -> tuple[Any, ...]:
@@ -206,7 +201,11 @@ def _unequal_requirements(cases: Sequence[Case], other: Case) -> Iterator[Mistak
     for earlier in cases[: cases.index(other)]:
         common = (earlier.study.table.by_name.keys() & other.study.table.by_name.keys()) - reported
         reported |= common
-        theirs, mine = (_limits_on(common, case) for case in (earlier, other))
+        theirs, mine = (
+            {(limit.output, limit.sense): limit for limit in case.study.require
+             if limit.output.partition("@")[0] in common}
+            for case in (earlier, other)
+        )  # fmt: skip
         for key in dict.fromkeys([*mine, *theirs]):
             if key not in mine:
                 place = earlier.place(f"require.{key[0]}")
@@ -222,11 +221,6 @@ def _unequal_requirements(cases: Sequence[Case], other: Case) -> Iterator[Mistak
 
 
 _ALIKE = "the same limits in every study that is compared"
-
-
-def _limits_on(names: Collection[str], of: Case) -> dict[tuple[str, str], Requirement]:
-    """Requirements on the named outputs, by output and sense."""
-    return {(r.output, r.sense): r for r in of.study.require if r.output.partition("@")[0] in names}
 
 
 def _limit(of: Case, requirement: Requirement) -> str:

@@ -243,12 +243,8 @@ def _check_inputs(design: Design, table: Table, points: Iterable[str], problems:
             value, path = design.values.get(name), step("values", name)
             if value is None:
                 problems.add(_NOWHERE, "values", f"has no {name}: another version wrote it; {_AGAIN}")
-            elif not _within(row, value):
+            elif math.isnan(value) or below(value, row.lower) or below(row.upper, value):
                 problems.add(_NOWHERE, path, f"{format_quantity(value, row.unit)} is outside the limits", limits(row))
-
-
-def _within(row: Input, value: float) -> bool:
-    return not (math.isnan(value) or below(value, row.lower) or below(row.upper, value))
 
 
 def _check_currents(design: Design, table: Table, problems: Mistakes) -> None:

@@ -43,7 +43,7 @@ def _contributors(axes: Any, data: dict[str, Any]) -> None:
         left = [a + b for a, b in zip(left, part["shares"], strict=True)]
     axes.set(xlabel="Share of the variance (%)", xlim=(0.0, 100.0), ylim=(len(rows) - 0.4, -0.6))
     axes.grid(visible=False)
-    theme.row_texts(axes, data["outputs"], [])
+    theme.row_texts(axes, data["outputs"])
     axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
 

@@ -86,13 +86,12 @@ def legend_above(axes: Any, columns: int) -> None:
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns)
 
 
-def row_texts(axes: Any, left: Sequence[str], right: Sequence[str]) -> None:
-    """Draw texts to both sides of rows, from the lowest up: as ticks they would be five things to draw each."""
+def row_texts(axes: Any, texts: Sequence[str]) -> None:
+    """Draw texts to the left of rows, from the lowest up: as ticks they would be five things to draw each."""
     axes.set_yticks([])
-    for texts, x, side in ((left, -0.015, "right"), (right, 1.015, "left")):
-        for i, text in enumerate(texts):
-            axes.text(x, i, text, ha=side, va="center", fontsize=SMALL, transform=axes.get_yaxis_transform(),
-                      parse_math=False)  # fmt: skip
+    for i, text in enumerate(texts):
+        axes.text(-0.015, i, text, ha="right", va="center", fontsize=SMALL, transform=axes.get_yaxis_transform(),
+                  parse_math=False)  # fmt: skip
 
 
 mpl.rcParams.update(SETTINGS)

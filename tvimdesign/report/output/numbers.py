@@ -25,20 +25,16 @@ _NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^
 _labels = partial(own_data, __file__, "labels.yaml")  # Labels of quantities whose names do not read as words
 
 
-def name_in_words(name: str) -> str:
-    """Return a quantity's full name in words."""
+def name_in_words(name: str, words: str | None = None) -> str:
+    """Return a quantity's full name in words, or with other words for all but its point."""
     quantity, _, point = name.partition("@")
-    words = " ".join(_CAPITALS.get(word, word) for word in quantity.split("_"))
+    words = words or " ".join(_CAPITALS.get(word, word) for word in quantity.split("_"))
     return f"{words}, {point.replace('_', ' ')}" if point else words
 
 
 def label(name: str) -> str:
     """Return the label of a quantity: a few words for people; its name in words if it has none of its own."""
-    quantity, _, point = name.partition("@")
-    words = _labels().get(quantity)
-    if words is None:
-        return name_in_words(name)
-    return f"{words}, {point.replace('_', ' ')}" if point else words
+    return name_in_words(name, _labels().get(name.partition("@")[0]))
 
 
 def in_labels(text: str) -> str:
@@ -92,13 +88,9 @@ class InSi(Entry):
     unit: str
 
 
-class NumberEntry(Entry):
+class NumberEntry(InSi):
     """A number in the unit people read, and in SI. `low` and `high` are None where no range is known."""
 
-    value: float | None
-    low: float | None
-    high: float | None
-    unit: str
     si: InSi
 
 

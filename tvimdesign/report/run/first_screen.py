@@ -7,16 +7,7 @@ from rich.console import Console
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Facts, Warned
 from tvimdesign.page.page_file import FILE as PAGE
-from tvimdesign.report.output.terminal import (
-    DOT,
-    columns,
-    joined,
-    plain_text,
-    print_block,
-    print_lines,
-    print_section,
-    wrapped,
-)
+from tvimdesign.report.output import terminal
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.facts import Fact, chosen_fact, front_fact, main_facts, more_facts
 from tvimdesign.report.run.blocks.requirements import HEADS, Requirement, requirements
@@ -47,7 +38,7 @@ def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = No
     answer = answered.result
     parts = [verdict_of(answered).text, f"{answer.design.name} ({answer.design.mode})"]
     more = [*starts_in_words(answer), *([] if seconds is None else [f"{seconds:.{1 if seconds < 10.0 else 0}f} s"])]
-    head, first = _as_fit(joined(parts, width), more, width), warning_lines(answered.warnings, width, 1)
+    head, first = _as_fit(terminal.joined(parts, width), more, width), warning_lines(answered.warnings, width, 1)
     facts: list[list[str]] = []
     room = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - 1
     if answer.has_design:
@@ -70,14 +61,14 @@ def _as_fit(lines: Sequence[str], more: Sequence[str], width: int) -> list[str]:
     """Return lines, the last one with as many of `more` behind it as have a place."""
     last = lines[-1]
     for part in more:
-        last = f"{last}{DOT}{part}" if len(last) + len(DOT) + len(part) <= width else last
+        last = f"{last}{terminal.DOT}{part}" if len(last) + len(terminal.DOT) + len(part) <= width else last
     return [*lines[:-1], last]
 
 
 def _fact_lines(fact: Fact, width: int) -> list[str]:
     """Return a fact in as few lines as hold it; a listing in one, with the number of parts that do not fit."""
     first = f"{fact.label}: {fact.parts[0]}"
-    lines = joined([first, *fact.parts[1:]], width, "  ")
+    lines = terminal.joined([first, *fact.parts[1:]], width, "  ")
     if len(lines) == 1 or not fact.listing:
         return _as_fit(lines, [fact.note] if fact.note else [], width)
     return _listing(fact.label, fact.parts, width, 1)
@@ -88,10 +79,10 @@ def _listing(label: str, parts: Sequence[str], width: int, most: int) -> list[st
     first = f"{label}: {parts[0]}"
     for count in range(len(parts), 0, -1):
         more = [f"{len(parts) - count} more"] if count < len(parts) else []
-        lines = joined([first, *parts[1:count], *more], width, "  ")
+        lines = terminal.joined([first, *parts[1:count], *more], width, "  ")
         if len(lines) <= most:
             return lines
-    return wrapped(first, width, indent="  ")
+    return terminal.wrapped(first, width, indent="  ")
 
 
 def requirement_lines(rows: Sequence[Requirement], width: int, most: int, met: str = "met") -> list[str]:
@@ -115,7 +106,7 @@ def _others(rows: Sequence[Requirement], what: str, met: str, width: int, most: 
     if rows[0].met_in in (None, 1.0):
         title, limit, got, *_ = rows[0].cells
         tightest = ", the tightest" if len(rows) > 1 else ""
-        return wrapped(f"{count}{tightest}: {title} {got}, asked {limit}", width, indent="  ")
+        return terminal.wrapped(f"{count}{tightest}: {title} {got}, asked {limit}", width, indent="  ")
     return _listing(f"{count}, and of plausible cases", [_unsure(row) for row in rows], width, most)
 
 
@@ -128,12 +119,12 @@ def _unsure(row: Requirement) -> str:
 def _fitting(cells: Sequence[Sequence[str]], width: int) -> list[str]:
     """Return a table that is no wider than the screen: without ranges, or names on their own lines, if need be."""
     filled = [column for column in zip(*cells, strict=True) if any(column[1:])]
-    lines = columns(list(zip(*filled, strict=True)), right=(2,))
+    lines = terminal.columns(list(zip(*filled, strict=True)), right=(2,))
     if max(map(len, lines)) > width:
-        lines = columns([(*row[:3], *row[4:]) for row in cells], right=(2,))
+        lines = terminal.columns([(*row[:3], *row[4:]) for row in cells], right=(2,))
     if max(map(len, lines)) <= width:
         return lines
-    figures = columns([row[1:] for row in cells], right=(1,))
+    figures = terminal.columns([row[1:] for row in cells], right=(1,))
     return [line for row, own in zip(cells, figures, strict=True) for line in (row[0], f"  {own}") if line]
 
 
@@ -143,8 +134,8 @@ def warning_lines(warnings: Sequence[RunWarning], width: int, count: int) -> lis
     more = f"{len(warnings) - count} more: {FILE}"
     if len(warnings) <= count:
         return lines
-    if len(lines[-1]) + len(DOT) + len(more) <= width:
-        return [*lines[:-1], f"{lines[-1]}{DOT}{more}"]
+    if len(lines[-1]) + len(terminal.DOT) + len(more) <= width:
+        return [*lines[:-1], f"{lines[-1]}{terminal.DOT}{more}"]
     return [*lines, f"{'':9}{more}"]
 
 
@@ -152,13 +143,13 @@ def _warning(warning: RunWarning, width: int) -> list[str]:
     """Return what is wrong, and on the same line what cures it if it fits: what is to be copied stays in one piece."""
     indent, cure = " " * 9, warning.cure
     if not cure.startswith(("write ", "may help: ")):
-        return wrapped(f"Warning: {'; '.join(filter(None, (warning.text, cure)))}", width, indent=indent)
-    lines = wrapped(f"Warning: {warning.text};", width, indent=indent)
+        return terminal.wrapped(f"Warning: {'; '.join(filter(None, (warning.text, cure)))}", width, indent=indent)
+    lines = terminal.wrapped(f"Warning: {warning.text};", width, indent=indent)
     if len(lines[-1]) + len(cure) + 1 <= width:
         return [*lines[:-1], f"{lines[-1]} {cure}"]
     return [
         *lines,
-        *([f"{indent}{cure}"] if len(indent) + len(cure) <= width else wrapped(cure, width, indent, indent)),
+        *([f"{indent}{cure}"] if len(indent) + len(cure) <= width else terminal.wrapped(cure, width, indent, indent)),
     ]
 
 
@@ -166,8 +157,8 @@ def print_first_screen(answered: AnsweredStudy, console: Console, seconds: float
     """Print the first screen."""
     lines = first_screen(answered, console.width, seconds)
     first = {_OF_TONE[verdict_of(answered).tone]: r"^.*?(?= · |$)"}
-    print_lines(lines[:1], console, first)
-    print_lines(lines[1:], console, _COLOURS)
+    terminal.print_lines(lines[:1], console, first)
+    terminal.print_lines(lines[1:], console, _COLOURS)
 
 
 def print_everything(answered: AnsweredStudy, console: Console, seconds: float | None = None) -> None:
@@ -177,19 +168,19 @@ def print_everything(answered: AnsweredStudy, console: Console, seconds: float |
     if answer.has_design:
         console.print()
         facts = more_facts(answer, answered.uncertainty, answered.front.front)
-        print_block(Facts([(fact.label, fact.text) for fact in facts]), console)
-        print_block(Warned([warning[:2] for warning in answered.warnings]), console)
+        terminal.print_block(Facts([(fact.label, fact.text) for fact in facts]), console)
+        terminal.print_block(Warned([warning[:2] for warning in answered.warnings]), console)
     for section in text_sections(answered):
-        print_section(section, console)
+        terminal.print_section(section, console)
 
 
 def write_summary(answered: AnsweredStudy, folder: ResultsFolder) -> None:
     """Write summary.txt: the first screen and every table; without seconds, so that it is the same every time."""
-    folder.write(FILE, plain_text(lambda console: print_everything(answered, console), _FILE_WIDTH))
+    folder.write(FILE, terminal.plain_text(lambda console: print_everything(answered, console), _FILE_WIDTH))
 
 
 def look_first(folder: str, width: int, parts: str = "") -> list[str]:
     """Return where to look first: the page of the folder, what the `parts` passed, and the tables if they fit."""
     passed = [f"parts: {parts}"] if parts else []
     lines = _as_fit([f"Look first: {folder}/{PAGE}"], [*passed, f"tables: {FILE}"], width)
-    return lines if parts in lines[0] else [*lines, *wrapped(f"Parts: {parts}", width, indent="  ")]
+    return lines if parts in lines[0] else [*lines, *terminal.wrapped(f"Parts: {parts}", width, indent="  ")]

@@ -172,13 +172,17 @@ _TAB_INDENT = re.compile(r"^ *\t", re.MULTILINE)
 
 
 def read_text(path: Path, problems: Mistakes) -> str:
-    """Return the text of a file; raises InputError, in words, where it is no file that could be a study."""
-    return _decode(_bytes(path), problems)
+    """Return the text of a file; raises InputError, in words, where it is no file that could be a study.
 
-
-def _decode(raw: bytes, problems: Mistakes) -> str:
-    """Return the text of the bytes; raises StudyError where they are too many, not UTF-8 or hold control characters."""
-    whole = At(0, 0)
+    It is a StudyError if it is too large, not UTF-8 or has control characters.
+    """
+    shown, whole = printable(path), At(0, 0)
+    try:
+        raw = ordinary_bytes(
+            path, MOST_BYTES, "a study file (YAML)", lambda size: StudyError([Mistake(shown, 0, 0, "", _too_big(size))])
+        )
+    except FileNotFoundError:
+        raise InputError(f"{shown}: no such file; {_similar(path) or '`tvimdesign new` writes a study'}") from None
     if len(raw) > MOST_BYTES:
         problems.add(whole, "", _too_big(len(raw)))
         problems.stop()
@@ -212,17 +216,6 @@ def check_characters(text: str, problems: Mistakes, place: At | None = None) -> 
         )
     problems.stop()
     return text
-
-
-def _bytes(path: Path) -> bytes:
-    """Return the bytes of an ordinary file of a study's size; raises InputError, in words, for anything else."""
-    shown = printable(path)
-    try:
-        return ordinary_bytes(
-            path, MOST_BYTES, "a study file (YAML)", lambda size: StudyError([Mistake(shown, 0, 0, "", _too_big(size))])
-        )
-    except FileNotFoundError:
-        raise InputError(f"{shown}: no such file; {_similar(path) or '`tvimdesign new` writes a study'}") from None
 
 
 def _similar(path: Path) -> str:

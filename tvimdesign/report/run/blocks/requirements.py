@@ -40,13 +40,8 @@ class Requirement:
     def cells(self) -> tuple[str, ...]:
         """The row under `HEADS`."""
         title = f"{label(self.name.partition('@')[0])}, {self.state}" if self.state else label(self.name)
-        cases = (
-            ""
-            if self.met_in is None
-            else "all cases"
-            if self.met_in == 1.0
-            else f"{int(100.0 * self.met_in)} % of cases"
-        )
+        cases = "" if self.met_in is None else f"{int(100.0 * self.met_in)} % of cases"
+        cases = "all cases" if self.met_in == 1.0 else cases
         return title, self.requested, self.got, self.range, cases, self.stands
 
     @property

@@ -22,14 +22,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Tone
 from tvimdesign.report.output.numbers import in_labels, label, percent
 from tvimdesign.report.output.tables import margin_text
 from tvimdesign.report.run.blocks.warnings import RunWarning, missed_points
 from tvimdesign.report.run.uncertainty_data import yield_of
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
-from tvimdesign.solve.result import ConstraintCheck, StudyResult
+from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import DOUBTFUL
 
 TARGET = 0.95  # Yield below which a design without margins is only a nominal one
@@ -91,11 +91,8 @@ def _infeasible(answer: StudyResult) -> str:
         return "No design found in time: raise solver.time_limit"
     if answer.design.status == FLAT_GOAL:
         return "No optimum: nothing under `vary` moves what is minimised"
-    violated = [check for check in answer.checks if not check.met]
-    if violated:
-        table = table_for(answer.design.mode)
-        return f"No design found: the nearest violates {_violation(_worst(violated), table)}"
-    return "No design found"
+    worst, _ = _violated(answer)
+    return f"No design found: the nearest violates {worst}" if worst else "No design found"
 
 
 def _unfit(answer: StudyResult) -> Verdict | None:
@@ -103,20 +100,17 @@ def _unfit(answer: StudyResult) -> Verdict | None:
         return Verdict("unfit", "Do not build it: it never gets soft within `horizon`")
     if math.isinf(answer.design.value("stiffening_time")):
         return Verdict("unfit", "Do not build it: it never gets stiff again within `horizon`")
-    violated = [check for check in answer.checks if not check.met]
-    if not violated:
-        return None
+    worst, count = _violated(answer)
+    said = f"Do not build it: {count} of {len(answer.checks)} limits are violated, most {worst}"
+    return Verdict("unfit", said) if worst else None
+
+
+def _violated(answer: StudyResult) -> tuple[str, int]:
+    """Return the limit that is violated most, in words and by how much, and how many are; empty if none is."""
+    violated = sorted((check for check in answer.checks if not check.met), key=lambda check: check.worst)
     table = table_for(answer.design.mode)
-    count = f"{len(violated)} of {len(answer.checks)} limits are violated, most "
-    return Verdict("unfit", f"Do not build it: {count}{_violation(_worst(violated), table)}")
-
-
-def _worst(checks: Sequence[ConstraintCheck]) -> ConstraintCheck:
-    return min(checks, key=lambda check: check.worst)
-
-
-def _violation(check: ConstraintCheck, table: Table) -> str:
-    return f"{in_labels(check.text)}, by {margin_text(check, table).lstrip('-')}"
+    texts = [f"{in_labels(check.text)}, by {margin_text(check, table).lstrip('-')}" for check in violated[:1]]
+    return "".join(texts), len(violated)
 
 
 def _above_rating(answer: StudyResult) -> Verdict | None:
@@ -163,7 +157,7 @@ def _add_margins(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict
 
 
 def _not_yet(warnings: Sequence[RunWarning]) -> Verdict | None:
-    grave = next((warning for warning in warnings if warning.grave), None)
+    grave = next((warning for warning in warnings if warning.level == "grave"), None)
     if grave is None:
         return None
     what = grave.text.partition(": ")[0]

@@ -28,18 +28,13 @@ _OTHER_SIZES = "with other sizes, try"  # Advice where a part or material does n
 
 
 class RunWarning(NamedTuple):
-    """A warning: its text, what cures it, and its level, `grave`, `serious` or none."""
+    """A warning: its text, what cures it, and its level: `grave` (nobody should build it so), `serious` or none."""
 
     text: str
     cure: str = ""
     """A line of the study behind *write* if it was tried, behind *may help:* if it was not, else in words."""
     level: str = ""
     but: str = ""  # Clause of the verdict on a part that is not to be had, or on a grave warning
-
-    @property
-    def grave(self) -> bool:
-        """True if nobody should build the module as it is."""
-        return self.level == "grave"
 
 
 def warnings_of(answer: StudyResult, doubts: Sequence[str], deadline: Deadline = NEVER) -> list[RunWarning]:
