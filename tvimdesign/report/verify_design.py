@@ -160,13 +160,17 @@ def _solved(
     design: Design, module: ResolvedModule, work: Path, python: str, progress: Progress
 ) -> tuple[list[Compared], dict[str, Solved]]:
     """Export the parts and solve in a folder of work; return the rows and what each solver found."""
-    from tvimdesign.cad.jobs.main import load_kernel
-
     progress("verify: drawing the parts")
-    load_kernel()
-    export_parts(design, work / "parts")
+    _export(design, work / "parts")
     solved = run_solvers(SOLVERS, work / "parts", work, python, lambda text: progress(f"verify: {text}"))
     return compared(module, solved), solved
+
+
+def _export(design: Design, folder: Path) -> None:
+    from tvimdesign.cad.jobs.main import load_kernel
+
+    load_kernel()
+    export_parts(design, folder)
 
 
 def _write(command: Command, data: dict[str, Any], rows: list[Compared], solved: dict[str, Solved], work: Path) -> None:
