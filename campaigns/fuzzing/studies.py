@@ -63,8 +63,8 @@ def _sweep(draw: random.Random) -> Drawn:
 def _use_sweep(path: Path) -> None:
     """Do what `sweep` does before its first cell; return the texts of its first and last cell."""
     plan = plan_of(tree_of_file(path))
-    plan.points.texts(0)
-    plan.points.texts(plan.count - 1)
+    plan.texts(0)
+    plan.texts(plan.count - 1)
 
 
 @cache

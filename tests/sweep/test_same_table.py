@@ -128,7 +128,7 @@ def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(study_fi
     (tmp_path / "sitecustomize.py").write_text(KILLED_BY_TWO_MILLIMETRES)
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{ROOT}")
     sweep_plan = plan(study_file, "sweep.over.pcl_inner_radius=[20 mm]")
-    cells = [Cell(f"{number:032x}", sweep_plan.points.texts(number)) for number in range(3)]
+    cells = [Cell(f"{number:032x}", sweep_plan.texts(number)) for number in range(3)]
     spent = Pool(sweep_plan, tmp_path, 1).answer(cells, lambda _: None)
     shards = Shards(tmp_path, sweep_plan.columns)
     stored_answers = list(shards.cells(cell.key for cell in cells))

@@ -117,7 +117,7 @@ def plan_over(tmp_path: Path, sweep: str, study: str = "mode: shear\n") -> Sweep
 
 def test_grids_and_samples_lie_where_they_are_asked_for(tmp_path):
     sweep_plan = plan_over(tmp_path, "{over: {current: [1 A, 2 A], arc_count: {from: 3, to: 5}}}")
-    cells = [sweep_plan.points.texts(number) for number in range(sweep_plan.count)]
+    cells = [sweep_plan.texts(number) for number in range(sweep_plan.count)]
     assert cells == [(current, count) for current in ("1 A", "2 A") for count in ("3", "4", "5")]
     sweep_plan = plan_over(tmp_path, "{over: {current: {from: 0.5 A, to: 8 A, count: 5, spacing: logarithmic}}}")
     assert [sweep_plan.axis_values(number)[0] for number in range(5)] == pytest.approx([0.5, 1.0, 2.0, 4.0, 8.0])
@@ -128,7 +128,7 @@ def test_grids_and_samples_lie_where_they_are_asked_for(tmp_path):
     assert np.array([sweep_plan.axis_values(number) for number in range(5)]) == pytest.approx(expected, rel=1e-9)
     over = "{rate_model: [smi, bending], arc_count: {from: 3, to: 6}}"
     sweep_plan = plan_over(tmp_path, f"{{method: latin_hypercube, count: 8, over: {over}}}")
-    words, counts = zip(*(sweep_plan.points.texts(number) for number in range(8)), strict=True)
+    words, counts = zip(*(sweep_plan.texts(number) for number in range(8)), strict=True)
     assert sorted(words) == ["bending"] * 4 + ["smi"] * 4
     assert sorted(counts) == ["3", "3", "4", "4", "5", "5", "6", "6"]
 
@@ -161,13 +161,13 @@ def test_bad_or_too_many_cells_are_refused_with_advice(tmp_path):
 def test_every_cell_has_a_key_of_its_own(tmp_path, sweep):
     sweep_plan = plan_over(tmp_path, sweep, OPTIMISED)
     keys = CellKeys(sweep_plan)
-    assert len({keys.key(sweep_plan.points.texts(number)) for number in range(sweep_plan.count)}) == sweep_plan.count
+    assert len({keys.key(sweep_plan.texts(number)) for number in range(sweep_plan.count)}) == sweep_plan.count
 
 
 def test_a_key_changes_with_study_and_record_not_with_other_cells(tmp_path):
     def key(sweep: str = "{over: {current: [1 A, 2 A]}}", study: str = "mode: shear\n") -> str:
         sweep_plan = plan_over(tmp_path, sweep, study)
-        return CellKeys(sweep_plan).key(sweep_plan.points.texts(0))
+        return CellKeys(sweep_plan).key(sweep_plan.texts(0))
 
     assert key() == key() == key("{over: {current: [1 A, 3 A, 4 A]}}")
     assert key() == key("{over: {current: {from: 1000 mA, to: 2 A, count: 4}}}")
@@ -187,7 +187,7 @@ def test_a_key_changes_with_what_the_table_reads_of_a_record(tmp_path):
         )
         study = "mode: shear\ncatalog: records\nmodule: {structure_material: own}\n"
         swept = plan_over(tmp_path, "{over: {current: [1 A, 2 A]}}", study)
-        return CellKeys(swept).key(swept.points.texts(0))
+        return CellKeys(swept).key(swept.texts(0))
 
     printed = key("nozzle_temperature: {value: 250, unit: degC")
     assert printed == key("nozzle_temperature: {value: 260, unit: degC", "again")
@@ -198,7 +198,7 @@ def test_a_key_changes_with_what_the_table_reads_of_a_record(tmp_path):
 def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswer]:
     sweep_plan = plan(path, *settings)
     cells = CellAnswers(sweep_plan)
-    return {number: cells.answer(Cell("", sweep_plan.points.texts(number))) for number in order}
+    return {number: cells.answer(Cell("", sweep_plan.texts(number))) for number in order}
 
 
 def test_the_order_of_cells_changes_no_digit(study_file):
@@ -233,7 +233,7 @@ def test_optimised_cells_are_the_same_in_any_order(tmp_path):
 
 def test_workers_stay_with_a_kind_and_a_dead_one_s_cells_run_alone(study_file):
     sweep_plan = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
-    cells = [Cell(str(number), sweep_plan.points.texts(number)) for number in range(4)]
+    cells = [Cell(str(number), sweep_plan.texts(number)) for number in range(4)]
     left = CellQueue(cells, sweep_plan, workers=2)
     first, other, second = left.next(1), left.next(2), left.next(1)
     assert [cell.texts[1] for cell in (*first, *other, *second)] == ["smi", "bending", "smi"]
@@ -253,4 +253,4 @@ def test_own_records_are_found_by_a_worker_that_began_in_another_folder(tmp_path
     monkeypatch.chdir(tmp_path)
     sweep_plan = plan(Path("study.yaml"))
     monkeypatch.chdir("/")
-    assert CellAnswers(sweep_plan).answer(Cell("key", sweep_plan.points.texts(0))).status == "evaluated"
+    assert CellAnswers(sweep_plan).answer(Cell("key", sweep_plan.texts(0))).status == "evaluated"

@@ -134,7 +134,7 @@ class Sweep(Generic[StudyT]):
         return len(self.stored_cells)
 
     def __getitem__(self, number: int) -> Cell[StudyT]:
-        answer, texts = self.stored_cells[number], self.plan.points.texts(range(len(self))[number])
+        answer, texts = self.stored_cells[number], self.plan.texts(range(len(self))[number])
         names = [axis.name for axis in self.plan.axes]
         return Cell(dict(zip(names, texts, strict=True)), answer.status, answer.reason, self, texts)
 
@@ -169,7 +169,7 @@ def swept(
             return Sweep(plan, _here(plan, say), study_of)
         sweep_folder(plan, Path(out), where, say, overwrite=overwrite, resume=not overwrite, plots=False)
         keys = CellKeys(plan)
-        every = (keys.key(plan.points.texts(number)) for number in range(plan.count))
+        every = (keys.key(plan.texts(number)) for number in range(plan.count))
         return Sweep(plan, list(Shards(Path(out), plan.columns).cells(every)), study_of, Path(out))
 
 
@@ -178,7 +178,7 @@ def _here(plan: SweepPlan, say: Any) -> list[CellAnswer]:
     known: dict[tuple[str, ...], CellAnswer] = {}
     for number in range(plan.count):
         say(f"cell {number + 1} of {plan.count}")
-        texts = plan.points.texts(number)
+        texts = plan.texts(number)
         if texts not in known:
             known[texts] = answers.answer(AskedCell("", texts))
         cells.append(known[texts])

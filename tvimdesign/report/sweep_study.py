@@ -119,7 +119,7 @@ def swept_facts(plan: SweepPlan, seen: CellTable) -> Facts:
     rows += [("Every limit met", f"in {seen.keeping} of {plan.count} cells")]
     for name, best in seen.best.items():
         value = f"{number(best['value'])} {pretty(best['unit'])}".strip()
-        texts = plan.points.texts(int(best["cell"]) - 1)
+        texts = plan.texts(int(best["cell"]) - 1)
         at = ", ".join(f"{axis.name} {text}" for axis, text in zip(plan.axes, texts, strict=True))
         rows += [(f"Least {name}", f"{value} in cell {best['cell']:g} ({at}), among the feasible cells")]
     if not seen.best:

@@ -15,7 +15,7 @@ from tvimdesign.solve.uncertainty.tolerance import Preload, Spread
 from tvimdesign.study import Study
 from tvimdesign.study.text.values import difference_unit
 
-Row = dict[str, str | float | None]
+Row = dict[str, Any]
 _NO_SPREAD = 1e-9  # Standard deviation over the value below which an output does not spread
 
 
@@ -75,27 +75,21 @@ def contributor_rows(spread: Spread, table: Table, study: Study) -> Iterator[Row
 
 def reported(spread: Spread, preload: Preload | None, table: Table, study: Study, samples: int) -> dict[str, Any]:
     """Return everything as plain data."""
+    columns, rows = _columns(spread), list(output_rows(spread, table))
+    for i, row in enumerate(rows):
+        numbers = {key: finite(float(column[i])) for key, column in columns.items()}
+        row["si"] = {**numbers, "unit": pretty(si_unit(table.unit(spread.outputs[i])))}
     return {
         **head(),
         "samples": samples,
         "yield": share_entry(spread.together),
-        "outputs": [
-            {**row, "si": si} for row, si in zip(output_rows(spread, table), _outputs_in_si(spread, table), strict=True)
-        ],
+        "outputs": rows,
         "limits": list(limit_rows(spread, table)),
         "contributors": list(contributor_rows(spread, table, study)),
         "corners": spread.worst.corners,
         "free_angle": None if preload is None else _preload(preload),
         "left_out": list(spread.left_out),
     }
-
-
-def _outputs_in_si(spread: Spread, table: Table) -> Iterator[dict[str, str | float | None]]:
-    """Yield the numbers of each output's row in SI."""
-    columns = _columns(spread)
-    for i, name in enumerate(spread.outputs):
-        numbers = {key: finite(float(column[i])) for key, column in columns.items()}
-        yield {**numbers, "unit": pretty(si_unit(table.unit(name)))}
 
 
 def _preload(preload: Preload) -> dict[str, float]:

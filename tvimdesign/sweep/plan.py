@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,11 +54,50 @@ def rounded(value: float) -> float:
     return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else value
 
 
-@dataclass(frozen=True)
-class CellPoints:
-    """The cells of a sweep in their order: of a grid the last axis changes fastest."""
+def _length(axis: SweptAxis) -> int:
+    return axis.range.count if axis.range else len(axis.values)
 
+
+def _nth(axis: SweptAxis, place: int) -> str:
+    """Return a value of a grid: one of the list, or evenly between the ends."""
+    if axis.range is None:
+        return axis.values[place].value
+    return written(axis, _between(axis.range, place / (axis.range.count - 1) if axis.range.count > 1 else 0.0))
+
+
+def _at_share(axis: SweptAxis, share: float) -> str:
+    """Return a value of a sample: each of a list, or each whole number, as often as the others."""
+    span = axis.range
+    if span is None:
+        return axis.values[int(share * len(axis.values))].value
+    if axis.whole:
+        return written(axis, span.lower + math.floor(share * (span.upper - span.lower + 1.0)))
+    return written(axis, _between(span, share))
+
+
+def _between(span: SweptRange, share: float) -> float:
+    if span.logarithmic:
+        return float(span.lower * (span.upper / span.lower) ** share)
+    return span.lower + share * (span.upper - span.lower)
+
+
+ALWAYS = ("module_mass", "envelope_diameter", "response_time")
+"""Outputs that every table has, whatever the study minimises and requires."""
+
+
+@dataclass(frozen=True)
+class SweepPlan:
+    """Plan of a sweep, cell by cell: of a grid the last axis changes fastest. It can be pickled."""
+
+    tree: StudyTree  # The study without `sweep` and `front`; its folder is a whole path, as workers may start elsewhere
+    study: Study
     block: SweepBlock
+    written: StudyTree  # As it was written, its sweep included
+
+    @property
+    def axes(self) -> tuple[SweptAxis, ...]:
+        """Return the swept axes."""
+        return self.block.axes
 
     @cached_property
     def count(self) -> int:
@@ -93,70 +132,14 @@ class CellPoints:
             return qmc.Sobol(axes, rng=seed).random_base2(max(count - 1, 1).bit_length())[:count]
         return qmc.LatinHypercube(axes, rng=seed).random(count)
 
-    def __getstate__(self) -> dict[str, SweepBlock]:
+    def __getstate__(self) -> dict[str, Any]:
         """Return what a pickle holds; a sample is drawn again where it is read."""
-        return {"block": self.block}
-
-
-def _length(axis: SweptAxis) -> int:
-    return axis.range.count if axis.range else len(axis.values)
-
-
-def _nth(axis: SweptAxis, place: int) -> str:
-    """Return a value of a grid: one of the list, or evenly between the ends."""
-    if axis.range is None:
-        return axis.values[place].value
-    return written(axis, _between(axis.range, place / (axis.range.count - 1) if axis.range.count > 1 else 0.0))
-
-
-def _at_share(axis: SweptAxis, share: float) -> str:
-    """Return a value of a sample: each of a list, or each whole number, as often as the others."""
-    span = axis.range
-    if span is None:
-        return axis.values[int(share * len(axis.values))].value
-    if axis.whole:
-        return written(axis, span.lower + math.floor(share * (span.upper - span.lower + 1.0)))
-    return written(axis, _between(span, share))
-
-
-def _between(span: SweptRange, share: float) -> float:
-    if span.logarithmic:
-        return float(span.lower * (span.upper / span.lower) ** share)
-    return span.lower + share * (span.upper - span.lower)
-
-
-ALWAYS = ("module_mass", "envelope_diameter", "response_time")
-"""Outputs that every table has, whatever the study minimises and requires."""
-
-
-@dataclass(frozen=True)
-class SweepPlan:
-    """Plan of a sweep, cell by cell; it can be pickled."""
-
-    tree: StudyTree  # The study without `sweep` and `front`; its folder is a whole path, as workers may start elsewhere
-    study: Study
-    block: SweepBlock
-    written: StudyTree  # As it was written, its sweep included
-
-    @cached_property
-    def points(self) -> CellPoints:
-        """Return the values of the cells."""
-        return CellPoints(self.block)
-
-    @property
-    def axes(self) -> tuple[SweptAxis, ...]:
-        """Return the swept axes."""
-        return self.block.axes
-
-    @property
-    def count(self) -> int:
-        """Return how many cells there are."""
-        return self.points.count
+        return {name: value for name, value in vars(self).items() if name != "_shares"}
 
     @cached_property
     def first(self) -> Study:
         """The study of the first cell, as what is free and what is limited is the same in every cell."""
-        return read_tree(self.cell_tree(self.points.texts(0)))
+        return read_tree(self.cell_tree(self.texts(0)))
 
     @property
     def task(self) -> Literal["evaluate", "optimize"]:
@@ -165,7 +148,7 @@ class SweepPlan:
 
     def axis_values(self, cell: int) -> list[float | str]:
         """Return where a cell stands on each axis: numbers in the axis's unit, of limits as well; else the words."""
-        return [axis_value(axis, text) for axis, text in zip(self.axes, self.points.texts(cell), strict=True)]
+        return [axis_value(axis, text) for axis, text in zip(self.axes, self.texts(cell), strict=True)]
 
     def words(self, texts: Texts) -> Texts:
         """Return what a cell is set to, without what a search can follow from another cell's optimum."""
@@ -245,7 +228,7 @@ def swept_cells(tree: StudyTree) -> int:
 
 def _refuse_wrong_values(plan: SweepPlan) -> None:
     """Read the study once with each listed value, the other axes as in the first cell."""
-    start, problems = plan.points.texts(0), []
+    start, problems = plan.texts(0), []
     for place, axis in enumerate(plan.axes):
         listed = [row[place] for row in plan.block.rows] if plan.block.rows else list(axis.values)
         seen = set()

@@ -62,26 +62,24 @@ class SweepDone:
 def run_sweep(plan: SweepPlan, folder: Path, executor: Executor, say: Say) -> SweepDone:
     """Compute every cell of this part that the store in the folder does not have. Raises OutputError, TvimError."""
     say("looking for cells that are there")
-    cell_keys, points = CellKeys(plan), plan.points
-    keys = [cell_keys.key(points.texts(number)) for number in range(plan.count)]
+    cell_keys = CellKeys(plan)
+    keys = [cell_keys.key(plan.texts(number)) for number in range(plan.count)]
     first, parts = executor.part
     known, own = Shards(folder, plan.columns), range(first - 1, len(keys), parts)
-    waiting = {keys[number]: Cell(keys[number], points.texts(number)) for number in own if keys[number] not in known}
+    waiting = {keys[number]: Cell(keys[number], plan.texts(number)) for number in own if keys[number] not in known}
     reused = len(own) - sum(keys[number] in waiting for number in own)
     spent, there = Usage(), known
+
+    def heard(spent: Usage) -> None:
+        say(f"cell {min(spent.cells + 1, len(waiting))} of {len(waiting)}")
+
     if waiting:
-        spent = _answered(plan, list(waiting.values()), folder, executor, say)
+        heard(spent)
+        pool = Pool(plan, folder, executor.workers or os.cpu_count() or 1)
+        spent = pool.answer(list(waiting.values()), heard)
         there = Shards(folder, plan.columns)
     missing = sum(key not in there for key in keys)
     return SweepDone(len(keys), reused, len(own) - reused, missing, spent, () if missing else tuple(keys))
-
-
-def _answered(plan: SweepPlan, cells: list[Cell], folder: Path, executor: Executor, say: Say) -> Usage:
-    def heard(spent: Usage) -> None:
-        say(f"cell {min(spent.cells + 1, len(cells))} of {len(cells)}")
-
-    heard(Usage())
-    return Pool(plan, folder, executor.workers or os.cpu_count() or 1).answer(cells, heard)
 
 
 _NOT_OF_THE_DESIGN = {"name", "description", "front", "write", "catalog_folder"}

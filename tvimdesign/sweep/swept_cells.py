@@ -116,7 +116,7 @@ class SweptCells:
         row = next(iter(_rows(self.folder, "WHERE cell = ?", [number])), None)
         if row is None:
             raise InputError(f"cell {number}: {self.folder / _TABLE} has no such cell; sweep again with --resume")
-        texts = self.plan.points.texts(number - 1)
+        texts = self.plan.texts(number - 1)
         changes = {axis.name: text for axis, text in zip(self.plan.axes, texts, strict=True)}
         tree = self.plan.cell_tree(texts)
         study, answered = read_tree(tree), row["violated"] is not None

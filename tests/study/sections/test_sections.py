@@ -8,7 +8,8 @@ import pytest
 import yaml
 
 from tvimdesign.device import table_for
-from tvimdesign.study import Options, Range, Study, StudyError, Vary, read_study_text
+from tvimdesign.study import Options, Range, Study, StudyError, read_study_text
+from tvimdesign.study.study import Vary
 from tvimdesign.study.written_studies import json_schema
 
 Read = Callable[..., Study]

@@ -6,10 +6,11 @@ import pytest
 
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import MODES, Input, table_for
-from tvimdesign.study import Robust, Study, read_study_text, standard_tolerances
+from tvimdesign.study import Study, read_study_text, standard_tolerances
 from tvimdesign.study.reader import read_swept
 from tvimdesign.study.sections.sweeps import SweepBlock, SweptRange
 from tvimdesign.study.sections.tolerances import standard_entries
+from tvimdesign.study.study import Robust
 from tvimdesign.study.tree import tree_of_values
 
 SEARCH = "vary: {current: [0.5 A, 2 A]}\nminimize: module_mass\n"

@@ -10,15 +10,8 @@ from rich.markup import escape
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.page.blocks import Block, Drawn, Folded, Grid, Listing, Points, Section, Warned, Words
-from tvimdesign.report.compare.comparison_table import (
-    ParetoComparison,
-    Row,
-    against,
-    common_rows,
-    conditions,
-    plain,
-    standing,
-)
+from tvimdesign.report.compare import comparison_table
+from tvimdesign.report.compare.comparison_table import ParetoComparison, Row
 from tvimdesign.report.output.numbers import axis_label, csv_text, finite_in, head, in_unit, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
@@ -73,7 +66,11 @@ class Outcome:
     @cached_property
     def rows(self) -> dict[str, list[Row]]:
         """Return the rows that all designs have, by comparison; none where fewer than two studies have an answer."""
-        return {which: common_rows(designs, self.tables) for which, designs in self.designs.items() if len(designs) > 1}
+        return {
+            which: comparison_table.common_rows(designs, self.tables)
+            for which, designs in self.designs.items()
+            if len(designs) > 1
+        }
 
     # --- fronts ---
 
@@ -147,23 +144,20 @@ class Outcome:
     @cached_property
     def conclusions(self) -> list[str]:
         """The sentences that follow, the conditions first."""
-        sentences = [self.sentence, *self._verdicts()]
+        designs = {label: answer.get(self.which, {}) for label, answer in self.answers.items()}
+        sentences = [self.sentence]
+        sentences += [f"Verdict on {label}: {of['verdict']}." for label, of in designs.items() if of.get("verdict")]
         for which in self.rows:
             texts = self._against(which) if which != self.which else []
             broken = self._violated(which) if which != self.which else []
             sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in (*texts, *broken)]
-        return [*sentences, *(standing(contest) for contest in self.contests)]
-
-    def _verdicts(self) -> list[str]:
-        designs = {label: answer.get(self.which, {}) for label, answer in self.answers.items()}
-        texts = [f"{label}: {design['verdict']}." for label, design in designs.items() if design.get("verdict")]
-        return [f"Verdict on {text}" for text in texts]
+        return [*sentences, *(comparison_table.standing(contest) for contest in self.contests)]
 
     @property
     def sentence(self) -> str:
         """The answer with its conditions: how the others stand against the first."""
         reported = [*self._without_design(), *self._violated(self.which), *self._against(self.which)]
-        alike = ", ".join(conditions(self.cases))
+        alike = ", ".join(comparison_table.conditions(self.cases))
         count = f"{len(self.differences)} different conditions (below)"
         return f"With {count if self.differences else alike}, {COMPARISONS[self.which]}: {'; '.join(reported)}."
 
@@ -180,7 +174,7 @@ class Outcome:
         labels = list(self.designs[which])
         rows = self.rows.get(which, [])
         reported = list(next(iter(self.cases.values())).study.minimize) or list(_DEFAULT_OUTPUTS)
-        return [against(label, labels[0], rows, reported) for label in labels[1:]]
+        return [comparison_table.against(label, labels[0], rows, reported) for label in labels[1:]]
 
     def plain(self) -> dict[str, Any]:
         """Return everything a script wants to know."""
@@ -190,7 +184,7 @@ class Outcome:
             "conclusions": self.conclusions,
             "differences": self.differences,
             "studies": {label: self._study(label) for label in self.cases},
-            "comparisons": {which: [plain(row) for row in rows] for which, rows in self.rows.items()},
+            "comparisons": {which: [comparison_table.plain(row) for row in rows] for which, rows in self.rows.items()},
             "leads": [contest.plain() for contest in self.contests],
             "fronts": self.fronts_plain() if self.fronts else {},
             "seconds": self.seconds,

@@ -71,29 +71,21 @@ class Uncertainty:
         tolerances = resolved.study.tolerances if self.own else standard_tolerances(self.table)
         return replace(resolved, study=resolved.study.model_copy(update={"tolerances": tolerances}))
 
-    def of(
-        self, design: Design, modules: int = MODULES, draws: int = DRAWS, deadline: Deadline = NEVER
-    ) -> DesignUncertainty:
-        """Return the uncertainty of one design; `modules` and `draws` are powers of two, without `modules` no yield.
+    def data(self, design: Design, modules: int = MODULES, deadline: Deadline = NEVER) -> dict[str, Any]:
+        """Return a design's entry for results.json, with the assumptions for the screen.
 
-        Raises TimeOverError at the deadline.
+        `modules` is a power of two; without modules there is no yield. Raises TimeOverError at the deadline.
         """
         resolved = self._tolerant(resolve_design(design))
         if not self.model.fits(resolved):  # another record was chosen
             self.model = UncertaintyModel(resolved, self.requested)
-        return self.model.at(resolved, modules, draws, deadline=deadline)
-
-    def data(
-        self, design: Design, modules: int = MODULES, draws: int = DRAWS, deadline: Deadline = NEVER
-    ) -> dict[str, Any]:
-        """Return the entry for results.json, with the assumptions for the screen. Raises TimeOverError."""
-        uncertainty = self.of(design, modules, draws, deadline)
+        uncertainty = self.model.at(resolved, modules, DRAWS, deadline=deadline)
         rows = {
             name: _rows(name, interval.swings, interval.nominal, self.table)
             for name, interval in uncertainty.intervals.items()
         }
         assumptions = {name: rows.get(name, []) for name in self.requested}
-        entry = self.entry(uncertainty, modules, draws)
+        entry = self._entry(uncertainty, modules)
         return {**entry, "assumptions": assumptions, "needs": self._needs(uncertainty)}
 
     def _needs(self, uncertainty: DesignUncertainty) -> str:
@@ -116,8 +108,7 @@ class Uncertainty:
         end = float(np.interp(0.0, residuals[order], at[order]))
         return f"{label(main)} {'<=' if rising else '>='} {with_unit(end, self.table.unit(main), 3)}"
 
-    def entry(self, uncertainty: DesignUncertainty, modules: int, draws: int) -> UncertaintyEntry:
-        """Return plain data for results.json."""
+    def _entry(self, uncertainty: DesignUncertainty, modules: int) -> UncertaintyEntry:
         return {
             "parts_yield": share_entry(uncertainty.together),
             "modules": modules,
@@ -125,7 +116,7 @@ class Uncertainty:
             "left_out": list(uncertainty.left_out),
             "tolerances": "study" if self.own else "standard",
             "ranges_hold": share_entry(uncertainty.holds),
-            "draws": draws,
+            "draws": DRAWS,
             "held": uncertainty.held,
             "intervals": {
                 name: interval_entry(name, interval, self.table, uncertainty.before.get(name))

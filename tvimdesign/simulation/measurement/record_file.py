@@ -10,9 +10,9 @@ import numpy as np
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.base.units import from_si
+from tvimdesign.catalog import Catalog
 from tvimdesign.simulation.measurement.fitting.fit import Estimate
 from tvimdesign.simulation.measurement.measure_files import Measured
-from tvimdesign.study import Catalog
 
 BASED_ON = {
     "spring_materials": "music_wire",
