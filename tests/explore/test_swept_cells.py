@@ -14,12 +14,14 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si
 from tvimdesign.explore.source import open_source
 from tvimdesign.explore.state import State, controls_shown, sized_state, tree_of
+from tvimdesign.report.output.command import Command
 from tvimdesign.report.sweep_study import sweep_folder
 from tvimdesign.study import read_study_text, read_tree
 from tvimdesign.study.sizing import JointTask, study_text
 from tvimdesign.study.tree import tree_of_text
 from tvimdesign.sweep.plan import plan_of
 from tvimdesign.sweep.run_sweep import Executor
+from tvimdesign.sweep.shards import SHARDS
 
 STUDY = sample_text("swept_cells")
 """The first cell has no design: its layer is too thin for the strain, which nothing that varies changes."""
@@ -41,8 +43,8 @@ def _swept(folder: Path, text: str) -> Path:
     path = folder / "swept.yaml"
     path.write_text(text, encoding="utf-8")
     plan = plan_of(tree_of_text(text, str(path), "swept", folder))
-    where = Executor(workers=1)
-    sweep_folder(plan, folder / "out", where, lambda _: None, overwrite=False, resume=False, plots=False)
+    command = Command(folder / "out", keep=SHARDS, progress=lambda _: None)
+    sweep_folder(plan, Executor(workers=1), command, plots=False)
     return folder / "out"
 
 

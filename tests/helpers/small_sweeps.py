@@ -3,10 +3,12 @@
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.report.output.command import Command
 from tvimdesign.report.sweep_study import sweep_folder
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import Executor
+from tvimdesign.sweep.shards import SHARDS
 
 SMALL = """
 mode: shear
@@ -26,7 +28,8 @@ def plan(path: Path, *settings: str) -> SweepPlan:
 
 def swept(path: Path, out: Path, *, resume: bool = False, **where: Any) -> dict[str, Any]:
     """Sweep a study into a folder, as the command does; return its report of the run."""
-    done = sweep_folder(plan(path), out, Executor(**where), lambda _: None, overwrite=False, resume=resume, plots=False)
+    command = Command(out, resume=resume, keep=SHARDS, progress=lambda _: None)
+    done = sweep_folder(plan(path), Executor(**where), command, plots=False)
     run: dict[str, Any] = done["run"]
     return run
 

@@ -19,20 +19,10 @@ from support import STUDIES, refused, sample_text
 from tvimdesign import __version__
 from tvimdesign.device import MODES, Output, Table, table_for
 from tvimdesign.solve.nlp.constraints import constraints_of
-from tvimdesign.study import (
-    Options,
-    Range,
-    Requirement,
-    Study,
-    StudyError,
-    given,
-    read_study,
-    read_study_text,
-    template_text,
-)
+from tvimdesign.study import Options, Range, Requirement, Study, StudyError, given, read_study, read_study_text
 from tvimdesign.study.sections import NAMES
 from tvimdesign.study.text.mistakes import Mistake
-from tvimdesign.study.written_studies import example_text, json_schema
+from tvimdesign.study.written_studies import example_text, json_schema, template_text
 
 Read = Callable[..., Study]
 Refuse = Callable[..., list[str]]

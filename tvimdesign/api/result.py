@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from tvimdesign.api import notebook
 from tvimdesign.api.notebook import shown_progress
-from tvimdesign.api.tables import constraint_table, cycle_table, interval_table, quantity, value_table
+from tvimdesign.api.tables import cycle_table, interval_table, quantity, value_table
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import format_quantity, parse_quantity
-from tvimdesign.report.output.tables import margin_text, value_text
+from tvimdesign.report.output.tables import check_row, margin_text, value_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, drawings
 from tvimdesign.report.run.reasons import complaint, sentences, why_rows
 from tvimdesign.study.design import Design, write_design
@@ -178,7 +178,9 @@ class Result(Generic[StudyT]):
 
     def requirements(self) -> pd.DataFrame:
         """Return a table of every requirement and rule of the machine: limit, value, margin and state."""
-        return constraint_table(self._answered)
+        import pandas as pd
+
+        return pd.DataFrame([check_row(check, self._answered.study.table) for check in self._answered.result.checks])
 
     @property
     def cycle(self) -> pd.DataFrame:

@@ -15,6 +15,7 @@ from tvimdesign.api.notebook import shown_progress
 from tvimdesign.api.result import Result, StudyT
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
+from tvimdesign.report.output.command import Command
 from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.report.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
@@ -22,7 +23,7 @@ from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.plan import Cell as AskedCell
 from tvimdesign.sweep.plan import CellAnswer, SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import CellKeys, Executor
-from tvimdesign.sweep.shards import Shards, columns, status_values
+from tvimdesign.sweep.shards import SHARDS, Shards, columns, status_values
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -167,7 +168,8 @@ def swept(
     with shown_progress(progress) as say:
         if out is None:
             return Sweep(plan, _here(plan, say), study_of)
-        sweep_folder(plan, Path(out), where, say, overwrite=overwrite, resume=not overwrite, plots=False)
+        command = Command(Path(out), overwrite=overwrite, resume=not overwrite, keep=SHARDS, progress=say)
+        sweep_folder(plan, where, command, plots=False)
         keys = CellKeys(plan)
         every = (keys.key(plan.texts(number)) for number in range(plan.count))
         return Sweep(plan, list(Shards(Path(out), plan.columns).cells(every)), study_of, Path(out))

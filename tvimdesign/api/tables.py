@@ -7,7 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.units import from_si
-from tvimdesign.report.output.tables import NOTHING, check_row
+from tvimdesign.report.output.tables import NOTHING
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves
 from tvimdesign.study import Study
@@ -66,13 +66,6 @@ def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
         })  # fmt: skip
     columns = ["name", "value", "unit", "meaning", "status", "low", "high", "group"]
     return pd.DataFrame(rows, columns=columns).astype({"low": float, "high": float}).set_index("name")
-
-
-def constraint_table(answered: AnsweredStudy) -> pd.DataFrame:
-    """Return a table of every requirement and rule: limit, value, unit, margin and its unit, state and source."""
-    import pandas as pd
-
-    return pd.DataFrame([check_row(check, answered.study.table) for check in answered.result.checks])
 
 
 def cycle_table(histories: Mapping[str, Curves]) -> pd.DataFrame:

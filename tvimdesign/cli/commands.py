@@ -170,9 +170,9 @@ def size(
 @app.command()
 def schema() -> None:
     """Print the JSON Schema of studies. An editor then knows names, units and descriptions."""
-    from tvimdesign.report.run.study_files import print_schema
+    from tvimdesign.study.written_studies import schema_text
 
-    print_schema()
+    print(schema_text(), end="")
 
 
 @app.command()

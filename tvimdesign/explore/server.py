@@ -9,7 +9,7 @@ import re
 import secrets
 import signal
 import webbrowser
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -65,22 +65,19 @@ class Server:
         app.router.add_get(f"{base}/socket", self._socket)
         app.router.add_get(f"{base}/static/{{room}}/{{path:.+}}", self._static)
         app.router.add_get(f"{base}/{PARTS}/{{path:.+}}", self._part)
-        app.on_startup.append(self._open)
+        app.cleanup_ctx.append(self._with_session)
         app.on_shutdown.append(self._end_pages)
-        app.on_cleanup.append(self._close)
         return app
 
-    async def _open(self, _: web.Application) -> None:
+    async def _with_session(self, _: web.Application) -> AsyncIterator[None]:
         self.session = Session(self._source, self._folder, self._send, self._settings, overwrite=self._overwrite)
+        yield
+        self.session.close()
 
     async def _end_pages(self, _: web.Application) -> None:
         """Tell the pages; a server that ends would wait a minute for those that stay open."""
         ended = (socket.close(code=WSCloseCode.GOING_AWAY) for socket in self._sockets)
         await asyncio.gather(*ended, return_exceptions=True)
-
-    async def _close(self, _: web.Application) -> None:
-        if self.session:
-            self.session.close()
 
     def _send(self, message: dict[str, Any]) -> None:
         """To every page; one that does not read is not waited for."""
@@ -139,7 +136,8 @@ class Server:
         queue: asyncio.Queue[str] = asyncio.Queue()
         answers = sorted(session.answers.values(), key=lambda reply: int(reply["number"]))
         drafts = [session.draft] if session.draft else []
-        for reply in (session.state_shown(), session.points_shown(), *answers, *drafts):
+        points = {"kind": "points", "points": session.source.points_shown()}  # drawn once; null if there are none
+        for reply in (session.state_shown(), points, *answers, *drafts):
             queue.put_nowait(json.dumps(reply, allow_nan=False))
         self._pages.add(queue)
         self._sockets.add(socket)

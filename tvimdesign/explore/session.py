@@ -258,10 +258,6 @@ class Session:
             "folder": str(self.folder), "parts": self.parts.shown,
         }  # fmt: skip
 
-    def points_shown(self) -> Reply:
-        """Return the points of the front or the cells of the sweep, which a page draws once; null if there are none."""
-        return {"kind": "points", "points": self.source.points_shown()}
-
     def _ask(self, stage: Stage) -> None:
         self._number += 1
         self.solver.ask(self._job(self._number, stage))

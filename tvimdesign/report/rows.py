@@ -152,42 +152,35 @@ def _facts(plain: dict[str, Any]) -> str:
 
 
 def _plain(row: Quantity) -> dict[str, Any]:
-    if isinstance(row, Choice):
-        allowed = ", ".join(words_of(row))
-        return _entry(row, "choice", "", f"from {row.record[0]}" if row.record else row.default, allowed)
-    name = f"{row.name}@point" if row.per_point else row.name
-    if isinstance(row, Input):
-        kind = "variable" if row.variable else "input"
-        ends = (row.lower, row.upper)
-        if row.record and not math.isfinite(row.upper):
-            return _entry(row, kind, row.unit, f"from {row.record[0]}", "", name)
-        default = "" if row.default is None else in_unit(row.default, row.unit)
-        if row.record and not row.falls_back:
-            default = f"from {row.record[0]}"
-        allowed = " to ".join(in_unit(end, row.unit) if math.isfinite(end) else "any" for end in ends)
-        return _entry(row, kind, row.unit, default, allowed, name)
-    rules = "; ".join(f"{r.sense} {in_unit(r.value, row.unit)}" for r in row.rules)
-    return _entry(row, "output", row.unit, "", rules, name)
-
-
-def _only_with(row: Quantity) -> str:
-    """Return the feature without which an input or a choice has no effect; empty for an output."""
+    """Return a row as plain data; an input or a choice says without which feature it has no effect."""
+    kind, default, allowed = _value(row)
     idle = () if isinstance(row, Output) else row.requires
-    return "".join(f"; of no effect while {feature.choice} is {feature.without}" for feature in idle)
-
-
-def _entry(row: Quantity, kind: str, unit: str, default: str, allowed: str, name: str = "") -> dict[str, Any]:
+    without = "".join(f"; of no effect while {feature.choice} is {feature.without}" for feature in idle)
     return {
-        "name": name or row.name,
+        "name": row.name if isinstance(row, Choice) or not row.per_point else f"{row.name}@point",
         "kind": kind,
-        "unit": pretty(unit),
+        "unit": "" if isinstance(row, Choice) else pretty(row.unit),
         "default": default,
         "allowed": allowed,
         "group": row.group,
-        "description": row.description + _only_with(row),
+        "description": row.description + without,
         "source": row.source if isinstance(row, Input) else "",
         "range": _range(row) if isinstance(row, Input) else "",
     }
+
+
+def _value(row: Quantity) -> tuple[str, str, str]:
+    """Return what kind of row it is, its default, and what its value may be."""
+    if isinstance(row, Choice):
+        return "choice", f"from {row.record[0]}" if row.record else row.default, ", ".join(words_of(row))
+    if isinstance(row, Output):
+        return "output", "", "; ".join(f"{rule.sense} {in_unit(rule.value, row.unit)}" for rule in row.rules)
+    kind = "variable" if row.variable else "input"
+    default = "" if row.default is None else in_unit(row.default, row.unit)
+    if row.record and not (row.falls_back and math.isfinite(row.upper)):
+        default = f"from {row.record[0]}"
+    ends = [in_unit(end, row.unit) if math.isfinite(end) else "any" for end in (row.lower, row.upper)]
+    return kind, default, "" if row.record and not math.isfinite(row.upper) else " to ".join(ends)
 
 
 def _range(row: Input) -> str:

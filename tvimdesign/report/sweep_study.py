@@ -24,7 +24,7 @@ from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import head, number
 from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.terminal import Progress, duration, progress_output, wide_console
+from tvimdesign.report.output.terminal import duration, progress_output, wide_console
 from tvimdesign.report.sweep_figures import figure_data, figures
 from tvimdesign.study.tree import study_file, study_text, tree_of_file
 from tvimdesign.sweep.plan import SweepPlan, plan_of, written
@@ -149,7 +149,7 @@ def sweep_study(
     plan = plan_of(tree_of_file(path, settings))
     if executor.alone:
         command = Command(out, overwrite=overwrite, as_json=as_json, resume=resume, keep=SHARDS)
-        summary = _swept(plan, executor, command, plots=plots)
+        summary = sweep_folder(plan, executor, command, plots=plots)
     else:
         command = Command(out, as_json=as_json, resume=True, keep=SHARDS)
         part = _part(plan, executor, command, overwrite=overwrite, plots=plots)
@@ -159,19 +159,11 @@ def sweep_study(
     command.report(summary, f"{FILE} and the tables are")
 
 
-def sweep_folder(
-    plan: SweepPlan, out: Path, executor: Executor, progress: Progress, *, overwrite: bool, resume: bool,
-    plots: bool = True,
-) -> dict[str, Any]:  # fmt: skip
+def sweep_folder(plan: SweepPlan, executor: Executor, command: Command, *, plots: bool) -> dict[str, Any]:
     """Answer every cell into a folder with tables, figure and page; return what is in sweep.json, and the run's times.
 
     Raises as `sweep_study`.
     """
-    command = Command(out, overwrite=overwrite, resume=resume, keep=SHARDS, progress=progress)
-    return _swept(plan, executor, command, plots=plots)
-
-
-def _swept(plan: SweepPlan, executor: Executor, command: Command, *, plots: bool) -> dict[str, Any]:
     with command:
         if plots and plan.study.write.plots:
             command.start_plotter()  # while the cells are computed

@@ -23,17 +23,16 @@ TableOf = Callable[[str], Table]
 CatalogOf = Callable[[Path | None], Catalog]
 
 
-def read_study(path: str | os.PathLike[str], table: TableOf = table_for, catalog: CatalogOf = Catalog) -> Study:
-    """Read a study file.
-
-    `table` gives the table of a mode and `catalog` the catalogue with a folder of the user's records. Raises StudyError
-    with every problem found, and InputError where there is no such file or it cannot be opened.
-    """
-    return read_tree(tree_of_file(path), table, catalog)
+def read_study(path: str | os.PathLike[str]) -> Study:
+    """Read a study file; raises as `read_tree`, and InputError where there is no such file or it cannot be opened."""
+    return read_tree(tree_of_file(path))
 
 
 def read_tree(tree: StudyTree, table: TableOf = table_for, catalog: CatalogOf = Catalog) -> Study:
-    """Read a study from its tree; raises StudyError with every problem found."""
+    """Read a study from its tree; raises StudyError with every problem found.
+
+    `table` gives the table of a mode and `catalog` the catalogue with a folder of the user's records.
+    """
     return _read(tree, table, catalog)[0]
 
 
@@ -42,11 +41,9 @@ def read_swept(tree: StudyTree) -> tuple[Study, SweepBlock | None]:
     return _read(tree, table_for, Catalog)
 
 
-def read_study_text(
-    source: str, name: str = "study", folder: Path = Path(), table: TableOf = table_for, catalog: CatalogOf = Catalog
-) -> Study:
+def read_study_text(source: str, name: str = "study", folder: Path = Path()) -> Study:
     """Read a study from its text; `name` stands for the file in messages, `folder` is where its catalogue is."""
-    return read_tree(tree_of_text(source, name, name, folder), table, catalog)
+    return read_tree(tree_of_text(source, name, name, folder))
 
 
 def _read(tree: StudyTree, table: TableOf, catalog: CatalogOf) -> tuple[Study, SweepBlock | None]:

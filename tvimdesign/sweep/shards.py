@@ -48,10 +48,9 @@ class ShardWriter:
         Raises OutputError where there is no room; what was there before stays whole.
         """
         try:
-            lines = [_line(*cell) for cell in cells]
             if self._file < 0:
                 self._begin()
-            self._write("".join(f"{line}\n" for line in lines).encode())
+            self._write("".join(_line(*cell) for cell in cells).encode())
         except OSError as error:
             raise OutputError(
                 f"{self._path or self._folder}: cannot be written: {error.strerror or error}; {_GOES_ON}"
@@ -128,8 +127,7 @@ class Shards:
 
 
 def _line(key: str, answer: CellAnswer, seconds: float) -> str:
-    status, reason, violated, margin, values, warm = answer
-    return json.dumps([key, status, reason, violated, margin, values, int(warm), round(seconds, 4)])
+    return json.dumps([key, *answer[:-1], int(answer.warm), round(seconds, 4)]) + "\n"
 
 
 def _columns_of(head: bytes) -> list[str] | None:
@@ -156,6 +154,7 @@ class Column(NamedTuple):
 
 def columns(plan: SweepPlan) -> list[Column]:
     """Return every column of a sweep's table."""
+    apart = {axis.name for axis in plan.axes}  # A name of its own for an output with the name of an axis
     axes = [Column(axis.name, "" if is_words(axis) else axis.unit, "axis", _meaning(plan, axis)) for axis in plan.axes]
     about = {
         "status": "evaluated, optimal, above_rating, below_yield, infeasible, refused, ...",
@@ -166,13 +165,11 @@ def columns(plan: SweepPlan) -> list[Column]:
     status_columns = [
         Column(name, "1" if name in {"violated", "margin"} else "", "told", about[name]) for name in _STATUS_COLUMNS
     ]
-    outputs = [Column(_apart(name, plan), plan.unit(name), "output", _about(plan, name)) for name in plan.columns]
+    outputs = [
+        Column(f"{name}_found" if name in apart else name, plan.unit(name), "output", _about(plan, name))
+        for name in plan.columns
+    ]
     return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *status_columns, *outputs]
-
-
-def _apart(name: str, plan: SweepPlan) -> str:
-    """Return a column of its own where an axis has the name already."""
-    return f"{name}_found" if name in {axis.name for axis in plan.axes} else name
 
 
 def _meaning(plan: SweepPlan, axis: SweptAxis) -> str:
@@ -194,13 +191,12 @@ def rows(plan: SweepPlan, keys: Iterable[str], shards: Shards) -> Iterator[list[
 
 def status_values(answer: CellAnswer, units: Sequence[str]) -> list[Value]:
     """Return what a cell came to, in the units of the columns."""
-    values = [_in_unit(value, unit) for value, unit in zip(answer.values, units, strict=True)]
+    values = [
+        rounded(from_si(value, unit)) if isinstance(value, float) and unit else value
+        for value, unit in zip(answer.values, units, strict=True)
+    ]
     margin = None if answer.margin is None else rounded(answer.margin)
     return [answer.status, answer.violated, margin, answer.reason, *values]
-
-
-def _in_unit(value: float | str | None, unit: str) -> Value:
-    return rounded(from_si(value, unit)) if isinstance(value, float) and unit else value
 
 
 # --- files ---
@@ -212,23 +208,19 @@ def write_tables(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) ->
     In text a number that there is none of is empty, and what never happens `inf`.
     """
     try:
-        _write_tables(plan, every, folder)
+        with (
+            whole_file(folder / "cells.csv") as text,
+            whole_file(folder / "cells.sqlite") as base,
+            text.open("w", encoding=TABLE_ENCODING, newline="") as stream,
+            contextlib.closing(sqlite3.connect(base)) as connection,
+        ):
+            connection.execute("PRAGMA journal_mode = OFF")  # it appears whole or not at all
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow([column.name for column in columns(plan)])
+            writer.writerows(_into(connection, plan, every))
+            connection.commit()
     except sqlite3.OperationalError as error:
         raise OutputError(f"{folder / 'cells.sqlite'}: cannot be written: {error}; the cells are kept") from error
-
-
-def _write_tables(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) -> None:
-    with (
-        whole_file(folder / "cells.csv") as text,
-        whole_file(folder / "cells.sqlite") as base,
-        text.open("w", encoding=TABLE_ENCODING, newline="") as stream,
-        contextlib.closing(sqlite3.connect(base)) as connection,
-    ):
-        connection.execute("PRAGMA journal_mode = OFF")  # it appears whole or not at all
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow([column.name for column in columns(plan)])
-        writer.writerows(_into(connection, plan, every))
-        connection.commit()
 
 
 def _into(connection: sqlite3.Connection, plan: SweepPlan, every: Iterable[list[Value]]) -> Iterator[list[Value]]:

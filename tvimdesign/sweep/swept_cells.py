@@ -107,7 +107,7 @@ class SweptCells:
         """Return rows of the cells for a page, thinned for a browser."""
         every = -(-self.plan.count // MOST_LISTED)
         rows = _rows(self.folder, "WHERE (CAST(cell AS INTEGER) - 1) % ? = 0", [every])
-        return [{**row, "cell": _number(row)} for row in rows]
+        return [{**row, "cell": int(row["cell"])} for row in rows]
 
     def cell(self, number: int) -> CellFound:
         """Return a cell by its number. Raises InputError if there is none, and StudyError if it is no study."""
@@ -139,10 +139,10 @@ def open_cells(folder: Path) -> SweptCells:
     if plan.count != count:
         raise InputError(f"{folder}: study.yaml asks for {plan.count} cells and the table has {count}; sweep it again")
     answered = _rows(folder, "WHERE violated IS NOT NULL ORDER BY cell LIMIT 1", [])
-    return SweptCells(folder, plan, tuple(dict.fromkeys(_number(row) for row in least or answered)))
+    return SweptCells(folder, plan, tuple(dict.fromkeys(int(row["cell"]) for row in least or answered)))
 
 
-def _rows(folder: Path, which: str, values: Sequence[Any]) -> list[dict[str, Value]]:
+def _rows(folder: Path, which: str, values: Sequence[Any]) -> list[dict[str, Any]]:
     """Return some rows of the table. Raises InputError where it cannot be read."""
     path = folder / _TABLE
     try:
@@ -152,10 +152,6 @@ def _rows(folder: Path, which: str, values: Sequence[Any]) -> list[dict[str, Val
             return [dict(row) for row in cursor]
     except sqlite3.Error as error:
         raise InputError(f"{path}: cannot be read: {error}; `tvimdesign sweep ... --resume` writes it anew") from error
-
-
-def _number(row: dict[str, Any]) -> int:
-    return int(row["cell"])
 
 
 def _text(value: Value, unit: str) -> str:

@@ -49,16 +49,12 @@ class Row:
             return ""
         if mine == theirs or math.isclose(mine, theirs, rel_tol=ALIKE):  # an infinite time is close to none but itself
             return "same"
-        if self._open(label):
-            return "open"
-        return "better" if (mine < theirs) == (self.better == "less") else "worse"
-
-    def _open(self, label: str) -> bool:
-        """Return whether history decides: what it leaves of the two overlaps."""
         (low, high), (other_low, other_high) = (
             self.ends.get(name, (self.values[name],) * 2) for name in (label, self.first)
         )
-        return low <= other_high and other_low <= high
+        if low <= other_high and other_low <= high:  # history decides: what it leaves of the two overlaps
+            return "open"
+        return "better" if (mine < theirs) == (self.better == "less") else "worse"
 
 
 def common_rows(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> list[Row]:

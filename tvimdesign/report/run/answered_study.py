@@ -124,12 +124,6 @@ def note_left_out(answered: AnsweredStudy) -> None:
         answered.reported["left_out"] = list(answered.deadline.left_out)
 
 
-def note_no_uncertainty(answered: AnsweredStudy, error: TvimError) -> None:
-    """Report that the uncertainty is missing, as a failure and as the first warning of the screen."""
-    answered.failures.append(error)
-    answered.no_uncertainty = str(error)
-
-
 _OF_RESULTS = tuple(UncertaintyEntry.__annotations__)
 
 

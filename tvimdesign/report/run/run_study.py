@@ -46,9 +46,6 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from tvimdesign.report.run.answered_study import AnsweredStudy
-    from tvimdesign.solve.nlp.solution import Solution
-    from tvimdesign.solve.result import Designed
-    from tvimdesign.study.design import Design
 
 
 def run_study(
@@ -74,7 +71,7 @@ def run_study(
         if plots and study.write.plots:
             command.start_plotter(gives_way=True)
         from tvimdesign.report.run.answered_study import answer_study, drawings
-        from tvimdesign.report.run.first_screen import verdict_of, write_summary
+        from tvimdesign.report.run.first_screen import print_everything, print_first_screen, verdict_of, write_summary
         from tvimdesign.report.run.run_page import finish, summary_sheet, write_answer, write_failure, write_results
         from tvimdesign.solve.search import optimize
 
@@ -87,7 +84,7 @@ def run_study(
                 folder=folder,
                 search=partial(optimize, deadline=deadline, checked=True, eases=not gives_up),
                 early=best.note,
-                designed=_parts_of_design(making, folder),
+                designed=(lambda design, _: making.begin(design, folder.path / "cad")) if making else lambda *_: None,
                 deadline=deadline,
             )
         result, command.failures = answered.result, answered.failures
@@ -104,7 +101,8 @@ def run_study(
         write_summary(answered, folder)
         progress("")
         if not as_json:
-            _print_result(answered, time.perf_counter() - began, full=full)
+            print_result = print_everything if full else print_first_screen
+            print_result(answered, wide_console(), time.perf_counter() - began)
         parts = ""
         if making and result.has_design:
             parts = _add_parts(making, answered, command)
@@ -121,13 +119,13 @@ def run_study(
         raise ending
 
 
-def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
-    """Raise what `check` raises; print the JSON of a study whose limits conflict."""
+def _check(study: Study, deadline: Deadline | None = None, *, as_json: bool = False) -> None:
+    """Refuse a study that cannot be answered; with `as_json`, print the JSON of one whose limits conflict."""
     from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
 
     try:
         with progress_output() as progress:
-            progress(CHECKING)
+            progress("checking whether the requirements conflict")
             refuse_what_cannot_be(study, deadline=deadline)
     except InfeasibleError as error:
         if as_json:
@@ -137,21 +135,11 @@ def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
         raise
 
 
-def _parts_of_design(making: BackgroundPartsJob | None, folder: ResultsFolder) -> Designed:
-    """Return a function that begins the parts of a design as soon as it is there."""
-
-    def begin(design: Design, _solution: Solution | None) -> None:
-        if making:
-            making.begin(design, folder.path / "cad")
-
-    return begin
-
-
 _STEP = "yield and intervals"
 
 
 def _add_uncertainty(answered: AnsweredStudy, progress: Progress) -> None:
-    from tvimdesign.report.run.answered_study import note_left_out, note_no_uncertainty, note_uncertainty
+    from tvimdesign.report.run.answered_study import note_left_out, note_uncertainty
     from tvimdesign.report.run.uncertainty_data import uncertainty_of
 
     progress(f"computing {_STEP} over the assumed values")
@@ -164,14 +152,8 @@ def _add_uncertainty(answered: AnsweredStudy, progress: Progress) -> None:
     except TvimError as error:
         how = "run the study again, or `tvimdesign tolerate` with the results folder for the yield alone"
         message = f"the uncertainty of the design could not be computed: {error}; {how}"
-        note_no_uncertainty(answered, TvimError(message))
-
-
-def _print_result(answered: AnsweredStudy, seconds: float, *, full: bool) -> None:
-    """Print everything, or the first screen, whose last line follows when all is written."""
-    from tvimdesign.report.run.first_screen import print_everything, print_first_screen
-
-    (print_everything if full else print_first_screen)(answered, wide_console(), seconds)
+        answered.failures.append(TvimError(message))
+        answered.no_uncertainty = message
 
 
 def _add_parts(making: BackgroundPartsJob, answered: AnsweredStudy, command: Command) -> str:
@@ -258,18 +240,11 @@ def keeping_best(folder: ResultsFolder) -> Iterator[Best]:
         raise
 
 
-CHECKING = "checking whether the requirements conflict"
-
-
 def check_study(path: Path, settings: Sequence[str] = (), *, as_json: bool) -> None:
     """Print what a study asks. Raises StudyError with every mistake, and what `refuse_what_cannot_be` raises."""
-    from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
-
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
-    with progress_output() as progress:
-        progress(CHECKING)
-        refuse_what_cannot_be(study)
+    _check(study)
     cells = swept_cells(tree)
     print(study.model_dump_json(indent=2) if as_json else describe(study))
     if cells and not as_json:

@@ -64,11 +64,6 @@ def write_new_study(file: Path | None, example: str = "", result: Path | None = 
     print(f"names and units while you type: tvimdesign schema > {file.with_name(written_studies.SCHEMA_FILE)}")
 
 
-def print_schema() -> None:
-    """Print the JSON Schema of studies."""
-    print(written_studies.schema_text(), end="")
-
-
 _ROOMIER = (1.1, 1.2, 1.3, 1.4)  # Factors on a diameter that are tried for room for the assumed values
 _CANDIDATES = 3  # Sets of hardware that are tried, the best fit first
 _BESIDE = 2  # Sets of hardware that are tried with other numbers
