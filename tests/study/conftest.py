@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,8 @@ from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.device import Choice, Event, Input, Output, Table
 from tvimdesign.device import Path as PathRow
 from tvimdesign.device.table.quantity import PHASES
-from tvimdesign.study import Study, StudyError, read_study_text
+from tvimdesign.study import Study, StudyError, read_tree
+from tvimdesign.study.tree import tree_of_text
 
 
 def _input(name: str, unit: str, lower: float, upper: float, **more: Any) -> Input:
@@ -132,7 +132,11 @@ def table_of(table: Table) -> Callable[[str], Table]:
 @pytest.fixture(scope="session")
 def read(table_of: Callable[[str], Table]) -> Callable[..., Study]:
     """Read a study's text against the small table and catalogue."""
-    return partial(read_study_text, name="x.yaml", table=table_of, catalog=SmallCatalog)
+
+    def read_text(text: str, name: str = "x.yaml", folder: Path = Path()) -> Study:
+        return read_tree(tree_of_text(text, name, name, folder), table_of, SmallCatalog)
+
+    return read_text
 
 
 @pytest.fixture(scope="session")

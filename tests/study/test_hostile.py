@@ -13,8 +13,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.study import Study, StudyError, read_study, read_study_text
+from tvimdesign.study import Study, StudyError, read_study, read_study_text, read_tree
 from tvimdesign.study.text import mistakes, yaml_text
+from tvimdesign.study.tree import tree_of_file
 
 LIMIT = 1.0
 """Seconds; the slowest of these takes a tenth."""
@@ -125,7 +126,7 @@ def test_marked_files_are_read_and_unreadable_ones_named(tmp_path, monkeypatch, 
     assert time.process_time() - start < 0.1
     path = tmp_path / "x.yaml"
     path.write_bytes(b"\xef\xbb\xbfmode: shear\r\n")
-    assert isinstance(read_study(path, table=table_of), Study)
+    assert isinstance(read_tree(tree_of_file(path), table_of), Study)
     # Root may read everything, so the system's refusal is brought about by hand.
 
     def refuse(*_: object, **__: object) -> None:

@@ -19,9 +19,20 @@ from support import STUDIES, refused, sample_text
 from tvimdesign import __version__
 from tvimdesign.device import MODES, Output, Table, table_for
 from tvimdesign.solve.nlp.constraints import constraints_of
-from tvimdesign.study import Options, Range, Requirement, Study, StudyError, given, read_study, read_study_text
+from tvimdesign.study import (
+    Options,
+    Range,
+    Requirement,
+    Study,
+    StudyError,
+    given,
+    read_study,
+    read_study_text,
+    read_tree,
+)
 from tvimdesign.study.sections import NAMES
 from tvimdesign.study.text.mistakes import Mistake
+from tvimdesign.study.tree import tree_of_file
 from tvimdesign.study.written_studies import example_text, json_schema, template_text
 
 Read = Callable[..., Study]
@@ -96,7 +107,7 @@ def test_problems_are_data_and_capped_in_print(read):
 def test_a_folder_of_records(tmp_path, table_of, make_catalog, problems):
     (tmp_path / "mine").mkdir()
     (tmp_path / "x.yaml").write_text("mode: shear\ncatalog: mine\n", encoding="utf-8")
-    study = read_study(tmp_path / "x.yaml", table=table_of, catalog=make_catalog)
+    study = read_tree(tree_of_file(tmp_path / "x.yaml"), table_of, make_catalog)
     assert study.catalog_folder == (tmp_path / "mine").as_posix()
     assert study.name == "x"
     (tmp_path / "mine" / "broken").touch()
