@@ -95,11 +95,12 @@ class Server:
         """Refuse a malformed request, one without the token, and one by another host's name or page."""
         if not self._is_well_formed(request):
             raise web.HTTPBadRequest
-        given = request.path.split("/", 2)[1]
-        if not hmac.compare_digest(given.encode(), self.token.encode()) or not _local(request.headers.get("Host", "")):
+        given, host = request.path.split("/", 2)[1], request.headers.get("Host", "")
+        is_local = host.rpartition(":")[0] in _LOCAL or host in _LOCAL
+        if not hmac.compare_digest(given.encode(), self.token.encode()) or not is_local:
             raise web.HTTPNotFound
         origin = request.headers.get("Origin")
-        if origin is not None and origin.removeprefix("http://") != request.headers.get("Host"):
+        if origin is not None and origin.removeprefix("http://") != host:
             raise web.HTTPForbidden
         response = await handler(request)
         response.headers.setdefault("Referrer-Policy", "no-referrer")
@@ -170,10 +171,6 @@ def _file(folder: Path, name: str) -> web.StreamResponse:
     if not path.is_relative_to(folder.resolve()) or not path.is_file():
         raise web.HTTPNotFound
     return web.FileResponse(path, headers={"Cache-Control": "no-cache"})
-
-
-def _local(host: str) -> bool:
-    return host.rpartition(":")[0] in _LOCAL or host in _LOCAL
 
 
 # --- the page ---

@@ -76,12 +76,6 @@ def ends(entry: Entry) -> tuple[float, float, float]:
 
 
 @cache
-def published_model() -> DeviceFunctions:
-    """Return the module's table and working cycle as functions."""
-    return published_module().functions
-
-
-@cache
 def published_module() -> ResolvedModule:
     """Return the module with a value for every input, and the records it chose."""
     from tvimdesign.simulation.working_cycle.device_functions import resolve_study
@@ -92,7 +86,7 @@ def published_module() -> ResolvedModule:
 @cache
 def published_values() -> dict[str, float]:
     """Return the values of the module [SI], one working cycle simulated."""
-    return cycle_values(published_model())
+    return cycle_values(published_module().functions)
 
 
 def cycle_values(model: DeviceFunctions) -> dict[str, float]:

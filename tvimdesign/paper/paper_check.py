@@ -13,15 +13,7 @@ import numpy as np
 
 from tvimdesign.base.units import from_si
 from tvimdesign.paper import paper_case, paper_rows
-from tvimdesign.paper.paper_case import (
-    Values,
-    claims,
-    ends,
-    from_paper,
-    published_model,
-    published_module,
-    published_values,
-)
+from tvimdesign.paper.paper_case import Values, claims, ends, from_paper, published_module, published_values
 from tvimdesign.physics import spring
 from tvimdesign.physics.layers import layer
 from tvimdesign.report.output.numbers import label, listed
@@ -58,7 +50,7 @@ def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
     """Return the paper's assumed thickness [m], and a function from changed inputs to the values of one switch."""
     from tvimdesign.simulation.working_cycle.cycle import Simulator
 
-    model = published_model()
+    model = published_module().functions
     simulator = Simulator(model)
 
     def simulate(changes: dict[str, float]) -> dict[str, float]:

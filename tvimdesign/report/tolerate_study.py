@@ -50,12 +50,8 @@ def concern_table(spread: Spread, table: Table) -> Grid:
          _most_by(spread, spread.outputs.index(limit.limit.output)))
         for limit in of_concern(spread)
     ]  # fmt: skip
-    return grid(
-        f"Limits that fewer than {100.0 * _GOOD:g} % of modules meet",
-        ("", "yield", "C_pk", "most by"),
-        rows,
-        right=(1, 2),
-    )
+    caption = f"Limits that fewer than {100.0 * _GOOD:g} % of modules meet"
+    return grid(caption, ("", "yield", "C_pk", "most by"), rows, right=(1, 2))
 
 
 def _most_by(spread: Spread, i: int) -> str:

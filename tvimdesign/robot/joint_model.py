@@ -104,16 +104,7 @@ def make_bodies(
     """Make what stands and what turns of a design.json, with their meshes in the folder. Raises GeometryError."""
     report = make_cad(design, folder, progress, job="tvimdesign.cad.jobs.rigid_bodies")
     data = json.loads((folder / BODIES).read_text())
-    base, moving = (
-        RigidBody(
-            name=name,
-            mass=data[name]["mass"],
-            centre=tuple(data[name]["centre"]),
-            inertia=tuple(tuple(row) for row in data[name]["inertia"]),
-            mesh=f"{MESHES}/{name}.stl",
-        )
-        for name in (BASE, MOVING)
-    )
+    base, moving = (RigidBody(name=name, mesh=f"{MESHES}/{name}.stl", **data[name]) for name in (BASE, MOVING))
     return base, moving, report
 
 

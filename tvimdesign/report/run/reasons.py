@@ -31,13 +31,6 @@ def is_active(check: ConstraintCheck, answer: StudyResult) -> bool:
     return abs(check.margin) <= NOTHING or any(check.text == limit.text for limit in active(answer))
 
 
-def slack(answer: StudyResult) -> list[ActiveConstraint]:
-    """Return the limits that could be somewhat tighter and change nothing, those with the least margin first."""
-    held = answer.solution.held if answer.solution and answer.has_design else ()
-    slack_limits = [limit for limit in held if limit.shadow_price <= PRICE_SHOWN and limit.margin > NOTHING]
-    return sorted(slack_limits, key=lambda limit: limit.margin)
-
-
 def sentences(answer: StudyResult) -> list[str]:
     """Return what each active limit costs, in words."""
     return [_sentence(held) for held in active(answer)]
@@ -64,21 +57,26 @@ _WHY_NOT = "it belongs to the supply, or stands in the same way as another limit
 def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
     """Return every limit and end of a range at the optimum: how it stands, its margin, and what a step of it costs."""
     rows: list[LimitEntry] = []
-    tight, loose = active(answer), slack(answer)
-    held = answer.solution.held if answer.solution and answer.has_design else ()
-    others = [limit for limit in held if limit not in tight and limit not in loose]
-    groups: tuple[tuple[Stands, list[ActiveConstraint]], ...] = (
-        ("active", tight), ("touches", others), ("slack", loose)
-    )  # fmt: skip
-    for stands, group in groups:
-        for limit in group:
-            margin, unit = margin_of(limit, table)
-            rows.append({
-                "limit": limit.text, "stands": stands, "origin": limit.origin,
-                "margin": finite(margin), "margin_unit": pretty(unit),
-                "step": limit.step, "shadow_price": limit.shadow_price, "sensitivity": dict(limit.sensitivity),
-            })  # fmt: skip
+    for limit in sorted(answer.solution.held if answer.solution and answer.has_design else (), key=_place):
+        margin, unit = margin_of(limit, table)
+        rows.append({
+            "limit": limit.text, "stands": _stands(limit), "origin": limit.origin,
+            "margin": finite(margin), "margin_unit": pretty(unit),
+            "step": limit.step, "shadow_price": limit.shadow_price, "sensitivity": dict(limit.sensitivity),
+        })  # fmt: skip
     return rows
+
+
+def _stands(limit: ActiveConstraint) -> Stands:
+    """Return `slack` of a limit that could be somewhat tighter and change nothing."""
+    if limit.shadow_price > PRICE_SHOWN:
+        return "active"
+    return "slack" if limit.margin > NOTHING else "touches"
+
+
+def _place(limit: ActiveConstraint) -> tuple[int, float]:
+    """Return the order of a limit's row: active ones, the costliest first; slack ones last, by their margins."""
+    return {"active": (0, -limit.shadow_price), "touches": (1, 0.0), "slack": (2, limit.margin)}[_stands(limit)]
 
 
 def why(answer: StudyResult, table: Table) -> Why:

@@ -1,7 +1,6 @@
 """The section `vary`: which inputs may change, and between what or among which values."""
 
 import math
-from collections.abc import Iterable
 from typing import Any
 
 from tvimdesign.base.errors import CatalogError
@@ -184,8 +183,8 @@ def _check_against_module(reading: values.Reading, vary: dict[str, Vary], module
         if isinstance(allowed, Options) and isinstance(value, str) and value not in allowed.values:
             span = " or ".join(str(option) for option in allowed.values)
         elif isinstance(value, float) and isinstance(row, Input):
-            numbers = (allowed.lower, allowed.upper) if isinstance(allowed, Range) else _numbers(allowed.values)
-            low, high = min(numbers), max(numbers)
+            sizes = (allowed.lower, allowed.upper) if isinstance(allowed, Range) else tuple(map(float, allowed.values))
+            low, high = min(sizes), max(sizes)
             if not values.below(value, low) and not values.below(high, value):
                 continue
             span = f"{format_quantity(low, row.unit)} to {format_quantity(high, row.unit)}"
@@ -204,10 +203,6 @@ def _with_start(vary: dict[str, Vary], module: dict[str, float | str]) -> dict[s
             inside = min(max(value, allowed.lower), allowed.upper)
             started[name] = allowed.model_copy(update={"start": inside})
     return started
-
-
-def _numbers(options: Iterable[float | str]) -> list[float]:
-    return [value for value in options if isinstance(value, float)]
 
 
 def _has(options: list[float | str], value: float | str) -> bool:
