@@ -51,9 +51,7 @@ _PROFILES = 5
 
 def drawings(answer: StudyResult, table: Table) -> list[Drawing]:
     """Return every figure of a run, with its data."""
-    data = plot_data(answer, table)
-    names = ("cycle", "stiffness_and_damping", "power_and_energy", "impedance", "torque")
-    return [Drawing(name, f"design_figures.{name}", data[name]) for name in names]
+    return [Drawing(name, f"design_figures.{name}", data) for name, data in plot_data(answer, table).items()]
 
 
 def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
@@ -273,7 +271,6 @@ def refused_page(folder: ResultsFolder, tree: StudyTree, study: Study, reason: s
 
 
 def _last(folder: ResultsFolder, tree: StudyTree) -> list[Section]:
-    """Return the study and what made the page."""
     return [folded(study_section(study_text(tree))), folded(versions_section(folder))]
 
 

@@ -22,7 +22,6 @@ _LIMIT = re.compile(r"(?P<sense><=|>=)\s*(?P<quantity>[^\s<>=].*)")
 
 
 def _read_require(reading: values.Reading, node: Node | None) -> tuple[Requirement, ...]:
-    """Return every limit the study sets; every problem is noted."""
     requirements: list[Requirement] = []
     for name, (key, value) in values.entries(
         reading.problems, node, "require", "outputs, each with its limits"
@@ -42,7 +41,6 @@ def _read_require(reading: values.Reading, node: Node | None) -> tuple[Requireme
 
 
 def _read_minimize(reading: values.Reading, node: Node | None) -> dict[str, float]:
-    """Return the weight of each output that is to be small; every problem is noted."""
     weights: dict[str, float] = {}
     if isinstance(node, Text) and not node.empty:
         with suppress(RefusedError):
@@ -67,7 +65,6 @@ def _weight(reading: values.Reading, name: str, key: Text, node: Node) -> float:
 
 
 def _read_front(reading: values.Reading, node: Node | None) -> FrontOptions | None:
-    """Return the outputs to be traded and the count of points; every problem is noted."""
     front = None
     with suppress(RefusedError):
         front = _traded_outputs(reading, node)
@@ -235,7 +232,6 @@ def rating_names(table: Table) -> list[str]:
 
 
 def _read_accept(reading: values.Reading, node: Node | None) -> tuple[str, ...]:
-    """Return the accepted ratings by the quantity's name, one name or a list of them; every problem is noted."""
     known = rating_names(reading.table)
     accepted: list[str] = []
 

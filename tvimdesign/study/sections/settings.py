@@ -27,7 +27,6 @@ _POINT = re.compile(section.POINT)
 
 
 def _read_module(reading: values.Reading, node: Node | None) -> dict[str, float | str]:
-    """Return the inputs (SI) and choices the study sets; every problem is noted."""
     expected = "names of the module's inputs, each with a value"
     named = values.entries(reading.problems, node, "module", expected)
     return {
@@ -75,12 +74,8 @@ def _read_points(reading: values.Reading, node: Node | None) -> dict[str, dict[s
 
 def _point(reading: values.Reading, node: Node, path: str, rows: dict[str, Input]) -> dict[str, float]:
     expected = "values such as " + _examples(list(rows), rows)
-    known = {}
-    for name, (key, value) in values.entries(reading.problems, node, path, expected).items():
-        if name in rows:
-            known[name] = value
-        else:
-            reading.problems.unknown(key, step(path, name), "input of an operating point", name, rows)
+    given = values.entries(reading.problems, node, path, expected)
+    known = values.unknown_keys(reading.problems, given, path, "input of an operating point", list(rows))
     return values.readable(
         lambda name, value: values.quantity(reading.problems, value, step(path, name), rows[name]), known
     )

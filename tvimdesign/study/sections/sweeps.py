@@ -80,7 +80,6 @@ _EXAMPLE = "'over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 20}}'"
 
 
 def _read(reading: values.Reading, node: Node | None) -> SweepBlock | None:
-    """Return what is swept, None where nothing is; every problem is noted."""
     problems = reading.problems
     parts = values.unknown_keys(
         problems, values.entries(problems, node, "sweep", _EXAMPLE), "sweep", "key", list(_FIELDS)

@@ -61,7 +61,6 @@ def tolerance_rows(table: Table) -> list[str]:
 
 
 def _read_tolerances(reading: values.Reading, node: Node | None) -> dict[str, Tolerance]:
-    """Return the tolerance of each input by full name; every problem is noted."""
     if isinstance(node, Text) and node.value == STANDARD:
         return standard_tolerances(reading.table)
     expected = f"{STANDARD}, or names of inputs, each with a plus-minus value"
@@ -206,7 +205,6 @@ def _read_robust(reading: values.Reading, node: Node | None) -> Robust | None:
 
 
 def _share(reading: values.Reading, node: Node, path: str) -> float:
-    """Return a share of modules or of cases."""
     share = values.number(reading.problems, node, path, "a share such as 99 %")
     if not 0.5 < share < 1.0 - 1e-9:
         reading.problems.refuse(node, path, f"{share:g} is out of range", "above 50 % and below 100 %")

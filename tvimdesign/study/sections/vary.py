@@ -17,7 +17,6 @@ MOST_OPTIONS = 200
 
 
 def _read(reading: values.Reading, node: Node | None) -> dict[str, Vary]:
-    """Return what may change by row; every problem is noted."""
     vary, module = _ranges(reading, node), reading.section("module")
     _check_against_module(reading, vary, module)
     if node is not None and reading.has("vary") and not reading.has("minimize"):
