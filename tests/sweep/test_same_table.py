@@ -97,7 +97,7 @@ def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file, one_process
     (out / "shards").symlink_to(one_process / "shards")
     fewer, where = plan(study_file, "sweep.over.pcl_thickness=[0.6 mm, 2 mm]"), Executor(workers=1)
     done = run_sweep(fewer, out, where, lambda _: None)
-    assert (done.reused, done.computed, done.whole) == (4, 0, True)
+    assert (done.reused, done.computed, done.missing) == (4, 0, 0)
 
 
 @pytest.mark.parametrize(

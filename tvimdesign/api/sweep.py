@@ -105,7 +105,7 @@ class Sweep(Generic[StudyT]):
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
-        table, (first, *others) = self.table(name), [axis.name for axis in self.plan.axes]
+        table, (first, *others) = self.table(name), [axis.name for axis in self.plan.block.axes]
         figure = Figure(figsize=(6.0, 3.8), layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.subplots()
@@ -136,7 +136,7 @@ class Sweep(Generic[StudyT]):
 
     def __getitem__(self, number: int) -> Cell[StudyT]:
         answer, texts = self.stored_cells[number], self.plan.texts(range(len(self))[number])
-        names = [axis.name for axis in self.plan.axes]
+        names = [axis.name for axis in self.plan.block.axes]
         return Cell(dict(zip(names, texts, strict=True)), answer.status, answer.reason, self, texts)
 
     def __iter__(self) -> Iterator[Cell[StudyT]]:

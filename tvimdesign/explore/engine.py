@@ -161,12 +161,7 @@ class Engine:
         free = self._freed(state)
         if state.way == "evaluate":
             study = self._read(tree_of(self._base, state))
-            if study.currents:
-                return Answer({"status": WAITS})
-            known = given(study)
-            values = self._evaluated(study, known, {})
-            shown = {**shown_design(study, free, known, values.values), "curves": all_finite(values.curves)}
-            return Answer({"status": "", **shown}, None, _module(study, values.values, values.words))
+            return Answer({"status": WAITS}) if study.currents else self._drawn(study, free, {})
         listed = _listed(free, state)
         study = self._read(set_values(tree_of(self._base, state), listed)) if listed else free
         if study.profile.pieces():
@@ -177,12 +172,17 @@ class Engine:
             return Answer({"status": "no optimum near the last one; the search from every start follows"})
         self._last = moved
         optimum = moved.run.start.end
+        reply = self._drawn(study, free, optimum, moved.active, moved.ends)
+        reply.shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in optimum.items()}}
+        return reply
+
+    def _drawn(self, study: Study, free: Study, optimum: Mapping[str, float], *stand: Any) -> Answer:
+        """Return a module's values and curves; `stand` is what `shown_design` takes of an optimum."""
         known = given(study)
         evaluated = self._evaluated(study, known, optimum)
-        shown = shown_design(study, free, known, evaluated.values, moved.active, moved.ends)
-        shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in optimum.items()}}
-        shown["curves"] = all_finite(evaluated.curves)
-        return Answer({"status": "", **shown}, None, _module(study, evaluated.values, evaluated.words))
+        shown = shown_design(study, free, known, evaluated.values, *stand)
+        shown |= {"status": "", "curves": all_finite(evaluated.curves)}
+        return Answer(shown, None, _module(study, evaluated.values, evaluated.words))
 
     def _optimum(self, study: Study, state: State) -> NearOptimum:
         """Return the optimum near the last one, or near the controls' values, such as a result's design."""

@@ -114,13 +114,13 @@ def swept_facts(plan: SweepPlan, seen: CellTable) -> Facts:
     ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in seen.statuses.items())
     task = "each cell is evaluated" if plan.task == "evaluate" else "each cell is optimised"
     seed = f", seed {plan.block.seed}" if plan.block.count else ""
-    rows = [("Swept", "; ".join(_axis(plan, place) for place in range(len(plan.axes))))]
+    rows = [("Swept", "; ".join(_axis(plan, place) for place in range(len(plan.block.axes))))]
     rows += [("Method", f"{plan.block.method.replace('_', ' ')}{seed}; {task}"), ("Cells", f"{plan.count}: {ended}")]
     rows += [("Every limit met", f"in {seen.keeping} of {plan.count} cells")]
     for name, best in seen.best.items():
         value = f"{number(best['value'])} {pretty(best['unit'])}".strip()
         texts = plan.texts(int(best["cell"]) - 1)
-        at = ", ".join(f"{axis.name} {text}" for axis, text in zip(plan.axes, texts, strict=True))
+        at = ", ".join(f"{axis.name} {text}" for axis, text in zip(plan.block.axes, texts, strict=True))
         rows += [(f"Least {name}", f"{value} in cell {best['cell']:g} ({at}), among the feasible cells")]
     if not seen.best:
         rows += [("Feasible", "no cell: `reason` in the table says which limits each violates")]
@@ -129,7 +129,7 @@ def swept_facts(plan: SweepPlan, seen: CellTable) -> Facts:
 
 def _axis(plan: SweepPlan, place: int) -> str:
     """Return one axis: its values, or their ends and how many there are."""
-    axis = plan.axes[place]
+    axis = plan.block.axes[place]
     if axis.range:
         ends = (written(axis, end) for end in (axis.range.lower, axis.range.upper))
         count = f", {axis.range.count} values" if axis.range.count else ""
@@ -181,7 +181,7 @@ def _part(
         done = run_sweep(plan, shared, executor, progress)
     with ExitStack() as stack:
         try:
-            gatherer = stack.enter_context(command) if done.whole else None
+            gatherer = stack.enter_context(command) if not done.missing else None
         except InputError:  # another job, which ended at the same time, gathers
             gatherer = None
         if gatherer:

@@ -87,19 +87,15 @@ def reported(spread: Spread, preload: Preload | None, table: Table, study: Study
         "limits": list(limit_rows(spread, table)),
         "contributors": list(contributor_rows(spread, table, study)),
         "corners": spread.worst.corners,
-        "free_angle": None if preload is None else _preload(preload),
+        "free_angle": None if preload is None else {
+            "as_bought_deg": math.degrees(preload.as_bought),
+            "adjusted_deg": math.degrees(preload.adjusted),
+            "over_stroke": preload.over_stroke,
+            "yield_as_bought": preload.yield_as_bought.share,
+            "yield_adjusted": preload.yield_adjusted.share,
+        },
         "left_out": list(spread.left_out),
-    }
-
-
-def _preload(preload: Preload) -> dict[str, float]:
-    return {
-        "as_bought_deg": math.degrees(preload.as_bought),
-        "adjusted_deg": math.degrees(preload.adjusted),
-        "over_stroke": preload.over_stroke,
-        "yield_as_bought": preload.yield_as_bought.share,
-        "yield_adjusted": preload.yield_adjusted.share,
-    }
+    }  # fmt: skip
 
 
 _PARTS = 6  # Contributors with a colour of their own; the rest is one

@@ -87,22 +87,18 @@ def rows_grid(verification: Mapping[str, Any]) -> Grid:
     return grid("The model against finite elements on the drawn parts", heads, cells, right=(1, 2, 4, 5))
 
 
-def fields(folder: Path) -> list[Block]:
-    """Return the pictures that a verification's folder has."""
-    pictures = ((folder / f"{name}.png", words) for name, words in _SHOWS.items())
-    return [Picture(picture.read_bytes(), words, words) for picture, words in pictures if picture.exists()]
-
-
 def verify_sections(folder: Path, verification: Mapping[str, Any]) -> list[Section]:
     """Return the sections of the command's own page; pictures are those that the folder has."""
     solvers = [
         (name, f"{fine['unknowns']:.0f}", f"{fine['seconds']:.0f}", f"{fine['gigabytes']:.1f}")
         for name, fine in ((name, meshes["fine"]) for name, meshes in verification["solved"].items())
     ]
+    shown = ((folder / f"{name}.png", words) for name, words in _SHOWS.items())
+    fields = [Picture(picture.read_bytes(), words, words) for picture, words in shown if picture.exists()]
     table = grid("Solvers", ("solver", "unknowns", "processor seconds", "GB"), solvers, right=(1, 2, 3))
     return [
         Section("rows", "Model and finite elements", [rows_grid(verification)]),
-        *([Section("fields", "Fields", pictures)] if (pictures := fields(folder)) else []),
+        *([Section("fields", "Fields", fields)] if fields else []),
         Section("solved", "How it was solved", [Words([SOLVED]), table]),
     ]
 

@@ -62,32 +62,29 @@ class WrittenFmu:
 
 def write_fmu(resolved: ResolvedModule, path: Path, controller: Controller | None = None) -> WrittenFmu:
     """Write the FMU of a module, with its own controller or that of another. Raises InputError, OutputError."""
-    with TemporaryDirectory(dir=path.parent, prefix=_BESIDE) as folder:
-        return _written(resolved, path, Path(folder), controller or controller_of(resolved))
-
-
-def _written(resolved: ResolvedModule, path: Path, beside: Path, controller: Controller | None) -> WrittenFmu:
-    """Return the FMU, with what it is made of in a folder beside it."""
+    controller = controller or controller_of(resolved)
     equations = joint_equations(resolved)
     variables = fmu_variables(equations, resolved)
-    sources = source_files(equations, variables, beside)
-    sources["controller_constants.h"] = controller_constants(controller)
-    sources["sizes.h"] = sources["sizes.h"].replace("@DRIVER@", repr(resolved.study.control.driver_lag))
-    guid = hashlib.sha256("".join(sources.values()).encode()).hexdigest()[:32]
-    sources["sizes.h"] = sources["sizes.h"].replace("@GUID@", guid)
-    description = model_description(
-        resolved.study.name, guid, _ABOUT, variables, [name for name in sources if name.endswith(".c")],
-        stop=float(resolved.values["horizon"]),
-    )  # fmt: skip
-    folder, suffix = binary_place()
-    binary = compiled(sources, suffix, beside)
-    with whole_file(path) as half, zipfile.ZipFile(half, "w", zipfile.ZIP_DEFLATED) as archive:
-        _put(archive, "modelDescription.xml", description.encode())
-        for name, text in sources.items():
-            _put(archive, f"sources/{name}", text.encode())
-        if binary:
-            _put(archive, f"binaries/{folder}/{IDENTIFIER}{suffix}", binary)
-    return WrittenFmu(path, folder if binary else "", variables)
+    with TemporaryDirectory(dir=path.parent, prefix=_BESIDE) as folder:
+        beside = Path(folder)
+        sources = source_files(equations, variables, beside)
+        sources["controller_constants.h"] = controller_constants(controller)
+        sources["sizes.h"] = sources["sizes.h"].replace("@DRIVER@", repr(resolved.study.control.driver_lag))
+        guid = hashlib.sha256("".join(sources.values()).encode()).hexdigest()[:32]
+        sources["sizes.h"] = sources["sizes.h"].replace("@GUID@", guid)
+        description = model_description(
+            resolved.study.name, guid, _ABOUT, variables, [name for name in sources if name.endswith(".c")],
+            stop=float(resolved.values["horizon"]),
+        )  # fmt: skip
+        place, suffix = binary_place()
+        binary = compiled(sources, suffix, beside)
+        with whole_file(path) as half, zipfile.ZipFile(half, "w", zipfile.ZIP_DEFLATED) as archive:
+            _put(archive, "modelDescription.xml", description.encode())
+            for name, text in sources.items():
+                _put(archive, f"sources/{name}", text.encode())
+            if binary:
+                _put(archive, f"binaries/{place}/{IDENTIFIER}{suffix}", binary)
+    return WrittenFmu(path, place if binary else "", variables)
 
 
 _ABOUT = "Heat and torque of a thermo-active variable impedance joint. Written by tvimdesign robot."

@@ -41,7 +41,7 @@ class CellAnswers:
 
     def search_of(self, texts: Texts) -> AnchoredSearch:
         """Return the search for the optimum of a cell: it starts at the optimum for the cell's words."""
-        words, axes = self._plan.words(texts), self._plan.axes
+        words, axes = self._plan.words(texts), self._plan.block.axes
         if words not in self._searches:
             named = {axis.name: text for axis, text in zip(axes, words, strict=True) if text}
             followed = [axis.name for axis in axes if axis.number]

@@ -94,11 +94,6 @@ class SweepPlan:
     block: SweepBlock
     written: StudyTree  # As it was written, its sweep included
 
-    @property
-    def axes(self) -> tuple[SweptAxis, ...]:
-        """Return the swept axes."""
-        return self.block.axes
-
     @cached_property
     def count(self) -> int:
         """Return how many cells there are."""
@@ -148,15 +143,15 @@ class SweepPlan:
 
     def axis_values(self, cell: int) -> list[float | str]:
         """Return where a cell stands on each axis: numbers in the axis's unit, of limits as well; else the words."""
-        return [axis_value(axis, text) for axis, text in zip(self.axes, self.texts(cell), strict=True)]
+        return [axis_value(axis, text) for axis, text in zip(self.block.axes, self.texts(cell), strict=True)]
 
     def words(self, texts: Texts) -> Texts:
         """Return what a cell is set to, without what a search can follow from another cell's optimum."""
-        return tuple("" if axis.number else text for axis, text in zip(self.axes, texts, strict=True))
+        return tuple("" if axis.number else text for axis, text in zip(self.block.axes, texts, strict=True))
 
     def cell_tree(self, texts: Texts) -> StudyTree:
         """Return the study of a cell, as it would be written."""
-        return set_in(self.tree, [axis.name for axis in self.axes], texts)
+        return set_in(self.tree, [axis.name for axis in self.block.axes], texts)
 
     @cached_property
     def columns(self) -> tuple[str, ...]:
@@ -229,7 +224,7 @@ def swept_cells(tree: StudyTree) -> int:
 def _refuse_wrong_values(plan: SweepPlan) -> None:
     """Read the study once with each listed value, the other axes as in the first cell."""
     start, problems = plan.texts(0), []
-    for place, axis in enumerate(plan.axes):
+    for place, axis in enumerate(plan.block.axes):
         listed = [row[place] for row in plan.block.rows] if plan.block.rows else list(axis.values)
         seen = set()
         ends = [axis.range.lower, axis.range.upper] if axis.range else []

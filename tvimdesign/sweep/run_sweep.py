@@ -53,11 +53,6 @@ class SweepDone:
     spent: Usage = field(default_factory=Usage)
     keys: tuple[str, ...] = ()  # Every cell's key, in their order; empty where cells are missing
 
-    @property
-    def whole(self) -> bool:
-        """Return whether every cell is there."""
-        return not self.missing
-
 
 def run_sweep(plan: SweepPlan, folder: Path, executor: Executor, say: Say) -> SweepDone:
     """Compute every cell of this part that the store in the folder does not have. Raises OutputError, TvimError."""
@@ -97,12 +92,12 @@ class CellKeys:
 
     def key(self, texts: Texts) -> str:
         """Return the key of the cell that these values make, however they are written."""
-        values = {axis.name: axis_value(axis, text) for axis, text in zip(self._plan.axes, texts, strict=True)}
+        values = {axis.name: axis_value(axis, text) for axis, text in zip(self._plan.block.axes, texts, strict=True)}
         return key_of([self._shared, values, self._records_of(texts)])
 
     def _records_of(self, texts: Texts) -> str:
         """Hash of the records a cell stands on, which hang on its words alone."""
-        words = tuple(text for text, axis in zip(texts, self._plan.axes, strict=True) if not axis.unit)
+        words = tuple(text for text, axis in zip(texts, self._plan.block.axes, strict=True) if not axis.unit)
         if words not in self._records:
             try:
                 study = read_tree(self._plan.cell_tree(texts))

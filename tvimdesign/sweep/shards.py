@@ -140,7 +140,13 @@ def _columns_of(head: bytes) -> list[str] | None:
 
 
 Value = float | int | str | None
-_STATUS_COLUMNS = ("status", "violated", "margin", "reason")
+_TOLD = {
+    "status": "evaluated, optimal, above_rating, below_yield, infeasible, refused, ...",
+    "violated": "limits that are violated",
+    "margin": "the least margin over all limits, as a share of the limit",
+    "reason": "why there is no design, what it violates, or the yield it reaches",
+}
+"""What a cell came to beside its outputs, as `status_values` has it."""
 
 
 class Column(NamedTuple):
@@ -154,22 +160,15 @@ class Column(NamedTuple):
 
 def columns(plan: SweepPlan) -> list[Column]:
     """Return every column of a sweep's table."""
-    apart = {axis.name for axis in plan.axes}  # A name of its own for an output with the name of an axis
-    axes = [Column(axis.name, "" if is_words(axis) else axis.unit, "axis", _meaning(plan, axis)) for axis in plan.axes]
-    about = {
-        "status": "evaluated, optimal, above_rating, below_yield, infeasible, refused, ...",
-        "violated": "limits that are violated",
-        "margin": "the least margin over all limits, as a share of the limit",
-        "reason": "why there is no design, what it violates, or the yield it reaches",
-    }
-    status_columns = [
-        Column(name, "1" if name in {"violated", "margin"} else "", "told", about[name]) for name in _STATUS_COLUMNS
-    ]
+    swept = plan.block.axes
+    names = {axis.name for axis in swept}  # An output of such a name has another one in the table
+    axes = [Column(axis.name, "" if is_words(axis) else axis.unit, "axis", _meaning(plan, axis)) for axis in swept]
+    told = [Column(name, "1" if name in {"violated", "margin"} else "", "told", says) for name, says in _TOLD.items()]
     outputs = [
-        Column(f"{name}_found" if name in apart else name, plan.unit(name), "output", _about(plan, name))
+        Column(f"{name}_found" if name in names else name, plan.unit(name), "output", _about(plan, name))
         for name in plan.columns
     ]
-    return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *status_columns, *outputs]
+    return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *told, *outputs]
 
 
 def _meaning(plan: SweepPlan, axis: SweptAxis) -> str:

@@ -32,7 +32,7 @@ class CellTable:
         self.every_listed = -(-plan.count // MOST_LISTED)  # Each how many-th cell the page has
         study = plan.first
         wanted = [*study.minimize, *(limit.output for limit in study.require), *ALWAYS]
-        apart = {axis.name for axis in plan.axes}
+        apart = {axis.name for axis in plan.block.axes}
         self.shown = [name for name in dict.fromkeys(wanted) if name not in apart][:PANELS]
         """Outputs of the figure and of the screen."""
         self.least = [name for name in (study.minimize or self.shown) if name not in apart]
@@ -117,7 +117,7 @@ class SweptCells:
         if row is None:
             raise InputError(f"cell {number}: {self.folder / _TABLE} has no such cell; sweep again with --resume")
         texts = self.plan.texts(number - 1)
-        changes = {axis.name: text for axis, text in zip(self.plan.axes, texts, strict=True)}
+        changes = {axis.name: text for axis, text in zip(self.plan.block.axes, texts, strict=True)}
         tree = self.plan.cell_tree(texts)
         study, answered = read_tree(tree), row["violated"] is not None
         found = {name: row[name] for name in study.vary if answered and row.get(name) is not None}

@@ -22,6 +22,7 @@ from tvimdesign.base.errors import AboveRatingError, BelowYieldError, Infeasible
 from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.output.tables import results, soft_in_words
+from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.report.run.reasons import above_rating, complaint, starts_reported
@@ -76,9 +77,6 @@ def empty_answer() -> dict[str, Any]:
     return {"fronts": [], "seconds": {}, "troubles": []}
 
 
-Say = Callable[[str], None]
-
-
 def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
     """Return the time, mass and size that fronts are drawn over: those the study minimises, else the usual ones."""
     times = [name for name in study.minimize if table.unit(name) == "s"]
@@ -90,7 +88,7 @@ class ComparisonJob:
     """The answer of one study: what was found, what failed, how long each step took."""
 
     def __init__(
-        self, tree: StudyTree, points: int, others: Callable[[], Sequence[StudyTree]], say: Say,
+        self, tree: StudyTree, points: int, others: Callable[[], Sequence[StudyTree]], say: Progress,
         keep: Callable[[dict[str, Any]], object] = lambda _: None,
     ) -> None:  # fmt: skip
         """Read the study. `others` gives the studies it is compared with; `keep` gets what is found, step by step."""

@@ -86,14 +86,6 @@ def legend_above(axes: Any, columns: int) -> None:
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns)
 
 
-def row_texts(axes: Any, texts: Sequence[str]) -> None:
-    """Draw texts to the left of rows, from the lowest up: as ticks they would be five things to draw each."""
-    axes.set_yticks([])
-    for i, text in enumerate(texts):
-        axes.text(-0.015, i, text, ha="right", va="center", fontsize=SMALL, transform=axes.get_yaxis_transform(),
-                  parse_math=False)  # fmt: skip
-
-
 mpl.rcParams.update(SETTINGS)
 _LONGEST_NAME = 110  # letters of a study's name on one line
 _NO_DATE = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}  # Equal data then give equal bytes
