@@ -105,10 +105,11 @@ def _limit(limit: constraints.Constraint, value: float, table: Table, stands: st
 
 def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
     """Ratings that the module is beyond."""
-    texts = [
-        (in_labels(constraints.in_words(limit, study.table)), limit.output) for limit in exceeded(values, study.table)
-    ]
-    return [{"text": text, "label": label(name), "accepted": name in study.accept} for text, name in texts]
+    return [
+        {"text": in_labels(constraints.in_words(limit, study.table)), "label": label(limit.output),
+         "accepted": limit.output in study.accept}
+        for limit in exceeded(values, study.table)
+    ]  # fmt: skip
 
 
 def _finite(value: float) -> float | None:

@@ -128,10 +128,8 @@ def _violated_at_worst(spread: Spread, limit_yield: LimitYield) -> bool:
 
 def of_concern(spread: Spread) -> list[LimitYield]:
     """Return limits that too many modules violate, the worst first."""
-    return sorted(
-        (limit_yield for limit_yield in spread.limit_yields if limit_yield.share.share < _GOOD),
-        key=lambda limit_yield: limit_yield.share.share,
-    )
+    concern = [limit_yield for limit_yield in spread.limit_yields if limit_yield.share.share < _GOOD]
+    return sorted(concern, key=lambda limit_yield: limit_yield.share.share)
 
 
 def _what_first(spread: Spread, table: Table) -> Iterator[str]:
@@ -162,12 +160,12 @@ def _what_first(spread: Spread, table: Table) -> Iterator[str]:
 
 def _led_by(spread: Spread, concern: list[LimitYield], j: int) -> list[LimitYield]:
     """Return the limits of concern that one contributor carries most of."""
-    shares = {
-        limit_yield.limit.name: float(spread.shares[spread.outputs.index(limit_yield.limit.output), j])
-        for limit_yield in concern
-    }
-    carried = [limit_yield for limit_yield in concern if shares[limit_yield.limit.name] >= _CARRIED] or concern[:1]
-    return sorted(carried, key=lambda limit_yield: -shares[limit_yield.limit.name])[:2]
+
+    def share(limit_yield: LimitYield) -> float:
+        return float(spread.shares[spread.outputs.index(limit_yield.limit.output), j])
+
+    carried = [limit_yield for limit_yield in concern if share(limit_yield) >= _CARRIED] or concern[:1]
+    return sorted(carried, key=share, reverse=True)[:2]
 
 
 def _halved(spread: Spread, limit_yield: LimitYield, j: int, table: Table) -> str:

@@ -5,7 +5,6 @@ import os
 import platform
 import shlex
 import shutil
-import subprocess
 import sys
 import zipfile
 from collections.abc import Mapping
@@ -164,28 +163,17 @@ def compiled(sources: Mapping[str, str], suffix: str, folder: Path) -> bytes:
         (folder / file).write_text(text, encoding="utf-8")
     built = folder / f"{IDENTIFIER}{suffix}"
     code = [file for file in sources if file.endswith(".c")]
+    own = {name: str(folder.absolute()) for name in ("TMPDIR", "TMP", "TEMP")}  # its files stay in the folder
+    choose = "choose another by CC, or none by CC=none for an FMU of sources alone"
     try:
-        _run([*command, *FLAGS, "-o", built.name, *code, "-lm"], folder)
-    except subprocess.CalledProcessError as error:
-        raise InputError(
-            f"the C compiler {command[0]!r} cannot build the FMU; choose another by CC, or none by CC=none "
-            f"for an FMU of sources alone:\n{error.stderr[-1000:]}"
-        ) from error
+        with CommandGroup() as commands:  # where this process ends, all that it started ends
+            line = [*command, *FLAGS, "-o", built.name, *code, "-lm"]
+            done = commands.run(line, PROCESSOR_LIMIT, cwd=folder, env={**os.environ, **own})
     except ProcessorTimeError as error:
-        raise InputError(
-            f"the C compiler {command[0]!r} did not build the FMU: {error}; choose another by CC, or none by CC=none "
-            "for an FMU of sources alone"
-        ) from error
-    return built.read_bytes()
-
-
-def _run(command: list[str], folder: Path) -> None:
-    """Run a compiler whose own files stay in a folder; where this process ends, all that it started ends."""
-    own = {name: str(folder.absolute()) for name in ("TMPDIR", "TMP", "TEMP")}
-    with CommandGroup() as commands:
-        done = commands.run(command, PROCESSOR_LIMIT, cwd=folder, env={**os.environ, **own})
+        raise InputError(f"the C compiler {command[0]!r} did not build the FMU: {error}; {choose}") from error
     if done.returncode:
-        raise subprocess.CalledProcessError(done.returncode, command, stderr=done.stderr)
+        raise InputError(f"the C compiler {command[0]!r} cannot build the FMU; {choose}:\n{done.stderr[-1000:]}")
+    return built.read_bytes()
 
 
 def _put(archive: zipfile.ZipFile, name: str, data: bytes) -> None:

@@ -50,7 +50,10 @@ class ShardWriter:
         try:
             if self._file < 0:
                 self._begin()
-            self._write("".join(_line(*cell) for cell in cells).encode())
+            lines = (
+                json.dumps([key, *answer[:-1], int(answer.warm), round(seconds, 4)]) for key, answer, seconds in cells
+            )
+            self._write("".join(f"{line}\n" for line in lines).encode())
         except OSError as error:
             raise OutputError(
                 f"{self._path or self._folder}: cannot be written: {error.strerror or error}; {_GOES_ON}"
@@ -124,10 +127,6 @@ class Shards:
                 if line.startswith(b'["') and line.endswith(b"]\n"):
                     self._places.setdefault(line[_KEY].decode("ascii", "replace"), (len(self._files) - 1, place))
                 place += len(line)
-
-
-def _line(key: str, answer: CellAnswer, seconds: float) -> str:
-    return json.dumps([key, *answer[:-1], int(answer.warm), round(seconds, 4)]) + "\n"
 
 
 def _columns_of(head: bytes) -> list[str] | None:

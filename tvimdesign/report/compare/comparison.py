@@ -242,9 +242,13 @@ def comparison_sections(outcome: Outcome, texts: Mapping[str, str]) -> list[Sect
         for drawing in drawings(outcome)
     ]
     # Show headlines and requirements; then everything that all studies have.
-    lines = reported_rows(outcome)
+    required = {limit.output for case in outcome.cases.values() for limit in case.study.require}
+    blocks: list[Block] = [
+        side_by_side(COMPARISONS[which].capitalize(), [row for row in rows if row.headline or row.name in required])
+        for which, rows in outcome.rows.items()
+    ]
     every = [side_by_side(COMPARISONS[which], rows) for which, rows in outcome.rows.items()]
-    blocks: list[Block] = [*lines, *([Folded("Every output that all studies have", every)] if every else [])]
+    blocks += [Folded("Every output that all studies have", every)] if every else []
     return [
         *([Section("follows", "What follows", [Points(follows)])] if follows else []),
         Section("side-by-side", "Side by side", blocks),
@@ -279,15 +283,6 @@ def summary_text(outcome: Outcome) -> str:
             print_section(section, console, folded=False)
 
     return plain_text(show, WIDTH)
-
-
-def reported_rows(outcome: Outcome) -> list[Grid]:
-    """Tabulate headlines and requirements side by side, a table for each comparison."""
-    required = {r.output for case in outcome.cases.values() for r in case.study.require}
-    return [
-        side_by_side(COMPARISONS[which].capitalize(), [row for row in rows if row.headline or row.name in required])
-        for which, rows in outcome.rows.items()
-    ]
 
 
 def side_by_side(title: str, rows: Sequence[Row]) -> Grid:

@@ -261,15 +261,6 @@ def drawn_front(table: Table, front: FrontEntry) -> Section:
     return sections.front_section(front, list(front["units_of_values"]), drawn)
 
 
-def refused_page(folder: ResultsFolder, tree: StudyTree, study: Study, reason: str) -> Page:
-    """Return the page of a study that was refused before there was any design."""
-    says = refused(reason)
-    return Page(
-        study.name, f"{study.mode} module", says.text, says.tone, [Points(reason.splitlines())], None,
-        _last(folder, tree), made_by_words(folder), there(folder, _FILES),
-    )  # fmt: skip
-
-
 def _last(folder: ResultsFolder, tree: StudyTree) -> list[Section]:
     return [folded(study_section(study_text(tree))), folded(versions_section(folder))]
 
@@ -329,12 +320,15 @@ def write_failure(
         yield
     except InfeasibleError as error:
         progress("")  # raises KeyboardInterrupt where a solver swallowed one, and its failure looks like a conflict
-        refused = refused_run(study, error)
+        results, says = refused_run(study, error), refused(str(error))
         write_study(folder, tree, study)
-        folder.write_json("results.json", refused)
+        folder.write_json("results.json", results)
         folder.write("summary.txt", f"{study.name}: no design.\n{error}\n")
-        write_page(folder, refused_page(folder, tree, study, str(error)))
+        write_page(folder, Page(
+            study.name, f"{study.mode} module", says.text, says.tone, [Points(str(error).splitlines())], None,
+            _last(folder, tree), made_by_words(folder), there(folder, _FILES),
+        ))  # fmt: skip
         folder.finish("infeasible", {"study": tree.path} if tree.path else {}, study.model_dump(mode="json"))
         if as_json:
-            print(json.dumps({**refused, "folder": str(folder.out)}, indent=2))
+            print(json.dumps({**results, "folder": str(folder.out)}, indent=2))
         raise
