@@ -8,7 +8,7 @@ from typing import Any
 
 from fe_structure.models import study_file
 
-from tvimdesign.paper.paper_case import published_model, published_values
+from tvimdesign.paper.paper_case import published_module, published_values
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.study import read_study
@@ -34,7 +34,7 @@ def starts(inputs: Values) -> Values:
 
 def published_times(inputs: Values) -> Values:
     """Times [s] of the paper's module with what the case changes, to the temperature that its paper states."""
-    model = published_model()
+    model = published_module().functions
     values = model.start.copy()
     for name, value in inputs["changes"].items():
         values[model.index[name]] = value
