@@ -139,7 +139,7 @@ def _columns_of(head: bytes) -> list[str] | None:
 
 
 Value = float | int | str | None
-_TOLD = {
+_ENDINGS = {
     "status": "evaluated, optimal, above_rating, below_yield, infeasible, refused, ...",
     "violated": "limits that are violated",
     "margin": "the least margin over all limits, as a share of the limit",
@@ -162,12 +162,13 @@ def columns(plan: SweepPlan) -> list[Column]:
     swept = plan.block.axes
     names = {axis.name for axis in swept}  # An output of such a name has another one in the table
     axes = [Column(axis.name, "" if is_words(axis) else axis.unit, "axis", _meaning(plan, axis)) for axis in swept]
-    told = [Column(name, "1" if name in {"violated", "margin"} else "", "told", says) for name, says in _TOLD.items()]
+    numbers = {"violated", "margin"}
+    endings = [Column(name, "1" if name in numbers else "", "told", says) for name, says in _ENDINGS.items()]
     outputs = [
         Column(f"{name}_found" if name in names else name, plan.unit(name), "output", _about(plan, name))
         for name in plan.columns
     ]
-    return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *told, *outputs]
+    return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *endings, *outputs]
 
 
 def _meaning(plan: SweepPlan, axis: SweptAxis) -> str:

@@ -120,8 +120,8 @@ class SweptCells:
         changes = {axis.name: text for axis, text in zip(self.plan.block.axes, texts, strict=True)}
         tree = self.plan.cell_tree(texts)
         study, answered = read_tree(tree), row["violated"] is not None
-        found = {name: row[name] for name in study.vary if answered and row.get(name) is not None}
-        at = {name: _text(value, self.plan.unit(name)) for name, value in found.items()}
+        variables = {name: row[name] for name in study.vary if answered and row.get(name) is not None}
+        at = {name: _text(value, self.plan.unit(name)) for name, value in variables.items()}
         return CellFound(number, changes, tree, study, answered, at)
 
 

@@ -274,8 +274,8 @@ def results(answer: StudyResult, table: Table) -> Answered:
         "accepting": rows(answer.accepted),
         "accepted_in_vain": list(answer.accepted_in_vain),
         "idealizations": [
-            cast("IdealizationEntry", vars(one) | {"as_drawn": number_entries(one.as_drawn, table)})
-            for one in answer.idealizations
+            cast("IdealizationEntry", vars(each) | {"as_drawn": number_entries(each.as_drawn, table)})
+            for each in answer.idealizations
         ],
         "current_profiles": design.current_profiles,
         "at_default_currents": entries(answer.constant_current),

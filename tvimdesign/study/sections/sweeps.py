@@ -154,11 +154,11 @@ def _swept(reading: values.Reading, name: str, key: Text, node: Node, method: st
         reading.problems.refuse(node, path, message, "[a, b, c], or {from: ..., to: ..., count: ...}")
     listed = dict(enumerate(node.items))
     return replace(
-        axis, values=tuple(values.readable(lambda i, item: _one(reading, item, f"{path}[{i}]"), listed).values())
+        axis, values=tuple(values.readable(lambda i, item: _single(reading, item, f"{path}[{i}]"), listed).values())
     )
 
 
-def _one(reading: values.Reading, node: Node, path: str) -> Text:
+def _single(reading: values.Reading, node: Node, path: str) -> Text:
     if not isinstance(node, Text) or node.empty:
         values.misfit(reading.problems, node, path, "one value")
     return node
@@ -188,7 +188,7 @@ def _listed(
                 else:
                     axes[name] = axis
         texts = values.readable(
-            lambda where, value: _one(reading, value, where),
+            lambda where, value: _single(reading, value, where),
             {step(path, name): value for name, (_, value) in named.items()},
         )
         if missing := [name for name in axes if name not in named]:

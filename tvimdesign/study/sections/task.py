@@ -227,8 +227,8 @@ def _trajectory(reading: values.Reading, node: Node, path: str) -> GivenTrajecto
             if not isinstance(items, Sequence):
                 values.misfit(problems, items or node, at, _EXPECTED)
             series.append(list(values.quantities(problems, items, at, unit)))
-        at_rest = values.readable(lambda key, rest: values.flag(problems, rest, step(path, key)),
-                           {key: known[key] for key in ("at_rest",) if key in known})  # fmt: skip
+        flags = {key: known[key] for key in ("at_rest",) if key in known}
+        at_rest = values.readable(lambda key, item: values.flag(problems, item, step(path, key)), flags)
         return _checked(*series, at_rest=at_rest.get("at_rest", True))
     except InputError as error:
         problems.refuse(node, path, str(error), _EXPECTED)

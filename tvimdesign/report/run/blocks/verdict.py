@@ -101,8 +101,8 @@ def _unfit(answer: StudyResult) -> Verdict | None:
     if math.isinf(answer.design.value("stiffening_time")):
         return Verdict("unfit", "Do not build it: it never gets stiff again within `horizon`")
     worst, count = _violated(answer)
-    said = f"Do not build it: {count} of {len(answer.checks)} limits are violated, most {worst}"
-    return Verdict("unfit", said) if worst else None
+    text = f"Do not build it: {count} of {len(answer.checks)} limits are violated, most {worst}"
+    return Verdict("unfit", text) if worst else None
 
 
 def _violated(answer: StudyResult) -> tuple[str, int]:
