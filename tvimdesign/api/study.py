@@ -15,6 +15,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.study import Range, read_tree
 from tvimdesign.study import Study as ResolvedStudy
+from tvimdesign.study.sections import NAMES
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.tree import StudyTree, node_of, tree_of_file, tree_of_text, tree_of_values, tree_yaml, with_value
 from tvimdesign.study.written_studies import example_text
@@ -128,13 +129,8 @@ class Study:
         folder: str | os.PathLike[str] = ".",
     ) -> None:
         """Read the study; `catalog` is a folder of the user's records in `folder`. Raises StudyError."""
-        sections = {
-            "name": name, "description": description, "mode": mode, "catalog": catalog, "module": module, "vary": vary,
-            "require": require, "accept": accept, "minimize": minimize, "front": front,
-            "operating_points": operating_points, "profile": profile, "currents": currents, "tolerances": tolerances,
-            "robust": robust, "solver": solver, "sweep": sweep, "write": write,
-        }  # fmt: skip
-        given = {key: value for key, value in sections.items() if value is not None}
+        sections = locals()
+        given = {name: sections[name] for name in NAMES if sections.get(name) is not None}
         self._tree = tree_of_values(given, "Study(...)", Path(folder))
         _ = self.resolved
 
