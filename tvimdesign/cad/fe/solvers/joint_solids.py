@@ -65,9 +65,9 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
     bottom, top = mm["rotor_bottom_level"], mm["rotor_top_level"]
     blocks = mm.get("vane_count", 0.0) > 0.0
     journal = mm["pcl_inner_radius"] - 0.3 if blocks else far
-    rotor = (
-        read("rotor") - tube(0, journal, -far, bottom) - tube(mm["pin_radius"] - mm["pin_foot_diameter"], far, top, far)
-    )
+    # Pins or their bosses go with their fillets, which end a tenth of a millimetre or more beside the core's.
+    inside = mm["pin_radius"] - 0.5 * mm["pin_foot_diameter"] - mm["foot_fillet"] - 0.05
+    rotor = read("rotor") - tube(0, journal, -far, bottom) - tube(inside, far, top, far)
     rigid = not blocks and mm["spreader_depth"] > 0.0
     # A liner fills its recess here, the film and the gap at its edges, both of adhesive, with it. Validation asks too
     # what it does with a gap that is empty.
