@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tvimdesign.device.core.layout import LEAST_FILLET
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -30,8 +31,8 @@ def leg_rotor_gap(m: Module) -> Scalar:
 
 @quantities.output("mm", at_least(0.0, "the pins must stand on the rotor plate"), sprung=True)
 def pin_rim_gap(m: Module) -> Scalar:
-    """Room between the pins and the rim of the rotor plate beyond the radial clearance, or beyond a dowel's boss."""
-    taken = np.fmax(0.5 * m.pin_diameter + m.radial_clearance, 0.5 * m.pin_foot_diameter)
+    """Room between the pins and the rotor plate's rim beyond the radial clearance, or a boss and its fillet."""
+    taken = np.fmax(0.5 * m.pin_diameter + m.radial_clearance, 0.5 * m.pin_foot_diameter + 2.0 * LEAST_FILLET)
     return m.rotor_radius - m.pin_radius - taken
 
 

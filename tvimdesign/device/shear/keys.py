@@ -8,6 +8,7 @@ plate's area, filled with a plastic like the one around.
 
 import numpy as np
 
+from tvimdesign.device.components.dowels import WITH_LEG_PINS
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -100,3 +101,17 @@ def key_pitch_margin(m: Module) -> Scalar:
     """Distance of neighbouring keys beyond the least wall between printed pockets, and half of it to the arc's ends."""
     apart = 2.0 * m.key_circle_radius * np.sin(0.5 * m.arc_span / np.fmax(m.key_count, 1.0))
     return apart - m.has_keys * (m.key_diameter + 2.0 * m.hole_wall - m.minimum_wall)
+
+
+@rules.output(
+    "mm",
+    at_least(0.0, "the legs' dowel pins would meet the keys' pockets: shorter pins, or another pin_radius_ratio"),
+    requires=WITH_LEG_PINS,
+    sprung=True,
+)
+def leg_pin_key_gap(m: Module) -> Scalar:
+    """Wall between the holes of the legs' dowel pins and keys' pockets, beside or above, beyond the least; zero without
+    either."""
+    beside = np.fabs(m.key_circle_radius - m.pin_radius) - 0.5 * (m.key_diameter + m.pin_diameter) - m.hole_wall
+    above = m.below_leg_pins - m.key_depth - m.minimum_wall
+    return m.has_keys * np.fmax(beside, above)
