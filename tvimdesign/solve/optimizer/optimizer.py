@@ -28,7 +28,8 @@ from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
 SETTLED = 1e-6
-"""Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
+"""Change of the objective or of an active row below which an optimum stays where steps are placed anew."""
+_ACTIVE = 1e-4  # Distance from its limit below which a row counts as active there
 MOST_GRIDS = 4  # Times the steps are placed anew for one run
 _BESIDE, _TRIALS = (0.1, 0.3, 1.0), 10
 """How far beside a module whose switch never ends others are tried, as a share of the ranges, and how many each."""
@@ -266,7 +267,7 @@ class Optimizer:
         before = programme.at(x)
         self.problem.place_grids(x[: self.problem.unknown_count], programme.parameters)
         after = programme.at(x)
-        moved = np.abs(after.rows - before.rows)[np.fmax(before.rows, after.rows) > most - SETTLED]
+        moved = np.abs(after.rows - before.rows)[np.fmax(before.rows, after.rows) > most - _ACTIVE]
         return bool(np.max(np.append(moved, abs(after.objective / (before.objective or 1.0) - 1.0))) < SETTLED)
 
     def _checked(self, x: Array, parameters: Parameters, most: Array) -> tuple[dict[str, Any], dict[str, Any]]:

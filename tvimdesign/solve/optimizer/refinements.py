@@ -53,7 +53,7 @@ class ConstantCurrentOptimum:
         return Constant(self.best.start.objective, {**inputs, **values})
 
 
-_AT_IT = 1e-6  # Share of that time within which an event comes as late as it may
+_AT_IT = 1e-5  # Share of that time within which an event comes as late as it may
 
 
 def ending_in_time(study: Study, optimizer: Optimizer, run: Run) -> Study | None:
