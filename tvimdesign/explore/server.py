@@ -173,9 +173,6 @@ def _file(folder: Path, name: str) -> web.StreamResponse:
     return web.FileResponse(path, headers={"Cache-Control": "no-cache"})
 
 
-# --- the page ---
-
-
 def explore_page(nonce: str) -> str:
     """Return the empty page; its content comes over the socket."""
     imports = json.dumps({"imports": {f"{room}/": f"./static/{room}/" for room in STATIC}})
@@ -189,9 +186,6 @@ def content_policy(nonce: str) -> str:
         f"default-src 'none'; script-src 'self' 'nonce-{nonce}'; style-src 'self' 'unsafe-inline'; "
         "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     )
-
-
-# --- the command ---
 
 
 def serve(

@@ -152,9 +152,6 @@ def _plain(data: bytes, problems: Mistakes) -> dict[str, Any] | None:
 _WANTED = "a design.json that `tvimdesign run` wrote"
 
 
-# --- checks ---
-
-
 def _check_form(error: ValidationError, data: Any, problems: Mistakes, path: str = "") -> None:
     """Note what pydantic says, once for each place: a value that may be of several kinds has a fault for each."""
     messages: dict[str, str] = {}

@@ -198,9 +198,6 @@ def status_values(answer: CellAnswer, units: Sequence[str]) -> list[Value]:
     return [answer.status, answer.violated, margin, answer.reason, *values]
 
 
-# --- files ---
-
-
 def write_tables(plan: SweepPlan, every: Iterable[list[Value]], folder: Path) -> None:
     """Write cells.csv and cells.sqlite in one go through the cells. Raises OutputError.
 

@@ -104,9 +104,6 @@ def _over(row: FeatureRow, lowest: float, highest: float) -> FeatureRow:
     return replace(row, bottom=row.bottom - lowest, top=row.top - lowest, through=through)
 
 
-# --- round holes and bosses ------------------------------------------------------------------------------------------
-
-
 def _holes(cylinders: Sequence[Cylinder], requirements: DrawingRequirements) -> list[Cylinder]:
     return [face for face in cylinders if face.is_round and (not face.is_central or requirements.thread(face))]
 
@@ -143,9 +140,6 @@ def _centres(group: Sequence[Cylinder]) -> list[Point]:
     return [(face.x, face.y) for face in group]
 
 
-# --- sectors between end walls through the axis ----------------------------------------------------------------------
-
-
 def _sector_key(sector: Sector) -> Hashable:
     return sector.is_pocket, round(sector.span, 4), sector.radii, sector.levels
 
@@ -161,9 +155,6 @@ def _sector_row(group: list[Sector]) -> FeatureRow:
     body = "raised sector" if len(group) > 1 else "sector"
     return FeatureRow("pocket" if sector.is_pocket else body, size, place, *sector.levels, points=points, of=faces,
                       azimuths=tuple(_azimuths([other.middle for other in group])))  # fmt: skip
-
-
-# --- slots, ribs and single walls ------------------------------------------------------------------------------------
 
 
 def _pair_key(pair: Pair) -> Hashable:
@@ -242,9 +233,6 @@ def _distinct_rows(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
     return distinct
 
 
-# --- arcs ------------------------------------------------------------------------------------------------------------
-
-
 def _arc_key(arc: Cylinder) -> Hashable:
     return round(arc.radius, 5), round(hypot(arc.x, arc.y), 3), arc.bottom, arc.top, arc.concave, round(arc.span, 4)
 
@@ -277,9 +265,6 @@ def _corners_row(group: list[Cylinder]) -> FeatureRow:
     return FeatureRow(
         "corners", f"R{figure(corner.radius)}", "where walls meet", bottom, top, points=points, of=tuple(group)
     )
-
-
-# --- places ----------------------------------------------------------------------------------------------------------
 
 
 def _circle(places: Sequence[Point]) -> str:

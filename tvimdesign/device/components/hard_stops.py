@@ -87,9 +87,6 @@ def stop_post_length(m: Module) -> Scalar:
     return m.stop_post_span * m.stop_contact_radius
 
 
-# --- weights ---------------------------------------------------------------------------------------------------------
-
-
 @weights.helper()
 def stop_posts_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the stops' posts."""
@@ -101,9 +98,6 @@ def stop_posts_moments(m: Module) -> Section:
 def stop_teeth_section(m: Module) -> Section:
     """Plan view of the rotor's teeth."""
     return tooth(m.stop_tooth_span, m.rotor_radius, m.stop_outer_radius, m.corner_radius).times(STOPS)
-
-
-# --- strength --------------------------------------------------------------------------------------------------------
 
 
 @strengths.output("N")
@@ -158,9 +152,6 @@ def stop_tooth_safety(m: Module) -> Scalar:
 def stop_torque(m: Module) -> Scalar:
     """Torque that the stops bear to either side, by `holding_safety` below the one at which a post or tooth yields."""
     return m.holding_torque * np.fmin(np.fmin(m.stop_face_safety, m.stop_post_safety), m.stop_tooth_safety)
-
-
-# --- rules -----------------------------------------------------------------------------------------------------------
 
 
 @rules.output("mm", at_least(0.0, "parts as made could meet their stops within the stroke: more stop_margin"))

@@ -27,9 +27,6 @@ def foot_count(m: Module) -> Scalar:
     return m.spring_count
 
 
-# --- radii -----------------------------------------------------------------------------------------------------------
-
-
 @quantities.output("mm", sprung=True)
 def pin_radius(m: Module) -> Scalar:
     """Distance of the rotor pins from the axis."""
@@ -101,9 +98,6 @@ def link_length(m: Module) -> Scalar:
 def link_bolt_circle_radius(m: Module) -> Scalar:
     """Radius of the circle of the four link screws."""
     return m.link_bolt_ratio * m.core_radius
-
-
-# --- levels ----------------------------------------------------------------------------------------------------------
 
 
 @quantities.output("mm", sprung=True)
@@ -197,9 +191,6 @@ def post_radius(m: Module) -> Scalar:
     """Radius of a spring's post: 90 % of the inner radius of the fully wound spring."""
     # Shigley, section 10-12: mandrel about 10 % under the inner diameter at full deflection.
     return 0.45 * (m.spring_wound_diameter - m.wire_diameter)
-
-
-# --- envelope --------------------------------------------------------------------------------------------------------
 
 
 @quantities.output("mm", headline=True)

@@ -13,9 +13,6 @@ quantities.inputs()
 quantities.choices("softening")
 
 
-# --- response times --------------------------------------------------------------------------------------------------
-
-
 @quantities.event(SOFTENING)
 def near_face_time(m: Module) -> Scalar:
     """Time until the layer's face at the heaters is at the target temperature."""
@@ -71,9 +68,6 @@ def softening_margin(m: Module) -> Scalar:
     return m.response_time - m.softening_time
 
 
-# --- what the joint is when the switch ends ---------------------------------------------------------------------------
-
-
 @quantities.path(SOFTENING, "N*m/rad", "end", headline=True)
 def softened_stiffness(m: Module) -> Scalar:
     """Stiffness of the joint when the switch ends, at the hot point's frequency."""
@@ -120,9 +114,6 @@ def sensed_temperature(m: Module) -> Scalar:
 def hot_point_margin(m: Module) -> Scalar:
     """Temperature of the layer's coldest face when the switch ends less that of the hot point."""
     return m.softened_temperature - m.temperature_at_hot
-
-
-# --- over the phase -------------------------------------------------------------------------------------------------
 
 
 @quantities.path(SOFTENING, "J", "integral", headline=True)
@@ -189,9 +180,6 @@ def pcl_temperature_margin(m: Module) -> Scalar:
 def structure_temperature_margin(m: Module) -> Scalar:
     """Service temperature of the structure less the highest temperature of the pads that touch it."""
     return m.structure_service_temperature - m.peak_heater_temperature
-
-
-# --- to stay soft ----------------------------------------------------------------------------------------------------
 
 
 @quantities.steady(SOFTENING, "A")

@@ -52,9 +52,6 @@ class Trajectory(NamedTuple):
         return float(times[1] - times[0]), spline(times), spline(times, 1), spline(times, 2)
 
 
-# --- the load --------------------------------------------------------------------------------------------------------
-
-
 @quantities.output("kg*mm^2")
 def task_inertia(m: Module) -> Scalar:
     """Inertia about the axis of arm, payload and the module's own moving parts."""
@@ -100,9 +97,6 @@ def task_swing(m: Module) -> Callable[[Joint], tuple[Joint, Scalar, Scalar]]:
     return swing
 
 
-# --- hold ------------------------------------------------------------------------------------------------------------
-
-
 @quantities.output("rad", per_point=True)
 def sag_angle(m: Module) -> Scalar:
     """Angle by which gravity has turned the joint at the end of `pose_time`, without its stops."""
@@ -115,9 +109,6 @@ def sag_angle(m: Module) -> Scalar:
 def sag(m: Module) -> Scalar:
     """Way by which the arm's end has sunk at the end of `pose_time`, along its circle."""
     return m.sag_angle * m.arm_length
-
-
-# --- sine ------------------------------------------------------------------------------------------------------------
 
 
 @quantities.helper(per_point=True)
@@ -158,9 +149,6 @@ def bandwidth(m: Module) -> Scalar:
     return driven.bandwidth(m.task_stiffness, m.task_inertia, 2.0 * np.pi * m.frequency) / (2.0 * np.pi)
 
 
-# --- trajectory ------------------------------------------------------------------------------------------------------
-
-
 @quantities.helper(per_point=True)
 def trajectory_states(m: Module) -> tuple[list[Scalar], list[Scalar]]:
     """Torques [N*m] and angles [rad] of the joint after each step in which the housing follows the trajectory."""
@@ -186,9 +174,6 @@ def trajectory_torque(m: Module) -> Scalar:
 def trajectory_deflection(m: Module) -> Scalar:
     """Largest angle of the joint while the housing follows the trajectory, gravity counted; 0 without one."""
     return driven.largest(m.trajectory_states[1])
-
-
-# --- impact ----------------------------------------------------------------------------------------------------------
 
 
 @quantities.helper()
@@ -256,9 +241,6 @@ _BREAKS = "the frozen joint holds less than the impact's largest torque"
 def impact_torque_margin(m: Module) -> Scalar:
     """Torque that the frozen joint holds beyond that of the impact."""
     return m.holding_torque - m.impact_torque_at_cold
-
-
-# --- all of it -------------------------------------------------------------------------------------------------------
 
 
 @quantities.output("N*m", per_point=True, headline=True)

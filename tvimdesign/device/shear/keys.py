@@ -47,8 +47,6 @@ def key_moments(m: Module) -> Section:
     return disc_at(0.5 * m.key_diameter, m.key_circle_radius).times(m.arc_count * m.key_count * m.key_depth)
 
 
-# --- strength --------------------------------------------------------------------------------------------------------
-
 strengths.after("layer_holding_torque")
 
 
@@ -72,8 +70,6 @@ def key_play(m: Module) -> Scalar:
     """
     return m.has_keys * joint_play(0.5 * m.key_shrinkage * m.key_diameter, m.key_circle_radius)
 
-
-# --- rules -----------------------------------------------------------------------------------------------------------
 
 rules.after("arc_width")
 

@@ -131,9 +131,6 @@ def _outputs(reading: values.Reading, node: Node | None) -> tuple[str, ...]:
     return ()
 
 
-# --- axes ---
-
-
 def _axes(reading: values.Reading, parts: dict[str, Node], node: Node, method: str) -> tuple[SweptAxis, ...]:
     if "cells" in parts:
         reading.problems.add(parts["cells"], "sweep.cells", f"a {method} has no list of cells", "'method: list'")
@@ -231,9 +228,6 @@ def _of_module(reading: values.Reading, key: Text, path: str, name: str) -> Swep
     raise RefusedError
 
 
-# --- ranges ---
-
-
 def _range(reading: values.Reading, node: Mapping, path: str, axis: SweptAxis, method: str) -> SweptAxis:
     problems = reading.problems
     parts = values.unknown_keys(problems, node.entries, path, "key", _RANGE_KEYS)
@@ -295,9 +289,6 @@ def _steps(
         if width <= 0.0:
             problems.refuse(parts["step"], f"{path}.step", "leads nowhere", "a step above zero")
     return int((ends[1] - ends[0]) / width * (1.0 + values.ROUNDING) + values.ROUNDING) + 1
-
-
-# --- schema ---
 
 
 def _schema(table: Table) -> Schema:

@@ -211,9 +211,6 @@ def _share(reading: values.Reading, node: Node, path: str) -> float:
     return share
 
 
-# --- schema and writer ---
-
-
 def tolerance_schema(tables: Iterable[Table]) -> Schema:
     """Return the schema of one tolerance of any input."""
     size = {"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^\s*{NUMBER}"}]}

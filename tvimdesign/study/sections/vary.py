@@ -214,9 +214,6 @@ def _shown(node: Node) -> str:
     return quoted(node.value) if isinstance(node, Text) else "the value"
 
 
-# --- sizes one can buy ---
-
-
 def _read_sizes(reading: values.Reading, parts: dict[str, Node], path: str, row: Input) -> Options:
     """Return the sizes a catalogue record lists for an input, within `from` and `to` where they are given."""
     node = parts["catalog"]
@@ -253,9 +250,6 @@ def _sizes(reading: values.Reading, node: Node, path: str, name: str, row: Input
         message = f"{name} lists no {column}, only {columns or 'nothing'}"
         reading.problems.refuse(node, path, message, "a record that lists it")
     return sizes
-
-
-# --- schema and writer ---
 
 
 def _schema(table: Table) -> Schema:

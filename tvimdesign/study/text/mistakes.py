@@ -230,9 +230,6 @@ def _place(text: str, index: int) -> At:
     return At(text.count("\n", 0, index) + 1, index - start + 1)
 
 
-# --- files a user names ---
-
-
 def printable(path: Path) -> str:
     """Write a path so that a terminal shows it and obeys nothing in it."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(path))

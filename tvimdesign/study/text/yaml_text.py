@@ -192,8 +192,6 @@ def place_of(root: Any, path: str) -> At:
     return At(place.start_mark.line + 1, place.start_mark.column + 1) if place else At(0, 0)
 
 
-# --- from nodes back to text ---
-
 _WIDTH = 120
 
 
