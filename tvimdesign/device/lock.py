@@ -68,7 +68,7 @@ def stop_post_span(m: Module) -> Scalar:
 rules = QuantityGroup("Gaps")
 
 
-@rules.output("mm", at_least(0.0, "a cutter does not come down between feet and skirt: more radial_clearance"))
+@rules.gap("a cutter does not come down between feet and skirt: more radial_clearance")
 def foot_pocket_margin(m: Module) -> Scalar:
     """Depth the place between feet and skirt may have for its width beyond the one it has."""
     return m.pocket_depth_ratio * m.radial_clearance - m.foot_height

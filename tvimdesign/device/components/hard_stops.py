@@ -154,7 +154,7 @@ def stop_torque(m: Module) -> Scalar:
     return m.holding_torque * np.fmin(np.fmin(m.stop_face_safety, m.stop_post_safety), m.stop_tooth_safety)
 
 
-@rules.output("mm", at_least(0.0, "parts as made could meet their stops within the stroke: more stop_margin"))
+@rules.gap("parts as made could meet their stops within the stroke: more stop_margin")
 def stop_fit_margin(m: Module) -> Scalar:
     """Way of a tooth from the end of the stroke to its stop, beyond what the process's least gap may take of it."""
     return m.stop_margin * m.stop_contact_radius - m.slip_clearance
@@ -163,13 +163,13 @@ def stop_fit_margin(m: Module) -> Scalar:
 _NO_ROOM = "there is no room for the stops: a larger placement_radius, or smaller mount_boss_radius or rotor_rim"
 
 
-@rules.output("mm", at_least(0.0, _NO_ROOM))
+@rules.gap(_NO_ROOM)
 def stop_width_margin(m: Module) -> Scalar:
     """Radial width of the stops beyond the process's least wall."""
     return m.stop_width - m.minimum_wall
 
 
-@rules.output("mm", at_least(0.0, "the springs leave no room for the stops: fewer springs, or less stop_tooth_width"))
+@rules.gap("the springs leave no room for the stops: fewer springs, or less stop_tooth_width")
 def stop_length_margin(m: Module) -> Scalar:
     """Length of a post, or width of a tooth where that is less, beyond the process's least wall."""
     return np.fmin(m.stop_post_length, m.stop_tooth_width) - m.minimum_wall

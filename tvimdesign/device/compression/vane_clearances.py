@@ -13,7 +13,7 @@ from tvimdesign.physics.solids.shapes import between_planes
 quantities = QuantityGroup("Gaps")
 
 
-@quantities.output("mm", at_least(0.0, "blocks and vanes must clear the hub"))
+@quantities.gap("blocks and vanes must clear the hub")
 def hub_block_gap(m: Module) -> Scalar:
     """Room between the hub and the blocks and vanes beyond the radial clearance."""
     return m.pcl_inner_radius - m.hub_radius - m.radial_clearance
@@ -45,9 +45,7 @@ def slot_web(m: Module) -> Scalar:
     return 0.5 * ((m.block_width if m.heater_form == CUT else m.tile_slot_pitch) - m.slot_width)
 
 
-@quantities.output(
-    "mm", at_least(0.0, "what carries the pads beside the slots is thinner than the process can make it")
-)
+@quantities.gap("what carries the pads beside the slots is thinner than the process can make it")
 def slot_web_margin(m: Module) -> Scalar:
     """Housing vane on either side of its slot beyond the process's least wall."""
     return m.slot_web - m.minimum_wall
@@ -59,9 +57,7 @@ def vane_root(m: Module) -> Scalar:
     return m.rotor_vane_angle * m.pcl_inner_radius
 
 
-@quantities.output(
-    "mm", at_least(0.0, "the rotor's vanes are thinner at their inner end than the process can make them")
-)
+@quantities.gap("the rotor's vanes are thinner at their inner end than the process can make them")
 def vane_root_margin(m: Module) -> Scalar:
     """Rotor vanes at their inner end beyond the process's least wall."""
     return m.vane_root - m.minimum_wall
@@ -91,19 +87,19 @@ def _slot_reach_below(m: Module) -> Scalar:
     return np.fmax(m.corner_radius, 0.5 * (m.peltier_thickness + m.lead_hole_diameter))
 
 
-@quantities.output("mm", at_least(0.0, "the slots are too narrow for their depth: the cutter cannot reach their ends"))
+@quantities.gap("the slots are too narrow for their depth: the cutter cannot reach their ends")
 def slot_pocket_margin(m: Module) -> Scalar:
     """Depth the slots, milled from below, may have for their width beyond the one they have."""
     return m.pocket_depth_ratio * m.slot_opening - (m.floor_thickness + m.slot_top_level)
 
 
-@quantities.output("mm", at_least(0.0, "the slots are too deep, the cutter cannot reach into their corners so far"))
+@quantities.gap("the slots are too deep, the cutter cannot reach into their corners so far")
 def slot_corner_margin(m: Module) -> Scalar:
     """Depth the corners of the slots, milled from below, may have beyond the one they have."""
     return m.corner_depth_ratio * m.corner_radius - (m.floor_thickness + m.slot_top_level)
 
 
-@quantities.output("mm", at_least(0.0, "the slots' roofs are too long a bridge to print: a smaller slot_share"))
+@quantities.gap("the slots' roofs are too long a bridge to print: a smaller slot_share")
 def slot_bridge_margin(m: Module) -> Scalar:
     """Longest bridge of the process beyond that along the pads, where the slots' roofs end in the air."""
     if m.heater_form != CUT:
@@ -118,7 +114,7 @@ def slot_bridge_margin(m: Module) -> Scalar:
 _NARROW = "a slot must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
 
 
-@quantities.output("mm", at_least(0.0, _NARROW))
+@quantities.gap(_NARROW)
 def slot_width_margin(m: Module) -> Scalar:
     """Radial width of the slots beyond what their corners need."""
     return m.slot_width - POCKET_WIDTH * m.corner_radius
@@ -136,7 +132,7 @@ def squeezed_block_gap(m: Module) -> Scalar:
     return m.placement_radius - m.spring_reach - squeezed - m.radial_clearance
 
 
-@quantities.output("mm", at_least(0.0, "the feet must clear the slots"))
+@quantities.gap("the feet must clear the slots")
 def mount_slot_gap(m: Module) -> Scalar:
     """Room between the mounting feet and the slots in the floor beyond the radial clearance."""
     return m.placement_radius - m.mount_boss_radius - m.slot_outer_radius - m.radial_clearance
@@ -154,15 +150,13 @@ def pad_seat(m: Module) -> Scalar:
 _SEAT = "pads stand on too thin a wall beside their slots: a smaller slot_corner_offset or lead_hole_diameter"
 
 
-@quantities.output("mm", at_least(0.0, _SEAT))
+@quantities.gap(_SEAT)
 def pad_seat_margin(m: Module) -> Scalar:
     """Width of what a pad stands on beside its slot beyond the process's least wall."""
     return m.pad_seat - m.minimum_wall
 
 
-@quantities.output(
-    "mm", at_least(0.0, "the slot's corners leave sharp edges beside the pads: a larger slot_corner_offset")
-)
+@quantities.gap("the slot's corners leave sharp edges beside the pads: a larger slot_corner_offset")
 def slot_edge_margin(m: Module) -> Scalar:
     """Offset of the slots' corners beyond the one at which the edges they leave beside the pads have 60 degrees."""
     return m.slot_corner_offset + 0.5 * m.corner_radius

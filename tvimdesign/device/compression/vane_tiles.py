@@ -24,7 +24,7 @@ import numpy as np
 from tvimdesign.device.components.liner_and_adhesive import WITH_PADS
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids import structure
@@ -93,38 +93,38 @@ def tile_seat_area(m: Module) -> Scalar:
     return m.peltier_length * m.peltier_width - m.tile_window * m.slot_height
 
 
-@tile_rules.output("mm", at_least(0.0, "the heaters are too long for the block's width: fewer, or a wider block"))
+@tile_rules.gap("the heaters are too long for the block's width: fewer, or a wider block")
 def tile_side_margin(m: Module) -> Scalar:
     """Gap between neighbouring tiles of a row beyond the least; of one, to both ends of its block."""
     return m.tile_spacing - m.peltier_length - m.tile_clearance
 
 
-@tile_rules.output("mm", at_least(0.0, "the heaters are taller than the block: a smaller one, or a taller block"))
+@tile_rules.gap("the heaters are taller than the block: a smaller one, or a taller block")
 def tile_height_margin(m: Module) -> Scalar:
     """Height of the block beyond that of the tiles."""
     return m.block_height - m.peltier_width
 
 
-@tile_rules.output("mm", at_least(0.0, "a heater reaches beyond the outer end of its vane: a wider block"))
+@tile_rules.gap("a heater reaches beyond the outer end of its vane: a wider block")
 def tile_end_margin(m: Module) -> Scalar:
     """Vane beyond the back corner of its outermost tiles, which bear on it up to there."""
     end = m.pcl_outer_radius - 0.5 * (m.tile_spacing - m.peltier_length)
     return m.pcl_outer_radius - np.sqrt(end**2 + m.pad_depth**2)
 
 
-@tile_rules.output("mm", at_least(0.0, "the slot behind a heater is too narrow for its leads"))
+@tile_rules.gap("the slot behind a heater is too narrow for its leads")
 def lead_slot_margin(m: Module) -> Scalar:
     """Width of the slots beyond what the leads of a tile need."""
     return m.slot_width - m.lead_hole_diameter
 
 
-@tile_rules.output("mm", at_least(0.0, "a slot breaks through the inner end of its vane: choose a smaller slot_share"))
+@tile_rules.gap("a slot breaks through the inner end of its vane: choose a smaller slot_share")
 def inner_web_margin(m: Module) -> Scalar:
     """Housing vane within its innermost slot beyond the process's least wall."""
     return m.slot_inner_radius - m.pcl_inner_radius - m.minimum_wall
 
 
-@tile_rules.output("mm", at_least(0.0, "a slot breaks through the outer end of its vane: choose a smaller slot_share"))
+@tile_rules.gap("a slot breaks through the outer end of its vane: choose a smaller slot_share")
 def outer_web_margin(m: Module) -> Scalar:
     """Housing vane without the corners of its outermost slot beyond the process's least wall."""
     return m.pcl_outer_radius - m.slot_outer_radius - m.minimum_wall
@@ -214,22 +214,20 @@ def thermistor_volume(m: Module) -> Scalar:
     return 0.25 * np.pi * m.thermistor_diameter**2 * m.thermistor_length
 
 
-@rules.output("mm", at_least(0.0, "the thermistor would be taller than the block: a shorter bead"))
+@rules.gap("the thermistor would be taller than the block: a shorter bead")
 def thermistor_height_gap(m: Module) -> Scalar:
     """Height of the block beyond the bead's, where there is one."""
     length = np.fmin(m.thermistor_length, 1e3 * m.thermistor_diameter)
     return np.fmax(m.vane_height - m.running_clearance, 0.0) - length
 
 
-@rules.output("mm", at_least(0.0, "the thermistor does not reach the pad's end: a smaller bead"))
+@rules.gap("the thermistor does not reach the pad's end: a smaller bead")
 def thermistor_end_gap(m: Module) -> Scalar:
     """Thickness of the pad, or the spreader, beyond half of the bead's, which touches it there."""
     return (m.peltier_thickness if m.heater_form == CUT else m.spreader_depth) - 0.5 * m.thermistor_diameter
 
 
-@rules.output(
-    "mm", at_least(0.0, "the thermistor stands out beyond the rotor plate: a wider rotor_rim, or a smaller bead")
-)
+@rules.gap("the thermistor stands out beyond the rotor plate: a wider rotor_rim, or a smaller bead")
 def thermistor_rim_gap(m: Module) -> Scalar:
     """Rim of the rotor plate beyond the blocks, under which the bead stands, less the bead."""
     return m.rotor_rim - m.thermistor_diameter
@@ -242,7 +240,7 @@ def _thermistor_azimuth(m: Module) -> Scalar:
     return np.pi / m.vane_count + 0.5 * m.housing_vane_angle - np.arctan2(half, m.pcl_outer_radius + half)
 
 
-@rules.output("mm", at_least(0.0, "the floor between the thermistor's hole and what is beside it is too thin"))
+@rules.gap("the floor between the thermistor's hole and what is beside it is too thin")
 def thermistor_hole_gap(m: Module) -> Scalar:
     """Floor between the hole and the nearest spring's tang or adjuster's pocket, beyond the least wall where it is.
 

@@ -17,26 +17,26 @@ POCKET_WIDTH = 2.1
 has no way to go to its size, and two round corners that meet leave no edge between them to draw."""
 
 
-@quantities.output("mm", at_least(0.0, "the springs must clear the rotor plate"), sprung=True)
+@quantities.gap("the springs must clear the rotor plate", sprung=True)
 def rotor_spring_gap(m: Module) -> Scalar:
     """Room between the rotor plate and the springs beyond the radial clearance."""
     return m.placement_radius - m.spring_reach - m.rotor_radius - m.radial_clearance
 
 
-@quantities.output("mm", at_least(0.0, "the rotor-side legs must pass above the rotor plate"), sprung=True)
+@quantities.gap("the rotor-side legs must pass above the rotor plate", sprung=True)
 def leg_rotor_gap(m: Module) -> Scalar:
     """Room between the rotor-side legs and the rotor plate below them beyond the axial clearance."""
     return m.coil_end_level - 0.5 * m.wire_diameter - m.rotor_top_level - m.axial_clearance
 
 
-@quantities.output("mm", at_least(0.0, "the pins must stand on the rotor plate"), sprung=True)
+@quantities.gap("the pins must stand on the rotor plate", sprung=True)
 def pin_rim_gap(m: Module) -> Scalar:
     """Room between the pins and the rotor plate's rim beyond the radial clearance, or a boss and its fillet."""
     taken = np.fmax(0.5 * m.pin_diameter + m.radial_clearance, 0.5 * m.pin_foot_diameter + 2.0 * LEAST_FILLET)
     return m.rotor_radius - m.pin_radius - taken
 
 
-@quantities.output("mm", at_least(0.0, "the legs must clear the core"), sprung=True)
+@quantities.gap("the legs must clear the core", sprung=True)
 def leg_core_gap(m: Module) -> Scalar:
     """Room between the ends of the rotor-side legs and the core at the stops beyond the radial clearance."""
     # At the stop that unwinds the spring its leg points nearest to the core. The axis lies `beside` the
@@ -57,9 +57,8 @@ def leg_overhang_margin(m: Module) -> Scalar:
     )
 
 
-@quantities.output(
-    "mm",
-    at_least(0.0, "the tang would press on its hole as the coil winds and unwinds"),
+@quantities.gap(
+    "the tang would press on its hole as the coil winds and unwinds",
     requires=(Feature("tang_hold", "bonded"),),
     sprung=True,
 )
@@ -81,13 +80,13 @@ def post_thickness(m: Module) -> Scalar:
     return m.post_radius
 
 
-@quantities.output("mm", at_least(0.0, "neighbouring springs must clear each other"), sprung=True)
+@quantities.gap("neighbouring springs must clear each other", sprung=True)
 def spring_spring_gap(m: Module) -> Scalar:
     """Room between neighbouring springs beyond the radial clearance."""
     return 2.0 * m.placement_radius * np.sin(np.pi / m.spring_count) - 2.0 * m.spring_reach - m.radial_clearance
 
 
-@quantities.output("mm", at_least(0.0, "the retainer must stand above the ground"))
+@quantities.gap("the retainer must stand above the ground")
 def retainer_gap(m: Module) -> Scalar:
     """Room between the ground and the retainer with its screw's head."""
     return (
@@ -114,7 +113,7 @@ def core_web(m: Module) -> Scalar:
     return m.link_bottom_level - m.core_bottom_level - m.link_screw_depth - m.retainer_screw_depth - points
 
 
-@quantities.output("mm", at_least(0.0, "feet and skirt leave a slot between them that closes: thinner feet"))
+@quantities.gap("feet and skirt leave a slot between them that closes: thinner feet")
 def mount_wall_gap(m: Module) -> Scalar:
     """Room between the mounting feet and the skirt beyond the process's least gap."""
     return m.housing_inner_radius - m.placement_radius - m.mount_boss_radius - m.minimum_running_clearance

@@ -25,6 +25,7 @@ import numpy as np
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import ZERO_CELSIUS
+from tvimdesign.device.core.mass_properties import template_mass
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -63,16 +64,10 @@ def pad_depth(m: Module) -> Scalar:
     return m.peltier_thickness + m.spreader_depth
 
 
-@weights.output("g")
-def spreader_mass(m: Module) -> Scalar:
-    """Mass of all spreaders together; zero without."""
-    return m.spreader_volume * m.spreader_density
-
-
-@weights.output("g")
-def lead_mass(m: Module) -> Scalar:
-    """Mass of the leads of rectangular heaters as far as they are in the floor; zero without."""
-    return m.lead_volume * m.lead_density
+weights.from_template("spreader", "all spreaders together; zero without", template_mass, "g")
+weights.from_template(
+    "lead", "the leads of rectangular heaters as far as they are in the floor; zero without", template_mass, "g"
+)
 
 
 @flows.output("mm^2")
@@ -108,7 +103,7 @@ def spreader(m: Module) -> lumps.Lump | None:
 gaps = QuantityGroup("Gaps", WITH_TILES)
 
 
-@gaps.output("mm", at_least(0.0, "the leads of the heaters do not go through: a larger lead_hole_diameter"))
+@gaps.gap("the leads of the heaters do not go through: a larger lead_hole_diameter")
 def lead_hole_margin(m: Module) -> Scalar:
     """Room for a lead of a rectangular heater beyond its diameter and the clearance with which it goes in."""
     return m.lead_hole_diameter - m.lead_diameter - m.slip_clearance
@@ -153,11 +148,7 @@ def layer_resistance(m: Module) -> Scalar:
     return whole * (m.heater_count / m.heater_strings) ** 2
 
 
-@layer_flows.output(
-    "mm",
-    at_least(0.0, "the current stays near the combs, and does not heat the layer's far side"),
-    requires=LAYER_HEATED,
-)
+@layer_flows.gap("the current stays near the combs, and does not heat the layer's far side", requires=LAYER_HEATED)
 def electrode_gap_margin(m: Module) -> Scalar:
     """Gap between the fingers of the combs less the layer's depth."""
     return m.electrode_gap - m.pcl_depth
@@ -211,19 +202,16 @@ def cutout_volume(m: Module) -> Scalar:
     return 0.25 * np.pi * (m.cutout_diameter**2 * m.cutout_length + legs)
 
 
-@cutout_weights.output("g")
-def cutout_mass(m: Module) -> Scalar:
-    """Mass of the thermal cut-out; zero without one."""
-    return m.cutout_volume * m.cutout_density
+cutout_weights.from_template("cutout", "the thermal cut-out; zero without one", template_mass, "g")
 
 
-@cutout_rules.output("mm", at_least(0.0, "the thermal cut-out stands out below the feet: more foot_height"))
+@cutout_rules.gap("the thermal cut-out stands out below the feet: more foot_height")
 def cutout_ground_gap(m: Module) -> Scalar:
     """Room between the ground and the thermal cut-out below the floor."""
     return m.foot_height - m.cutout_diameter
 
 
-@cutout_rules.output("mm", at_least(0.0, "the thermal cut-out meets the retainer: a smaller one, or heater_fuse: none"))
+@cutout_rules.gap("the thermal cut-out meets the retainer: a smaller one, or heater_fuse: none")
 def cutout_retainer_gap(m: Module) -> Scalar:
     """Room between the thermal cut-out below the floor and what is within it."""
     return m.cutout_radius - 0.5 * m.cutout_diameter - m.retainer_radius

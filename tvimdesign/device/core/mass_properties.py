@@ -12,6 +12,26 @@ quantities = QuantityGroup("Size and weight")
 LINK_SCREWS = 4
 
 
+def template_volume(m: Module) -> Scalar:
+    """Volume of {it}."""
+    return m.template_moments.area
+
+
+def template_mass(m: Module) -> Scalar:
+    """Mass of {it}."""
+    return m.template_volume * m.template_density
+
+
+def template_made_mass(m: Module) -> Scalar:
+    """Mass of {it}."""
+    return m.template_volume * m.structure_density
+
+
+def template_made_inertia(m: Module) -> Scalar:
+    """Moment of inertia of {it}."""
+    return m.template_moments.polar * m.structure_density
+
+
 @quantities.output("mm", sprung=True)
 def helix_length(m: Module) -> Scalar:
     """Length of the wire in the coils of one spring."""
@@ -150,22 +170,14 @@ def retainer_section(m: Module) -> Section:
     return shapes.ring(0.5 * m.retainer_screw_clearance, m.retainer_radius)
 
 
-@quantities.output("g")
-def thermistor_mass(m: Module) -> Scalar:
-    """Mass of all thermistor beads together; zero without."""
-    return m.thermistor_volume * m.thermistor_density
-
-
-@quantities.output("mm^3")
-def housing_volume(m: Module) -> Scalar:
-    """Volume of the housing: skirt and floor, wall, hub and spring posts, and what its mode adds."""
-    return m.housing_moments.area
-
-
-@quantities.output("mm^3")
-def rotor_volume(m: Module) -> Scalar:
-    """Volume of the rotor with its core and pins."""
-    return m.rotor_moments.area
+quantities.from_template("thermistor", "all thermistor beads together; zero without", template_mass, "g")
+quantities.from_template(
+    "housing",
+    "the housing: skirt and floor, wall, hub and spring posts, and what its mode adds",
+    template_volume,
+    "mm^3",
+)
+quantities.from_template("rotor", "the rotor with its core and pins", template_volume, "mm^3")
 
 
 @quantities.output("mm^3")
@@ -180,28 +192,10 @@ def retainer_volume(m: Module) -> Scalar:
     return m.retainer_section.area * m.retainer_thickness
 
 
-@quantities.output("g")
-def housing_mass(m: Module) -> Scalar:
-    """Mass of the housing."""
-    return m.housing_volume * m.structure_density
-
-
-@quantities.output("g")
-def rotor_mass(m: Module) -> Scalar:
-    """Mass of the rotor."""
-    return m.rotor_volume * m.structure_density
-
-
-@quantities.output("g")
-def link_mass(m: Module) -> Scalar:
-    """Mass of the output link."""
-    return m.link_volume * m.structure_density
-
-
-@quantities.output("g")
-def retainer_mass(m: Module) -> Scalar:
-    """Mass of the retainer."""
-    return m.retainer_volume * m.structure_density
+quantities.from_template("housing", "the housing", template_made_mass, "g", name="housing_mass")
+quantities.from_template("rotor", "the rotor", template_made_mass, "g", name="rotor_mass")
+quantities.from_template("link", "the output link", template_made_mass, "g", name="link_mass")
+quantities.from_template("retainer", "the retainer", template_made_mass, "g", name="retainer_mass")
 
 
 @quantities.output("g", sprung=True)
@@ -210,10 +204,7 @@ def springs_mass(m: Module) -> Scalar:
     return m.spring_count * m.spring_volume * m.spring_density
 
 
-@quantities.output("g")
-def pcl_mass(m: Module) -> Scalar:
-    """Mass of all PCL together."""
-    return m.pcl_volume * m.pcl_density
+quantities.from_template("pcl", "all PCL together", template_mass, "g")
 
 
 @quantities.output("kg/m^3")
@@ -222,10 +213,7 @@ def peltier_density(m: Module) -> Scalar:
     return m.peltier_scale * m.peltier_unit_mass / m.peltier_volume
 
 
-@quantities.output("g")
-def peltier_mass(m: Module) -> Scalar:
-    """Mass of all heaters together."""
-    return m.peltier_volume * m.peltier_density
+quantities.from_template("peltier", "all heaters together", template_mass, "g")
 
 
 @quantities.output("g", headline=True)
@@ -238,10 +226,7 @@ def module_mass(m: Module) -> Scalar:
     return made + bought + m.adjusters_mass + m.drive_mass
 
 
-@quantities.output("kg*mm^2")
-def rotor_inertia(m: Module) -> Scalar:
-    """Moment of inertia of the rotor about the axis."""
-    return m.rotor_moments.polar * m.structure_density
+quantities.from_template("rotor", "the rotor about the axis", template_made_inertia, "kg*mm^2", name="rotor_inertia")
 
 
 @quantities.output("kg*mm^2")

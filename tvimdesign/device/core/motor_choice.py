@@ -1,5 +1,6 @@
 """Frameless motor, bearings and encoder that drive the module, if any, and the sizes they are bought in."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from tvimdesign.device.table.module import Module
@@ -97,73 +98,43 @@ def angle_sensor(m: Module) -> Encoder:
     )
 
 
-@quantities.output("mm")
-def stator_radius(m: Module) -> Scalar:
-    """Outer radius of the motor's stator; zero without one."""
-    return m.drive_motor.stator_radius
+def _of_motor(field: str) -> Callable[[Module], Scalar]:
+    """Return the function that gives a number of the motor or its bearings."""
+
+    def value(m: Module) -> Scalar:
+        """{it}; zero without one."""
+        return getattr(m.drive_motor, field)
+
+    return value
 
 
-@quantities.output("mm")
-def stator_bore_radius(m: Module) -> Scalar:
-    """Inner radius of the motor's stator; zero without one."""
-    return m.drive_motor.stator_bore
+def _of_encoder(field: str) -> Callable[[Module], Scalar]:
+    """Return the function that gives a number of the encoder."""
+
+    def value(m: Module) -> Scalar:
+        """{it}; zero without one."""
+        return getattr(m.angle_sensor, field)
+
+    return value
 
 
-@quantities.output("mm")
-def motor_rotor_radius(m: Module) -> Scalar:
-    """Outer radius of the motor's rotor; zero without one."""
-    return m.drive_motor.rotor_radius
+for _name, _field, _about in (
+    ("stator_radius", "stator_radius", "Outer radius of the motor's stator"),
+    ("stator_bore_radius", "stator_bore", "Inner radius of the motor's stator"),
+    ("motor_rotor_radius", "rotor_radius", "Outer radius of the motor's rotor"),
+    ("motor_rotor_bore_radius", "rotor_bore", "Inner radius of the motor's rotor"),
+    ("motor_rotor_length", "rotor_length", "Length of the motor's rotor"),
+    ("motor_bearing_bore_radius", "bearing_bore", "Inner radius of the motor's bearings"),
+    ("motor_bearing_radius", "bearing_radius", "Outer radius of the motor's bearings"),
+    ("motor_bearing_width", "bearing_width", "Width of one of the motor's bearings"),
+):
+    quantities.from_template("", _about, _of_motor(_field), "mm", name=_name)
 
 
-@quantities.output("mm")
-def motor_rotor_bore_radius(m: Module) -> Scalar:
-    """Inner radius of the motor's rotor; zero without one."""
-    return m.drive_motor.rotor_bore
-
-
-@quantities.output("mm")
-def motor_rotor_length(m: Module) -> Scalar:
-    """Length of the motor's rotor; zero without one."""
-    return m.drive_motor.rotor_length
-
-
-@quantities.output("mm")
-def motor_bearing_bore_radius(m: Module) -> Scalar:
-    """Inner radius of the motor's bearings; zero without one."""
-    return m.drive_motor.bearing_bore
-
-
-@quantities.output("mm")
-def motor_bearing_radius(m: Module) -> Scalar:
-    """Outer radius of the motor's bearings; zero without one."""
-    return m.drive_motor.bearing_radius
-
-
-@quantities.output("mm")
-def motor_bearing_width(m: Module) -> Scalar:
-    """Width of one of the motor's bearings; zero without one."""
-    return m.drive_motor.bearing_width
-
-
-@quantities.output("mm", requires=WITH_ENCODER)
-def encoder_magnet_radius(m: Module) -> Scalar:
-    """Radius of the encoder's magnet; zero without one."""
-    return m.angle_sensor.magnet_radius
-
-
-@quantities.output("mm", requires=WITH_ENCODER)
-def encoder_magnet_height(m: Module) -> Scalar:
-    """Height of the encoder's magnet; zero without one."""
-    return m.angle_sensor.magnet_height
-
-
-@quantities.output("mm", requires=WITH_ENCODER)
-def encoder_board_radius(m: Module) -> Scalar:
-    """Radius of the encoder's board; zero without one."""
-    return m.angle_sensor.board_radius
-
-
-@quantities.output("mm", requires=WITH_ENCODER)
-def encoder_board_height(m: Module) -> Scalar:
-    """Height of the encoder's board with its chip; zero without one."""
-    return m.angle_sensor.board_height
+for _name, _field, _about in (
+    ("encoder_magnet_radius", "magnet_radius", "Radius of the encoder's magnet"),
+    ("encoder_magnet_height", "magnet_height", "Height of the encoder's magnet"),
+    ("encoder_board_radius", "board_radius", "Radius of the encoder's board"),
+    ("encoder_board_height", "board_height", "Height of the encoder's board with its chip"),
+):
+    quantities.from_template("", _about, _of_encoder(_field), "mm", requires=WITH_ENCODER, name=_name)

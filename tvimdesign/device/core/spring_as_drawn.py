@@ -85,13 +85,13 @@ FROM_STOCK = (Feature("stock_spring", "none"),)
 stock = QuantityGroup("Springs", FROM_STOCK, sprung=True)
 
 
-@stock.output("mm", at_least(0.0, "the stock spring's leg does not reach the pin"))
+@stock.gap("the stock spring's leg does not reach the pin")
 def stock_leg_margin(m: Module) -> Scalar:
     """Leg of the stock spring beyond what its pin asks for; what is over is cut off. Zero without."""
     return m.stock_spring.value("leg_length") - m.leg_length
 
 
-@stock.output("mm", at_least(0.0, "the stock spring's other leg is too short to be bent down into the floor"))
+@stock.gap("the stock spring's other leg is too short to be bent down into the floor")
 def stock_tang_margin(m: Module) -> Scalar:
     """Other leg of the stock spring beyond its tang and the quarter bend above that. Zero without."""
     return m.stock_spring.value("leg_length") - m.tang_length - 0.5 * np.pi * m.tang_bend_radius

@@ -6,6 +6,7 @@ solids hold it to 0.5 %)."""
 
 from tvimdesign.device.components.bearing import BEARINGS, density_as_a_ring, inner_ring
 from tvimdesign.device.components.fastening import screw_moments
+from tvimdesign.device.core.mass_properties import template_made_inertia, template_volume
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 from tvimdesign.device.table.module import Module
@@ -35,10 +36,7 @@ def motor_hub_moments(m: Module) -> shapes.Section:
     )
 
 
-@quantities.output("mm^3")
-def motor_hub_volume(m: Module) -> Scalar:
-    """Volume of the motor's hub."""
-    return m.motor_hub_moments.area
+quantities.from_template("motor_hub", "the motor's hub", template_volume, "mm^3")
 
 
 @quantities.output("mm^3")
@@ -75,10 +73,7 @@ def motor_retainer_moments(m: Module) -> shapes.Section:
     )
 
 
-@quantities.output("mm^3")
-def motor_retainer_volume(m: Module) -> Scalar:
-    """Volume of the motor's retainer."""
-    return m.motor_retainer_moments.area
+quantities.from_template("motor_retainer", "the motor's retainer", template_volume, "mm^3")
 
 
 @quantities.helper(default=shapes.NOTHING)
@@ -89,10 +84,7 @@ def motor_screw_moments(m: Module) -> shapes.Section:
     )
 
 
-@quantities.output("mm^3")
-def motor_screw_volume(m: Module) -> Scalar:
-    """Volume of the motor retainer's screw."""
-    return m.motor_screw_moments.area
+quantities.from_template("motor_screw", "the motor retainer's screw", template_volume, "mm^3")
 
 
 @quantities.helper(default=shapes.NOTHING)
@@ -104,10 +96,8 @@ def mount_screw_moments(m: Module) -> shapes.Section:
     )  # fmt: skip
 
 
-@quantities.output("mm^3")
-def mount_screw_volume(m: Module) -> Scalar:
-    """Volume of the screws between housing and motor hub together; without a motor they are not the module's."""
-    return m.mount_screw_moments.area
+_MOUNTING = "the screws between housing and motor hub together; without a motor they are not the module's"
+quantities.from_template("mount_screw", _MOUNTING, template_volume, "mm^3")
 
 
 @quantities.output("mm^3")
@@ -184,10 +174,10 @@ def drive_mass(m: Module) -> Scalar:
     return made + screws + bought + encoder
 
 
-@quantities.output("kg*mm^2")
-def motor_hub_inertia(m: Module) -> Scalar:
-    """Moment of inertia of the motor's hub about the axis; zero without a motor."""
-    return m.motor_hub_moments.polar * m.structure_density
+quantities.from_template(
+    "motor_hub", "the motor's hub about the axis; zero without a motor", template_made_inertia, "kg*mm^2",
+    name="motor_hub_inertia",
+)  # fmt: skip
 
 
 @quantities.output("kg*mm^2")
@@ -207,10 +197,9 @@ def drive_inertia(m: Module) -> Scalar:
 inertias = QuantityGroup("Size and weight")
 
 
-@inertias.output("kg*mm^2")
-def housing_inertia(m: Module) -> Scalar:
-    """Moment of inertia of the housing about the axis."""
-    return m.housing_moments.polar * m.structure_density
+inertias.from_template(
+    "housing", "the housing about the axis", template_made_inertia, "kg*mm^2", name="housing_inertia"
+)
 
 
 @inertias.output("kg*mm^2", requires=WITH_MOTOR)

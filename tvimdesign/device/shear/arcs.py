@@ -138,7 +138,7 @@ rules = QuantityGroup("Gaps")
 rules.after("leg_reach_gap")
 
 
-@rules.output("mm", at_least(0.0, "the PCL arcs must clear the hub"))
+@rules.gap("the PCL arcs must clear the hub")
 def hub_arc_gap(m: Module) -> Scalar:
     """Room between hub and PCL arcs beyond the radial clearance."""
     return m.pcl_inner_radius - m.hub_radius - m.radial_clearance
@@ -168,7 +168,7 @@ def floor_web(m: Module) -> Scalar:
     return m.floor_thickness - m.pad_depth
 
 
-@rules.output("mm", at_least(0.0, "the floor below a heater is thinner than the process can make it"))
+@rules.gap("the floor below a heater is thinner than the process can make it")
 def floor_web_margin(m: Module) -> Scalar:
     """Floor below the heaters beyond the process's least wall."""
     return m.floor_web - m.minimum_wall
@@ -186,7 +186,7 @@ def window_width(m: Module) -> Scalar:
 rules.after("mount_wall_gap")
 
 
-@rules.output("mm", at_least(0.0, "the feet must clear the heaters"))
+@rules.gap("the feet must clear the heaters")
 def mount_pad_gap(m: Module) -> Scalar:
     """Room between the mounting feet and the heaters beyond the radial clearance."""
     return m.placement_radius - m.mount_boss_radius - m.pcl_outer_radius - m.radial_clearance
@@ -216,19 +216,19 @@ def keys_in_liner(m: Module) -> Scalar:
 _CORNER = "the cutter cannot reach into its corners so deep: choose a larger corner_radius"
 
 
-@rules.output("mm", at_least(0.0, f"a pad's pocket is too deep, {_CORNER}"))
+@rules.gap(f"a pad's pocket is too deep, {_CORNER}")
 def pad_pocket_margin(m: Module) -> Scalar:
     """Depth the corners of the pads' pockets may have beyond the one they have."""
     return m.corner_depth_ratio * m.corner_radius - m.pad_depth
 
 
-@rules.output("mm", at_least(0.0, f"the floor below a pad is too thick, {_CORNER}"))
+@rules.gap(f"the floor below a pad is too thick, {_CORNER}")
 def window_corner_margin(m: Module) -> Scalar:
     """Depth the corners of the windows may have beyond the one they have."""
     return m.corner_depth_ratio * m.corner_radius - m.floor_web
 
 
-@rules.output("mm", at_least(0.0, f"a liner's recess is too deep, {_CORNER}"), requires=WITH_LINER)
+@rules.gap(f"a liner's recess is too deep, {_CORNER}", requires=WITH_LINER)
 def liner_recess_margin(m: Module) -> Scalar:
     """Depth the corners of the liners' recesses may have beyond the one they have; zero without."""
     return m.corner_depth_ratio * m.corner_radius - m.liner_depth
@@ -237,19 +237,19 @@ def liner_recess_margin(m: Module) -> Scalar:
 _NARROW = "a window must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
 
 
-@rules.output("mm", at_least(0.0, _NARROW))
+@rules.gap(_NARROW)
 def window_width_margin(m: Module) -> Scalar:
     """Width of the windows at their inner radius beyond what their corners need."""
     return m.window_width - POCKET_WIDTH * m.corner_radius
 
 
-@rules.output("mm", at_least(0.0, _NARROW))
+@rules.gap(_NARROW)
 def window_depth_margin(m: Module) -> Scalar:
     """Radial width of the windows beyond what their corners need."""
     return m.window_depth - POCKET_WIDTH * m.corner_radius
 
 
-@rules.output("mm", at_least(0.0, "the windows are too narrow for the cutter to go through the floor"))
+@rules.gap("the windows are too narrow for the cutter to go through the floor")
 def window_pocket_margin(m: Module) -> Scalar:
     """Depth the windows may have for their radial width beyond the one they have."""
     return m.pocket_depth_ratio * m.window_depth - m.floor_web

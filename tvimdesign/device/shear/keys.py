@@ -10,7 +10,7 @@ import numpy as np
 
 from tvimdesign.device.components.dowels import WITH_LEG_PINS
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.motions.contacts import joint_play
 from tvimdesign.physics.solids import fasteners, structure
@@ -74,34 +74,33 @@ def key_play(m: Module) -> Scalar:
 rules.after("arc_width")
 
 
-@rules.output("mm", at_least(0.0, "the keys are thinner than the process can make them"))
+@rules.gap("the keys are thinner than the process can make them")
 def key_margin(m: Module) -> Scalar:
     """Diameter of the keys beyond the process's least pin."""
     return m.key_diameter - m.has_keys * m.minimum_feature
 
 
-@rules.output("mm", at_least(0.0, "the rotor plate is too thin for keys: a thicker plate, or key_count 0"))
+@rules.gap("the rotor plate is too thin for keys: a thicker plate, or key_count 0")
 def key_depth_margin(m: Module) -> Scalar:
     """Rotor plate beyond the least wall and keys a quarter of their diameter deep."""
     return m.rotor_thickness - m.has_keys * (m.minimum_wall + 0.25 * m.key_diameter)
 
 
-@rules.output("mm", at_least(0.0, "the arcs are too narrow for their keys: thinner ones, or key_count 0"))
+@rules.gap("the arcs are too narrow for their keys: thinner ones, or key_count 0")
 def key_width_margin(m: Module) -> Scalar:
     """Radial width of the arcs beyond a key with half of the least wall on either side."""
     return m.arc_width - m.has_keys * (m.key_diameter + m.minimum_wall)
 
 
-@rules.output("mm", at_least(0.0, "the keys stand too close in their arcs: fewer or thinner ones"))
+@rules.gap("the keys stand too close in their arcs: fewer or thinner ones")
 def key_pitch_margin(m: Module) -> Scalar:
     """Distance of neighbouring keys beyond the least wall between printed pockets, and half of it to the arc's ends."""
     apart = 2.0 * m.key_circle_radius * np.sin(0.5 * m.arc_span / np.fmax(m.key_count, 1.0))
     return apart - m.has_keys * (m.key_diameter + 2.0 * m.hole_wall - m.minimum_wall)
 
 
-@rules.output(
-    "mm",
-    at_least(0.0, "the legs' dowel pins would meet the keys' pockets: shorter pins, or another pin_radius_ratio"),
+@rules.gap(
+    "the legs' dowel pins would meet the keys' pockets: shorter pins, or another pin_radius_ratio",
     requires=WITH_LEG_PINS,
     sprung=True,
 )

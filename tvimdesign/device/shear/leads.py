@@ -9,7 +9,7 @@ import numpy as np
 
 from tvimdesign.device.core.heater_form import WITH_TILES
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at
 
@@ -92,20 +92,20 @@ def lead_volume(m: Module) -> Scalar:
     return LEADS * m.heater_count * section * 2.0 * m.lead_bend_radius * m.lead_bend_angle
 
 
-@rules.output("mm", at_least(0.0, "the leads would have to bend sideways as well: a wider or longer arc"))
+@rules.gap("the leads would have to bend sideways as well: a wider or longer arc")
 def lead_exit_margin(m: Module) -> Scalar:
     """Width by which the slot for the leads lies behind the end of their heater."""
     return m.lead_slot_radius - 0.5 * m.lead_slot_width - m.tile_radius + 0.5 * m.peltier_width
 
 
-@rules.output("mm", at_least(0.0, "the slot for the leads reaches beyond the arc's end: a longer arc"))
+@rules.gap("the slot for the leads reaches beyond the arc's end: a longer arc")
 def lead_slot_end_margin(m: Module) -> Scalar:
     """Room between the far corner of the slot for the leads and the end of its arc."""
     half = 0.5 * (m.arc_span - (m.tiles_per_arc - 1.0) * m.tile_pitch)
     return (m.lead_slot_radius - 0.5 * m.lead_slot_width) * np.sin(half) - _slot_end(m) * np.cos(half)
 
 
-@rules.output("mm", at_least(0.0, "the slot for the leads lies below the next heater: fewer, or a longer arc"))
+@rules.gap("the slot for the leads lies below the next heater: fewer, or a longer arc")
 def lead_tile_margin(m: Module) -> Scalar:
     """Gap of that slot to the next heater of its arc beyond the least; zero for one module an arc."""
     inner, pitch = m.lead_slot_radius - 0.5 * m.lead_slot_width, m.tile_pitch
@@ -113,7 +113,7 @@ def lead_tile_margin(m: Module) -> Scalar:
     return np.fmin(m.tiles_per_arc - 1.0, 1.0) * (beyond - m.tile_clearance)
 
 
-@rules.output("mm", at_least(0.0, "the leads do not go through below the floor: more foot_height"))
+@rules.gap("the leads do not go through below the floor: more foot_height")
 def lead_ground_gap(m: Module) -> Scalar:
     """Room between floor and ground beyond the leads."""
     return m.foot_height - m.lead_diameter

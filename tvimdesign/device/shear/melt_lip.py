@@ -24,7 +24,7 @@ from tvimdesign.device.components.axial_preload import GRAVITY, HOUR
 from tvimdesign.device.core.clearances import MM
 from tvimdesign.device.shear.floor_heat import BELOW
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Scalar, at_least, at_most
+from tvimdesign.device.table.quantity import Feature, Scalar, at_most
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import layer_end, shape_factors
 from tvimdesign.physics.heat_flow.layer_end import Arm, Lip
@@ -68,19 +68,19 @@ def melt_lip_moments(m: Module) -> Section:
     return inner.plus(outer).times(m.melt_lip_height)
 
 
-@rules.output("mm", at_least(0.0, "the layer is too thin for lips: a thicker one, less running_clearance, or none"))
+@rules.gap("the layer is too thin for lips: a thicker one, less running_clearance, or none")
 def melt_lip_margin(m: Module) -> Scalar:
     """Height of the lips beyond the least that is worth while."""
     return m.melt_lip_height - LEAST_LIP
 
 
-@rules.output("mm", at_least(0.0, "the lips are thinner than the process can make them: more rotor_rim"))
+@rules.gap("the lips are thinner than the process can make them: more rotor_rim")
 def melt_lip_wall_margin(m: Module) -> Scalar:
     """Width of the lips beyond the process's least wall."""
     return m.rotor_rim - m.minimum_wall
 
 
-@rules.output("mm", at_least(0.0, "the inner lip must clear the hub: less rotor_rim, or a larger pcl_inner_radius"))
+@rules.gap("the inner lip must clear the hub: less rotor_rim, or a larger pcl_inner_radius")
 def melt_lip_hub_gap(m: Module) -> Scalar:
     """Room between inner lip and hub beyond the running clearance."""
     return m.melt_lip_inner_radius - m.hub_radius - m.running_clearance

@@ -91,13 +91,13 @@ def spreader_volume(m: Module) -> Scalar:
     return m.pad_section.area * m.spreader_depth
 
 
-@tile_rules.output("mm", at_least(0.0, "a heater is too wide for its arc: choose a smaller one, or a wider arc"))
+@tile_rules.gap("a heater is too wide for its arc: choose a smaller one, or a wider arc")
 def tile_radial_margin(m: Module) -> Scalar:
     """Gap of a tile's inner edge and outer corners to the walls of its pocket, beyond the least."""
     return 0.5 * (m.tile_reach - m.pcl_inner_radius - m.peltier_width) - m.tile_clearance
 
 
-@tile_rules.output("mm", at_least(0.0, "the heaters of an arc overlap: choose fewer, or a longer arc"))
+@tile_rules.gap("the heaters of an arc overlap: choose fewer, or a longer arc")
 def tile_side_margin(m: Module) -> Scalar:
     """Gap between the inner corners of neighbouring tiles beyond the least; at an arc's end, between tile and hole."""
     inner = m.tile_radius - 0.5 * m.peltier_width
@@ -127,7 +127,7 @@ def pocket_span(m: Module) -> Scalar:
     return m.arc_span + 2.0 * m.slip_clearance / m.pcl_inner_radius
 
 
-@rules.output("mm", at_least(0.0, "the floor between two pads' pockets is thinner than can be made: shorter arcs"))
+@rules.gap("the floor between two pads' pockets is thinner than can be made: shorter arcs")
 def pocket_web_margin(m: Module) -> Scalar:
     """Floor between neighbouring pockets at their inner radius, beyond the process's least wall."""
     return (2.0 * np.pi / m.arc_count - m.pocket_span) * m.pocket_inner_radius - m.minimum_wall
@@ -204,10 +204,7 @@ def thermistor_volume(m: Module) -> Scalar:
     return m.thermistor_count * 0.25 * np.pi * m.thermistor_diameter**2 * m.thermistor_length
 
 
-@rules.output(
-    "mm",
-    at_least(0.0, "the thermistor's seat leaves too thin a web to the window: a smaller bead, or a wider window_ledge"),
-)
+@rules.gap("the thermistor's seat leaves too thin a web to the window: a smaller bead, or a wider window_ledge")
 def thermistor_window_gap(m: Module) -> Scalar:
     """Web between the thermistor's seat and the window below the pad, beyond the least wall where there is a seat."""
     ledge = m.thermistor_seat_radius * np.sin((m.window_ledge + m.slip_clearance) / m.pcl_inner_radius)
@@ -215,9 +212,7 @@ def thermistor_window_gap(m: Module) -> Scalar:
     return np.fmax(ledge, wall) - wall - 0.5 * m.thermistor_seat_diameter
 
 
-@rules.output(
-    "mm", at_least(0.0, "the thermistor's seat leaves too thin a web to the next arc: a smaller bead, or shorter arcs")
-)
+@rules.gap("the thermistor's seat leaves too thin a web to the next arc: a smaller bead, or shorter arcs")
 def thermistor_arc_gap(m: Module) -> Scalar:
     """Web between the thermistor's seat and the next arc's pocket, beyond the least wall where there is a seat."""
     to_next = m.thermistor_seat_radius * np.sin(np.fmin(2.0 * np.pi / m.arc_count - m.pocket_span, 0.5 * np.pi))

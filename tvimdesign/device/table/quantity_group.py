@@ -22,6 +22,7 @@ from tvimdesign.device.table.quantity import (
     Rule,
     Simulated,
     Steady,
+    at_least,
     template_name,
 )
 
@@ -181,6 +182,10 @@ class QuantityGroup:
             requires=self.requires if requires is None else requires, sprung=sprung or self.sprung, default=default,
         )  # fmt: skip
 
+    def gap(self, reason: str, **fields: Any) -> Callable[[F], F]:
+        """Add a gap or margin: a length that must not be negative, for a reason; `fields` as an output has them."""
+        return self.output("mm", at_least(0.0, reason), **fields)
+
     def from_template(
         self,
         of: str,
@@ -188,23 +193,26 @@ class QuantityGroup:
         function: Callable[[Module], Any],
         unit: str = "",
         *rules: Rule,
-        requires: tuple[Feature, ...] = (),
+        requires: tuple[Feature, ...] | None = None,
+        name: str = "",
     ) -> None:
         """Add a quantity that several things have alike, for one of them; without a unit it is an intermediate result.
 
-        The function has `template_` for the thing in its name and in what it reads, and {it} for `words`.
+        The function has `template_` for the thing in what it reads and, unless there is a `name`, in its own name, and
+        {it} for `words`.
         """
+        name = name or template_name(function.__name__, of)
         quantity = Output(
-            name=template_name(function.__name__, of),
+            name=name,
             unit=unit or "1",
             description=_summary(function).format(it=words),
             group=self.group,
             function=function,
             hidden=not unit,
             rules=rules,
-            better=directions().get(template_name(function.__name__, of)),
+            better=directions().get(name),
             of=of,
-            requires=requires,
+            requires=self.requires if requires is None else requires,
             sprung=self.sprung,
         )
         self.quantities.append(quantity)
