@@ -296,8 +296,8 @@ def test_all_around_a_core_the_plate_is_stressed_as_in_fe(name):
     mean = structure.mises(plates.shear_beside_core(1.0, *size)) * fillet_beside(name) * 1e-6
     fe = PLATES[name]["found"]["plate_mises_mean"]
     assert mean * plates.ENTERS == pytest.approx(fe, rel=0.035)
-    if name in ("finger", "wrist_joint"):  # thin plates, whose fillets bear most: what stood here
-        assert mean / fillet_beside(name) > 1.1 * fe
+    if name in ("finger", "wrist_joint"):  # thin plates, whose fillets bear most: without them it is out
+        assert mean / fillet_beside(name) * plates.ENTERS > 1.035 * fe
 
 
 @pytest.mark.parametrize("fillet", [0.5, 1.0])
