@@ -104,7 +104,7 @@ def test_the_screen_in_the_readme_is_that_of_the_run(tvimdesign, tmp_path):
     study = study_path("elbow_printed")
     done = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "out", COLUMNS="100", spread="on")
     shown, written = (text.partition("Look first")[0].splitlines() for text in (done.stdout, _blocks("text")[0]))
-    assert [re.sub(r" · \d+ s$", "", line) for line in shown] == written
+    assert [re.sub(r" · [\d.]+ s$", "", line) for line in shown] == written
 
 
 def test_the_readme_s_study_is_what_new_writes(tvimdesign, tmp_path):
