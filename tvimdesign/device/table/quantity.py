@@ -17,7 +17,7 @@ is found.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Literal, TypeAlias
 
@@ -275,14 +275,8 @@ STIFFENING = Phase(
     name="stiffening", description="cooling from there until the joint is stiff again",
     after="softening", ends="return_time", current_input="cooling_current", sign=-1.0, history=True,
 )  # fmt: skip
-EQUILIBRIUM_STIFFENING = Phase(
-    name="equilibrium_stiffening",
-    description="the same, as if the layer froze where it melts",
-    after="softening",
-    ends="equilibrium_stiffening_time",
-    current_input="cooling_current",
-    sign=-1.0,
-    like="stiffening",
-    history=False,
-)
+EQUILIBRIUM_STIFFENING = replace(
+    STIFFENING, name="equilibrium_stiffening", description="the same, as if the layer froze where it melts",
+    ends="equilibrium_stiffening_time", like="stiffening", history=False,
+)  # fmt: skip
 PHASES = (SOFTENING, STIFFENING, EQUILIBRIUM_STIFFENING)

@@ -91,25 +91,15 @@ class QuantityGroup:
                 fields["requires"] = tuple(Feature(*pair) for pair in entry["requires"])
             add(name, **fields)
 
-    def property(
-        self,
-        name: str,
-        unit: str,
-        record: tuple[str, str],
-        description: str,
-        mode: str | None = None,
-        default: float | None = None,
-        requires: tuple[Feature, ...] = (),
-        read_by: str = "",
-    ) -> None:
+    def property(self, name: str, unit: str, record: tuple[str, str], description: str, **fields: Any) -> None:
         """Add a number that comes from a chosen record, (choice, field), unless the study sets it.
 
-        `default` (SI) is for records that lack it; without one they are refused where the module has what it
-        `requires`. `read_by` names the floor that reads it where no quantity does.
+        `fields` are those of `Input`. A `default` (SI) is for records that lack it; without one they are refused where
+        the module has what it `requires`.
         """
         quantity = Input(
             name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record,
-            source=_of_record(record), mode=mode, default=default, requires=requires, read_by=read_by,
+            source=_of_record(record), **fields,
         )  # fmt: skip
         self.quantities.append(quantity)
 
@@ -154,33 +144,10 @@ class QuantityGroup:
         )  # fmt: skip
         self.quantities.append(quantity)
 
-    def output(
-        self,
-        unit: str,
-        *rules: Rule,
-        advice: tuple[Rule, ...] = (),
-        ratings: tuple[Rule, ...] = (),
-        per_point: bool = False,
-        instant: bool = False,
-        hidden: bool = False,
-        headline: bool = False,
-        least_of: tuple[str, ...] = (),
-        rises_with: str = "",
-        also_limited: tuple[str, ...] = (),
-        at_end: str = "",
-        parts_differ_with: Feature | None = None,
-        requires: tuple[Feature, ...] | None = None,
-        sprung: bool = False,
-        default: Any = 0.0,
-    ) -> Callable[[F], F]:
-        """Add a function as a quantity; in a module that lacks one of its features it is `default`."""
-
-        return self._add(
-            Output, unit, rules=rules, advice=advice, ratings=ratings, per_point=per_point, instant=instant,
-            hidden=hidden, headline=headline, least_of=least_of, rises_with=rises_with, also_limited=also_limited,
-            at_end=at_end, parts_differ_with=parts_differ_with,
-            requires=self.requires if requires is None else requires, sprung=sprung or self.sprung, default=default,
-        )  # fmt: skip
+    def output(self, unit: str, *rules: Rule, **fields: Any) -> Callable[[F], F]:
+        """Add a function as a quantity; `fields` are those of `Output`, or else the group's."""
+        fields = {"requires": self.requires, **fields, "sprung": fields.get("sprung", False) or self.sprung}
+        return self._add(Output, unit, rules=rules, **fields)
 
     def gap(self, reason: str, **fields: Any) -> Callable[[F], F]:
         """Add a gap or margin: a length that must not be negative, for a reason; `fields` as an output has them."""
@@ -217,19 +184,9 @@ class QuantityGroup:
         )
         self.quantities.append(quantity)
 
-    def helper(
-        self,
-        *,
-        per_point: bool = False,
-        instant: bool = False,
-        requires: tuple[Feature, ...] | None = None,
-        sprung: bool = False,
-        default: Any = 0.0,
-    ) -> Callable[[F], F]:
+    def helper(self, **fields: Any) -> Callable[[F], F]:
         """Add an intermediate result that other quantities use and nobody asks for."""
-        return self.output(
-            "1", per_point=per_point, instant=instant, hidden=True, requires=requires, sprung=sprung, default=default
-        )
+        return self.output("1", hidden=True, **fields)
 
     def event(self, phase: Phase, *, headline: bool = True) -> Callable[[F], F]:
         """Add a time: the first instant of a phase at which the function, which rises, passes zero."""
