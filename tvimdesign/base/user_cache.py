@@ -1,10 +1,6 @@
 """The user's cache: its folders, who can change a file in them, and what is stored by what it was made from.
 
-The user's folders for what is kept from one run to the next: parts that were made, code that was compiled.
-
-Check who owns a file or a folder and who can change it. A system without numbered owners trusts all files.
-
-Machine code, and the like that takes long to make, kept from one run to the next by what it was made from.
+A system without numbered owners trusts all files.
 
 A file is named by the hash of what was compiled and by whom. It begins with the hash of its name and of the code that
 follows, so that a file that is damaged or renamed is not used. Nor is a file that others could have written.

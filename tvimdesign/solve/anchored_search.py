@@ -1,9 +1,8 @@
 """Searches studies that differ in fixed numbers alone, each from one optimum: in any order, on any process.
 
-Common reference that divides the minimised outputs of all compared studies, so that all minimise the same.
-
-A study alone divides each output by its value at its own start. Of two studies with the same weights one would then
-pay less for a second than the other, because it was drawn slower.
+A common reference divides the outputs that they minimise. A study alone divides each output by its value at its own
+start. Of two studies with the same weights one would then pay less for a second than the other, because it was drawn
+slower.
 """
 
 import math

@@ -1,7 +1,4 @@
-"""A study as it is written, a tree of sections and values: from a file or from Python, with the changes made since.
-
-From Python values to the nodes a study is read from, so that what a script gives meets the reader of study files.
-"""
+"""A study as it is written, a tree of sections and values: from a file or from Python, with the changes made since."""
 
 import os
 from collections.abc import Mapping as Mapped

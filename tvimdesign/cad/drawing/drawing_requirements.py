@@ -1,7 +1,4 @@
-"""Requirements of a drawing beyond shape: fits of the seats by ISO 286, surfaces, edges and threads.
-
-Limit deviations of a tolerance class by ISO 286-1, from its table in `iso_286.yaml`.
-"""
+"""Requirements of a drawing beyond shape: fits of the seats by ISO 286-1 (`iso_286.yaml`), surfaces, edges, threads."""
 
 import re
 from collections.abc import Mapping, Sequence

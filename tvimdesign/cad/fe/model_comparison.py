@@ -1,7 +1,5 @@
 """Comparison of the model's values of a design with those of FE on its parts, a row each.
 
-Stress of screws and pins at the torque the joint holds: by the model's forces, or by those that FE finds.
-
 All screws are tightened to `link_clamp_stress`. What is across a foot's screw, or turns the link on the core, goes by
 friction first, with the coefficient between link and core; what is left shears the foot's screw, or the link's pins
 where there are any and its screws where there are none. Equivalent stress by VDI 2230-1:2015 (`physics/solids`).

@@ -4,8 +4,6 @@ Of the 2 N blocks only the N that are pressed count. Small motions about rest ke
 is lost here; how a gap opens in large ones is a matter of time and history
 (`device/core/impedance/joint_impedance.py`).
 
-Compliance of the vanes of rotor and housing under a block bonded to both, as FE has it, and of liners on them.
-
 Liners in both faces of the rotor's vanes are sheets with the face of a block, which the blocks press on. A recess is
 open at both ends and below, where the liner slides in; above it ends with the block. What a pressed liner squeezes to
 its sides is free, so the compliance is the highest.

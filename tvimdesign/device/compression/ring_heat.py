@@ -5,10 +5,8 @@ through the chamber within and without. The pads lean against the housing's vane
 three bodies in depth at the blocks and three at the pads, from the face in the ring on, one at the rotor's vanes, and
 at the housing's three in a row from the pads on, as these are.
 
-Path of the heat in the compression module: along the blocks into half of a rotor vane, and up into the plate.
-
-By symmetry no heat passes the middle of a rotor vane, which a block heats from either side. What takes heat from the
-free sides of blocks, pads and vanes are the bodies around them.
+The heat goes along the blocks into half of a rotor vane, and up into the plate: by symmetry none passes the middle of
+a vane, which a block heats from either side.
 """
 
 import itertools

@@ -1,7 +1,5 @@
 """Layout of vanes, blocks, pads and slots of the compression module; the folder's docstring draws it in words.
 
-Volumes of blocks, vanes and slots, which only the compression module has, and the gap of a freezing block.
-
 A block has free sides, so it shrinks alike in each direction. It stays on its pad and leaves the
 rotor's vane; what the springs press into the gap while it is soft is not taken off, so the gap is an upper bound. The
 rotor need not come down with the blocks: a running clearance is below and above them.

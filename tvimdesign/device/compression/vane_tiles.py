@@ -12,11 +12,9 @@ is strong where it is pressed and weak where it is sheared: it carries the joint
 to be mounted. As a block is a wedge, its force leans along the pocket. Adhesive between the spreader's lower edge and
 what it stands on takes that part, and the tiles slide on grease; a pad takes it in shear, up to what its record allows.
 
-The thermistor by the layer: its bead stands at the outer end of the first pad or spreader, beside the block.
-
-The pockets in the faces of a vane are open at its outer end. There the bead stands upright on the floor's level, as far
-behind the face as it is thick by half, and touches the end of the pad, or of the spreader. Its wires go down through a
-hole of the floor, through which it is put in.
+The pockets in the faces of a vane are open at its outer end. There the bead of the thermistor stands upright on the
+floor's level, as far behind the face as it is thick by half, and touches the end of the pad, or of the spreader. Its
+wires go down through a hole of the floor, through which it is put in.
 """
 
 import numpy as np

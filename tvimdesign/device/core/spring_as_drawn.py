@@ -9,10 +9,9 @@ Safety is that of the coil and of the tang's bend, against yield and fatigue. Wh
 sizes. Each has quantities of its own, written once as templates, and the
 rules and limits are on these: no kink of the lesser is in the optimiser's way.
 
-Compliance and creep of what holds a spring: its leg bears on a pin of the rotor, its tang turns in the floor.
-
-Both are as cold as the air here; the adhesive of a bonded tang counts as stiff as the structure. The coil bears the
-torque of `held_spring_rate`, which every force and stress in the module comes from.
+What holds a spring, the pin of its leg and the floor about its tang, gives and creeps. Both are as cold as the air
+here; the adhesive of a bonded tang counts as stiff as the structure. The coil bears the torque of `held_spring_rate`,
+which every force and stress in the module comes from.
 
 The preload falls as the plastic that holds it creeps, over months and hot hours. The pin is as warm as the plate beside
 the PCL, the floor as the air.

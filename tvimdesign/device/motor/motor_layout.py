@@ -13,8 +13,6 @@ of the base. Rotor and stator are bonded, with the gap of parts that slip into a
     |S|R| [bearing] | lip    |R|S|  stator in the outer wall
     |S|R| [bearing] |        |R|S|
     base, retainer with magnet, board
-
-Rules for the motor, its hub, housing, bearings and encoder; each quantity is zero without a motor.
 """
 
 import numpy as np

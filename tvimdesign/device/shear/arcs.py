@@ -1,10 +1,4 @@
-"""Arcs of the shear module.
-
-Volumes of what only the shear module has: arcs of PCL, a floor with pockets for the pads and windows below them.
-
-Rules for the arcs of the shear module, the pads under them and the windows below those.
-
-Transfer of the torque along the frozen arcs: compliance of plate and floor there, and traction at the edges.
+"""Arcs of the shear module, pads under them and windows below: volumes, rules, and the torque along frozen arcs.
 
 Pads cut to the PCL lie on the floor's ledges, so that plate and floor are the two sheets of the lap. Above rigid
 modules lies a spreader of metal, stiffer than a printed plate, which is the lower sheet; its seat of adhesive hands

@@ -5,8 +5,6 @@ the upper strip's first body, next to the pads' hot sides, is a body of its own.
 what is left of the housing. A body that is heated over a face has its mean temperature a third of its depth behind that
 face (even heating, Incropera, Fundamentals of Heat and Mass Transfer, ch. 3); one that heat passes through, half of it.
 
-Heaters and a spreader on them in shear: strings, spreading resistance, compliance, air and cold sides.
-
 Beside rigid modules, below their spreader, is a room of air that tiles, ledge and the pocket's wall close. Ledges touch
 a share of the pads' cold sides, a sink the rest. The legs conduct k_x along and k_y up: a slab of the mean k = (k_x
 k_y)^(1/2), its depth stretched by (k_x/k_y)^(1/2). The side itself is a sheet on it. Half of a pad's width is the

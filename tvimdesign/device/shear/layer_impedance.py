@@ -1,7 +1,5 @@
 """The PCL layer of the shear module and what it works against: stiffness, damping, strain, and the torque it holds.
 
-Load of the shrinking layer on its bond, and play of the joint where nothing holds the rotor on it.
-
 A rotor that is held, by the hub it stands on or by bearings, leaves a freezing layer two ways: plate and floor bend
 after it, and it pulls on its bond, most where it begins beside the hub. One that a wave spring carries comes down
 with it. All of the shrinkage is taken as that of the frozen solid at room temperature, so the traction is an upper

@@ -11,11 +11,9 @@ gravity at 1 Hz; both are left out, and so are normal stresses of fast shear. Th
 melt only where an edge holds the meniscus: at lips, not between flat faces. [1] Happel and Brenner, Low Reynolds Number
 Hydrodynamics, sec. 1-2.
 
-Heat that the rotor plate's lips take from the layer they touch, and pass to the plate they stand on.
-
-A lip is a body without a state: layer and pads heat it at its side and its lower edge, the floor heats or cools its
-lower face (`floor_heat.below_lips`), and it gives all of that to the plate's edge. Its heat capacity is in the plate
-beside the arcs (`layer_heat.rotor_beside`).
+A lip takes heat from the layer it touches and passes it to the plate it stands on. It is a body without a state: layer
+and pads heat it at its side and its lower edge, the floor heats or cools its lower face (`floor_heat.below_lips`), and
+it gives all of that to the plate's edge. Its heat capacity is in the plate beside the arcs (`layer_heat.rotor_beside`).
 """
 
 import numpy as np

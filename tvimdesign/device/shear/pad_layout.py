@@ -1,7 +1,5 @@
 """Pads of the shear module in the floor: rigid modules as bought, pockets, and the thermistor beside them.
 
-Rigid heaters under the arcs, as they are bought: rectangular tiles in a row below a spreader.
-
 A flexible module is cut to the outline of the PCL. A rigid one, or a sheet heater that is not cut, is a rectangle:
 `tiles_per_arc` of them lie side by side under each arc, their length along the arc, on a radius at which their inner
 edge and their outer corners are as far from the pocket's walls. A spreader of the PCL's outline lies on them, flush
@@ -9,19 +7,13 @@ with the floor, and takes their heat to what they do not cover. The pocket has t
 a window below each tile leaves its colder plate a ledge on all four sides. At one end of an arc a hole goes through
 the floor for a thermistor under the spreader; slots for leads are in `leads.py`.
 
-Pockets of pads and spreaders in the floor, and of liners in the rotor plate, and the level of that plate.
-
 A pocket has the outline of an arc, longer by a slip clearance at either end and wider by `heater_gap`, so that what
 has that outline goes in.
 
-The rotor plate stands on the PCL layer, which lies on the floor.
-
-The thermistor by the layer: where its bead stands, and the seat it takes out of the floor.
-
-Below a pad of an arc's outline there is no room, so a hole goes through the floor at the end of the first arc, its
-middle on the end of the pad's pocket. Half of it lies beside the pocket: there the bead stands, touching the pad's end,
-its top flush with the floor, below the end of the layer. Its wires go down through the hole. Tiles leave room of their
-own: the bead stands below the spreader of each arc, over the hole that is there for its wires.
+Below a pad of an arc's outline there is no room, so a hole for the thermistor goes through the floor at the end of the
+first arc, its middle on the end of the pad's pocket. Half of it lies beside the pocket: there the bead stands, touching
+the pad's end, its top flush with the floor, below the end of the layer. Its wires go down through the hole. Tiles leave
+room of their own: the bead stands below the spreader of each arc, over the hole that is there for its wires.
 """
 
 import numpy as np

@@ -13,11 +13,10 @@ Rooms of still air have a warm and a cold wall. By separation of variables (Cars
 Solids, ch. V) and by conformal maps (ch. XVI); walls that meet at two temperatures have a slot between them, as in
 `shape_factors.gap_end`.
 
-A lip of the plate at the end of the layer, and the star: bodies without heat capacity that arms heat.
-
-Heat comes to it through the polymer, from slices at their height and from the pads, and through its other arms
-(a star). Between two temperatures the polymer passes as much as the mean of its conductivity between them says
-(Kirchhoff's transform, `conduction`), whatever its shape: molten it gives less than frozen.
+A lip of the plate at the layer's end has no heat capacity. Heat comes to it through the polymer, from slices at their
+height and from the pads, and through its other arms (a star). Between two temperatures the polymer passes as much as
+the mean of its conductivity between them says (Kirchhoff's transform, `conduction`), whatever its shape: molten it
+gives less than frozen.
 
 A star is a body that arms join to places of the stack. Each arm ends at a mean of places (`Arm.ends`), as a body may
 lean on an edge that has a temperature between two, and at a `share` of the body, as what the arm touches may have only

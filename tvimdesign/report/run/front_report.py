@@ -1,7 +1,4 @@
-"""A study's front: sought and saved point by point, and reported as tables, words, a figure and a design a point.
-
-Keeps the points of a front in the results folder while it is sought, so that a run that was killed goes on there.
-"""
+"""A study's front: sought and saved point by point, and reported as tables, words, a figure and a design a point."""
 
 import json
 import math

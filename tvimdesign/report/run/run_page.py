@@ -1,8 +1,6 @@
 """A run's page: the verdict and the requirements first, then facts, warnings and the sections that the run has.
 
 Writes a study into its folder: answered, with tables, curves and the design, or refused, with the reason.
-
-Data of a run's figures: an answer's numbers in the units of the axes.
 """
 
 import json

@@ -2,8 +2,6 @@
 
 Inside the melting range every number comes with the least and largest value over all solid fractions that history
 allows; they are the columns `..._low` and `..._high` of a sheet, and `low` and `high` of a finding.
-
-Kelvin-Voigt, Maxwell and standard linear solid fitted to the full spectrum in one test, and how far off they are.
 """
 
 import math

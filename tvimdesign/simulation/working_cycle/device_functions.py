@@ -2,8 +2,6 @@
 
 `inputs` is the vector of every number the table is evaluated with, in the order of `Model.names`; `switch` holds the
 values of the quantities that a simulation or the optimiser supplies, in the order of `Model.switch_names`.
-
-Input of a virtual test: a study, resolved, and the table its quantities are evaluated with.
 """
 
 from __future__ import annotations

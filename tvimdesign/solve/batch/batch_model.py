@@ -1,7 +1,5 @@
 """Outputs of many modules at once: the table's arithmetic and its working cycle, as one function.
 
-A CasADi function of scalars for columns of designs, by the tape's interpreter: nothing is compiled for it.
-
 Every design is computed by the same operations in the same order wherever it stands and however many threads share the
 work: results are the same bit for bit.
 """

@@ -3,8 +3,6 @@
 Each record has a share between 0 and 1, and the shares add up to one. A number of the device is the sum of the records'
 numbers times their shares, and so is an output that reads a record's table. Where one share is one, the device is that
 of the record; no combination of records lies outside the hull, so what is best in it bounds them all.
-
-The records and options a study lists to choose from, and the study with some of them chosen.
 """
 
 import itertools

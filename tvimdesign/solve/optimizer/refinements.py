@@ -1,7 +1,5 @@
 """Searches around a run of the optimizer: from constant currents, within a longer horizon; ends of ranges.
 
-Optima beside those that starts came to: a period of a number away, and with a part of another one.
-
 Where a coil has a whole turn more or less, its legs point as before: each turn has an optimum of its own. Springs and
 layer share few limits, so one start may have found the best springs and another the best layer. A current may rest near
 its least after the supply's ramp and rise with its first piece, or rise as fast as the supply can: both are optima.

@@ -1,9 +1,5 @@
 """The account of a solution: simulated and checked again outside the solver, and what holds it with what that costs.
 
-Ratings of materials and bought parts that a design exceeds, and the consequence for an optimum.
-
-Response of an optimum to a moved limit: the implicit function theorem on its optimality conditions.
-
 Where the active limits stay the same, the optimum is an implicit function of where they stand.
 Source: Fiacco, Introduction to Sensitivity and Stability Analysis in Nonlinear Programming (1983), ch. 3.
 """

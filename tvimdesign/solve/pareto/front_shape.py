@@ -3,8 +3,6 @@
 Outputs are counted from the least that any end has (0) to the most (1). All points of a front are seen along the
 direction in which every output falls alike, as by normal-boundary intersection (Das and Dennis, SIAM J. Optim. 8,
 1998): what is left is a line (two outputs) or a plane (three), and lines in that direction meet a front once.
-
-Lead of one front over others: the study that does best in one output for each limit on the other.
 """
 
 import itertools

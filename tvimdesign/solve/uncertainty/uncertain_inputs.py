@@ -1,10 +1,4 @@
-"""Inputs that spread or are unmeasured.
-
-Unmeasured inputs, known only within a range: of records, or the table's defaults.
-
-A study's tolerances at one design: which inputs spread, and how far [SI].
-
-Intervals of outputs from ranges of unmeasured inputs: one at a time, all together, and what to measure first.
+"""Inputs that spread by a study's tolerances, or are unmeasured; intervals of outputs, and what to measure first.
 
 A function takes one row for each input and one column a module, and returns one row for each output; nothing here knows
 what a module is. All together, inputs are drawn evenly from their ranges, each for itself: nothing is known of their

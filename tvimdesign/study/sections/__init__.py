@@ -1,7 +1,4 @@
-"""Readers of the study file's sections, one file a section or kind of value.
-
-All sections of a study, in the order in which they are usually written.
-"""
+"""Readers of the study file's sections, one file a section or kind of value."""
 
 from typing import Any
 

@@ -1,7 +1,4 @@
-"""The section `sweep`: which cells are laid over which axes, and what is done in each.
-
-A sweep as plain data: axes with their values or ranges, and the arrangement of cells.
-"""
+"""The section `sweep`: which cells are laid over which axes, and what is done in each."""
 
 from contextlib import suppress
 from dataclasses import dataclass, replace

@@ -1,8 +1,6 @@
 """The section `task`: an arm with its payload and its motions; inputs of the group "Task", limits, a trajectory.
 
 The arm may be that beyond a joint of a URDF; what the section gives besides comes in place of the URDF's.
-
-Arm of a task from a URDF: all that a joint carries, every other joint at zero.
 """
 
 from __future__ import annotations

@@ -4,8 +4,6 @@ Freezing is Nakamura's integral of Hoffman and Lauritzen's rate (physics/polymer
 own temperatures; what is given off is (h_m - h_s) dX/dt beside the heat of the specific heats and a straight baseline.
 Melting is the equilibrium curve over its window, straight as the product has it, but with both flanks blurred: crystals
 of many sizes and the sample's lag make them so. A blurred flank has the heat of the sharp one.
-
-Calorimeter data as runs: cooled, held or heated, heat flow per mass, exothermic positive.
 """
 
 from __future__ import annotations

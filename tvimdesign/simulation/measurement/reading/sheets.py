@@ -2,8 +2,6 @@
 
 Encodings are recognised by marks and by zeros in every second byte, not by statistics: charset-normalizer reads the
 degree sign of a short file in Windows' Latin as Chinese, and takes 60 times as long.
-
-Clock times of loggers and spreadsheets as seconds from the first row.
 """
 
 import codecs
