@@ -35,10 +35,7 @@ def plate_lean(m: Module) -> Scalar:
     return m.running_clearance / (m.hub_radius + m.pcl_outer_radius)
 
 
-@places.helper()
-def pcl_depth(m: Module) -> Scalar:
-    """Way of heat and load through the PCL [m]."""
-    return m.block_depth
+places.same("pcl_depth", "block_depth", "Way of heat and load through the PCL [m]")
 
 
 @places.output("mm")
@@ -221,9 +218,6 @@ def rotor_vanes(m: Module) -> Section:
 def rotor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the rotor with its vanes, less the recesses for liners."""
     return m.bare_rotor_moments.plus(m.rotor_vanes.times(m.vane_height)) - m.liner_recess
-
-
-shrinkages = QuantityGroup("Axial play")
 
 
 @places.output("mm")

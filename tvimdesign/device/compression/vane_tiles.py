@@ -42,16 +42,10 @@ def pocket_count(m: Module) -> Scalar:
     return 2.0 * m.vane_count
 
 
-@tile_places.helper(requires=())
-def tiles_per_pocket(m: Module) -> Scalar:
-    """Rectangular heaters in each pocket [1]."""
-    return m.tiles_per_block
-
-
-@tile_places.helper(default=1.0)
-def slot_count(m: Module) -> Scalar:
-    """Slots of a housing vane [1]: one behind each tile; one behind pads."""
-    return m.tiles_per_block
+tile_places.same("tiles_per_pocket", "tiles_per_block", "Rectangular heaters in each pocket [1]", requires=())
+tile_places.same(
+    "slot_count", "tiles_per_block", "Slots of a housing vane [1]: one behind each tile; one behind pads", default=1.0
+)
 
 
 @tile_weights.output("mm^3")

@@ -21,10 +21,7 @@ def spring_count(m: Module) -> Scalar:
     return 2.0 * m.spring_pairs
 
 
-@quantities.output("1")
-def foot_count(m: Module) -> Scalar:
-    """Feet of the housing: one between each two springs."""
-    return m.spring_count
+quantities.same("foot_count", "spring_count", "Feet of the housing: one between each two springs", "1")
 
 
 @quantities.output("mm", sprung=True)

@@ -1,10 +1,9 @@
 """Frameless motor, bearings and encoder that drive the module, if any, and the sizes they are bought in."""
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Scalar
+from tvimdesign.device.table.quantity import Feature
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
 WITHOUT = "none"
@@ -98,26 +97,6 @@ def angle_sensor(m: Module) -> Encoder:
     )
 
 
-def _of_motor(field: str) -> Callable[[Module], Scalar]:
-    """Return the function that gives a number of the motor or its bearings."""
-
-    def value(m: Module) -> Scalar:
-        """{it}; zero without one."""
-        return getattr(m.drive_motor, field)
-
-    return value
-
-
-def _of_encoder(field: str) -> Callable[[Module], Scalar]:
-    """Return the function that gives a number of the encoder."""
-
-    def value(m: Module) -> Scalar:
-        """{it}; zero without one."""
-        return getattr(m.angle_sensor, field)
-
-    return value
-
-
 for _name, _field, _about in (
     ("stator_radius", "stator_radius", "Outer radius of the motor's stator"),
     ("stator_bore_radius", "stator_bore", "Inner radius of the motor's stator"),
@@ -128,7 +107,7 @@ for _name, _field, _about in (
     ("motor_bearing_radius", "bearing_radius", "Outer radius of the motor's bearings"),
     ("motor_bearing_width", "bearing_width", "Width of one of the motor's bearings"),
 ):
-    quantities.from_template("", _about, _of_motor(_field), "mm", name=_name)
+    quantities.field(_name, "drive_motor", _field, f"{_about}; zero without one", "mm")
 
 
 for _name, _field, _about in (
@@ -137,4 +116,4 @@ for _name, _field, _about in (
     ("encoder_board_radius", "board_radius", "Radius of the encoder's board"),
     ("encoder_board_height", "board_height", "Height of the encoder's board with its chip"),
 ):
-    quantities.from_template("", _about, _of_encoder(_field), "mm", requires=WITH_ENCODER, name=_name)
+    quantities.field(_name, "angle_sensor", _field, f"{_about}; zero without one", "mm", requires=WITH_ENCODER)

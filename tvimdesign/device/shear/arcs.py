@@ -29,10 +29,7 @@ def pcl_section(m: Module) -> Section:
     return sector(m.arc_count * m.arc_span, m.pcl_inner_radius, m.pcl_outer_radius)
 
 
-@weights.output("mm^2", headline=True)
-def pcl_area(m: Module) -> Scalar:
-    """Contact area of all PCL arcs together."""
-    return m.pcl_section.area
+weights.field("pcl_area", "pcl_section", "area", "Contact area of all PCL arcs together", "mm^2", headline=True)
 
 
 @weights.output("mm^3")
@@ -192,10 +189,7 @@ def cutout_radius(m: Module) -> Scalar:
     return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius) if m.heater_form == CUT else m.tile_radius
 
 
-@rules.output("mm", requires=WITH_LINER)
-def liner_web(m: Module) -> Scalar:
-    """Rotor plate above a liner; zero without."""
-    return m.backing_depth
+rules.same("liner_web", "backing_depth", "Rotor plate above a liner; zero without", "mm", requires=WITH_LINER)
 
 
 _KEYED = "keys of the PCL would stand in the liner: key_count 0, or liner_material: none"

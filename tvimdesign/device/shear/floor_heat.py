@@ -160,10 +160,7 @@ def open_gaps(m: Module) -> tuple[Link, ...]:
     return tuple(gaps)
 
 
-@quantities.helper()
-def loss_links(m: Module) -> tuple[Link, ...]:
-    """Links from the plate beside the arcs to the floor, its lips apart."""
-    return m.open_gaps
+quantities.same("loss_links", "open_gaps", "Links from the plate beside the arcs to the floor, its lips apart")
 
 
 def _plate_faces(m: Module) -> Scalar:

@@ -29,10 +29,7 @@ def has_keys(m: Module) -> Scalar:
     return np.fmin(m.key_count, 1.0)
 
 
-@places.output("mm")
-def key_circle_radius(m: Module) -> Scalar:
-    """Radius of the circle the keys stand on."""
-    return m.pcl_mean_radius
+places.same("key_circle_radius", "pcl_mean_radius", "Radius of the circle the keys stand on", "mm")
 
 
 @places.output("mm")

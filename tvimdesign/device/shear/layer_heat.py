@@ -19,10 +19,9 @@ from tvimdesign.physics.heat_flow import columns, conduction, heat, layer_end, l
 quantities = QuantityGroup("Switch")
 
 
-@quantities.helper()
-def cold_area(m: Module) -> Scalar:
-    """Open area of the pads' cold sides [m^2]: the windows below them."""
-    return m.window_section.area
+quantities.field(
+    "cold_area", "window_section", "area", "Open area of the pads' cold sides [m^2]: the windows below them", ""
+)
 
 
 @quantities.helper(instant=True)
@@ -31,10 +30,7 @@ def moment_now(m: Module) -> Scalar:
     return m.pcl_moment
 
 
-@quantities.helper()
-def plate_depth(m: Module) -> Scalar:
-    """Thickness of what is behind the layer [m]: the rotor plate."""
-    return m.rotor_thickness
+quantities.same("plate_depth", "rotor_thickness", "Thickness of what is behind the layer [m]: the rotor plate")
 
 
 @quantities.helper()

@@ -28,10 +28,7 @@ quantities = QuantityGroup("Impedance")
 quantities.choices("layer_impedance")
 
 
-@quantities.output("m^4")
-def layer_polar_moment(m: Module) -> Scalar:
-    """Polar second moment of area of the PCL layer."""
-    return m.pcl_section.polar
+quantities.field("layer_polar_moment", "pcl_section", "polar", "Polar second moment of area of the PCL layer", "m^4")
 
 
 @quantities.output("N*m/rad", per_point=True, headline=True)
@@ -196,10 +193,9 @@ def bond_strength(m: Module) -> Scalar:
     return m.pcl_bond_strength * (m.bond_derating if m.bond_rating == "derated" else 1.0)
 
 
-@quantities.helper()
-def bearing_polar_moment(m: Module) -> Scalar:
-    """Polar moment of what bears of the frozen layer [m^4]: all of it."""
-    return m.layer_polar_moment
+quantities.same(
+    "bearing_polar_moment", "layer_polar_moment", "Polar moment of what bears of the frozen layer [m^4]: all of it"
+)
 
 
 @quantities.output("N*m")

@@ -34,16 +34,8 @@ kinds = QuantityGroup("Materials")
 kinds.choices("pad_layout")
 
 
-@tile_places.helper(requires=())
-def pocket_count(m: Module) -> Scalar:
-    """Pockets for heaters [1]: one under each arc."""
-    return m.arc_count
-
-
-@tile_places.helper(requires=())
-def tiles_per_pocket(m: Module) -> Scalar:
-    """Rectangular heaters in each pocket [1]."""
-    return m.tiles_per_arc
+tile_places.same("pocket_count", "arc_count", "Pockets for heaters [1]: one under each arc", requires=())
+tile_places.same("tiles_per_pocket", "tiles_per_arc", "Rectangular heaters in each pocket [1]", requires=())
 
 
 @tile_places.helper()
@@ -150,10 +142,7 @@ def rotor_bottom_level(m: Module) -> Scalar:
     return m.pcl_thickness
 
 
-@levels.helper()
-def pcl_depth(m: Module) -> Scalar:
-    """Way of heat and load through the PCL [m]."""
-    return m.pcl_thickness
+levels.same("pcl_depth", "pcl_thickness", "Way of heat and load through the PCL [m]")
 
 
 ROOM = 2.3

@@ -129,7 +129,12 @@ class Choice:
 
 
 def template_name(name: str, of: str) -> str:
-    """Name of a quantity that several things have alike, of one of them: `template_screw` of `link` is `link_screw`."""
+    """Name of a quantity that several things have alike, of one of them: `template_screw` of `link` is `link_screw`.
+
+    `template` alone is that one thing, a quantity itself.
+    """
+    if name == "template":
+        return of
     return f"{of}_{name.removeprefix('template_')}" if of and name.startswith("template_") else name
 
 

@@ -146,23 +146,16 @@ class QuantityGroup:
 
     def output(self, unit: str, *rules: Rule, **fields: Any) -> Callable[[F], F]:
         """Add a function as a quantity; `fields` are those of `Output`, or else the group's."""
-        fields = {"requires": self.requires, **fields, "sprung": fields.get("sprung", False) or self.sprung}
-        return self._add(Output, unit, rules=rules, **fields)
+        return self._add(Output, unit, rules=rules, **self._featured(fields))
 
     def gap(self, reason: str, **fields: Any) -> Callable[[F], F]:
         """Add a gap or margin: a length that must not be negative, for a reason; `fields` as an output has them."""
         return self.output("mm", at_least(0.0, reason), **fields)
 
     def from_template(
-        self,
-        of: str,
-        words: str,
-        function: Callable[[Module], Any],
-        unit: str = "",
-        *rules: Rule,
-        requires: tuple[Feature, ...] | None = None,
-        name: str = "",
-    ) -> None:
+        self, of: str, words: str, function: Callable[[Module], Any], unit: str = "", *rules: Rule, name: str = "",
+        **fields: Any,
+    ) -> None:  # fmt: skip
         """Add a quantity that several things have alike, for one of them; without a unit it is an intermediate result.
 
         The function has `template_` for the thing in what it reads and, unless there is a `name`, in its own name, and
@@ -170,19 +163,28 @@ class QuantityGroup:
         """
         name = name or template_name(function.__name__, of)
         quantity = Output(
-            name=name,
-            unit=unit or "1",
-            description=_summary(function).format(it=words),
-            group=self.group,
-            function=function,
-            hidden=not unit,
-            rules=rules,
-            better=directions().get(name),
-            of=of,
-            requires=self.requires if requires is None else requires,
-            sprung=self.sprung,
-        )
+            name=name, unit=unit or "1", description=_summary(function).format(it=words), group=self.group,
+            function=function, hidden=not unit, rules=rules, better=directions().get(name), of=of,
+            **self._featured(fields),
+        )  # fmt: skip
         self.quantities.append(quantity)
+
+    def same(self, name: str, of: str, description: str, unit: str = "", *rules: Rule, **fields: Any) -> None:
+        """Add a quantity that is another one, under its own name; without a unit it is an intermediate result."""
+        self.from_template(of, description, _itself, unit, *rules, name=name, **fields)
+
+    def field(self, name: str, of: str, field: str, description: str, unit: str, **fields: Any) -> None:
+        """Add a quantity that is a field of another one."""
+
+        def value(m: Module) -> Any:
+            """{it}."""
+            return getattr(m.template, field)
+
+        self.from_template(of, description, value, unit, name=name, **fields)
+
+    def _featured(self, fields: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the fields of an output with those of the group."""
+        return {"requires": self.requires, **fields, "sprung": fields.get("sprung", False) or self.sprung}
 
     def helper(self, **fields: Any) -> Callable[[F], F]:
         """Add an intermediate result that other quantities use and nobody asks for."""
@@ -227,6 +229,11 @@ class QuantityGroup:
             return function
 
         return add
+
+
+def _itself(m: Module) -> Any:
+    """{it}."""
+    return m.template
 
 
 def _nowhere(_: Module) -> float:
