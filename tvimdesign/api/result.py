@@ -214,8 +214,6 @@ class Result(Generic[StudyT]):
         result, table = self._answered.result, self._answered.study.table
         return Reasons(tuple(sentences(result)), tuple(why_rows(result, table)))
 
-    # --- figures ---
-
     @property
     def plots(self) -> list[str]:
         """Names of the figures there are."""
@@ -234,8 +232,6 @@ class Result(Generic[StudyT]):
         from tvimdesign.report.run.first_screen import print_first_screen
 
         print_first_screen(self._answered, wide_console())
-
-    # --- files ---
 
     def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False, plots: bool = True) -> Path:
         """Write what `tvimdesign run --no-cad` writes; returns the folder. Raises InputError where it is in use.
@@ -293,8 +289,6 @@ class Result(Generic[StudyT]):
             write_models(self.design, written, step, say)
             written.finish("written", {}, self.design.study)
         return Path(folder)
-
-    # --- what it looks like ---
 
     def __repr__(self) -> str:
         return f"<Result {self.name!r}: {self.design.mode} mode, {self.status}>"

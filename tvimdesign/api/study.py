@@ -165,8 +165,6 @@ class Study:
         atomic_write(Path(path), self.text.encode())
         return Path(path)
 
-    # --- changed copies ---
-
     def set(self, values: Values | None = None, /, **more: Any) -> Study:
         """Return a copy with inputs and choices of the module fixed, which are varied no longer; None takes one away.
 
@@ -199,8 +197,6 @@ class Study:
             node = node_of(value, source, problems, name)
             tree = with_value(tree, f"{section}{name}", node, source, tuple(problems.items))
         return Study._of(tree)
-
-    # --- answers ---
 
     def check(self) -> list[str]:
         """Refuse a study that cannot be answered; return what is doubtful about its records, and ratings it exceeds.
@@ -277,8 +273,6 @@ class Study:
         else:
             tree = self._changed("sweep", "sweep.", given)._tree if self._tree.section("sweep") else self._tree
         return swept(tree, Study._of, progress, out, Executor(workers), overwrite=overwrite)
-
-    # --- what it looks like ---
 
     def __repr__(self) -> str:
         study = self.resolved

@@ -171,28 +171,13 @@ cutout_weights = QuantityGroup("Size and weight", WITH_CUTOUT)
 cutout_rules = QuantityGroup("Gaps", WITH_CUTOUT)
 
 
-@cutout_places.output("mm")
-def cutout_diameter(m: Module) -> Scalar:
-    """Diameter of the thermal cut-out's body; zero without one."""
-    return m.heater_fuse.value("body_diameter")
-
-
-@cutout_places.output("mm")
-def cutout_length(m: Module) -> Scalar:
-    """Length of the thermal cut-out's body; zero without one."""
-    return m.heater_fuse.value("body_length")
-
-
-@cutout_places.output("mm")
-def cutout_leg_diameter(m: Module) -> Scalar:
-    """Diameter of the thermal cut-out's wires; zero without one."""
-    return m.heater_fuse.value("leg_diameter")
-
-
-@cutout_places.output("mm")
-def cutout_leg_straight(m: Module) -> Scalar:
-    """Length of those wires that must stay straight beside the body; zero without one."""
-    return m.heater_fuse.value("leg_straight")
+for _name, _field, _about in (
+    ("cutout_diameter", "body_diameter", "Diameter of the thermal cut-out's body"),
+    ("cutout_length", "body_length", "Length of the thermal cut-out's body"),
+    ("cutout_leg_diameter", "leg_diameter", "Diameter of the thermal cut-out's wires"),
+    ("cutout_leg_straight", "leg_straight", "Length of those wires that must stay straight beside the body"),
+):
+    cutout_places.field(_name, "heater_fuse", _field, f"{_about}; zero without one", "mm")
 
 
 @cutout_weights.output("mm^3")

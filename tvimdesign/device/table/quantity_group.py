@@ -6,7 +6,7 @@ from functools import cache, partial
 from types import ModuleType
 from typing import Any, Literal, TypeVar
 
-from tvimdesign.base.record import own_data
+from tvimdesign.base.record import Record, own_data
 from tvimdesign.base.units import to_si
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import (
@@ -174,11 +174,12 @@ class QuantityGroup:
         self.from_template(of, description, _itself, unit, *rules, name=name, **fields)
 
     def field(self, name: str, of: str, field: str, description: str, unit: str, **fields: Any) -> None:
-        """Add a quantity that is a field of another one."""
+        """Add a quantity that is a field of another one, or what a chosen record has under that name."""
 
         def value(m: Module) -> Any:
             """{it}."""
-            return getattr(m.template, field)
+            other = m.template
+            return other.value(field) if isinstance(other, Record) else getattr(other, field)
 
         self.from_template(of, description, value, unit, name=name, **fields)
 

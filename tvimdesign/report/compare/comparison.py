@@ -72,8 +72,6 @@ class Outcome:
             if len(designs) > 1
         }
 
-    # --- fronts ---
-
     @property
     def fronts(self) -> dict[tuple[str, str], dict[str, dict[str, Any]]]:
         """Fronts by their two outputs, then by study."""
@@ -138,8 +136,6 @@ class Outcome:
         for (first, second), fronts in self.fronts.items():
             for label, front in fronts.items():
                 yield from ((label, f"{first} against {second}", point) for point in front["points"])
-
-    # --- what follows ---
 
     @cached_property
     def conclusions(self) -> list[str]:

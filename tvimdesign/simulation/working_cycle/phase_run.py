@@ -49,8 +49,6 @@ class PhaseRun:
         self.instants: list[Instant] = []  # The start, and the ends of all steps
         self._given: dict[tuple[str, ...], tuple[Array, Array]] = {}
 
-    # --- steps ---
-
     def first(self, start: Instant, pace: float, sought: list[str], horizon: float, tolerance: float) -> Grid:
         """Step as far as the events that are sought, each step as long as its error allows."""
         constant = CurrentProfile.constant(start.current)
@@ -164,8 +162,6 @@ class PhaseRun:
         steps = _Steps(start, lengths, of_lengths, u, du)
         return self.instants[-1] if self._advanced(steps, len(lengths)) else None
 
-    # --- quantities ---
-
     def value(self, name: str, y: Array, current: float) -> float:
         """Return a quantity at an instant; of an event what it waits for."""
         group, place = self.of.together[name]
@@ -220,8 +216,6 @@ class PhaseRun:
             ((k, dk),) = self.of.watch(*group).given.tangents([self.inputs], [self.along])
             self._given[group] = k, dk
         return self._given[group]
-
-    # --- events ---
 
     def rates(self, now: Instant) -> Array:
         """Return the time derivative of the state."""

@@ -87,8 +87,6 @@ class Problem:
         self._placed: deque[tuple[bytes, dict[str, Grid]]] = deque(maxlen=REMEMBERED)
         self._last_modelled: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
 
-    # --- evaluation ---
-
     @cached_property
     def _outputs(self) -> Tape:
         """The wanted outputs, recorded once for a structure: of inputs and of what the cycle supplies."""
@@ -280,8 +278,6 @@ class Problem:
             rows.append(values)
             jacobian.append(slopes)
         return (np.concatenate(rows), np.concatenate(jacobian)) if rows else (np.zeros(0), np.zeros((0, len(x))))
-
-    # --- what the problem needs of the cycle ---
 
     @cached_property
     def peaks(self) -> list[Peak]:

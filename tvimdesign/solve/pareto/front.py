@@ -136,8 +136,6 @@ class _Tracer:
             self.trade.requests - self.first,
         )  # fmt: skip
 
-    # --- ends ---
-
     def _seek_ends(self) -> None:
         """Find the least of each output; of three also by which of the other two is minimised first."""
         for name in self.outputs:
@@ -156,8 +154,6 @@ class _Tracer:
         least = {name: min(end.values[name] for end in self.ends) for name in (first, then)}
         there = [end.values[then] for end in self.ends if end.values[first] <= least[first] * (1.0 + ONE_POINT)]
         return min(there) <= least[then] + BARELY * abs(least[then])
-
-    # --- between ---
 
     def _along_a_line(self) -> None:
         """Even steps from end to end, then back where the ends lie in different optima, then into gaps."""
@@ -259,8 +255,6 @@ class _Tracer:
                 if place >= first and points[place].root != root and (place - first, root) not in tried:
                     return place - first, points[other]
         return None
-
-    # --- small things ---
 
     def _sought(
         self, objective: Objective, where: str, near: Point | None, guess: Trace | None = None
