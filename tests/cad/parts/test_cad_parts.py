@@ -344,7 +344,7 @@ def test_pins_fill_their_holes_have_their_size_and_go_in_last(design, placed, di
 
 
 @pytest.mark.parametrize("process", ["print_petg", "machine_6061"])
-def test_legs_bear_on_dowel_pins_that_fill_their_holes_above_the_plate_s_lower_face(process):
+def test_dowel_pins_of_legs_fill_their_holes_above_the_plate_s_face(process):
     overrides = {"leg_pin": "iso_8734_3", "leg_pin_length": 12.0 * MM, "process": process}
     design = design_of("pinned", overrides)
     dims = dimensions(design)
