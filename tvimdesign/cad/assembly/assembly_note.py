@@ -1,6 +1,7 @@
 """The note on putting a module together: its parts, the steps in order with their figures, and the pictures."""
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from math import degrees
@@ -144,6 +145,9 @@ class WrittenStep(NamedTuple):
     opens: bool = False  # True where it takes the module apart again
 
 
+_TORQUES = re.compile(r"{(\w+_screw_torque)}")
+
+
 def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[WrittenStep]:
     """Return steps for the kinds this module has, and one for each kind that no step takes; those that open it come
     last."""
@@ -157,7 +161,10 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
             step.get("place", ()), _needs(step["needs"]).format_map(known),
-            [tool for tool in str(step["needs"]["tools"]).format_map(known).split(", ") if tool != "none"],
+            [
+                *(tool for tool in str(step["needs"]["tools"]).format_map(known).split(", ") if tool != "none"),
+                *(f"torque driver {known[word]} N·m" for word in _TORQUES.findall(step["text"])),
+            ],
             step.get("opens", False),
         )
         for step in wanted
@@ -350,6 +357,7 @@ def _greased(place: str, design: Design, _: Dimensions) -> str:
     return place if place in greased(design) else ""
 
 
+_TO_REAM = 0.2  # What a drill leaves to a reamer up to 5 mm [mm]; workshop tables have 0.1 to 0.2
 _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "preload_force": _preload_force,
     "rest_mark": lambda _, dims: "the first spring" if dims.spring_count else "a notch of the skirt",
@@ -362,6 +370,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "gap_spread": _gap_spread,
     "link_width": lambda _, dims: f"{2.0 * dims.link_half_width:.3g}",
     "play": _play,
+    "link_dowel_drill": lambda _, dims: f"{dims.link_dowel_diameter - _TO_REAM:.3g}",
     "leg_pin_height": lambda _, dims: f"{dims.leg_pin_length - dims.leg_pin_depth:.3g}",
     "set_points": lambda design, _: set_points_in_words(design),
     "cutout_place": _cutout_place,
