@@ -13,7 +13,7 @@ from tvimdesign.report.output.tables import margin_text
 from tvimdesign.report.run.blocks.facts import chosen_fact, heater_voltage, stalling_in_words, time_over_rise
 from tvimdesign.report.run.blocks.verdict import TARGET, starts_in_words, verdict
 from tvimdesign.report.run.blocks.warnings import RunWarning, advice_text
-from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Side, SolverEffort, Standard
+from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Side, Solution, SolverEffort, Standard, Start
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import Design
 
@@ -166,8 +166,20 @@ def test_a_violation_below_rounding_is_not_shown_as_none():
 )
 def test_starts_are_counted_in_words(feasible, converged, optima, words):
     free = [SimpleNamespace(converged=each) for each in converged]
-    result = answer(feasible=feasible, free_starts=free, distinct_optima=lambda: free[:optima])
+    result = answer(
+        feasible=feasible, free_starts=free, distinct_optima=lambda: free[:optima], start_count=lambda: len(free)
+    )
     assert starts_in_words(result) == [words]
+
+
+def test_a_search_beside_an_optimum_counts_with_its_start():
+    one = Start(0, "Solve_Succeeded", True, 5, 1.0, 0.0, {"current": 1.0}, {"current": 2.0})
+    beside = replace(one, number=1, by_neighbor=True, objective=0.9, end={"current": 1.5})
+    other = replace(one, number=2, begin={"current": 3.0})
+    account = cast("Solution", SimpleNamespace(free_starts=(one, beside, other)))
+    assert Solution.start_count(account) == 2
+    assert Solution.reached(account, one) == 2
+    assert Solution.reached(account, beside) == 1
 
 
 def entry(value: float, now: tuple[float, float], before: tuple[float, float | None] | None) -> dict[str, Any]:

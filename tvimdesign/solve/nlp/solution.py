@@ -199,6 +199,10 @@ class YieldReached:
         return self.together >= self.target
 
 
+def _begun(starts: Iterable[Start]) -> int:
+    return len({tuple(start.begin.items()) for start in starts})
+
+
 @dataclass(frozen=True)
 class Solution:
     """The best design found, with the account of how. `inputs` is in the order of `model.names`."""
@@ -240,8 +244,12 @@ class Solution:
         )
 
     def reached(self, optimum: Start) -> int:
-        """Return the number of free starts that ended at an optimum."""
-        return sum(same_optimum(start, optimum) for start in self.free_starts if start.converged)
+        """Return the number of free starts from which a search ended at an optimum, searches beside it included."""
+        return _begun(start for start in self.free_starts if start.converged and same_optimum(start, optimum))
+
+    def start_count(self) -> int:
+        """Return the number of free starts; searches beside an optimum count with the start that led to it."""
+        return _begun(self.free_starts)
 
     def distinct_optima(self) -> list[Start]:
         """Return one converged free start for each different optimum, the best first."""

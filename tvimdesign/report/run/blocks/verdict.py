@@ -217,12 +217,13 @@ def starts_in_words(answer: StudyResult) -> list[str]:
     if answer.solution is None:
         return []
     free, optima = answer.solution.free_starts, answer.solution.distinct_optima()
-    count = "1 start" if len(free) == 1 else f"{len(free)} starts"
+    started = answer.solution.start_count()
+    count = "1 start" if started == 1 else f"{started} starts"
     if not answer.has_design:
         return [f"{sum(start.converged for start in free)} of {count} converged" if optima else f"{count}, no design"]
     if not optima:
         return ["no start converged, a later search did"]
-    if len(free) == 1:
+    if started == 1:
         return ["one start; more: `solver.starts`"]
     agree = answer.solution.reached(optima[0])
-    return [f"found by 1 of {len(free)} starts" if agree == 1 else f"{agree} of {len(free)} starts agree"]
+    return [f"found by 1 of {started} starts" if agree == 1 else f"{agree} of {started} starts agree"]
