@@ -173,12 +173,12 @@ def test_starts_are_counted_in_words(feasible, converged, optima, words):
 
 
 def test_a_search_beside_an_optimum_counts_with_its_start():
-    one = Start(0, "Solve_Succeeded", True, 5, 1.0, 0.0, {"current": 1.0}, {"current": 2.0})
-    beside = replace(one, number=1, by_neighbor=True, objective=0.9, end={"current": 1.5})
-    other = replace(one, number=2, begin={"current": 3.0})
-    account = cast("Solution", SimpleNamespace(free_starts=(one, beside, other)))
+    first = Start(0, "Solve_Succeeded", True, 5, 1.0, 0.0, {"current": 1.0}, {"current": 2.0})
+    beside = replace(first, number=1, by_neighbor=True, objective=0.9, end={"current": 1.5})
+    other = replace(first, number=2, begin={"current": 3.0})
+    account = cast("Solution", SimpleNamespace(free_starts=(first, beside, other)))
     assert Solution.start_count(account) == 2
-    assert Solution.reached(account, one) == 2
+    assert Solution.reached(account, first) == 2
     assert Solution.reached(account, beside) == 1
 
 

@@ -199,7 +199,7 @@ class YieldReached:
         return self.together >= self.target
 
 
-def _begun(starts: Iterable[Start]) -> int:
+def _different_begins(starts: Iterable[Start]) -> int:
     return len({tuple(start.begin.items()) for start in starts})
 
 
@@ -245,11 +245,13 @@ class Solution:
 
     def reached(self, optimum: Start) -> int:
         """Return the number of free starts from which a search ended at an optimum, searches beside it included."""
-        return _begun(start for start in self.free_starts if start.converged and same_optimum(start, optimum))
+        return _different_begins(
+            start for start in self.free_starts if start.converged and same_optimum(start, optimum)
+        )
 
     def start_count(self) -> int:
         """Return the number of free starts; searches beside an optimum count with the start that led to it."""
-        return _begun(self.free_starts)
+        return _different_begins(self.free_starts)
 
     def distinct_optima(self) -> list[Start]:
         """Return one converged free start for each different optimum, the best first."""
