@@ -151,8 +151,20 @@ def test_a_plate_in_two_dimensions_falls_as_far(beside):
     assert resistance + through == pytest.approx(in_two_dimensions(fed, beside, thickness, k), rel=0.05)
 
 
+@pytest.mark.parametrize("offset", [0.0, 1e-3, 2e-3])
+def test_a_row_off_the_middle_falls_as_two_plates_with_fins_of_their_own(offset):
+    length, depth, beside, thickness, k = 0.02, 8e-3, 4e-3, 0.8e-3, 167.0
+    width = depth + 2.0 * beside
+    sizes = length * width, width, 1, (length, depth), 2, k, thickness
+    halves = [(0.5 * depth + fin) * in_two_dimensions(0.5 * depth, fin, thickness, k)
+              for fin in (beside + offset, beside - offset)]  # fmt: skip
+    resistance = peltier.row_spreading_resistance(*sizes, offset) + thickness / k
+    assert resistance == pytest.approx(sum(halves) / width, rel=0.05)
+
+
 def test_a_plate_that_is_fed_evenly_spreads_nothing():
     assert peltier.spreading_resistance(1e-3, 1e-3, 0.1, 167.0, 1e-3) == 0.0
+    assert peltier.row_spreading_resistance(1e-4, 1e-2, 1, (1e-2, 1e-2), 1, 167.0, 1e-3) == 0.0
 
 
 CAPACITY, CURRENT, BEGIN = 4.0, 2.0, 300.0  # J/K, A, K

@@ -18,6 +18,7 @@ Temperatures stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg),
 
 import itertools
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -143,7 +144,7 @@ def profile(state: Any, stack: Stack) -> Profile:
     )
     if stack.lip is None:
         return now
-    conducting = lambda wall: _over_mean(stack, now, wall)  # noqa: E731
+    conducting = partial(_over_mean, stack, now)
     return now._replace(lip=warm_lip(stack.lip, cells, now.at, conducting, stack.lip_temperatures))
 
 

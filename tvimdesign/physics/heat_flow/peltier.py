@@ -151,6 +151,7 @@ def row_spreading_resistance(
     length, depth = tile
     stretch, row = count * length * width, count * length
     across = spreading_resistance(stretch, row * depth, sides * row, conductivity, thickness)
-    across = across * (1.0 + 3.0 * (2.0 * offset / (width - depth)) ** 2)
+    # Of fins s + e and s - e wide: the sums of their cubes and squares grow by 6 s e^2 and 2 e^2.
+    unequal = sides / width * offset**2 / conductivity * ((width - depth) / sides / thickness + AROUND_CORNER)
     along = spreading_resistance(area, stretch, 2.0 * count * width, conductivity, thickness)
-    return across * area / stretch + along
+    return (across + unequal) * area / stretch + along

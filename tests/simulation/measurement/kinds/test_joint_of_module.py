@@ -53,6 +53,18 @@ def test_a_molten_joint_tells_its_springs_its_melt_and_its_pins(tmp_path, module
     }  # fmt: skip
 
 
+def test_a_molten_joint_tells_the_friction_of_its_dowel_pins(tmp_path):
+    study = tmp_path / "pinned.yaml"
+    pins = "module:\n  leg_pin: iso_8734_4\n  leg_pin_length: 10 mm\n"
+    study.write_text(STUDY.read_text(encoding="utf-8").replace("module:\n", pins, 1), encoding="utf-8")
+    pinned = resolve_study(read_study(study))
+    friction = 0.21 / 0.15 * float(pinned.quantity("pin_friction_torque"))
+    damping = 5000.0 * float(pinned.quantity("layer_polar_moment")) / float(pinned.values["pcl_thickness"])
+    paths = joints(tmp_path, float(pinned.quantity("spring_stiffness")), damping, friction, (0.01, 0.03))
+    result = fit_files(paths, "sine", study=str(study), state="molten", inertia="4.3e-4 kg.m^2")
+    assert result.record_values["pin_friction"].value == pytest.approx(0.21, rel=0.01)
+
+
 def test_a_melt_that_thins_over_a_wide_motion_is_known_by_its_amplitude(module):
     # At one hertz the same stiffness and damping over a wider motion are a longer melt's: strained more, it thins.
     of = {size: JointOfModule(module, STUDY, "molten", 2.0 * np.pi, size) for size in (0.01, 0.1)}
