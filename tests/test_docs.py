@@ -60,10 +60,24 @@ def _result(study: Path) -> str:
     return f"{text}, {100.0 * spread['parts_yield']['share']:.0f} %"
 
 
+_NUMBER = re.compile(r"\d+(?:\.\d+)?")
+
+
+def _assert_same_figures(shown: str, written: str) -> None:
+    """Assert that texts differ in figures at most, by 0.5 % or a unit of the last digit.
+
+    The search for a yield rounds otherwise on another processor, and its optima are flat.
+    """
+    assert _NUMBER.sub("#", shown) == _NUMBER.sub("#", written)
+    for got, figure in zip(_NUMBER.findall(shown), _NUMBER.findall(written), strict=True):
+        unit = 10.0 ** -len(figure.partition(".")[2])
+        assert float(got) == pytest.approx(float(figure), rel=5e-3, abs=1.001 * unit), written
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("study", STUDIES, ids=lambda path: str(path.stem))
 def test_the_table_of_studies_has_the_results(study):
-    assert _study_rows()[study.stem][3] == _result(study)
+    _assert_same_figures(_result(study), _study_rows()[study.stem][3])
 
 
 def _numbers(study: str) -> dict[str, str]:
@@ -103,8 +117,8 @@ def test_the_table_in_the_readme_has_the_results():
 def test_the_screen_in_the_readme_is_that_of_the_run(tvimdesign, tmp_path):
     study = study_path("elbow_printed")
     done = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "out", COLUMNS="100", spread="on")
-    shown, written = (text.partition("Look first")[0].splitlines() for text in (done.stdout, _blocks("text")[0]))
-    assert [re.sub(r" · [\d.]+ s$", "", line) for line in shown] == written
+    shown, written = (text.partition("Look first")[0] for text in (done.stdout, _blocks("text")[0]))
+    _assert_same_figures(re.sub(r" · [\d.]+ s$", "", shown, flags=re.M), written)
 
 
 def test_the_readme_s_study_is_what_new_writes(tvimdesign, tmp_path):

@@ -35,8 +35,7 @@ _UNKNOWN = 0.1
 """Step of a margin, as a share of its limit's scale, where too many modules never come to its output at all."""
 _NO_ROOM = 0.05  # Share of a step of the margins that counts as none
 SHAKES, _SHAKE = 1, 0.2
-"""Designs beside one that does not bear a step, and how far off they are at most, as a share of each range. Two more
-change shipped optima by 0.2 % at most."""
+"""Designs beside one that bears nothing of a step, and how far off they are at most, as a share of each range."""
 _GAIN = 1e-3  # Share of the objective that margins which are larger than the yield needs must be worth to be given back
 _AIM = 0.05  # Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield
 
@@ -139,27 +138,24 @@ def tightened(
 ) -> Run | None:  # fmt: skip
     """Return the optimum with moved margins, or with the largest share of the moves that a design nearby bears.
 
-    Where the design itself leads to no optimum with all moves, one a little beside it may.
+    Where the design itself bears none of them, one a little beside it may.
     """
     margins, random = dict(optimizer.margins), np.random.default_rng(optimizer.study.solver.seed)
-    best: tuple[float, Run, dict[str, float]] | None = None
     for attempt in range(1 + shakes):
         unknowns = optimizer.vector.shaken(run.unknowns, within, _SHAKE, random) if attempt else run.unknowns
         optimizer.margins = margins
         tried = optimizer.solve(within, unknowns=unknowns, objective=objective, moves=moves, near=True)
         taken = max((optimizer.margins.get(name, 0.0) - margins.get(name, 0.0)) / move for name, move in moves.items())
-        again = best is not None and same_optimum(best[1].start, tried.start)
-        if tried.start.converged and taken > (best[0] if best else _NO_ROOM):
-            best = taken, tried, optimizer.margins
-        if again or taken > 1.0 - _NO_ROOM or optimizer.deadline.passed:
-            break
-    else:
-        if shakes:  # the share may stop at a kink near none, where the whole step has an optimum of its own
-            optimizer.margins = {name: margins.get(name, 0.0) + moves.get(name, 0.0) for name in {**margins, **moves}}
-            tried = optimizer.solve(within, begin=run.inputs, objective=objective, near=True)
-            best = (1.0, tried, optimizer.margins) if tried.start.converged else best
-    optimizer.margins = best[2] if best else margins
-    return best and best[1]
+        if tried.start.converged and taken > _NO_ROOM:
+            return tried
+    if shakes and not optimizer.deadline.passed:
+        # The share may stop at a kink near none, where the whole step has an optimum of its own.
+        optimizer.margins = {name: margins.get(name, 0.0) + moves.get(name, 0.0) for name in {**margins, **moves}}
+        tried = optimizer.solve(within, begin=run.inputs, objective=objective, near=True)
+        if tried.start.converged:
+            return tried
+    optimizer.margins = margins
+    return None
 
 
 def _no_better(candidates: Sequence[Robust]) -> bool:
