@@ -272,16 +272,22 @@ def test_the_test_pieces_try_sizes_about_what_the_process_assumes():
     (solid,) = jigs.trial(dims).Solids()
     assert solid.isValid()
     assert jigs.tried(dims, "walls") == [0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 2.0]
-    assert jigs.tried(dims, "gaps") == [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
+    # Slip fits have 0.2 mm, from 0.15 to 0.3; parts that turn 0.4 mm, from 0.3 to 0.5.
+    assert jigs.tried(dims, "gaps") == [0.0, *(round(0.05 * step, 2) for step in range(2, 13))]
+    for slip, running, gaps in ((0.1, 0.2, [0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3]), (0.3, 0.3, [0.0, 0.2, 0.25, 0.3])):
+        other = dimensions(
+            design_of("trial", {**changes, "slip_clearance": slip * MM, "running_clearance": running * MM})
+        )
+        assert jigs.tried(other, "gaps")[: len(gaps)] == gaps
     rounds = [(face.concave, round(2.0 * face.radius, 6)) for face in upright_cylinders(solid)]
     holes = [(True, 6.0 + 2.0 * gap) for gap in jigs.tried(dims, "gaps")]
     pins = [(False, size) for size in (*jigs.tried(dims, "pins"), 6.0)]
     assert sorted(rounds) == sorted(holes + pins)
-    # Cut halfway up: walls 10 mm long, round pins, and what windows of 5, 10, 15 and 20 mm leave of a wall of 2 mm.
+    # Cut halfway up: walls 10 mm long, round pins, and five posts of 2 mm beside windows of 5, 10, 15 and 20 mm.
     half = solid.intersect(cq.Solid.makeBox(200.0, 200.0, 0.1, cq.Vector(0.0, 0.0, 5.0))).Volume() / 0.1
     assert jigs.tried(dims, "bridges") == [5.0, 10.0, 15.0, 20.0]
     rods = sum(0.25 * pi * size**2 for _, size in pins)
-    assert half == pytest.approx(10.0 * sum(jigs.tried(dims, "walls")) + rods + 2.0 * (80.0 - 50.0), rel=1e-6)
+    assert half == pytest.approx(10.0 * sum(jigs.tried(dims, "walls")) + rods + 5.0 * 2.0**2, rel=1e-6)
 
 
 def test_lids_and_dams_that_do_not_fit_fail_their_checks():

@@ -105,7 +105,7 @@ def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(reported
     assert (target["unit"], target["si"]["unit"]) == ("°C", "K")
     assert number_entry(float("inf"), "s")["value"] is None
     hot = result.design.values["joint_impedance@hot"]
-    expected = f"soft: |Z| <= {2.0 * hot:.3g} N·m/rad at 1 Hz, twice hot"
+    expected = f"soft: |Z| <= {2.0 * hot:.3g} N·m/rad at 1 Hz, twice that at the hot point"
     for name in ("softening_time", "response_time"):  # the switch ends when the joint is soft
         assert reported["values"][name]["note"] == expected
     assert reported["values"]["mean_time"]["note"] == ""

@@ -21,7 +21,8 @@ from tvimdesign.report.output.numbers import at_its_least, ends_text, label, per
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.facts import _model, main_facts, more_facts
 from tvimdesign.report.run.blocks.requirements import Requirement, requirements
-from tvimdesign.report.run.blocks.tables import doubts_grid, held_grid, intervals_grid
+from tvimdesign.report.run.blocks.tables import doubts_grid, held_grid
+from tvimdesign.report.run.blocks.verdict import limits_in_doubt
 from tvimdesign.report.run.first_screen import (
     LINES,
     NARROW_LINES,
@@ -250,7 +251,8 @@ def test_headlines_and_requirements_have_their_ranges():
     name, share = next(iter(answered.uncertainty["held"].items()))
     model = next(line for line in text.splitlines() if line.startswith("Model:"))
     assert label(name.split()[0]) in model
-    assert f"met in {percent(share, 2)} of cases" in model
+    assert f"{round(512 * answered.uncertainty['ranges_hold']['share'])} of 512 plausible cases meet every" in model
+    assert f"met in {percent(share, 2)}" in model
     assert intervals[name.split()[0]]["shares"]
 
 
@@ -337,12 +339,14 @@ def test_a_limit_in_doubt_stands_beside_what_to_measure_for_it():
                       "key_margin": {"shares": {"minimum_wall": 0.6}}},
         "unmeasured": [{"name": "minimum_wall", "value": 1.2, "low": 0.8, "high": 1.6, "unit": "mm"}],
     }  # fmt: skip
-    rows = held_grid(uncertainty, {"minimum_wall": {"value": 1.2, "source": "assumed; test: comb of walls"}}).rows
-    texts = [[getattr(cell, "text", cell) for cell in row] for row in rows]
-    assert texts == [
-        ["minimum_wall", "1.2", "0.8 to 1.6 mm", "pin_margin 50 %, key_margin 75 %", "comb of walls"],
-        ["no single input", "", "", "core_web 90 %", "the built part"],
-    ]
+    wall = {"minimum_wall": {"value": 1.2, "source": "assumed; test: comb of walls"}}
+    first = [f"minimum_wall: {label('minimum_wall')}", "1.2", "0.8 to 1.6 mm", "pin_margin 50 %", "comb of walls"]
+    both = [*first[:3], "pin_margin 50 %, key_margin 75 %", first[4]]
+    none = ["no single input", "", "", "core_web 90 %", "the built part"]
+    for least, listed in ((0.75, [first]), (0.76, [both]), (0.95, [both, none])):
+        rows = held_grid(uncertainty, wall, least).rows
+        assert [[getattr(cell, "text", cell) for cell in row] for row in rows] == listed
+        assert [name for name in limits_in_doubt(uncertainty, least) if name] == ["minimum_wall"]
     doubts = doubts_grid(uncertainty, table_for("shear")).rows
     assert [row[0].text for row in doubts] == ["pin_margin", "key_margin", "core_web"]
     assert doubts[1][2].text == "Diameter of the keys beyond the process's least pin"
@@ -362,14 +366,6 @@ def test_a_requirement_depends_on_what_decides_its_limit_most_in_doubt():
         assert row.depends_on == label(first)
 
 
-def test_the_ranges_say_why_one_input_alone_may_reach_further():
-    ends = {"low": 0.8, "high": 1.6}
-    entry = {"value": 1.0, "unit": "", **ends, "one_at_a_time": {"low": 0.7, "high": 1.7}, "shares": {}, "to_halve": ()}
-    note = intervals_grid({"core_web": entry}).note
-    assert "at the very end of its range" in note
-    assert "95 %" in note
-
-
 def test_a_margin_that_must_not_be_negative_is_at_its_least():
     shown = {
         "hub_step_margin >= 0 mm": "step between floor and end of the hub at its least",
@@ -382,18 +378,15 @@ def test_a_margin_that_must_not_be_negative_is_at_its_least():
 
 def test_a_share_asked_of_each_limit_is_compared_with_the_least():
     held = {"cover_wall_margin >=": 0.52, "module_mass <=": 0.7, "peak_power <=": 0.8}
-    uncertainty = {"held": held, "ranges_hold": {"share": 0.1}, "needs": "bond >= 1 MPa"}
-    (fact,) = _model(uncertainty, {"robust": {"plausible": 0.79}})
-    assert fact.text.endswith(
-        "the cover's screws needs bond >= 1 MPa, met in 52 % of cases · 1 more in under 79 % asked"
-    )
-    (fact,) = _model(uncertainty, {"robust": {"plausible": 0.5}})
-    assert fact.text.startswith("each limit is met in the 50 % of cases asked, wall around")
-    (fact,) = _model(uncertainty, {"robust": None})
-    assert fact.text.endswith("met in 52 % of cases · 2 more in under 95 %")
+    uncertainty = {"held": held, "ranges_hold": {"share": 0.1}, "draws": 512, "needs": "bond >= 1 MPa"}
+    meet = "51 of 512 plausible cases meet every limit; wall around the cover's screws met in 52 %"
+    for robust, more in ((None, 2), ({"plausible": 0.79}, 2), ({"plausible": 0.5}, 2), ({"plausible": 0.81}, 3)):
+        (fact,) = _model(uncertainty, {"robust": robust})
+        share = max(75, round(100 * (robust or {}).get("plausible", 0)))
+        assert fact.text == f"{meet} · it needs bond >= 1 MPa · {more} limits in under {share} %"
 
 
-TABLES = ("At the operating points", "What the module is", "What depends on assumed values")
+TABLES = ("At the operating points", "What the module is", "Limits not met in all cases")
 
 
 @pytest.mark.gate
@@ -406,7 +399,6 @@ def test_a_run_prints_the_screen_without_warnings_and_keeps_tables(whole_run):
         assert table not in whole_run.done.stdout
         assert table in summary
     assert len(summary.splitlines()) <= 400
-    assert "What depends on assumed values: report.html\n" in summary
     assert "Unmeasured inputs: results.csv, results.json and report.html\n" in summary
     reported = json.loads((folder / "results.json").read_text())
     assert reported["format"] == 1

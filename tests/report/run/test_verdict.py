@@ -81,7 +81,7 @@ def sides(*texts: str) -> ConflictSet:
         (answer(above=("structure_temperature_margin",)), SURE, [], "Above a rating: structure heat margin below 0"),
         (answer(status="below_yield"), SURE, [], "Margins not reached: the time limit ended the search"),
         (answer(COOL, (HOT,)), SURE, [],
-         "Not at the temperature you asked for: 67 of 100 °C, for joint stiffness"),
+         "Not at the temperature you asked for: 67 of 100 °C, for joint stiffness at rest"),
         (answer(COOL, ({"output": "impedance_range", "sense": ">=", "limit": 60.0},)), SURE, [],
          "Not at the temperature you asked for: 67 of 100 °C, for stiffness cold over hot"),
         (answer(COOL | {"temperature@warm": 350.15}, (HOT | {"output": "pcl_stiffness@warm"},)), SURE, [],
@@ -110,6 +110,10 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | FOUR, [],
          "Build it, one module first: measure the structure layer strength, the pin friction and 2 others "
          "(summary.txt: Measure first)"),
+        (answer(robust={"plausible": 0.5}), SURE, [],
+         "Build it, one module first: measure the structure layer strength; made for 50 % of plausible cases"),
+        (answer(robust={"plausible": 0.8}), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [],
+         "Build it; made for 80 % of plausible cases"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip

@@ -63,14 +63,16 @@ def _cost(items: Sequence[Item], design: Design) -> str:
     return (
         f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list, some of them a neighbour's: "
         f"{between(sums.low, sums.high)} for whole packs. {f'{uses}{kinds}. ' if used > 0.0 else ''}"
-        f"Ask suppliers for quotes of the others.{_made_to_order(items)}"
+        f"Ask suppliers for quotes of the others.{_made_to_order(items, design)}"
     )
 
 
-def _made_to_order(items: Sequence[Item]) -> str:
-    """Return what is made to order, to be asked for before all else; empty if nothing is."""
+def _made_to_order(items: Sequence[Item], design: Design) -> str:
+    """Return what is made to order, to be asked for once the test pieces were measured; empty if nothing is."""
     slow = _listed([item for item in items if MADE_TO_ORDER in item.lead_time])
-    words = f" Order first what is {MADE_TO_ORDER}, and ask how long it takes, which no list says"
+    printed = " Before any order print the test pieces, and run the study again with what they measure."
+    first = "" if design.choices["making_method"] == "milled" else printed
+    words = f"{first} Order first what is {MADE_TO_ORDER}, and ask how long it takes, which no list says"
     return f"{words}: {slow}." if slow else ""
 
 
@@ -100,9 +102,12 @@ def _making(design: Design, dims: Dimensions, made: Sequence[Item]) -> list[str]
 
 def _walls(dims: Dimensions) -> str:
     """Return the walls to set, and where all parts lie on a bed with these settings."""
+    lines, least = walls(dims), f"{dims.minimum_wall:.3g} mm"
+    wall = f"{lines * LINE:.3g} mm"
+    thin = "" if wall == least else f" The thinnest walls, of {least}, have room for fewer: let the slicer widen these."
     return (
-        f" Set at least {walls(dims)} walls, with lines of {LINE} mm: the thinnest wall there may be, "
-        f"{dims.minimum_wall:.3g} mm, and the thread around each screw's hole are then of unbroken lines. "
+        f" Set at least {lines} walls, with lines of {LINE} mm: a wall of {wall}{'' if thin else ', the thinnest,'} "
+        f"and the thread around each screw's hole are then of unbroken lines.{thin} "
         f"`{cad_report.plate_3mf(1)}` has the parts, with jigs, on a bed; a second bed has the next number."
     )
 

@@ -113,10 +113,12 @@ def fork(dims: Dimensions) -> cq.Shape:
 TRIED: Mapping[str, tuple[str, tuple[float, ...]]] = {
     "walls": ("minimum_wall", (0.5, 0.67, 0.83, 1.0, 1.17, 1.33, 1.67)),
     "pins": ("minimum_feature", (0.5, 0.75, 1.0, 1.25, 1.5)),
-    "gaps": ("running_clearance", (0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)),
+    "gaps": ("running_clearance", ()),
     "bridges": ("bridge_span", (0.5, 1.0, 1.5, 2.0)),
 }
-"""Rows of the test pieces: the input of a process that each tries, and what is tried over its value."""
+"""Rows of the test pieces: the input of a process that each tries, and what is tried over its value; gaps in steps."""
+GAP_STEP = 0.05
+"""Step of the gaps that are tried [mm], from two steps below the slip clearance to half above the running one."""
 GAUGE = 6.0  # Diameter of the pin that is tried in holes with a gap around it [mm]
 _HIGH, _THICK = 10.0, 5.0  # Height of what stands on the plate, and its thickness [mm]
 _PITCH, _ROW = 10.0, 14.0  # Way from one wall, pin or hole to the next, and from row to row [mm]
@@ -124,6 +126,10 @@ _PITCH, _ROW = 10.0, 14.0  # Way from one wall, pin or hole to the next, and fro
 
 def tried(dims: Dimensions, row: str) -> list[float]:
     """Return the sizes in a row of the test pieces [mm], the least first."""
+    if row == "gaps":
+        first = max(dims.slip_clearance - 2.0 * GAP_STEP, GAP_STEP)
+        steps = round((1.5 * dims.running_clearance - first) / GAP_STEP)
+        return [0.0, *(round(first + GAP_STEP * step, 2) for step in range(steps + 1))]
     name, shares = TRIED[row]
     return [round(share * float(getattr(dims, name)), 2) for share in shares]
 
@@ -135,7 +141,8 @@ def trial(dims: Dimensions) -> cq.Shape:
     """
     walls, pins, gaps, bridges = (tried(dims, row) for row in TRIED)
     post = max(WALL, dims.minimum_wall)
-    wide = max(_PITCH * (len(gaps) + 1), sum(bridges) + post * (len(bridges) + 1))
+    bridged = sum(bridges) + post * (len(bridges) + 1)
+    wide = max(_PITCH * (len(gaps) + 1), bridged)
     places = [_PITCH * (column + 0.5) for column in range(len(gaps) + 1)]
     middles = [_ROW * (row + 0.5) for row in range(len(TRIED))]
     standing = [_box(x, middles[0], (thick, _HIGH), 0.0, _HIGH) for x, thick in zip(places, walls, strict=False)]
@@ -144,7 +151,7 @@ def trial(dims: Dimensions) -> cq.Shape:
     holes = [
         cylinder(0.5 * GAUGE + gap, -_THICK, 0.0, (x, middles[2])) for x, gap in zip(places[1:], gaps, strict=True)
     ]
-    standing.append(_box(0.5 * wide, middles[3], (wide, post), 0.0, _HIGH))
+    standing.append(_box(0.5 * bridged, middles[3], (bridged, post), 0.0, _HIGH))
     start = post
     for span in bridges:
         holes.append(_box(start + 0.5 * span, middles[3], (span, 2.0 * post), 0.0, _HIGH - post))

@@ -70,7 +70,7 @@ def softening_margin(m: Module) -> Scalar:
 
 @quantities.path(SOFTENING, "N*m/rad", "end", headline=True)
 def softened_stiffness(m: Module) -> Scalar:
-    """Stiffness of the joint when the switch ends, at the hot point's frequency."""
+    """Stiffness of the joint for small motions about rest when heating stops, at the hot point's frequency."""
     return m.stiffness_now
 
 

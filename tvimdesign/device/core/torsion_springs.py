@@ -57,7 +57,7 @@ def transmission_curvature(m: Module) -> Scalar:
 
 @quantities.output("N*m/rad", headline=True, also_limited=_OVER_STROKE[1:], parts_differ_with=_AS_DRAWN)
 def spring_stiffness(m: Module) -> Scalar:
-    """Stiffness of all springs about the axis at rest, K_s; a limit on it holds over the whole stroke."""
+    """Stiffness of the springs alone about the axis at rest, K_s; a limit on it holds over the whole stroke."""
     return output_stiffness(
         m.spring_count, m.held_spring_rate, m.preload_angle, m.transmission_ratio, m.transmission_curvature
     )
@@ -107,7 +107,7 @@ def spring_stiffness_full_stroke(m: Module) -> Scalar:
 
 @quantities.output("N*m/rad", headline=True, least_of=_OVER_STROKE, parts_differ_with=_AS_DRAWN)
 def least_spring_stiffness(m: Module) -> Scalar:
-    """Least stiffness of all springs about the axis over the stroke."""
+    """Least stiffness of the springs alone about the axis over the stroke."""
     inside = np.fmin(m.spring_stiffness_half_stroke, m.spring_stiffness_seven_tenths_stroke)
     inside = np.fmin(inside, m.spring_stiffness_six_sevenths_stroke)
     return np.fmin(np.fmin(m.spring_stiffness, inside), m.spring_stiffness_full_stroke)
@@ -118,7 +118,7 @@ _BENT = "the springs' stiffness changes by more than a tenth over the stroke"
 
 @quantities.output("1", advice=(at_least(0.9, _BENT), at_most(1.1, _BENT)), headline=True)
 def stiffness_over_stroke(m: Module) -> Scalar:
-    """Stiffness of the springs at full stroke over that at rest."""
+    """Stiffness of the springs alone at full stroke over that at rest."""
     return m.spring_stiffness_full_stroke / m.spring_stiffness
 
 

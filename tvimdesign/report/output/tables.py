@@ -127,7 +127,7 @@ Value = Callable[[str], float]  # A number (SI) by its full name
 
 
 def soft_in_words(design: Design, table: Table) -> str:
-    """Return `|Z| <= 12.7 N·m/rad at 1 Hz, twice hot`: what the joint is from `softening_time` on."""
+    """Return `|Z| <= 12.7 N·m/rad at 1 Hz, twice that at the hot point`: what the joint is from `softening_time` on."""
     return _soft(design.value, design.choices["impedance_targets"], table)
 
 
@@ -137,9 +137,9 @@ def soft_of_module(resolved: ResolvedModule) -> str:
 
 
 def stiff_in_words(design: Design, table: Table) -> str:
-    """Return `|Z| >= 231 N·m/rad at 1 Hz, half of cold`: what the joint is from `stiffening_time` on."""
+    """Return `|Z| >= 231 N·m/rad at 1 Hz, half of that at the cold point`: the joint from `stiffening_time` on."""
     band = design.value("stiffening_band")
-    of = "stiff_impedance" if design.choices["impedance_targets"] == "stated" else "cold"
+    of = "stiff_impedance" if design.choices["impedance_targets"] == "stated" else "that at the cold point"
     return f"{_at('>=', 'stiff', 'cold', design.value, table)}, {_PARTS.get(band, f'1/{band:.3g} of')} {of}"
 
 
@@ -162,7 +162,7 @@ def meaning(name: str, design: Design, table: Table) -> str:
 
 def _soft(value: Value, targets: str, table: Table) -> str:
     band = value("softening_band")
-    of = "soft_impedance" if targets == "stated" else "hot"
+    of = "soft_impedance" if targets == "stated" else "that at the hot point"
     return f"{_at('<=', 'soft', 'hot', value, table)}, {_MULTIPLES.get(band, f'{band:.3g} times')} {of}"
 
 

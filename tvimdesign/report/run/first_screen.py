@@ -9,7 +9,7 @@ from tvimdesign.page.blocks import Facts, Warned
 from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output import terminal
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.blocks.facts import Fact, chosen_fact, front_fact, main_facts, more_facts
+from tvimdesign.report.run.blocks.facts import Fact, chosen_fact, front_fact, main_facts, more_facts, study_fact
 from tvimdesign.report.run.blocks.requirements import HEADS, Requirement, requirements
 from tvimdesign.report.run.blocks.sections import text_sections
 from tvimdesign.report.run.blocks.verdict import Verdict, starts_in_words, verdict
@@ -70,7 +70,7 @@ def _fact_lines(fact: Fact, width: int) -> list[str]:
     first = f"{fact.label}: {fact.parts[0]}"
     lines = terminal.joined([first, *fact.parts[1:]], width, "  ")
     if len(lines) == 1 or not fact.listing:
-        return _as_fit(lines, [fact.note] if fact.note else [], width)
+        return _as_fit(lines, fact.note.split(terminal.DOT) if fact.note else [], width)
     return _listing(fact.label, fact.parts, width, 1)
 
 
@@ -167,7 +167,7 @@ def print_everything(answered: AnsweredStudy, console: Console, seconds: float |
     answer = answered.result
     if answer.has_design:
         console.print()
-        facts = more_facts(answer, answered.uncertainty, answered.front.front)
+        facts = [*study_fact(answer), *more_facts(answer, answered.uncertainty, answered.front.front)]
         terminal.print_block(Facts([(fact.label, fact.text) for fact in facts]), console)
         terminal.print_block(Warned([warning[:2] for warning in answered.warnings]), console)
     for section in text_sections(answered):

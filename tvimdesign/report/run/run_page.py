@@ -27,7 +27,7 @@ from tvimdesign.report.output.terminal import DOT, Progress
 from tvimdesign.report.run import parts_of_design as parts
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import sections
-from tvimdesign.report.run.blocks.facts import Fact, main_facts, more_facts
+from tvimdesign.report.run.blocks.facts import Fact, main_facts, more_facts, study_fact
 from tvimdesign.report.run.blocks.requirements import HEADS, requirements, requirements_grid
 from tvimdesign.report.run.blocks.verdict import refused, starts_in_words
 from tvimdesign.report.run.first_screen import verdict_of
@@ -181,7 +181,7 @@ def glance(answered: AnsweredStudy) -> list[Block]:
     first: list[Block] = [requirements_grid(rows)] if rows else []
     if not answer.has_design:
         return [*first, Points([warning.text for warning in answered.warnings]), sections.conflict_points(answered)]
-    facts = [(fact.label, _in_short(fact)) for fact in main_facts(answer, uncertainty)]
+    facts = [(fact.label, _in_short(fact)) for fact in (*main_facts(answer, uncertainty), *study_fact(answer))]
     more = [(fact.label, fact.text) for fact in more_facts(answer, uncertainty, answered.front.front)]
     more += [("Starts", text) for text in starts_in_words(answer)]
     warnings = [warning[:2] for warning in answered.warnings]

@@ -93,11 +93,13 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
     notes = [f"stroke of {STROKE} to either side of rest assumed; --stroke changes it"] if task.assumes_stroke else []
     first = True
     for text, cautious in sized_texts(partial(_chosen, file, task)):
-        atomic_write(file, text.encode())
         notes += [] if task.process or not first else [f"{process_of(text)}; --process changes it"]
+        described = text
         if not cautious:
             with progress_output() as progress:
                 notes.append(no_room(task, progress))
+            described = text.replace("\nmode: ", f'\ndescription: "{notes[-1][0].upper()}{notes[-1][1:]}."\nmode: ', 1)
+        atomic_write(file, described.encode())
         print(*notes, sep="\n", file=sys.stderr)
         try:
             run_study(file, out, overwrite=overwrite or not first, gives_up=cautious, **run)

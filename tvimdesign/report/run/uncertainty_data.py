@@ -5,7 +5,7 @@ A yield that was asked for, in words: what is reached, what the margins cost, an
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from typing import Any
 
@@ -14,7 +14,7 @@ import numpy as np
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
-from tvimdesign.report.output.numbers import finite, in_unit, label, number, number_entry, percent, with_unit
+from tvimdesign.report.output.numbers import in_unit, label, number, number_entry, percent, with_unit
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
@@ -25,7 +25,7 @@ from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel
-from tvimdesign.solve.uncertainty.uncertain_inputs import Interval, Swing
+from tvimdesign.solve.uncertainty.uncertain_inputs import Interval
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
 from tvimdesign.study.text.values import difference_unit
@@ -33,8 +33,6 @@ from tvimdesign.study.text.values import difference_unit
 _SPREAD = "TVIMDESIGN_SPREAD"
 """Variable of the environment: `off` leaves yield and ranges out, where many runs share few processors."""
 MODULES = 1 << 12  # Modules drawn for the yield
-_NAMED = 3  # Unmeasured inputs that are named for each output
-_LEAST = 5e-3  # Change of an output, as a share of it, below which it does not depend on an unmeasured input
 FIRST_SCREEN = (
     "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
     "softened_stiffness", "softened_damping", "softened_impedance", "softened_temperature",
@@ -72,7 +70,7 @@ class Uncertainty:
         return replace(resolved, study=resolved.study.model_copy(update={"tolerances": tolerances}))
 
     def data(self, design: Design, modules: int = MODULES, deadline: Deadline = NEVER) -> dict[str, Any]:
-        """Return a design's entry for results.json, with the assumptions for the screen.
+        """Return a design's entry for results.json, with what the screen names beside it.
 
         `modules` is a power of two; without modules there is no yield. Raises TimeOverError at the deadline.
         """
@@ -80,13 +78,7 @@ class Uncertainty:
         if not self.model.fits(resolved):  # another record was chosen
             self.model = UncertaintyModel(resolved, self.requested)
         uncertainty = self.model.at(resolved, modules, DRAWS, deadline=deadline)
-        rows = {
-            name: _rows(name, interval.swings, interval.nominal, self.table)
-            for name, interval in uncertainty.intervals.items()
-        }
-        assumptions = {name: rows.get(name, []) for name in self.requested}
-        entry = self._entry(uncertainty, modules)
-        return {**entry, "assumptions": assumptions, "needs": self._needs(uncertainty)}
+        return {**self._entry(uncertainty, modules), "needs": self._needs(uncertainty)}
 
     def _needs(self, uncertainty: DesignUncertainty) -> str:
         """Return the values of the main unmeasured input that the limit most in doubt is met with, alone; or nothing.
@@ -166,22 +158,6 @@ def interval_entry(
 def share_entry(share: Yield | None) -> ShareEntry | None:
     """Return a share with its confidence interval as plain data."""
     return None if share is None else {"share": share.share, "low": share.low, "high": share.high}
-
-
-def _rows(output: str, swings: Sequence[Swing], nominal: float, table: Table) -> list[dict[str, Any]]:
-    """Return the unmeasured inputs that move an output most, the most important first; none that hardly moves it."""
-    rows = []
-    for swing in swings[:_NAMED]:
-        moved, unit = swing.moved, table.unit(swing.moved.name)
-        if swing.size < _LEAST * abs(nominal):
-            continue
-        rows.append({
-            "input": moved.name, "unit": pretty(unit), "output_unit": pretty(table.unit(output)),
-            **{key: from_si(getattr(moved, key), unit) for key in ("value", "low", "high")},
-            "output_at_low": finite(from_si(swing.at_low, table.unit(output))),
-            "output_at_high": finite(from_si(swing.at_high, table.unit(output))),
-        })  # fmt: skip
-    return rows
 
 
 _DIGITS = 3

@@ -32,7 +32,12 @@ Array = NDArray[np.float64]
 Rows = Callable[..., Array]
 
 DRAWS = 1 << 9  # Modules drawn from the ranges of unmeasured inputs
-DOUBTFUL = 0.75  # Share of these modules that satisfy a limit below which it is in doubt
+_DOUBTFUL = 0.75  # Share of these modules that satisfy a limit below which it is in doubt
+
+
+def share_in_doubt(plausible: float | None) -> float:
+    """Return the share of modules below which a limit is in doubt: the usual one, or a larger one that is asked."""
+    return max(_DOUBTFUL, plausible or 0.0)
 
 
 @dataclass(frozen=True)
@@ -194,7 +199,8 @@ class UncertaintyModel:
         satisfied = _satisfied(hanging, self.outputs, values)
         shares = {limit.name: float(np.mean(row)) for limit, row in zip(hanging, satisfied, strict=True)}
         broken = sorted((item for item in shares.items() if item[1] < 1.0), key=lambda item: item[1])
-        doubtful = [name for name, share in broken if share < DOUBTFUL or name == broken[0][0]]
+        least = share_in_doubt(resolved.study.robust.plausible if resolved.study.robust else None)
+        doubtful = [name for name, share in broken if share < least or name == broken[0][0]]
         in_doubt = {limit.output for limit in hanging if limit.name in doubtful}
         requested.update({name: by_name[name] for name in in_doubt})
         return requested, spread.share_kept(np.all(satisfied, axis=0)), dict(broken), moved

@@ -198,7 +198,7 @@ def impedance_beside(springs: Scalar, branch: tuple[Scalar, Scalar]) -> Scalar:
 
 @quantities.output("N*m/rad", per_point=True, headline=True, at_end="softened_stiffness")
 def joint_stiffness(m: Module) -> Scalar:
-    """Stiffness of the joint: springs, parallel to the layer in series with the structure."""
+    """Stiffness of the joint for small motions about rest: springs, parallel to the layer in series with structure."""
     return m.spring_stiffness + m.branch_stiffness[0]
 
 

@@ -4,7 +4,8 @@ An oscillation to the full stroke at the hot point's temperature and frequency. 
 second, so it is strained less than the stroke says (Wagner's equation, `physics/polymers/melt.py`). Each mode
 defines what its strains are: `stroke_strains`, (strain [1], share of the small-motion torque [1]) at
 nodes, and `largest_melt_strain`.
-The springs count as at rest; their change over the stroke is `stiffness_over_stroke`.
+The springs count by the first harmonic of their torque. Their slope falls nearly in proportion to the angle's square,
+so that this is their slope at half the stroke: the mean of k0 - c (A cos x)^2, weighted by sin^2 x, is k0 - c (A/2)^2.
 """
 
 from collections.abc import Sequence
@@ -38,8 +39,11 @@ def stroke_branch(m: Module) -> tuple[Scalar, Scalar]:
 
 @quantities.output("N*m/rad")
 def hot_stiffness_at_stroke(m: Module) -> Scalar:
-    """Stiffness of the hot joint that swings over its whole stroke; `joint_stiffness@hot` is that of small motions."""
-    return m.spring_stiffness + m.stroke_branch[0]
+    """Stiffness of the hot joint that swings over its whole stroke: springs as at half of it, and the strained PCL.
+
+    `joint_stiffness@hot` is that of small motions about rest.
+    """
+    return m.spring_stiffness_half_stroke + m.stroke_branch[0]
 
 
 @quantities.output("N*m*s/rad")
@@ -51,9 +55,8 @@ def hot_friction_damping(m: Module) -> Scalar:
     """
     angular = 2.0 * np.pi * m.frequency_at_hot
     constant = contacts.equivalent_damping(m.pin_friction_torque + m.preload_friction_torque, angular, m.stroke)
-    stiffness = m.spring_stiffness + m.stroke_branch[0]
-    loaded = contacts.loaded_damping(m.bearing_friction_share, stiffness, m.stroke_branch[1], angular)
-    return constant + loaded
+    stiffness, loss = hot_stiffness_at_stroke(m), m.stroke_branch[1]
+    return constant + contacts.loaded_damping(m.bearing_friction_share, stiffness, loss, angular)
 
 
 @quantities.output("N*m*s/rad")

@@ -31,6 +31,7 @@ from tvimdesign.report.run.uncertainty_data import changes, lever, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE
 from tvimdesign.solve.result import StudyResult
+from tvimdesign.solve.uncertainty.design_uncertainty import share_in_doubt
 from tvimdesign.study.resolve import unpriced_kinds
 
 _DIGITS = 3
@@ -179,10 +180,11 @@ def _impedance(value: _Values, torque: float) -> list[Fact]:
         f"{in_unit(value.values[name], unit, _DIGITS)}{value.ends(name)}"
         for name in (leaning if free < held else upright, "softened_stiffness")
     )
+    ends = f"{from_si(value.values['softened_temperature'], 'degC'):.0f} {pretty('degC')}"
     play = "" if free < held or not value.values["bearing_play"] else " with the bearing's play"
     turned = f"turns {from_si(min(free, held), 'deg'):.2g}°{play} at {with_unit(torque, 'N*m', 2)}"
-    damped = in_unit(value.values["softened_impedance"], unit, _DIGITS)
-    return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}: {turned}", f"soft {soft}, damped {damped}"])]
+    damped = f"with damping {in_unit(value.values['softened_impedance'], unit, _DIGITS)}"
+    return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}: {turned}", f"soft at {ends} {soft}"], damped)]
 
 
 def _drag(value: _Values) -> list[Fact]:
@@ -276,26 +278,26 @@ def _manufacturing(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[
     return [Fact("Manufacturing", [text], f"by {_tolerances(uncertainty)}")]
 
 
-_SELDOM = 0.95  # Share of the cases in which a limit is met from which on it is not counted
-
-
 def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fact]:
-    """Return the limit most in doubt, and the share of cases asked of each; none without ranges."""
+    """Return the share of cases that meet every limit, and the limit that the fewest meet; none without ranges."""
     if not uncertainty or uncertainty["ranges_hold"] is None:
         return []
     name, share = most_in_doubt(uncertainty)
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
-    target = (study.get("robust") or {}).get("plausible")
-    count = sum(met < (_SELDOM if target is None else target) for met in uncertainty["held"].values())
-    if target is not None and not count:
-        least = f"{label(name)} in {percent(share, 2)}"
-        return [Fact("Model", [f"each limit is met in the {percent(target)} of cases asked, {least}"])]
-    needs = f" needs {uncertainty['needs']}," if uncertainty.get("needs") else " is"
-    text = f"{label(name)}{needs} met in {percent(share, 2)} of cases"
-    least = f"{percent(target or _SELDOM)}{' asked' if target else ''}"
-    more = f"{count - 1} more in under {least}" if count > 1 else ""
-    return [Fact("Model", [text], more)]
+    least, draws = share_in_doubt((study.get("robust") or {}).get("plausible")), uncertainty["draws"]
+    every = f"{round(draws * uncertainty['ranges_hold']['share'])} of {draws} plausible cases meet every limit"
+    needs = f"it needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
+    count = sum(met < least for met in uncertainty["held"].values())
+    more = f"{count} limits in under {percent(least)}" if count else ""
+    text = f"{every}; {label(name)} met in {percent(share, 2)}"
+    return [Fact("Model", [text], DOT.join(filter(None, [needs, more])))]
+
+
+def study_fact(answer: StudyResult) -> list[Fact]:
+    """Return what the study says of itself, if anything."""
+    text = " ".join(answer.design.study.get("description", "").split())
+    return [Fact("Study", [text])] if text else []
 
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:

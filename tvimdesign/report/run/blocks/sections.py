@@ -15,6 +15,7 @@ from tvimdesign.report.run.blocks import tables
 from tvimdesign.report.run.reasons import complaint, sentences
 from tvimdesign.report.run.uncertainty_data import lost_in_words, yield_of
 from tvimdesign.solve.result import StudyResult
+from tvimdesign.solve.uncertainty.design_uncertainty import share_in_doubt
 
 COSTS = 5  # Active constraints that are shown unfolded, the costliest first
 
@@ -102,10 +103,11 @@ def assumptions_section(answered: AnsweredStudy) -> Section:
     if not uncertainty:
         words = "How sure the design is was not computed in this run."
         return Section("assumptions", "Assumptions", [Words([words])])
+    robust = answered.study.robust
+    least = share_in_doubt(robust.plausible if robust else None)
     more = [
-        (tables.held_grid(uncertainty, answered.reported["values"]), ""),
+        (tables.held_grid(uncertainty, answered.reported["values"], least), ""),
         (tables.doubts_grid(uncertainty, answered.study.table), ""),
-        (tables.assumptions_grid(uncertainty.get("assumptions", {})), PAGE),
         (tables.unmeasured_grid(uncertainty, answered.reported["values"]), f"results.csv, results.json and {PAGE}"),
     ]
     folded = [Folded(grid.caption, [grid], file) for grid, file in more if grid.rows]

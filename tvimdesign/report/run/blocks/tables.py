@@ -1,6 +1,6 @@
 """The tables of a result, one function each; a renderer prints or shows them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -8,10 +8,10 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Output, Table, table_for
 from tvimdesign.page.blocks import Grid
 from tvimdesign.report.output.choices_tables import choice_text, shares
-from tvimdesign.report.output.numbers import ends_text, in_unit, number, range_text
+from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, percent, range_text
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
-from tvimdesign.report.run.blocks.verdict import TO_MEASURE, measure_first
+from tvimdesign.report.run.blocks.verdict import TO_MEASURE, least_shares, limits_in_doubt
 from tvimdesign.report.run.blocks.warnings import unreached_points
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
@@ -190,18 +190,6 @@ def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
     return grid(title, heads, rows, right=(1, 2, 3, 7), code=(0, 6), note=note)
 
 
-def assumptions_grid(assumptions: Mapping[str, Sequence[Mapping[str, Any]]]) -> Grid:
-    """Return what each output is with an assumed input at the ends of its range."""
-    heads = ("", "at low", "at high", "unit", "assumed", "value", "from", "to", "unit")
-    rows = []
-    for output, inputs in assumptions.items():
-        for i, row in enumerate(inputs):
-            ends = (number(row[end]) for end in ("output_at_low", "output_at_high"))
-            values = (number(row["value"]), number(row["low"]), number(row["high"]), row["unit"])
-            rows.append((output if i == 0 else "", *ends, row["output_unit"], row["input"], *values))
-    return grid("What depends on assumed values", heads, rows, right=(1, 2, 5, 6, 7))
-
-
 def unmeasured_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid:
     """Return every unmeasured input with its range, its source and the outputs that it moves, the weightiest first."""
     intervals = uncertainty["intervals"]
@@ -229,43 +217,34 @@ def moves(name: str, intervals: Mapping[str, Any]) -> list[tuple[str, float]]:
     return sorted([(output, share) for output, share in shares if share >= _MOVES], key=lambda pair: -pair[1])
 
 
-def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid:
-    """Return what to measure, and how, with the limits that it decides on and their share of cases, the least first."""
-    limits: dict[str, list[str]] = {}
-    for output, share in _least_shares(uncertainty).items():
-        limits.setdefault(measure_first(output, uncertainty), []).append(f"{output} {100.0 * share:.3g} %")
+def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any], least: float) -> Grid:
+    """Return what to measure, and how, with the limits in doubt that it decides on and their shares of cases."""
+    limits = limits_in_doubt(uncertainty, least)
     ranges = {entry["name"]: f"{range_text(entry)} {entry['unit']}" for entry in uncertainty["unmeasured"]}
     rows = []
     for first in sorted(limits, key=lambda name: not name):
-        decided, more = limits[first][:_NAMED], len(limits[first]) - _NAMED
-        met = ", ".join([*decided, *([f"{more} more"] if more > 0 else [])])
+        decided, more = [f"{name} {100.0 * share:.3g} %" for name, share in limits[first].items()], len(limits[first])
+        met = ", ".join([*decided[:_NAMED], *([f"{more - _NAMED} more"] if more > _NAMED else [])])
         value, source = (number(values[first]["value"]), values[first]["source"]) if first else ("", "")
         test = source.partition("test: ")[2] or ("its maker's sheet, or the built part" if source else "the built part")
-        rows.append((first or "no single input", value, ranges.get(first, ""), met, test))
+        name = first if label(first) == first.replace("_", " ") else f"{first}: {label(first)}"
+        rows.append((name or "no single input", value, ranges.get(first, ""), met, test))
     heads = ("measure first", "assumed", "range", "limits met in a share of cases", "test")
     note = (
-        "Before the first module: print cad/print/test_pieces.3mf twice and measure it by docs/how-to/my-printer.md. "
-        "The others: on that module, or by the maker's sheet. "
-        "`tvimdesign new built.yaml --from FOLDER` keeps all chosen sizes: set what was measured there and "
-        "run it. A measured wall or gap still redraws what follows from it; a new search draws other parts."
+        "Before any order: print cad/print/test_pieces.3mf twice and measure it by docs/how-to/my-printer.md; set what "
+        "was measured in the study of `tvimdesign new measured.yaml --from FOLDER`, which keeps all chosen sizes, and "
+        "run it: a wall or gap redraws what follows from it. Then order springs and heaters, and print the parts. The "
+        "others: on the first module, or by the maker's sheet."
     )
-    return grid(f"{TO_MEASURE}: what decides on limits that are met in a part of the ranges only", heads, rows,
-                right=(1,), note=note)  # fmt: skip
+    title = f"{TO_MEASURE}: what decides on limits that are met in under {percent(least)} of the plausible cases"
+    return grid(title, heads, rows, right=(1,), code=(), note=note)
 
 
 def doubts_grid(uncertainty: Mapping[str, Any], table: Table) -> Grid:
     """Return what each limit in doubt is about, such as between which two parts a gap is, the least met first."""
     rows = [
         (name, f"{100.0 * share:.3g} %", table.output(name).description)
-        for name, share in _least_shares(uncertainty).items()
+        for name, share in least_shares(uncertainty).items()
     ]
     note = "Parts and gaps: cad/views/section.png, a cut through the axis; the module in report.html, which opens."
-    return grid("What these limits are about", ("limit on", "met in", "meaning"), rows, right=(1,), note=note)
-
-
-def _least_shares(uncertainty: Mapping[str, Any]) -> dict[str, float]:
-    """Return the least share of cases that meet a limit on an output, by output, the least first."""
-    shares: dict[str, float] = {}
-    for limit, share in sorted(uncertainty["held"].items(), key=lambda entry: entry[1]):
-        shares.setdefault(limit.partition(" ")[0], share)
-    return shares
+    return grid("Limits not met in all cases", ("limit on", "met in", "meaning"), rows, right=(1,), note=note)

@@ -10,9 +10,8 @@
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
-9. Limits are met in less than `DOUBTFUL` of the cases, or the share that the study asks: *Build it, one module first:
-   measure X and Y*.
-10. *Build it*; here and in 9 with a bought part that is not to be had.
+9. Limits are met in less than `share_in_doubt` of the cases: *Build it, one module first: measure X and Y*.
+10. *Build it*; here and in 9 with a bought part that is not to be had, and the share of cases if the study asks one.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
 
@@ -30,7 +29,7 @@ from tvimdesign.report.run.blocks.warnings import RunWarning, missed_points
 from tvimdesign.report.run.uncertainty_data import yield_of
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.solve.uncertainty.design_uncertainty import DOUBTFUL
+from tvimdesign.solve.uncertainty.design_uncertainty import share_in_doubt
 
 TARGET = 0.95  # Yield below which a design without margins is only a nominal one
 DOUBT = 0.25  # Share of the plausible cases in which the limit most in doubt must be met
@@ -176,8 +175,7 @@ def _measure(uncertainty: Mapping[str, Any]) -> Verdict | None:
 
 def most_in_doubt(uncertainty: Mapping[str, Any]) -> tuple[str, float]:
     """Return the output whose limit is met in the fewest cases, and their share; an empty name if there is none."""
-    limit, share = next(iter(uncertainty.get("held", {}).items()), ("", 1.0))
-    return limit.partition(" ")[0], share
+    return next(iter(least_shares(uncertainty).items()), ("", 1.0))
 
 
 def measure_first(output: str, uncertainty: Mapping[str, Any]) -> str:
@@ -188,26 +186,42 @@ def measure_first(output: str, uncertainty: Mapping[str, Any]) -> str:
 def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence[RunWarning]) -> Verdict:
     what_else = " and ".join(warning.but for warning in warnings if warning.but)
     but = f", but {what_else}" if what_else else ""
+    plausible = (answer.design.study.get("robust") or {}).get("plausible")
+    made_for = f"; made for {percent(plausible)} of plausible cases" if plausible else ""
     if not uncertainty:
         return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
-    name, share = most_in_doubt(uncertainty)
-    least = max(DOUBTFUL, (answer.design.study.get("robust") or {}).get("plausible") or 0.0)
-    if not name or share >= least:
-        return Verdict("build", f"Build it{but}")
-    first = _to_measure(uncertainty, least)
-    what = f"measure {first}" if first else f"check the {label(name)}"
-    return Verdict("build_one", f"Build it, one module first: {what}{f'; {what_else}' if what_else else ''}")
+    decided = limits_in_doubt(uncertainty, share_in_doubt(plausible))
+    if not decided:
+        return Verdict("build", f"Build it{but}{made_for}")
+    first = _to_measure([name for name in decided if name])
+    what = f"measure {first}" if first else f"check the {label(most_in_doubt(uncertainty)[0])}"
+    return Verdict("build_one", f"Build it, one module first: {what}{f'; {what_else}' if what_else else ''}{made_for}")
 
 
-def _to_measure(uncertainty: Mapping[str, Any], least: float) -> str:
-    """Return the unmeasured inputs that decide on the limits in doubt, the worst limit's first; or nothing."""
-    doubtful = [name.partition(" ")[0] for name, share in uncertainty["held"].items() if share < least]
-    first = dict.fromkeys(measure_first(name, uncertainty) for name in doubtful)
-    inputs = [f"the {label(name)}" for name in first if name]
-    if not inputs:
-        return ""
+def limits_in_doubt(uncertainty: Mapping[str, Any], least: float) -> dict[str, dict[str, float]]:
+    """Return outputs whose limits fewer cases than `least` meet, with their shares, by the input that decides on them.
+
+    The worst is first; outputs that no input stands out for are under "".
+    """
+    decided: dict[str, dict[str, float]] = {}
+    for output, share in least_shares(uncertainty).items():
+        if share < least:
+            decided.setdefault(measure_first(output, uncertainty), {})[output] = share
+    return decided
+
+
+def least_shares(uncertainty: Mapping[str, Any]) -> dict[str, float]:
+    """Return the least share of cases that meet a limit on an output, by output, the least first."""
+    worst_last = sorted(uncertainty.get("held", {}).items(), key=lambda entry: -entry[1])
+    shares = {limit.partition(" ")[0]: share for limit, share in worst_last}
+    return dict(sorted(shares.items(), key=lambda entry: entry[1]))
+
+
+def _to_measure(names: Sequence[str]) -> str:
+    """Return inputs in words, or the first of them and how many more there are; empty without any."""
+    inputs = [f"the {label(name)}" for name in names]
     if len(inputs) <= _MOST_NAMED + 1:
-        return f"{', '.join(inputs[:-1])}{' and ' if inputs[1:] else ''}{inputs[-1]}"
+        return " and ".join(filter(None, [", ".join(inputs[:-1]), *inputs[-1:]]))
     named, more = ", ".join(inputs[:_MOST_NAMED]), len(inputs) - _MOST_NAMED
     return f"{named} and {more} others (summary.txt: {TO_MEASURE})"
 
