@@ -185,6 +185,8 @@ def shelf(name: str) -> Study:
 
 SEVERAL = 3
 """Starts of each combination alone."""
+STEPS = 1e-5
+"""Share of an objective that other steps in time change at this fineness: 37 and 39 of them are 3e-6 apart."""
 
 
 @pytest.mark.slow
@@ -208,7 +210,7 @@ def test_no_combination_in_them_has_one(name, monkeypatch):
     assert any(not is_one(box) for _, box in left)
     assert not {tuple(tree.choices(places).values()) for tree, box in left for places in _each(box)} & alone.keys()
     objectives = {tuple(candidate.choices.values()): candidate.objective for candidate in choosing.best}
-    assert all(objectives[places] <= objective * (1.0 + 1e-6) for places, objective in alone.items())
+    assert all(objectives[places] <= objective * (1.0 + STEPS) for places, objective in alone.items())
     assert choosing.without_design + len(objectives) == choosing.combinations
 
 
