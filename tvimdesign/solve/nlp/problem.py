@@ -112,13 +112,10 @@ class Problem:
                 self.grids = grids
                 return
         self.grids = {}
-        self._placed.append((key, self.grids))
-        inputs, _ = self.inputs_at(x, parameters.inputs)
-        try:
-            self.engine.run(inputs, np.zeros((len(inputs), 0)), self._needed, self.grids, self._drives(x, 0))
-        except SimulationError:
+        if np.any(np.isnan(self.at(x, parameters).cycle)):  # no steps lead through it
             self.grids = {}
-            self._placed.pop()
+        else:
+            self._placed.append((key, self.grids))
 
     def forget(self) -> None:
         """Forget the last points."""
