@@ -142,7 +142,7 @@ def broken_rules(design: Design) -> list[str]:
     """Rules of the layout that a design breaks."""
     return [
         row.name for row in table_for(design.mode).outputs
-        if row.group == "Gaps" and row.name in design.values and row.exists(design.choices)
+        if row.group in ("Gaps", "Layout") and row.name in design.values and row.exists(design.choices)
         for rule in row.rules
         if (design.values[row.name] - rule.value) * (1 if rule.sense == ">=" else -1) < -1e-12
     ]  # fmt: skip

@@ -110,6 +110,9 @@ def new(
             autocompletion=options.designs_and_studies,
         ),
     ] = None,
+    built: Annotated[
+        bool, Option("--built", help="With --from: its parts are made, and stay as drawn beside what is measured.")
+    ] = False,
     list_all: Annotated[bool, Option("--list", help="List the shipped studies.")] = False,
 ) -> None:
     """Write a study to start from. It is commented, or a shipped one, or the module of a result."""
@@ -118,7 +121,7 @@ def new(
     if list_all:
         list_examples()
     else:
-        write_new_study(file, example, result)
+        write_new_study(file, example, result, built=built)
 
 
 @app.command()

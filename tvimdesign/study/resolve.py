@@ -19,6 +19,7 @@ from tvimdesign.device.components.cost import COSTS
 from tvimdesign.device.components.cost import GROUP as COST_GROUP
 from tvimdesign.device.core.heater_form import CUT, contradiction
 from tvimdesign.device.core.task import ARM, Trajectory
+from tvimdesign.device.table.table import AS_DRAWN
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
 _NONE = 1e-12  # Length [m] that is rounding
@@ -36,6 +37,8 @@ def given(study: Study) -> dict[str, Any]:
         known[choice.name] = _chosen(choice, study, known)
     if study.trajectory and known.get("task", ARM) == ARM:
         known["trajectory"] = Trajectory(*study.trajectory.model_dump().values())
+    if study.as_drawn:
+        known[AS_DRAWN] = study.as_drawn
     for row in study.table.inputs:
         if row.per_point:
             for point, values in study.operating_points.items():

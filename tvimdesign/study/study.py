@@ -187,6 +187,8 @@ class Study(_Part):
     description: str = ""
     mode: str
     module: dict[str, float | str] = {}
+    as_drawn: dict[str, float] = {}
+    """Inputs that the parts were drawn with, where `module` has what was measured of them since."""
     vary: dict[str, Vary] = {}
     require: tuple[Requirement, ...] = ()
     simulated: tuple[Requirement, ...] = ()

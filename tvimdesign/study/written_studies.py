@@ -22,9 +22,16 @@ from tvimdesign.study.text.yaml_text import Text, yaml_of
 from tvimdesign.study.tree import tree_of_values, tree_yaml
 
 
-def result_text(design: Design, source: str, folder: Path) -> str:
-    """Return the text of a study whose `run` gives the design; `folder` will hold its file."""
-    return study_text(evaluating(design), f"The module of {source}", folder)
+def result_text(design: Design, source: str, folder: Path, *, built: bool = False) -> str:
+    """Return the text of a study whose `run` gives the design; `folder` will hold its file.
+
+    Of a module that is `built` it has the sizes of its process that the parts are drawn with, which then stay.
+    """
+    study, table = evaluating(design), table_for(design.mode)
+    process = [row.name for row in table.inputs if row.unit == "mm" and (row.record or ("",))[0] == "process"]
+    drawn = {name: design.values[name] for name in process if name in table.drawn_with} if built else {}
+    study = study.model_copy(update={"as_drawn": {**drawn, **study.as_drawn}})
+    return study_text(study, f"The module of {source}", folder)
 
 
 def study_text(study: Study, title: str, folder: Path) -> str:

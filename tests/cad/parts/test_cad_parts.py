@@ -2,7 +2,9 @@
 
 from collections.abc import Mapping
 from math import atan2, degrees, hypot, pi, radians, sin, tan
+from pathlib import Path
 
+import cad_designs
 import cadquery as cq
 import numpy as np
 import pytest
@@ -26,7 +28,9 @@ from tvimdesign.cad.inspection.rays import Triangles, wall_checks
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.cad.parts import fasteners, jigs
 from tvimdesign.cad.parts.common_parts import link_dowels
+from tvimdesign.study import read_study_text
 from tvimdesign.study.design import Design
+from tvimdesign.study.written_studies import result_text
 
 
 def test_the_cases_keep_the_rules_in_valid_solids(design):
@@ -288,6 +292,38 @@ def test_the_test_pieces_try_sizes_about_what_the_process_assumes():
     assert jigs.tried(dims, "bridges") == [5.0, 10.0, 15.0, 20.0]
     rods = sum(0.25 * pi * size**2 for _, size in pins)
     assert half == pytest.approx(10.0 * sum(jigs.tried(dims, "walls")) + rods + 5.0 * 2.0**2, rel=1e-6)
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize("name", ["elbow_printed", "paper_compression"])
+def test_built_parts_stay_as_drawn_beside_what_is_measured(name):
+    first = cad_designs.shipped_design(name)
+    again = read_study_text(result_text(first, "a test", Path(), built=True), "built")
+    assert {"minimum_wall", "slip_clearance", "running_clearance"} <= again.as_drawn.keys()
+    drawn = {**again.as_drawn, "tang_clearance": first.value("tang_clearance")}
+    wider = {name: 1.2 * first.value(name) for name in (*drawn, "minimum_feature")}
+
+    modules = []
+    for measured, as_drawn in (({}, {}), (wider, drawn), (wider, {})):
+        study = again.model_copy(update={"module": {**again.module, **measured}, "as_drawn": as_drawn})
+        module = cad_designs.whole(cad_designs.as_it_starts(study), study)
+        solids = drawn_parts(dimensions(module))
+        assert all(check.ok for check in size_checks(module, place(dimensions(module), solids)))
+        modules.append(
+            (module.values, {kind: [part.Volume(), *part.Center().toTuple()] for kind, part in solids.items()})
+        )
+    (before, parts), (built, same), (_, redrawn) = modules
+    assert same == {kind: pytest.approx(sizes, rel=1e-9, abs=1e-9) for kind, sizes in parts.items()}
+    assert redrawn["housing"] != pytest.approx(parts["housing"], rel=1e-3)
+    moved = {name for name, value in built.items() if value != pytest.approx(before[name], rel=1e-9)}
+    assert {"pin_margin", "post_margin", "tang_fit_margin", "running_fit_margin", "housing_wall_margin"} <= moved
+    assert not moved & {
+        "module_mass",
+        "housing_volume",
+        "envelope_diameter",
+        "rotor_bottom_level",
+        "adjuster_thickness",
+    }
 
 
 def test_lids_and_dams_that_do_not_fit_fail_their_checks():

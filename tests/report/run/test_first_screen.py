@@ -340,9 +340,9 @@ def test_a_limit_in_doubt_stands_beside_what_to_measure_for_it():
         "unmeasured": [{"name": "minimum_wall", "value": 1.2, "low": 0.8, "high": 1.6, "unit": "mm"}],
     }  # fmt: skip
     wall = {"minimum_wall": {"value": 1.2, "source": "assumed; test: comb of walls"}}
-    first = [f"minimum_wall: {label('minimum_wall')}", "1.2", "0.8 to 1.6 mm", "pin_margin 50 %", "comb of walls"]
-    both = [*first[:3], "pin_margin 50 %, key_margin 75 %", first[4]]
-    none = ["no single input", "", "", "core_web 90 %", "the built part"]
+    first = [f"minimum_wall: {label('minimum_wall')}", "1.2 (0.8 to 1.6) mm", "pin_margin 50 %", "comb of walls"]
+    both = [*first[:2], "pin_margin 50 %, key_margin 75 %", first[3]]
+    none = ["no single input", "", "core_web 90 %", "the built part"]
     for least, listed in ((0.75, [first]), (0.76, [both]), (0.95, [both, none])):
         rows = held_grid(uncertainty, wall, least).rows
         assert [[getattr(cell, "text", cell) for cell in row] for row in rows] == listed

@@ -37,7 +37,9 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     total = sum(item.mass * item.quantity for item in items)
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{cad_report.BILL_OF_MATERIALS}`.", ""]
     lines += ["| also needed | |", "|---|---|"] if extra else []
-    lines += [f"| {_words(item.kind)} | {item.title}{_about(item.mass)} |" for item in extra]
+    lines += [
+        f"| {_words(item.kind)} | {item.title}{f', about {item.mass:.2f} g' if item.mass else ''} |" for item in extra
+    ]
     lines += ["", _cost([*items, *extra], design)]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [item for item in items if item.made]), "## Steps", ""]
@@ -70,15 +72,10 @@ def _cost(items: Sequence[Item], design: Design) -> str:
 def _made_to_order(items: Sequence[Item], design: Design) -> str:
     """Return what is made to order, to be asked for once the test pieces were measured; empty if nothing is."""
     slow = _listed([item for item in items if MADE_TO_ORDER in item.lead_time])
-    printed = " Before any order print the test pieces, and run the study again with what they measure."
-    first = "" if design.choices["making_method"] == "milled" else printed
-    words = f"{first} Order first what is {MADE_TO_ORDER}, and ask how long it takes, which no list says"
+    printed = " Before any order print the test pieces, and run the study again with what they measure; then order"
+    order = " Order" if design.choices["making_method"] == "milled" else printed
+    words = f"{order} first what is {MADE_TO_ORDER}, and ask how long it takes, which no list says"
     return f"{words}: {slow}." if slow else ""
-
-
-def _about(mass: float) -> str:
-    """Return what is used of something, where that is known."""
-    return f", about {mass:.2f} g" if mass else ""
 
 
 def _making(design: Design, dims: Dimensions, made: Sequence[Item]) -> list[str]:

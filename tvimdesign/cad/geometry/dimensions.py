@@ -6,6 +6,7 @@ from typing import Any
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.device import Input, Output, table_for
+from tvimdesign.device.table.table import AS_DRAWN
 from tvimdesign.study.design import Design
 
 _SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
@@ -75,7 +76,7 @@ class Dimensions:
 
 def dimensions(design: Design) -> Dimensions:
     """Convert a design's values to the units of CAD; dimensions that only other rows use are worked out first."""
-    return dimensions_of(design.mode, design.values, design.choices)
+    return dimensions_of(design.mode, {**design.values, **design.study.get(AS_DRAWN, {})}, design.choices)
 
 
 def dimensions_of(mode: str, given: Mapping[str, float], choices: Mapping[str, str]) -> Dimensions:

@@ -232,7 +232,7 @@ def module_checks(
 def rule_checks(design: Design) -> Iterator[SolidCheck]:
     """Compare the design with the rules of the table that say what can be made and put together; exact."""
     for row in table_for(design.mode).outputs:
-        if row.group != "Gaps" or row.name not in design.values:
+        if row.group not in ("Gaps", "Layout") or row.name not in design.values:
             continue
         value = from_si(design.value(row.name), row.unit)
         for rule in row.rules if row.exists(design.choices) else ():

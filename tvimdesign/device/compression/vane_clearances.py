@@ -10,7 +10,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids.shapes import between_planes
 
-quantities = QuantityGroup("Gaps")
+quantities, places = QuantityGroup("Gaps"), QuantityGroup("Layout")
 
 
 @quantities.gap("blocks and vanes must clear the hub")
@@ -63,13 +63,13 @@ def vane_root_margin(m: Module) -> Scalar:
     return m.vane_root - m.minimum_wall
 
 
-@quantities.output("mm", requires=WITH_CUTOUT)
+@places.output("mm", requires=WITH_CUTOUT)
 def cutout_radius(m: Module) -> Scalar:
     """Distance of the thermal cut-out's middle from the axis: below the middle of the slots; zero without."""
     return 0.5 * (m.slot_inner_radius + m.slot_outer_radius)
 
 
-@quantities.output("mm", hidden=True)
+@places.output("mm", hidden=True)
 def slot_top_level(m: Module) -> Scalar:
     """Upper end of the slots in the housing's vanes."""
     return m.running_clearance + m.slot_height
@@ -141,7 +141,7 @@ def mount_slot_gap(m: Module) -> Scalar:
 _FALLS = "slots are wider below the pads, by the radius of their corners, and leave these nothing to stand on"
 
 
-@quantities.output("mm", at_least(0.2 * MM, _FALLS, 0.0))
+@places.output("mm", at_least(0.2 * MM, _FALLS, 0.0))
 def pad_seat(m: Module) -> Scalar:
     """Width of what a pad, or a spreader with its tiles, stands on beside its slot."""
     return m.pad_depth - _slot_reach_below(m)

@@ -123,7 +123,7 @@ def rotor_moments(m: Module) -> Section:
     return m.bare_rotor_moments.plus(m.melt_lip_moments) - m.key_moments - m.liner_recess
 
 
-rules = QuantityGroup("Gaps")
+rules, places = QuantityGroup("Gaps"), QuantityGroup("Layout")
 
 
 rules.after("leg_reach_gap")
@@ -147,7 +147,7 @@ def arc_width(m: Module) -> Scalar:
     return m.pcl_outer_radius - m.pcl_inner_radius
 
 
-@rules.output("mm", at_least(0.0, "a heater needs a window behind its ledges for its cold side", 0.0))
+@places.output("mm", at_least(0.0, "a heater needs a window behind its ledges for its cold side", 0.0))
 def window_depth(m: Module) -> Scalar:
     """Radial width of the windows below the heaters."""
     return (m.arc_width if m.heater_form == CUT else m.peltier_width) - 2.0 * m.window_ledge
@@ -168,7 +168,7 @@ def floor_web_margin(m: Module) -> Scalar:
 rules.after("retainer_gap")
 
 
-@rules.output("mm", at_least(2.0 * MM, "the window below a heater must have a width", 0.0))
+@places.output("mm", at_least(2.0 * MM, "the window below a heater must have a width", 0.0))
 def window_width(m: Module) -> Scalar:
     """Width of the windows below the heaters, along the arc: of an arc's at its inner radius."""
     return (m.arc_span * m.pcl_inner_radius if m.heater_form == CUT else m.cold_plate_length) - 2.0 * m.window_ledge
@@ -183,7 +183,7 @@ def mount_pad_gap(m: Module) -> Scalar:
     return m.placement_radius - m.mount_boss_radius - m.pcl_outer_radius - m.radial_clearance
 
 
-@rules.output("mm", requires=WITH_CUTOUT)
+@places.output("mm", requires=WITH_CUTOUT)
 def cutout_radius(m: Module) -> Scalar:
     """Distance of the thermal cut-out's middle from the axis: below the middle of the window; zero without."""
     return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius) if m.heater_form == CUT else m.tile_radius

@@ -23,6 +23,9 @@ from tvimdesign.device.table.quantity import (
     Supplied,
 )
 
+AS_DRAWN = "as_drawn"  # Name under which the inputs are given that the parts were drawn with
+_DRAWN = ("Layout", "Size and weight")  # Groups of what parts are drawn with and weigh
+
 
 @dataclass(frozen=True)
 class Table:
@@ -130,7 +133,24 @@ class Table:
         `given` holds SI numbers, arrays or symbols by full name, and the chosen records and options. Returns the wanted
         values by name. Raises InputError where a quantity is missing from `given`.
         """
-        return self.resolve(dict(given), wanted)
+        return self.resolve(self.with_drawn(given), wanted)
+
+    def with_drawn(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the given quantities with sizes and masses of parts that were drawn with other inputs, `AS_DRAWN`."""
+        if not (inputs := given.get(AS_DRAWN)):
+            return dict(given)
+        names = [name for name in self._drawn if self.ancestors(name) & inputs.keys()]
+        return {**given, **self.resolve({**given, **inputs}, names)}
+
+    @cached_property
+    def _drawn(self) -> list[str]:
+        return [name for name in self._settled_names if self.by_name[name].group in _DRAWN]
+
+    @cached_property
+    def drawn_with(self) -> dict[str, Input]:
+        """Return the inputs that parts are drawn with, by name."""
+        behind = frozenset[str]().union(*map(self.ancestors, self._drawn))
+        return {row.name: row for row in self.inputs if row.name in behind and not row.per_point}
 
     def resolve(self, known: dict[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
         """Compute the wanted outputs from known quantities, and add all that is computed on the way to these."""

@@ -41,18 +41,20 @@ def list_examples() -> None:
         print(f"{name}\n    {about}")
 
 
-def write_new_study(file: Path | None, example: str = "", result: Path | None = None) -> None:
+def write_new_study(file: Path | None, example: str = "", result: Path | None = None, *, built: bool = False) -> None:
     """Write a commented study, a copy of a shipped one, or the module of a result as a study that evaluates it.
 
     Raises InputError where the file is there already, or the result is none.
     """
     if example and result:
         raise InputError("--example and --from: choose one")
+    if built and not result:
+        raise InputError("--built: name the result by --from")
     file = file or Path(f"{example or 'study'}.yaml")
     text = written_studies.example_text(example, file.stem) if example else written_studies.template_text()
     if result:
         source = result / "design.json" if result.is_dir() else result
-        text = written_studies.result_text(read_design(source), printable(source), file.resolve().parent)
+        text = written_studies.result_text(read_design(source), printable(source), file.resolve().parent, built=built)
     try:
         with file.open("x", encoding="utf-8") as stream:
             stream.write(text)

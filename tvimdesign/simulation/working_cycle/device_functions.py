@@ -96,7 +96,7 @@ class DeviceFunctions:
         entries = symbols(inputs)
         known.update({name: entries[i] for i, name in enumerate(self.names)})
         known["rotor_cells"] = self._rotor_cells
-        return inputs, cycle, known
+        return inputs, cycle, self.table.with_drawn(known)
 
     @built_once
     def _settled(self) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from typing import Any
 from tvimdesign.device import MODES
 from tvimdesign.study.sections.goals import ACCEPT, FRONT, MINIMIZE, REQUIRE
 from tvimdesign.study.sections.section import Schema, Section
-from tvimdesign.study.sections.settings import CONTROL, CURRENTS, DUTY, MODULE, POINTS, PROFILE, SOLVER, WRITE
+from tvimdesign.study.sections.settings import AS_DRAWN, CONTROL, CURRENTS, DUTY, MODULE, POINTS, PROFILE, SOLVER, WRITE
 from tvimdesign.study.sections.sweeps import SWEEP
 from tvimdesign.study.sections.task import TASK
 from tvimdesign.study.sections.tolerances import ROBUST, TOLERANCES
@@ -51,8 +51,8 @@ SECTIONS = (
         "catalog", "folder of your own records, relative to this file",
         _read_before, _TEXT, lambda study: study.catalog_folder,
     ),
-    MODULE, TASK, DUTY, CONTROL, VARY, REQUIRE, ACCEPT, MINIMIZE, FRONT, POINTS, PROFILE, CURRENTS, TOLERANCES, ROBUST,
-    SOLVER, SWEEP, WRITE,
+    MODULE, AS_DRAWN, TASK, DUTY, CONTROL, VARY, REQUIRE, ACCEPT, MINIMIZE, FRONT, POINTS, PROFILE, CURRENTS,
+    TOLERANCES, ROBUST, SOLVER, SWEEP, WRITE,
 )  # fmt: skip
 NAMES = tuple(section.name for section in SECTIONS)
 

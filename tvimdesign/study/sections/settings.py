@@ -48,6 +48,23 @@ def _set(reading: values.Reading, name: str, key: Text, value: Node) -> float | 
     raise RefusedError
 
 
+def _read_drawn(reading: values.Reading, node: Node | None) -> dict[str, float]:
+    named = values.entries(
+        reading.problems, node, "as_drawn", "inputs that the parts were drawn with, each with a value"
+    )
+    return values.readable(lambda name, entry: _drawn(reading, name, *entry), named)
+
+
+def _drawn(reading: values.Reading, name: str, key: Text, value: Node) -> float:
+    path, known = step("as_drawn", name), reading.table.drawn_with
+    if name in known:
+        return values.quantity(reading.problems, value, path, known[name])
+    if name in reading.table.by_name:
+        reading.problems.refuse(key, path, "no part is drawn with it", "a size or a clearance of the parts")
+    reading.unknown_quantity(key, path, "input", name, known)
+    raise RefusedError
+
+
 def _read_points(reading: values.Reading, node: Node | None) -> dict[str, dict[str, float]]:
     """Return every operating point in full (SI): the study's values over the standard ones over the defaults."""
     rows = {row.name: row for row in reading.table.inputs if row.per_point}
@@ -133,6 +150,12 @@ MODULE = section.Section(
         for name, value in study.module.items()
         if study.table.quantity(name).group != TASK_GROUP
     },
+)  # fmt: skip
+AS_DRAWN = section.Section(
+    "as_drawn", "inputs that the parts were drawn with, where `module` has what was measured of them since",
+    _read_drawn,
+    lambda table: section.mapping({name: section.set_schema(row) for name, row in table.drawn_with.items()}),
+    lambda study: {name: written_value(study.table, name, value) for name, value in study.as_drawn.items()},
 )  # fmt: skip
 POINTS = section.Section(
     "operating_points", "temperatures and frequencies for stiffness and damping; `cold` and `hot` always exist",

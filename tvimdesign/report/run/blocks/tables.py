@@ -220,24 +220,27 @@ def moves(name: str, intervals: Mapping[str, Any]) -> list[tuple[str, float]]:
 def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any], least: float) -> Grid:
     """Return what to measure, and how, with the limits in doubt that it decides on and their shares of cases."""
     limits = limits_in_doubt(uncertainty, least)
-    ranges = {entry["name"]: f"{range_text(entry)} {entry['unit']}" for entry in uncertainty["unmeasured"]}
+    assumed = {
+        entry["name"]: f"{number(entry['value'])} ({range_text(entry)}) {entry['unit']}"
+        for entry in uncertainty["unmeasured"]
+    }
     rows = []
     for first in sorted(limits, key=lambda name: not name):
         decided, more = [f"{name} {100.0 * share:.3g} %" for name, share in limits[first].items()], len(limits[first])
         met = ", ".join([*decided[:_NAMED], *([f"{more - _NAMED} more"] if more > _NAMED else [])])
-        value, source = (number(values[first]["value"]), values[first]["source"]) if first else ("", "")
+        source = values[first]["source"] if first else ""
         test = source.partition("test: ")[2] or ("its maker's sheet, or the built part" if source else "the built part")
         name = first if label(first) == first.replace("_", " ") else f"{first}: {label(first)}"
-        rows.append((name or "no single input", value, ranges.get(first, ""), met, test))
-    heads = ("measure first", "assumed", "range", "limits met in a share of cases", "test")
+        rows.append((name or "no single input", assumed.get(first, ""), met, test))
+    heads = ("measure first", "assumed (range)", "limits met in a share of cases", "test")
     note = (
         "Before any order: print cad/print/test_pieces.3mf twice and measure it by docs/how-to/my-printer.md; set what "
         "was measured in the study of `tvimdesign new measured.yaml --from FOLDER`, which keeps all chosen sizes, and "
         "run it: a wall or gap redraws what follows from it. Then order springs and heaters, and print the parts. The "
-        "others: on the first module, or by the maker's sheet."
+        "others: on the first module, or by the maker's sheet; with `--built` its parts stay as drawn."
     )
     title = f"{TO_MEASURE}: what decides on limits that are met in under {percent(least)} of the plausible cases"
-    return grid(title, heads, rows, right=(1,), code=(), note=note)
+    return grid(title, heads, rows, code=(), note=note)
 
 
 def doubts_grid(uncertainty: Mapping[str, Any], table: Table) -> Grid:
