@@ -81,7 +81,10 @@ def test_a_study_without_room_names_a_diameter_that_has_some(monkeypatch):
 
     monkeypatch.setattr(study_files, "_hardware", hardware)
     roomy = 0.083
-    assert no_room(task, lambda _: None).endswith("may miss a limit; --diameter '84 mm' leaves room, by estimate")
+    note = no_room(task, lambda _: None)
+    assert note.endswith("may miss a limit; --diameter '84 mm' leaves room, by estimate")
+    study = read_study_text(study_files.described(study_text(task, "middle"), note), "joint.yaml")
+    assert study.description.lower() == f"{note}."
     assert all(joint.cautious for joint in tried)
     assert [round(1e3 * joint.diameter, 6) for joint in tried] == [77.0, 84.0]
     roomy = 1.0

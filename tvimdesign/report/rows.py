@@ -62,11 +62,8 @@ def matching(rows: Sequence[Quantity], word: str) -> list[Quantity]:
     named = [row for row in rows if word in (row.group.lower(), row.name)]
     terms = (word, *synonyms().get(word.replace("_", " "), ()))
     in_group = any(row.group.lower() == word for row in named)
-    return named if in_group else [row for row in rows if any(term in _text(row) for term in terms)]
-
-
-def _text(row: Quantity) -> str:
-    return f"{row.name} {row.name.replace('_', ' ')} {row.description}".lower()
+    texts = [f"{row.name} {row.name.replace('_', ' ')} {row.description}".lower() for row in rows]
+    return named if in_group else [row for row, text in zip(rows, texts, strict=True) if any(map(text.count, terms))]
 
 
 def _print_groups(rows: Sequence[Quantity], mode: str, console: Console) -> None:

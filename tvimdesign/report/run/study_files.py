@@ -96,12 +96,10 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
     first = True
     for text, cautious in sized_texts(partial(_chosen, file, task)):
         notes += [] if task.process or not first else [f"{process_of(text)}; --process changes it"]
-        described = text
         if not cautious:
             with progress_output() as progress:
                 notes.append(no_room(task, progress))
-            described = text.replace("\nmode: ", f'\ndescription: "{notes[-1][0].upper()}{notes[-1][1:]}."\nmode: ', 1)
-        atomic_write(file, described.encode())
+        atomic_write(file, (text if cautious else described(text, notes[-1])).encode())
         print(*notes, sep="\n", file=sys.stderr)
         try:
             run_study(file, out, overwrite=overwrite or not first, gives_up=cautious, **run)
@@ -111,6 +109,11 @@ def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: 
             notes, first = ["with room for the assumed values the yield is missed"], False
         else:
             return
+
+
+def described(text: str, note: str) -> str:
+    """Return a study that `size` wrote with a note as its description."""
+    return text.replace("\nmode: ", f'\ndescription: "{note[0].upper()}{note[1:]}."\nmode: ', 1)
 
 
 def sized_texts(choose: Callable[[bool], str]) -> Iterator[tuple[str, bool]]:
