@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from small_studies import ALGEBRAIC
+from support import study_path
 
 from tvimdesign.base.deadline import NEVER
 from tvimdesign.base.units import format_quantity
@@ -35,6 +36,8 @@ from tvimdesign.solve.uncertainty.tolerance import Spread, Tolerancing
 from tvimdesign.solve.uncertainty.yield_search import _moves
 from tvimdesign.solve.uncertainty.yields import FEW_MODULES, MODULES, Array, Drawn, Yields, tightened, yields_of
 from tvimdesign.study import read_study_text
+from tvimdesign.study.reader import read_tree
+from tvimdesign.study.tree import tree_of_file, with_settings
 
 TIMED = """
 mode: shear
@@ -117,6 +120,16 @@ def test_each_limit_is_met_in_as_many_plausible_cases_as_asked():
         held.append(Uncertainty(study).data(result.design)["held"].get("retainer_thread_margin >=", 1.0))
     assert held[0] < 0.5
     assert held[1] == pytest.approx(0.9, abs=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [3, 4, 5])
+def test_a_yield_is_reached_from_whatever_designs_are_drawn_beside_it(seed):
+    # With these seeds the one design beside each stuck one leads nowhere.
+    study = read_tree(with_settings(tree_of_file(study_path("elbow_printed")), [f"solver.seed={seed}"]))
+    solution = optimize(study)
+    assert solution.status == "optimal"
+    assert solution.objective == pytest.approx(0.6783, rel=2e-3)
 
 
 @pytest.mark.gate

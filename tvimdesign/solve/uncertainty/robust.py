@@ -23,7 +23,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
 from tvimdesign.solve.uncertainty.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
-from tvimdesign.solve.uncertainty.yield_search import PRESSING, Robust, pressing, reach_yield, tightened
+from tvimdesign.solve.uncertainty.yield_search import MANY_SHAKES, PRESSING, Robust, pressing, reach_yield, tightened
 from tvimdesign.study import ProfileOptions, Requirement, Study
 from tvimdesign.study.study import Robust as RobustOptions
 
@@ -67,10 +67,23 @@ def most_robust(candidates: Sequence[Candidate], *, eases: bool = False) -> tupl
             optimizer.deadline.leave_out(MARGINS)
             break
     place, robust = min(tried, key=_rank)
+    if not robust.reached and not candidates[place][0].deadline.passed:
+        place, robust = min((place, robust), (place, _once_more(candidates[place], robust)), key=_rank)
     candidates[place][0].margins = robust.margins
     if eases and not robust.reached:
         candidates[place][0].eased = _eased(candidates[place], robust.run)
     return place, robust.run
+
+
+def _once_more(candidate: Candidate, missed: Robust) -> Robust:
+    """Seek a yield again from a design that misses it, and is stuck there: from many designs beside it."""
+    optimizer, _, within = candidate
+    optimizer.margins = dict(missed.margins)
+    try:
+        return _robust(optimizer, missed.run, within, None, shakes=MANY_SHAKES)
+    except TimeOverError:
+        optimizer.deadline.leave_out(MARGINS)
+        return missed
 
 
 def _eased(candidate: Candidate, missed: Run) -> EasedRequirement | None:
@@ -156,14 +169,16 @@ def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective
     return _robust(optimizer, run, within, objective).run
 
 
-def _robust(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Robust:
+def _robust(
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None, **search: int
+) -> Robust:
     options = optimizer.study.robust
     assert options is not None
     if options.share is None:
         run = _settled(optimizer, run, within, objective)
     elif run.start.converged:
         optimizer.floors = {}
-        robust = reach_yield(optimizer, run, within, options.share, objective)
+        robust = reach_yield(optimizer, run, within, options.share, objective, **search)
         return _plausible(optimizer, robust, within, options, objective)
     return Robust(run, optimizer.margins, 0.0, reached=options.share is None)
 

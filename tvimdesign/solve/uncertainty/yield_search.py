@@ -34,8 +34,9 @@ PRESSING = 1e-6  # Multiplier from which on a limit holds the design, objectives
 _UNKNOWN = 0.1
 """Step of a margin, as a share of its limit's scale, where too many modules never come to its output at all."""
 _NO_ROOM = 0.05  # Share of a step of the margins that counts as none
-SHAKES, _SHAKE = 1, 0.2
-"""Designs beside one that bears nothing of a step, and how far off they are at most, as a share of each range."""
+SHAKES, MANY_SHAKES, _SHAKE = 1, 8, 0.2
+"""Designs beside one that bears nothing of a step: at first, and where no yield is reached so; and how far off they are
+at most, as a share of each range. About one in four leads on."""
 _GAIN = 1e-3  # Share of the objective that margins which are larger than the yield needs must be worth to be given back
 _AIM = 0.05  # Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield
 
