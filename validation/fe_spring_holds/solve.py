@@ -23,7 +23,9 @@ def main(folders: list[str]) -> None:
     """Solve pin and hole of each folder's parts."""
     for folder in map(Path, folders):
         inputs = json.loads((folder / "inputs.json").read_text())
-        results = {"pin": pin(folder, inputs)}
+        results = {}
+        if not inputs["values"].get("leg_pins_fitted"):  # dowel pins stand in bosses, which bosses.py draws
+            results["pin"] = pin(folder, inputs)
         if not inputs["values"]["preload_adjustment"]:  # with adjusters a post holds the tang
             results["hole"] = hole(folder, inputs)
         print(yaml.safe_dump({folder.name: results}), flush=True)
@@ -38,9 +40,9 @@ def pin(folder: Path, inputs: dict) -> dict[str, float]:
               if f.center.z > top + 0.2 and abs(hypot(f.center.x, f.center.y) - mm["pin_radius"]) < 0.05)  # fmt: skip
     height = max(coil["end_level"] + mm["coil_pitch"] / (pi * mm["coil_diameter"]) * values["leg_arm"] * 1e3 - top,
                  0.5 * mm["wire_diameter"])  # fmt: skip
-    mesh = _mesh(
-        _cut(shape, at, AROUND * radius), at, AROUND * radius, bottom=mm["rotor_bottom_level"], fine=radius / 3
-    )
+    bottom = mm["rotor_bottom_level"]
+    # Without the melt rings below, across which Open Cascade cuts nothing: the face that they stand on is held.
+    mesh = _mesh(_cut(shape, at, AROUND * radius, bottom), at, AROUND * radius, bottom=bottom, fine=radius / 3)
     near = ng.exp(-((((ng.x - at[0]) ** 2 + (ng.y - at[1]) ** 2) / (1.5 * radius) ** 2) ** 4))
     near *= ng.exp(-(((ng.z - top - height) / (0.5 * mm["wire_diameter"])) ** 4))
     load = near / ng.Integrate(near, mesh, order=8) * ng.CF((1, 0, 0))
@@ -74,9 +76,9 @@ def _is_hole(face, radius: float) -> bool:
     return abs(high.x - low.x - 2 * radius) < 1e-3 and abs(high.y - low.y - 2 * radius) < 1e-3 and high.z - low.z > 1
 
 
-def _cut(shape, at: tuple[float, float], half: float):
+def _cut(shape, at: tuple[float, float], half: float, lowest: float = -100):
     """Cut a square block around a place out of a shape."""
-    return shape * Box(Pnt(at[0] - half, at[1] - half, -100), Pnt(at[0] + half, at[1] + half, 100))
+    return shape * Box(Pnt(at[0] - half, at[1] - half, lowest), Pnt(at[0] + half, at[1] + half, 100))
 
 
 def _mesh(shape, at, half: float, bottom: float | None, fine: float, hole: float | None = None):
