@@ -75,22 +75,22 @@ def test_table_designs_and_figure_of_a_front_agree(run):
 def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(tvimdesign, run, tmp_path):
     (study,) = written(tmp_path, study=FRONT_STUDY)
     out = tmp_path / "out"
+    progress = out / "unfinished/front/progress"
     process = subprocess.Popen(
         [sys.executable, "-m", "tvimdesign", "run", str(study), "--no-cad", "--no-plots", "--out", str(out)],
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
-    assert wait_until((out / "front/progress/0002.json").exists)
+    assert wait_until((progress / "0002.json").exists)
     process.kill()
     process.wait()
-    known = len(list((out / "front/progress").glob("0*.json")))
-    assert 3 <= known < 7
+    assert 3 <= len(list(progress.glob("0*.json"))) < 7
     assert not (out / "front.csv").exists()
     done = tvimdesign("run", study, "--no-cad", "--no-plots", "--resume", "--out", out)
     assert done.returncode == 0, done.stderr
     assert "then module_mass" not in done.stderr  # the ends were known
     for name in ("front.csv", "front.json", "front/03.design.json"):
         assert (out / name).read_bytes() == (run / name).read_bytes(), name
-    assert not (out / "front/progress").exists()
+    assert not progress.exists()
     refused = tvimdesign("run", study, "--no-cad", "--resume", "--out", out)
     assert refused.returncode == 2
     assert "nothing to resume" in refused.stderr
