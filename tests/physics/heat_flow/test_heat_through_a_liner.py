@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
+import casadi as ca
 import numpy as np
 import pytest
 from scipy.linalg import solve_banded
@@ -180,3 +181,13 @@ def test_plastic_cools_down_on_the_way_and_nothing_does_at_ambient():
     assert plastic.beside[1] < AIR + 15.0
     held = held_plate(behind(0.24), AIR)
     assert [*held.plate, *held.beside] == pytest.approx([AIR] * 6, abs=1e-9)
+
+
+def test_a_plate_that_conducts_hardly_any_heat_has_slopes():
+    conductivity = ca.SX.sym("conductivity")
+    held = held_plate(behind(0.24)._replace(plate_conductivity=conductivity), PLATE_POLYMER)
+    values = ca.vertcat(*held.plate, *held.beside)
+    slopes = ca.Function("slopes", [conductivity], [values, ca.jacobian(values, conductivity)])
+    warm, by = (part.full().ravel() for part in slopes(1e-8))
+    assert np.all(np.isfinite(by))
+    assert warm[1:4] == pytest.approx(warm[4], abs=0.01)  # all of it is as warm as the lump beside, but for its skin

@@ -72,7 +72,9 @@ class _Fin:
         # Without lumps the profile is straight, which a thousandth in m leaves as it is.
         self.m = np.sqrt(uneven / across + 1e-6)
         self.biot = coefficient * behind.area / across
-        self.sinh, self.cosh = np.sinh(self.m), np.cosh(self.m)
+        # Hyperbolic functions over e^m/2, as is all else below: they stay finite where the plate conducts badly.
+        fall = np.exp(-self.m)
+        self.sinh, self.cosh, self.bent = 1.0 - fall**2, 1.0 + fall**2, (1.0 - fall) ** 2
         self.whole = self.m * self.cosh + self.biot * self.sinh
 
     def at(self, depth: Any, polymer: Any, beside: Any, ambient: Any) -> Any:
@@ -80,15 +82,15 @@ class _Fin:
         of_polymer, of_air = self.mean_shares
         mean = beside + of_polymer * (polymer - beside) + of_air * (ambient - beside)
         foot = mean - self.even_share * (mean - beside)
-        slope = self.biot * (ambient - foot) - (self.m * self.sinh + self.biot * self.cosh) * (polymer - foot)
-        return foot + (polymer - foot) * np.cosh(self.m * depth) + slope / self.whole * np.sinh(self.m * depth)
+        falls, rises = (np.exp(-self.m * share) - np.exp(-self.m * (2.0 - share)) for share in (depth, 1.0 - depth))
+        near = self.biot * falls + self.m * (np.exp(-self.m * depth) + np.exp(-self.m * (2.0 - depth)))
+        return foot + (near * (polymer - foot) + self.biot * rises * (ambient - foot)) / self.whole
 
     @property
     def mean_shares(self) -> tuple[Any, Any]:
         """Return what the mean rises above the lump beside for each kelvin of polymer and of air above it [1]."""
-        bent = (self.cosh - 1.0) / (self.m * self.whole)
-        of_polymer = self.sinh / self.m - (self.m * self.sinh + self.biot * self.cosh) * bent
-        of_air = self.biot * bent
+        of_air = self.biot * self.bent / (self.m * self.whole)
+        of_polymer = self.sinh / self.whole + of_air
         # These are above T_f, which is above the lump by (1 - G_b/G_u) of what the mean is.
         over = self.even_share + (1.0 - self.even_share) * (of_polymer + of_air)
         return of_polymer / over, of_air / over

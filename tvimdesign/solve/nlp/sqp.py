@@ -169,7 +169,7 @@ class _Here(NamedTuple):
     point: Point
     passed: Array  # By how much each limit is passed
     slopes: Array
-    toll: float  # Of its breaches; NaN where a limit is no number
+    toll: float  # Of its breaches; NaN where a limit or a slope is no number
 
     def gradient(self, multipliers: Array) -> Array:
         """Return the gradient of the Lagrangian."""
@@ -233,6 +233,8 @@ class _Search:
         passed = np.concatenate([point.rows - ends["ubg"], ends["lbg"][:first] - point.rows[:first]])
         slopes = np.concatenate([point.jacobian, -point.jacobian[:first]])
         breaches = np.maximum(passed, 0.0)
+        if not np.all(np.isfinite(slopes)):
+            return _Here(x, point, passed, slopes, np.nan)
         inside = np.max(breaches, initial=0.0) <= self._solver.tolerance
         return _Here(x, point, passed, slopes, 0.0 if inside else toll(breaches))
 
