@@ -129,8 +129,8 @@ def test_a_stiff_peg_presses_hardest_at_the_mouth_of_its_hole():
     sums = np.array([[count, -np.sum(z)], [-np.sum(z), np.sum(z**2)]])
     shift, tilt = np.linalg.solve(sums, np.array([force, force * height]))
     at_mouth = shift / (diameter * depth / count)
-    evenly = fasteners.peg_bearing_force(1.0, diameter, depth)
-    assert at_mouth * evenly / force == pytest.approx(fasteners.rocking_pressure_ratio(height, depth), rel=1e-3)
+    assert fasteners.peg_rocking_force(at_mouth, diameter, height, depth) == pytest.approx(force, rel=1e-3)
+    assert fasteners.peg_rocking_force(at_mouth, diameter, height, -depth) < 0.0
     assert tilt > 0.0
 
 

@@ -70,13 +70,14 @@ def peg_bearing_force(pressure: Any, diameter: Any, depth: Any) -> Any:
     return pressure * diameter * depth
 
 
-def rocking_pressure_ratio(height: Any, depth: Any) -> Any:
-    """Return the largest pressure of a stiff peg on its hole over F/(d h), the force at a `height` [m] above the mouth.
+def peg_rocking_force(pressure: Any, diameter: Any, height: Any, depth: Any) -> Any:
+    """Return the force [N] at a `height` [m] above the mouth at which a stiff peg presses into its hole there.
 
-    4 + 6 a/h: pressure that rises evenly towards the mouth holds force and moment in balance (statics; the same as the
-    pressure below an eccentrically loaded footing).
+    F = p d h^2/(4 h + 6 a): pressure [Pa] that rises evenly towards the mouth holds force and moment in balance
+    (statics; the same as below an eccentrically loaded footing). A negative depth, no hole, gives a negative force.
     """
-    return 4.0 + 6.0 * height / depth
+    deep = np.fabs(depth)
+    return pressure * diameter * depth * deep / (4.0 * deep + 6.0 * height)
 
 
 def peg_twist_torque(shear_strength: Any, diameter: Any, depth: Any) -> Any:
