@@ -13,24 +13,10 @@ from tvimdesign.base.atomic_files import atomic_write, digest_of, is_as_written,
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import pretty
-from tvimdesign.explore import messages
+from tvimdesign.explore import messages, state
 from tvimdesign.explore.engine import Stage, value_names
 from tvimdesign.explore.messages import Change, Message
 from tvimdesign.explore.source import Source, open_source
-from tvimdesign.explore.state import (
-    PARTS,
-    History,
-    Pinned,
-    State,
-    changed,
-    controls_shown,
-    open_history,
-    saved_text,
-    sized_state,
-    tree_of,
-    write_history,
-    written_digest,
-)
 from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run.parts_of_design import in_short, make_parts_of
@@ -83,7 +69,7 @@ class PartsMaker:
 
     def _written(self, name: str, text: str, progress: Callable[[str], None]) -> str:
         """Write the design's file and its parts, and return the result of the checks."""
-        with ResultsFolder(self._folder / PARTS / name, overwrite=True) as folder:
+        with ResultsFolder(self._folder / state.PARTS / name, overwrite=True) as folder:
             design = folder.write("design.json", text)
             report = make_parts_of(design, folder.path / "cad", progress)
             folder.finish("parts made", {}, {})
@@ -107,12 +93,12 @@ class Session:
         """
         self.source: Source = open_source(source, settings)
         self.folder, self._send = folder, send
-        self.history: History = open_history(folder, self.source.text, self.source.first, overwrite=overwrite)
+        self.history = state.open_history(folder, self.source.text, self.source.first, overwrite=overwrite)
         make_folder(folder)
-        self._written = written_digest(folder)
+        self._written = state.written_digest(folder)
         if not self._written:
-            self._written = write_history(folder, self.history, "")
-        self._since: State = self.history.state
+            self._written = state.write_history(folder, self.history, "")
+        self._since = self.history.state
         self._number = 0
         self._timer: asyncio.TimerHandle | None = None
         self.answers: dict[str, Reply] = {}  # The last quick answer and the last exact one, for pages that come later
@@ -176,7 +162,7 @@ class Session:
 
     def _change(self, change: Change) -> None:
         before = self.history.state
-        after = changed(self.source.tree, before, change, self._read("optimize"))
+        after = state.changed(self.source.tree, before, change, self._read("optimize"))
         self.history.state = after
         if change.final:
             self.history.advance(after, self._since)
@@ -184,7 +170,7 @@ class Session:
         if after != before:  # a control that is let go where it was dragged to has its answer, or will
             self._ask("quick")
 
-    def _become(self, after: State) -> None:
+    def _become(self, after: state.State) -> None:
         """Go to a state that differs in more than one value."""
         self.history.advance(after, self._since)
         self._settle()
@@ -201,7 +187,7 @@ class Session:
         variables = answer["shown"]["variables"].items()
         inputs = {name: f"{variable['value']:.4g} {pretty(study.table.unit(name))}".rstrip()
                   for name, variable in variables if variable["value"] is not None}  # fmt: skip
-        self.history.pin(Pinned(name=label, state=self.history.state, values={**inputs, **texts}))
+        self.history.pin(state.Pinned(name=label, state=self.history.state, values={**inputs, **texts}))
         self._settle()
 
     def _save(self, file: str) -> Reply:
@@ -210,9 +196,9 @@ class Session:
         path = self.folder / file
         if os.path.lexists(path) and not is_as_written(self.folder, file, {self.history.saved.get(file, "-")}):
             raise InputError(f"save: {path} is there already, and is not what was saved from here; choose another name")
-        atomic_write(path, saved_text(self.source.tree, self.history.state, self.folder).encode())
+        atomic_write(path, state.saved_text(self.source.tree, self.history.state, self.folder).encode())
         self.history.saved[file] = digest_of(path)
-        self._written = write_history(self.folder, self.history, self._written)
+        self._written = state.write_history(self.folder, self.history, self._written)
         return {"kind": "saved", "file": file, "path": str(path)}
 
     def _size(self, message: messages.Size) -> None:
@@ -231,18 +217,18 @@ class Session:
             self._send({"kind": "refused", "name": "", "words": reply["refused"]})
             self._ask("quick")
         else:
-            self._become(sized_state(self.source.tree, reply["study"]))
+            self._become(state.sized_state(self.source.tree, reply["study"]))
 
     # --- what becomes of it ---
 
     def _read(self, way: messages.Way | None = None) -> Study:
-        tree = tree_of(self.source.tree, self.history.state, way)
+        tree = state.tree_of(self.source.tree, self.history.state, way)
         return read_tree(tree, lambda _: self.source.study.table, lambda _: self.source.study.catalog)
 
     def _settle(self) -> None:
         """Write a state to which undo returns, and send it to every page."""
         self._since = self.history.state
-        self._written = write_history(self.folder, self.history, self._written)
+        self._written = state.write_history(self.folder, self.history, self._written)
         self._send(self.state_shown())
 
     def state_shown(self) -> Reply:
@@ -251,7 +237,7 @@ class Session:
         return {
             "kind": "state", "name": free.name, "mode": free.mode, "way": self.history.state.way,
             "optimizes": bool(free.vary), "undo": bool(self.history.past), "redo": bool(self.history.future),
-            "controls": controls_shown(free, self._read("evaluate"), self.history.state),
+            "controls": state.controls_shown(free, self._read("evaluate"), self.history.state),
             "pins": [{"name": pin.name, "way": pin.state.way, "values": pin.values} for pin in self.history.pins],
             "quantities": [_quantity(free, name) for name in value_names(free)],
             "asked": list(dict.fromkeys([*free.minimize, *(limit.output for limit in free.require)])),
@@ -265,10 +251,10 @@ class Session:
             self._wait()
 
     def _job(self, number: int, stage: Stage) -> Job:
-        state = self.history.state
+        current = self.history.state
         words = "the solver ended without an answer; what you did is kept: undo, or go on from here"
-        shown = {"status": words, "found": False, "stage": stage, "way": state.way}
-        return Job(number, {"stage": stage, "state": state.model_dump()}, {"shown": shown}, stage != "quick")
+        shown = {"status": words, "found": False, "stage": stage, "way": current.way}
+        return Job(number, {"stage": stage, "state": current.model_dump()}, {"shown": shown}, stage != "quick")
 
     def _wait(self) -> None:
         if self._timer:

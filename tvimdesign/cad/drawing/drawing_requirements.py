@@ -165,10 +165,10 @@ class DrawingRequirements:
     def thread(self, hole: Cylinder) -> ThreadCallout | None:
         """Return the thread cut in a hole, if any: other holes of its diameter have another depth."""
         deep = hole.top - hole.bottom
-        from_template = [
-            row for row in self.threads if abs(row.hole - 2.0 * hole.radius) < _SAME and abs(row.depth - deep) < _SAME
-        ]
-        return from_template[0] if from_template and hole.concave else None
+        for row in self.threads if hole.concave else ():
+            if abs(row.hole - 2.0 * hole.radius) < _SAME and abs(row.depth - deep) < _SAME:
+                return row
+        return None
 
 
 def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> DrawingRequirements:

@@ -62,8 +62,9 @@ def feature_rows(solid: cq.Solid, requirements: DrawingRequirements) -> list[Fea
         # Without an axis, walls of different heights are dimensioned from each other, step by step.
         steps, alone = pairs(_between_levels(alone))
         beside = [*beside, *steps]
+    holes = [face for face in cylinders if face.is_round and (not face.is_central or requirements.thread(face))]
     rows = [
-        *_rows(_hole_row_for(requirements), _holes(cylinders, requirements), _hole_key),
+        *_rows(_hole_row_for(requirements), holes, _hole_key),
         *_rows(_sector_row, bounded, _sector_key),
         *_rows(_pair_row, beside, _pair_key),
         *_rows(_wall_row, alone, _wall_key),
@@ -102,10 +103,6 @@ def _over(row: FeatureRow, lowest: float, highest: float) -> FeatureRow:
     """Return the row with its heights over the part's lowest face."""
     through = row.what == "hole" and abs(row.bottom - lowest) < _SAME and abs(row.top - highest) < _SAME
     return replace(row, bottom=row.bottom - lowest, top=row.top - lowest, through=through)
-
-
-def _holes(cylinders: Sequence[Cylinder], requirements: DrawingRequirements) -> list[Cylinder]:
-    return [face for face in cylinders if face.is_round and (not face.is_central or requirements.thread(face))]
 
 
 def _hole_key(hole: Cylinder) -> Hashable:

@@ -139,21 +139,14 @@ def springs_inertia(m: Module) -> Scalar:
 def _core_drill_points(m: Module) -> Section:
     """Return the volume and its polar moment about the axis, of the points of the rotor's blind holes; nothing where
     printed."""
-    return shapes.stacked(
-        (
-            shapes.point_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS),
-            m.drill_point_ratio * m.link_screw_hole,
-        ),
-        (shapes.point_at(0.5 * m.retainer_screw_hole, 0.0), m.drill_point_ratio * m.retainer_screw_hole),
-        (
-            shapes.point_at(0.5 * m.link_dowel_diameter, m.link_dowel_circle_radius).times(m.dowels_fitted),
-            m.drill_point_ratio * m.link_dowel_diameter,
-        ),
-        (
-            shapes.point_at(0.5 * m.pin_diameter, m.pin_radius).times(m.leg_pins_fitted),
-            m.drill_point_ratio * m.pin_diameter,
-        ),
+    drilled = (
+        (m.link_screw_hole, m.link_bolt_circle_radius, LINK_SCREWS),
+        (m.retainer_screw_hole, 0.0, 1.0),
+        (m.link_dowel_diameter, m.link_dowel_circle_radius, m.dowels_fitted),
+        (m.pin_diameter, m.pin_radius, m.leg_pins_fitted),
     )
+    points = ((shapes.point_at(0.5 * wide, away).times(count), wide) for wide, away, count in drilled)
+    return shapes.stacked(*((point, m.drill_point_ratio * wide) for point, wide in points))
 
 
 @quantities.helper()

@@ -56,13 +56,6 @@ def pad_section(m: Module) -> Section:
     return _rounded_sector(m.arc_span, m.pcl_inner_radius, m.pcl_outer_radius, m.corner_radius).times(m.arc_count)
 
 
-def _pocket_section(m: Module) -> Section:
-    """Return the plan view of all pockets for pads."""
-    return _rounded_sector(m.pocket_span, m.pocket_inner_radius, m.pocket_outer_radius, m.corner_radius).times(
-        m.arc_count
-    )
-
-
 @weights.output("mm^3")
 def peltier_volume(m: Module) -> Scalar:
     """Volume of all heaters together: cut to the pockets' outline, or rectangular tiles."""
@@ -85,9 +78,9 @@ def window_section(m: Module) -> Section:
 @weights.helper()
 def floor_openings(m: Module) -> Section:
     """Volume of the floor's openings and its polar moment: pockets, windows, slots for leads, thermistor's seat."""
-    opened = stacked(
-        (_pocket_section(m), m.pad_depth), (m.window_section, m.floor_web), (m.lead_hole_section, m.floor_web)
-    )
+    pocket = _rounded_sector(m.pocket_span, m.pocket_inner_radius, m.pocket_outer_radius, m.corner_radius)
+    pockets = (pocket.times(m.arc_count), m.pad_depth)
+    opened = stacked(pockets, (m.window_section, m.floor_web), (m.lead_hole_section, m.floor_web))
     return opened.plus(m.thermistor_seat_moments)
 
 

@@ -270,6 +270,10 @@ class ColdSide(NamedTuple):
     sheet: Scalar  # Of the side, over that conductivity and half of a pad's width [1]
     depth: Scalar  # Of the legs, over half of a pad's width [1]
 
+    def to_share(self, share: Scalar) -> Scalar:
+        """Return the resistance from where the face has its mean temperature to a share of it [K/W]."""
+        return shape_factors.constriction(share, self.sheet, self.depth) / self.conductance
+
 
 @quantities.helper()
 def cold_side_slab(m: Module) -> ColdSide:
@@ -285,16 +289,10 @@ def cold_side_slab(m: Module) -> ColdSide:
 @quantities.helper()
 def cold_to_ledges(m: Module) -> Scalar:
     """Resistance from where the cold sides have their mean temperature to the ledges they lie on [K/W]."""
-    share = (m.heated_area - m.cold_area) / m.heated_area
-    return (
-        shape_factors.constriction(share, m.cold_side_slab.sheet, m.cold_side_slab.depth) / m.cold_side_slab.conductance
-    )
+    return m.cold_side_slab.to_share((m.heated_area - m.cold_area) / m.heated_area)
 
 
 @quantities.helper()
 def cold_to_sink(m: Module) -> Scalar:
     """Resistance from where the cold sides have their mean temperature to a sink in the windows [K/W]."""
-    share = m.cold_area / m.heated_area
-    return (
-        shape_factors.constriction(share, m.cold_side_slab.sheet, m.cold_side_slab.depth) / m.cold_side_slab.conductance
-    )
+    return m.cold_side_slab.to_share(m.cold_area / m.heated_area)

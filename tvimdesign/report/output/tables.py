@@ -9,18 +9,8 @@ from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Choice, Input, Table
+from tvimdesign.report.output import numbers
 from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
-from tvimdesign.report.output.numbers import (
-    NumberEntry,
-    all_finite,
-    csv_text,
-    finite,
-    head,
-    in_unit,
-    number,
-    number_entry,
-    percent,
-)
 from tvimdesign.report.output.results_format import (
     Answered,
     CheckEntry,
@@ -183,8 +173,8 @@ def value_text(answer: StudyResult, name: str, table: Table, *, rounded: bool = 
     unit = table.unit(name)
     if name not in answer.intervals:
         value = from_si(answer.design.value(name), unit)
-        return number(_rounded(value) if rounded else value)
-    low, high = (in_unit(end, unit, 2) for end in answer.intervals[name])
+        return numbers.number(_rounded(value) if rounded else value)
+    low, high = (numbers.in_unit(end, unit, 2) for end in answer.intervals[name])
     return f"{low} to {high}"
 
 
@@ -228,10 +218,10 @@ def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
     margin, unit = margin_of(check, table)
     margin = margin if abs(check.margin) > NOTHING or not getattr(check, "met", True) else 0.0
     if _has_unit(check, table):
-        return f"{number(margin, 3)} {pretty(unit)}".rstrip()
+        return f"{numbers.number(margin, 3)} {pretty(unit)}".rstrip()
     if abs(margin) >= 10.0:
         return "ample" if margin > 0.0 else "far"
-    return percent(margin, 2 if abs(margin) < 1.0 else 3)
+    return numbers.percent(margin, 2 if abs(margin) < 1.0 else 3)
 
 
 def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | None = None) -> CheckEntry:
@@ -240,8 +230,8 @@ def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | 
     return {
         "limit": check.text,
         "output": check.output,
-        **number_entry(check.value, table.unit(check.output), ends),
-        "margin": finite(margin),
+        **numbers.number_entry(check.value, table.unit(check.output), ends),
+        "margin": numbers.finite(margin),
         "margin_unit": pretty(margin_unit),
         "met": check.met,
         "origin": check.origin,
@@ -261,7 +251,7 @@ def results(answer: StudyResult, table: Table) -> Answered:
 
     constant = answer.solution.constant if answer.solution else None
     return {
-        **head(),
+        **numbers.head(),
         "name": design.name,
         "mode": design.mode,
         "status": design.status,
@@ -291,13 +281,13 @@ def results(answer: StudyResult, table: Table) -> Answered:
         "choosing": choosing_data(
             answer.solution.choosing if answer.solution else None, table, choices_with_margins(answer)
         ),
-        "solution": all_finite(design.solution) or None,
+        "solution": numbers.all_finite(design.solution) or None,
     }
 
 
-def number_entries(values: Mapping[str, float], table: Table) -> dict[str, NumberEntry]:
+def number_entries(values: Mapping[str, float], table: Table) -> dict[str, numbers.NumberEntry]:
     """Return numbers (SI) by full name, each in the unit that people read."""
-    return {name: number_entry(value, table.unit(name)) for name, value in values.items()}
+    return {name: numbers.number_entry(value, table.unit(name)) for name, value in values.items()}
 
 
 def duty_entry(duty: DutyResult, table: Table) -> DutyEntry:
@@ -305,8 +295,8 @@ def duty_entry(duty: DutyResult, table: Table) -> DutyEntry:
     return {
         "values": number_entries(duty.values, table),
         "exceeded": list(duty.exceeded),
-        "settling_time": number_entry(duty.settling, "min"),
-        "energy_a_day": number_entry(duty.energy_a_day, "kJ"),
+        "settling_time": numbers.number_entry(duty.settling, "min"),
+        "energy_a_day": numbers.number_entry(duty.energy_a_day, "kJ"),
         "most_switches_per_hour": duty.most,
         "limited_by": duty.limited_by,
     }
@@ -317,8 +307,8 @@ def control_entry(control: ControlResult) -> ControlEntry:
     return {
         "controller": asdict(control.controller),
         "share": SHARE,
-        "overshoot": number_entry(control.overshoot, "K"),
-        "hottest_pads": number_entry(control.hottest_pads, "degC"),
+        "overshoot": numbers.number_entry(control.overshoot, "K"),
+        "hottest_pads": numbers.number_entry(control.hottest_pads, "degC"),
         "settling": control.settling,
         "settling_of_nominal": control.settling_of_nominal,
         "controlled": cast("ShareEntry", asdict(control.controlled)),
@@ -330,16 +320,14 @@ def _entry(name: str, value: float, answer: StudyResult, table: Table, find_reco
     design = answer.design
     row, known = table.quantity(name), provenance(name, design, table, find_record)
     return {
-        **number_entry(value, table.unit(name), (known.low, known.high)),
+        **numbers.number_entry(value, table.unit(name), (known.low, known.high)),
         "kind": "input" if isinstance(row, Input) else "output",
         "status": known.status,
         "source": known.source,
         "group": row.group,
         "description": row.description,
         "note": notes(design, table).get(name, ""),
-        "idealized": ", ".join(
-            idealization.text for idealization in answer.idealizations if name in idealization.as_drawn
-        ),
+        "idealized": ", ".join(each.text for each in answer.idealizations if name in each.as_drawn),
     }
 
 
@@ -357,4 +345,4 @@ def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, Inter
                                "may_be_high": "never" if interval["high"] is None else interval["high"],
                                "measure_first": next(iter(interval["shares"]), "")}  # fmt: skip
         rows.append({"name": name, **entry, **(may_be or {})})
-    return csv_text(rows, columns)
+    return numbers.csv_text(rows, columns)

@@ -16,17 +16,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tvimdesign.base import errors
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.environment import how_to_install
-from tvimdesign.base.errors import (
-    AboveRatingError,
-    BelowYieldError,
-    InfeasibleError,
-    OutputError,
-    SimulationError,
-    TimeOverError,
-    TvimError,
-)
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import format_quantity
 from tvimdesign.page.blocks import Section, Words
@@ -88,7 +80,7 @@ def run_study(
                 deadline=deadline,
             )
         result, command.failures = answered.result, answered.failures
-        if gives_up and isinstance(missed := _ending(answered), BelowYieldError):
+        if gives_up and isinstance(missed := _ending(answered), errors.BelowYieldError):
             raise missed
         if result.has_design:
             vector = bool(making) or study.write.vector
@@ -127,7 +119,7 @@ def _check(study: Study, deadline: Deadline | None = None, *, as_json: bool = Fa
         with progress_output() as progress:
             progress("checking whether the requirements conflict")
             refuse_what_cannot_be(study, deadline=deadline)
-    except InfeasibleError as error:
+    except errors.InfeasibleError as error:
         if as_json:
             from tvimdesign.report.run.run_page import refused_run
 
@@ -146,13 +138,13 @@ def _add_uncertainty(answered: AnsweredStudy, progress: Progress) -> None:
     try:
         answered.deadline.check(_STEP)
         note_uncertainty(answered, uncertainty_of(answered.result, answered.study, answered.deadline))
-    except TimeOverError:
+    except errors.TimeOverError:
         answered.deadline.leave_out(_STEP)
         note_left_out(answered)
-    except TvimError as error:
+    except errors.TvimError as error:
         how = "run the study again, or `tvimdesign tolerate` with the results folder for the yield alone"
         message = f"the uncertainty of the design could not be computed: {error}; {how}"
-        answered.failures.append(TvimError(message))
+        answered.failures.append(errors.TvimError(message))
         answered.no_uncertainty = message
 
 
@@ -175,17 +167,17 @@ def _print_last(command: Command, parts: str, console: Console) -> None:
     print_lines(look_first(str(command.out), console.width, parts), console)
 
 
-def _ending(answered: AnsweredStudy) -> TvimError | None:
+def _ending(answered: AnsweredStudy) -> errors.TvimError | None:
     """Return what a run that is written ends with, where its design is no plain success."""
     from tvimdesign.report.run.reasons import above_rating, complaint
     from tvimdesign.report.run.uncertainty_data import below_yield
 
     result, table = answered.result, answered.study.table
     if not result.has_design:
-        return InfeasibleError(complaint(result, table))
+        return errors.InfeasibleError(complaint(result, table))
     if refused := above_rating(result, table):
-        return AboveRatingError(refused)
-    return BelowYieldError(missed) if (missed := below_yield(result)) else None
+        return errors.AboveRatingError(refused)
+    return errors.BelowYieldError(missed) if (missed := below_yield(result)) else None
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
@@ -233,7 +225,7 @@ def keeping_best(folder: ResultsFolder) -> Iterator[Best]:
     except KeyboardInterrupt as interrupt:
         study = interrupt.best if isinstance(interrupt, SearchInterrupted) else best.study
         if study is not None and not (folder.path / DESIGN).exists():
-            with suppress(OutputError, OSError):  # no room, or nobody to tell: the interrupt is what counts
+            with suppress(errors.OutputError, OSError):  # no room, or nobody to tell: the interrupt is what counts
                 path = folder.where_if_stopped(BEST)
                 folder.write_at_the_end(BEST, study_text(study, _TITLE, path.parent))
                 sys.stderr.write(f"{path} starts at the best design so far; go on from there: tvimdesign run {path}\n")
@@ -264,7 +256,7 @@ def foreseen_ratings(study: Study) -> list[str]:
 
     try:
         exceeded = exceeded_at_start(study)
-    except SimulationError:
+    except errors.SimulationError:
         return []
     module, then = ("The module", "") if not study.vary else ("The module it starts from", " An optimum may be, too.")
     return [

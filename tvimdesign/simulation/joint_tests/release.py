@@ -87,7 +87,7 @@ def release(
             *(Panel(f"First swing, {point}", "Angle (rad)", "Torque on the link (N·m)",
                     _lines(here, "angle", "torque")) for point, here in by_point(shown)),
         ),
-        findings=tuple(_findings(resolved, releases)),
+        findings=tuple(_findings(releases)),
         notes=(
             f"The PCL was free of strain, was turned to {angle:g} rad at once and held there for {hold:g} s: of a hold "
             "of seconds the melt keeps nothing, frozen PCL nearly all.",
@@ -219,10 +219,9 @@ def _lines(releases: Sequence[Released], x: str, y: str) -> tuple[PlottedLine, .
     return tuple(lines)
 
 
-def _findings(resolved: ResolvedModule, releases: Sequence[Released]) -> list[Finding]:
+def _findings(releases: Sequence[Released]) -> list[Finding]:
     numbers: list[Finding] = []
-    for point in resolved.points:
-        here = [released for released in releases if released.case.point == point]
+    for point, here in by_point(releases):
         energies = [released.motion.energy for released in here]
         rows = [
             ("held_torque", "N*m", "Torque that holds the link just before it is let go",

@@ -60,7 +60,7 @@ def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
             for x, label, place in (("time", "Time (s)", "Last period"), ("angle", "Angle (rad)", "Loop"))
             for point, here in by_point(shown)
         ),
-        findings=tuple(_findings(resolved, swings)),
+        findings=tuple(_findings(swings)),
         notes=(
             "The angle is prescribed, so the link's inertia takes no part; torque is that of the module on the link.",
             f"The PCL is free of strain at first; the loops and numbers are those of period {periods}.",
@@ -125,10 +125,9 @@ def _lines(swings: Sequence[Swung], x: str) -> tuple[PlottedLine, ...]:
     return tuple(PlottedLine(f"sine_{swing.case.name}_loop", x, "torque", swing.case.label) for swing in swings)
 
 
-def _findings(resolved: ResolvedModule, swings: Sequence[Swung]) -> list[Finding]:
+def _findings(swings: Sequence[Swung]) -> list[Finding]:
     numbers: list[Finding] = []
-    for point in resolved.points:
-        here = [swing for swing in swings if swing.case.point == point]
+    for point, here in by_point(swings):
         numbers += findings_at(point, (
             ("stiffness", "N*m/rad", "Stiffness of the joint, from its motion", [swing.stiffness for swing in here]),
             ("damping", "N*m*s/rad", "Damping of the joint, from its motion", [swing.damping for swing in here]),

@@ -186,8 +186,8 @@ def leads(curves: Mapping[str, Curve]) -> list[Lead]:
         ratios = [1.0]
         if len(order) > 1:
             ratios = [reached(curves[order[1]], end) / reached(curves[best], end) for end in ends]
-        from_template = len(order) > 1 and at[order[1]] / at[best] - 1.0 <= ALIKE
-        now = Lead(lower, upper, None if from_template else best, len(order) == 1, min(ratios), max(ratios))
+        alike = len(order) > 1 and at[order[1]] / at[best] - 1.0 <= ALIKE
+        now = Lead(lower, upper, None if alike else best, len(order) == 1, min(ratios), max(ratios))
         if leading and (leading[-1].best, leading[-1].alone) == (now.best, now.alone):
             last = leading.pop()
             now = Lead(last.lower, upper, now.best, now.alone, min(last.least, now.least), max(last.most, now.most))

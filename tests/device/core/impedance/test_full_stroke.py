@@ -167,12 +167,8 @@ def test_frozen_joint_creeps_by_structure_and_pcl_in_series(inputs):
 
 
 def test_same_spectrum_and_support_leave_the_same_set_in_either_mode(inputs, squeezed):
-    from_template = {
-        "pcl_modes@hot": [(3.0, 200.0), (0.1, 900.0)],
-        "elastic_support@hot": 700.0,
-        "spring_stiffness": 5.6,
-    }
-    arc, other = (at(SHEAR, {**inputs, **from_template}, "hot"), at(COMPRESSION, {**squeezed, **from_template}, "hot"))
+    shared = {"pcl_modes@hot": [(3.0, 200.0), (0.1, 900.0)], "elastic_support@hot": 700.0, "spring_stiffness": 5.6}
+    arc, other = (at(SHEAR, {**inputs, **shared}, "hot"), at(COMPRESSION, {**squeezed, **shared}, "hot"))
     for name in ("hold_angle", "pcl_relaxation", "set_angle"):
         assert arc[name] == pytest.approx(other[name], rel=1e-9), name
 

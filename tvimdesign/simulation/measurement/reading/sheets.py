@@ -36,11 +36,6 @@ def is_clock(cell: str) -> bool:
     return ":" in cell and _CLOCK.fullmatch(cell) is not None
 
 
-def is_date(cell: str) -> bool:
-    """Return whether a cell is a date alone."""
-    return _DATE.fullmatch(cell) is not None
-
-
 def clock_seconds(
     cells: Sequence[str], gaps: Collection[str], lines: Sequence[int], heading: str, file: str
 ) -> NDArray[np.float64]:
@@ -253,7 +248,7 @@ def _counts(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, in
         cells = [cell for cell in cells_of(line, separator) if cell]
         good = sum(number(cell, decimal) is not None or is_clock(cell) for cell in cells)
         together += good if good >= 2 else 0
-        bad = [cell for cell in cells if number(cell, decimal) is None and not is_date(cell)]
+        bad = [cell for cell in cells if number(cell, decimal) is None and not _DATE.fullmatch(cell)]
         wrong += sum(_BAD.fullmatch(cell) is not None for cell in bad)
     return together, wrong
 
