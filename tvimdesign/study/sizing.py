@@ -88,6 +88,11 @@ class JointTask:
         if task.stroke < row.lower or task.stroke > row.upper:
             most = format_quantity(row.upper, "deg", 3)
             problems.append(f"stroke: {stroke} to either side of rest is beyond {most}, the most that a module turns")
+        if task.torque < (soft := task.stiffness[0] * task.stroke):
+            at_stroke = format_quantity(soft, "N*m", 2)
+            problems.append(
+                f"torque: {torque} is below the {at_stroke} of the soft joint at its stroke: check the units"
+            )
         if task.diameter < SMALLEST or task.diameter > LARGEST:
             problems.append(f"diameter: {diameter} is not from 20 mm to 200 mm, which `size` is made for")
         if process and process not in processes():
