@@ -191,7 +191,7 @@ def test_a_refusal_names_the_options_of_size():
     ("numbers", "message"),
     [
         ({"torque": "8"}, "torque: .* write for instance '8 N.m'"),
-        ({"torque": "8 N.mm"}, "torque: 8 N.mm is below the 0.1.* check units"),
+        ({"torque": "8 N.mm"}, "torque: 8 N.mm is below the 0.1.* check the units"),
         ({"torque": "-8 N.m"}, "torque: -8 N.m is not above zero"),
         ({"diameter": "300 mm"}, "diameter: 300 mm is not from 20 mm to 200 mm"),
         ({"stroke": "50 deg"}, "stroke: 50 deg to either side of rest is beyond 28.6"),
