@@ -101,7 +101,7 @@ def _unfit(answer: StudyResult) -> Verdict | None:
         return Verdict("unfit", "Do not build it: it never gets stiff again within `horizon`")
     worst, count = _violated(answer)
     text = f"Do not build it: {count} of {len(answer.checks)} limits are violated, most {worst}"
-    again = "" if answer.solution else "; a study with `vary` searches a cure"
+    again = "" if answer.solution else "; a study with `vary` seeks a cure"
     return Verdict("unfit", text + again) if worst else None
 
 
