@@ -176,7 +176,8 @@ def print_everything(answered: AnsweredStudy, console: Console, seconds: float |
 
 def write_summary(answered: AnsweredStudy, folder: ResultsFolder) -> None:
     """Write summary.txt: the first screen and every table; without seconds, so that it is the same every time."""
-    folder.write(FILE, terminal.plain_text(lambda console: print_everything(answered, console), _FILE_WIDTH))
+    text = terminal.plain_text(lambda console: print_everything(answered, console), _FILE_WIDTH)
+    folder.write(FILE, text.replace(f" more: {FILE}", " more below"))
 
 
 def look_first(folder: str, width: int, parts: str = "") -> list[str]:
