@@ -8,6 +8,7 @@ import pytest
 from measured_files import csv, fit_files, holds, measured, moduli, oscillated, turned
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.kinds.release import period_and_decay
 
 
 def test_a_pad_at_one_current(tmp_path):
@@ -240,3 +241,10 @@ def test_a_torque_that_is_largest_in_the_first_row_is_reported(tmp_path):
     file = csv(tmp_path / "f.csv", angle__rad=[0.001, 0.002, 0.003, 0.004], torque__Nm=[5.0, 1e-3, 2e-3, 1e-3])
     with pytest.raises(InputError, match=r"up to its largest torque, 5 N\.m, the joint has one angle, 0\.001 rad"):
         fit_files(file, "frozen_torque")
+
+
+def test_a_release_that_passes_rest_in_one_sample_has_a_period():
+    angle = np.array([1.0, 0.0, -1.0, -0.5, -0.2, -0.08, -0.03, -0.01, 0.0, 0.0, 0.0, 0.0])
+    period, decay = period_and_decay(np.arange(angle.size, dtype=float), angle)
+    assert period >= 1.0
+    assert decay > 0.0

@@ -162,7 +162,7 @@ def period_and_decay(time: Array, angle: Array) -> tuple[float, float]:
     at = np.array(crossings)
     moments = time[at] - away[at] * (time[at + 1] - time[at]) / (away[at + 1] - away[at])
     whole = moments[2:] - moments[:-2] if len(at) > 2 else 2.0 * np.diff(moments)
-    period = float(np.median(whole))
+    period = max(float(np.median(whole)), float(time[1] - time[0]))
     sizes = [float(np.max(np.abs(away[a:b]))) for a, b in pairwise(crossings) if b > a]
     tops = [size for size in sizes if size > 0.0]  # a half that no sample lies in has no size
     decay = np.log(tops[0] / tops[-1]) / (0.5 * period * (len(tops) - 1)) if len(tops) > 1 else 0.1 / period
