@@ -15,7 +15,8 @@ from support import study_path
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.report.output.tables import control_entry, duty_entry
-from tvimdesign.report.run.blocks.facts import main_facts, more_facts
+from tvimdesign.report.run.blocks.facts import main_facts
+from tvimdesign.report.run.blocks.more_facts import more_facts
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.solve.duty import HOUR, Duty, DutyCycle, duty_of

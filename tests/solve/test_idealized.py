@@ -11,7 +11,7 @@ from answers import shipped_answer
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
-from tvimdesign.report.run.blocks.facts import more_facts
+from tvimdesign.report.run.blocks.more_facts import more_facts
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import of_ratings, ratings_note
 from tvimdesign.report.run.reasons import above_rating

@@ -19,7 +19,8 @@ from support import Command, sample_text, study_path
 from tvimdesign.device import table_for
 from tvimdesign.report.output.numbers import at_its_least, ends_text, label, percent
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.blocks.facts import _model, main_facts, more_facts
+from tvimdesign.report.run.blocks.facts import _model, main_facts
+from tvimdesign.report.run.blocks.more_facts import more_facts
 from tvimdesign.report.run.blocks.requirements import Requirement, requirements
 from tvimdesign.report.run.blocks.tables import doubts_grid, held_grid
 from tvimdesign.report.run.blocks.verdict import limits_in_doubt

@@ -10,7 +10,8 @@ import pytest
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import margin_text
-from tvimdesign.report.run.blocks.facts import chosen_fact, heater_voltage, stalling_in_words, time_over_rise
+from tvimdesign.report.run.blocks.facts import heater_voltage
+from tvimdesign.report.run.blocks.more_facts import chosen_fact, stalling_in_words, time_over_rise
 from tvimdesign.report.run.blocks.verdict import TARGET, starts_in_words, verdict
 from tvimdesign.report.run.blocks.warnings import RunWarning, advice_text
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Side, Solution, SolverEffort, Standard, Start
@@ -63,6 +64,10 @@ def answer(
     )
 
 
+def evaluated(optimized: StudyResult) -> StudyResult:
+    return cast("StudyResult", SimpleNamespace(**{**vars(optimized), "solution": None}))
+
+
 def sides(*texts: str) -> ConflictSet:
     return ConflictSet((), tuple(Side(text, "require", 0.1) for text in texts), ())
 
@@ -78,6 +83,9 @@ def sides(*texts: str) -> ConflictSet:
         (answer({"response_time": math.inf}), SURE, [], "Do not build it: it never gets soft within `horizon`"),
         (answer(checks=(check("peak_power <= 15 W", -0.031), check("spring_index >= 4", 0.2))), SURE, [],
          "Do not build it: 1 of 2 limits are violated, most peak power <= 15 W, by 3.1 %"),
+        (evaluated(answer(checks=(check("peak_power <= 15 W", -0.031),))), SURE, [],
+         "Do not build it: 1 of 1 limits are violated, most peak power <= 15 W, by 3.1 %; "
+         "a study with `vary` seeks a cure"),
         (answer(above=("structure_temperature_margin",)), SURE, [], "Above a rating: structure heat margin below 0"),
         (answer(status="below_yield"), SURE, [], "Margins not reached: the time limit ended the search"),
         (answer(COOL, (HOT,)), SURE, [],

@@ -9,7 +9,8 @@ from tvimdesign.page.blocks import Facts, Warned
 from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output import terminal
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.blocks.facts import Fact, chosen_fact, front_fact, main_facts, more_facts, study_fact
+from tvimdesign.report.run.blocks.facts import Fact, main_facts, study_fact
+from tvimdesign.report.run.blocks.more_facts import chosen_fact, front_fact, more_facts
 from tvimdesign.report.run.blocks.requirements import HEADS, Requirement, requirements
 from tvimdesign.report.run.blocks.sections import text_sections
 from tvimdesign.report.run.blocks.verdict import Verdict, starts_in_words, verdict

@@ -27,7 +27,8 @@ from tvimdesign.report.output.terminal import DOT, Progress
 from tvimdesign.report.run import parts_of_design as parts
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import sections
-from tvimdesign.report.run.blocks.facts import Fact, main_facts, more_facts, study_fact
+from tvimdesign.report.run.blocks.facts import Fact, main_facts, study_fact
+from tvimdesign.report.run.blocks.more_facts import more_facts
 from tvimdesign.report.run.blocks.requirements import HEADS, requirements, requirements_grid
 from tvimdesign.report.run.blocks.verdict import refused, starts_in_words
 from tvimdesign.report.run.first_screen import verdict_of
