@@ -115,6 +115,16 @@ def test_steps_into_nothing_are_taken_back():
     assert solve(root, [0.2], 0.0, 10)[1]["return_status"] == NO_MODULE
 
 
+def test_points_without_slopes_are_taken_back():
+    steep = Program(lambda x: x[0], lambda x: [0.6 - x[0]], 1)
+    at = steep.at
+    steep.at = lambda x: at(x) if x[0] > 0.5 else at(x)._replace(jacobian=np.array([[np.nan]]))
+    answer, stats = solve(steep, [3.0], 0.0, 10)
+    assert stats["success"]
+    assert answer["x"] == pytest.approx([0.6], abs=1e-7)
+    assert solve(steep, [0.2], 0.0, 10)[1]["return_status"] == NO_MODULE
+
+
 def test_first_feasible_point_ends_a_run_for_one():
     answer, stats = solve(ROSEN_SUZUKI, [5, 5, 5, 5], -10, 10, feasible=True)
     assert stats["success"]

@@ -35,6 +35,7 @@ MOST_TRIED = 3  # Designs that are tried, the best first
 _PRESSED = 0.1  # Share of the highest price of a requirement from which another is eased, too
 _MOVES = (1.0, 0.6, 0.3, 0.15, 0.07, 0.03)  # Shares of its scale by which it is eased
 _GAIN = 1e-4  # Share of the objective by which another design must be better to be drawn
+_NEAR = 0.1  # Yield from which a better design that misses the target is tried once more, where another reaches it
 
 Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
 """A design that is not robust: its problem, its run, and the sizes it is kept at."""
@@ -43,8 +44,9 @@ Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
 def most_robust(candidates: Sequence[Candidate], *, eases: bool = False) -> tuple[int, Run]:
     """Return the place of the best of some designs with what the study asks for, and its robust run.
 
-    Once one reaches it, the others are first solved with its margins: one that is no better there is left. Where none
-    reaches it, the one that comes nearest is returned; with `eases` its problem has the requirement in the way, eased.
+    Once one reaches it, the others are first solved with its margins: one that is no better there is left. Those that
+    miss it are tried once more, unless a better one reaches it. Where none does, the one that comes nearest is
+    returned; with `eases` its problem has the requirement in the way, eased.
 
     Raises TimeOverError where the time is over before any is known to come near.
     """
@@ -66,9 +68,12 @@ def most_robust(candidates: Sequence[Candidate], *, eases: bool = False) -> tupl
                 raise
             optimizer.deadline.leave_out(MARGINS)
             break
+    for place, missed in sorted(tried, key=_rank):
+        _, best = min(tried, key=_rank)
+        better = missed.share > _NEAR and missed.run.start.objective < best.run.start.objective * (1.0 - _GAIN)
+        if not (missed.reached or candidates[place][0].deadline.passed) and (better or not best.reached):
+            tried.append((place, _once_more(candidates[place], missed)))
     place, robust = min(tried, key=_rank)
-    if not robust.reached and not candidates[place][0].deadline.passed:
-        place, robust = min((place, robust), (place, _once_more(candidates[place], robust)), key=_rank)
     candidates[place][0].margins = robust.margins
     if eases and not robust.reached:
         candidates[place][0].eased = _eased(candidates[place], robust.run)
