@@ -25,7 +25,7 @@ from tvimdesign.device import table_for
 from tvimdesign.device.core import thermal_stack
 from tvimdesign.device.core.impedance import warm_structure
 from tvimdesign.device.shear import layer_heat
-from tvimdesign.device.table.module import Module
+from tvimdesign.device.table import Module
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions

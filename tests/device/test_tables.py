@@ -15,7 +15,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import to_si
 from tvimdesign.catalog import CATEGORIES, Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Supplied, Table, table_for
-from tvimdesign.device.table.quantity import Feature
+from tvimdesign.device.table import Feature
 from tvimdesign.device.table.quantity_group import _all_inputs
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible

@@ -1,6 +1,7 @@
 """The module itself: parametric geometry, the modes, and the one table of variables and outputs."""
 
 from tvimdesign.device.modes import MODES, table_for
+from tvimdesign.device.table import Scalar
 from tvimdesign.device.table.quantity import (
     Choice,
     Event,
@@ -9,7 +10,6 @@ from tvimdesign.device.table.quantity import (
     Path,
     Phase,
     Rule,
-    Scalar,
     Simulated,
     Steady,
     Supplied,

@@ -15,9 +15,7 @@ import numpy as np
 
 from tvimdesign.device.components.hard_stops import SLIVER, STOPS
 from tvimdesign.device.core.layout import LEAST_FILLET, evened_least
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions.contacts import journal_torque
 from tvimdesign.physics.polymers.viscoelasticity import zero_shear_viscosity

@@ -6,8 +6,8 @@ from functools import cache
 from types import ModuleType
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import PHASES, Output, Quantity, Scalar
+from tvimdesign.device.table import Module, Scalar
+from tvimdesign.device.table.quantity import PHASES, Output, Quantity
 from tvimdesign.device.table.quantity_group import gather, with_parts
 from tvimdesign.device.table.table import Table
 

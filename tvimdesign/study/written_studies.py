@@ -11,7 +11,7 @@ from pathlib import Path
 from tvimdesign import __version__
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import MODES, Choice, Input, Table, table_for
-from tvimdesign.device.table.quantity import Feature
+from tvimdesign.device.table import Feature
 from tvimdesign.study.design import Design
 from tvimdesign.study.sections import SECTIONS, written
 from tvimdesign.study.sections.section import DEFINITIONS, Schema

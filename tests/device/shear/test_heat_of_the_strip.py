@@ -13,7 +13,7 @@ from support import ROOT, study_path
 
 from tvimdesign.cad.assembly.bill_of_materials import beside
 from tvimdesign.device.shear import floor_heat
-from tvimdesign.device.table.module import Module
+from tvimdesign.device.table import Module
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE, PeltierModule
 
 sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))

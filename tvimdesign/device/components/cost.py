@@ -18,9 +18,7 @@ from tvimdesign.device.components.fastening import WITH_INSERTS
 from tvimdesign.device.components.liner_and_adhesive import WITH_LINER
 from tvimdesign.device.components.preload_adjuster import WITH_ADJUSTERS
 from tvimdesign.device.core.heater_form import WITH_CUTOUT, WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar
 
 GROUP = "Cost"
 COSTS = ("cost", "material_cost")  # Outputs that prices go into

@@ -9,9 +9,7 @@ when it softens. Two opposite posts share it, as the rotor moves aside in its hu
 import numpy as np
 
 from tvimdesign.device.core.layout import evened_least
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.solids.shapes import Section, sector, tooth
 

@@ -17,9 +17,7 @@ from tvimdesign.device.components.liner_and_adhesive import WITH_LINER, traction
 from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_most
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_most
 from tvimdesign.physics.layers import block, lasting_load, layer, shear_lag
 from tvimdesign.physics.solids import structure, vane, wedge
 from tvimdesign.physics.solids.shapes import NOTHING, Section, mean_square, radial_strip

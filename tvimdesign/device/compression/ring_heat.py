@@ -16,9 +16,7 @@ import numpy as np
 
 from tvimdesign.device.compression.block_impedance import blocks_moment
 from tvimdesign.device.core.heater_form import CUT
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.heat_flow import columns, lumps, shape_factors
 from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link, Place
 from tvimdesign.physics.heat_flow.ring_sheet import Depths, Row, sheet_links

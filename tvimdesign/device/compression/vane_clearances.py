@@ -4,9 +4,7 @@ import numpy as np
 
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.heater_form import CUT, WITH_CUTOUT
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids.shapes import between_planes
 

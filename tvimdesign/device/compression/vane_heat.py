@@ -8,9 +8,7 @@ import numpy as np
 
 from tvimdesign.device.compression import ring_heat
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
 from tvimdesign.physics.heat_flow.layer_end import Lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Body, Link, Place

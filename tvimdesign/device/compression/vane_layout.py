@@ -8,9 +8,7 @@ rotor need not come down with the blocks: a running clearance is below and above
 import numpy as np
 
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.solids import shapes
 from tvimdesign.physics.solids.shapes import Section
 

@@ -21,9 +21,7 @@ import numpy as np
 
 from tvimdesign.device.components.liner_and_adhesive import WITH_PADS
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at

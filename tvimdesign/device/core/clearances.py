@@ -3,9 +3,7 @@
 import numpy as np
 
 from tvimdesign.device.core.layout import LEAST_FILLET
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.spring import leg_direction, pin_distance
 
 quantities = QuantityGroup("Gaps")

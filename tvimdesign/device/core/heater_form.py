@@ -26,9 +26,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.device.core.mass_properties import template_mass
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
 
 CUT = "flexible"

@@ -6,9 +6,7 @@ torsion springs around them with their axes parallel to z. Levels below the floo
 
 import numpy as np
 
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 
 quantities = QuantityGroup("Layout")
 

@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.solids import shapes
 from tvimdesign.physics.solids.shapes import Section
 

@@ -1,7 +1,6 @@
 """Materials of the module: the chosen catalogue records and the numbers taken from them."""
 
-from tvimdesign.device.table.quantity import Feature
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Feature, QuantityGroup
 
 CRYSTALLIZING = (Feature("pcl_freezing", "equilibrium"),)
 GLASS = (Feature("pcl_softening", "melting"),)

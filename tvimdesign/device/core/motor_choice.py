@@ -2,9 +2,7 @@
 
 from typing import NamedTuple
 
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Feature, Module, QuantityGroup
 
 WITHOUT = "none"
 

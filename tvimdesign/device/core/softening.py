@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import EQUILIBRIUM_STIFFENING, SOFTENING, STIFFENING, Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
+from tvimdesign.device.table.quantity import EQUILIBRIUM_STIFFENING, SOFTENING, STIFFENING
 from tvimdesign.physics.heat_flow import heat
 
 quantities = QuantityGroup("Softening")

@@ -19,9 +19,7 @@ the PCL, the floor as the air.
 
 import numpy as np
 
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics import spring
 from tvimdesign.physics import spring as drawn
 from tvimdesign.physics.polymers import plastics

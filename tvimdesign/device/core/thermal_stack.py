@@ -16,9 +16,7 @@ that of small strain, which is the most the melt does (`hot_damping_at_stroke` i
 import numpy as np
 
 from tvimdesign.device.core.impedance.joint_impedance import impedance_beside
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import polymer

@@ -5,9 +5,7 @@ is its mirror image."""
 
 import numpy as np
 
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Scalar, at_least, at_most
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least, at_most
 from tvimdesign.physics import spring
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.spring import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned

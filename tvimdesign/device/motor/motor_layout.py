@@ -20,9 +20,7 @@ import numpy as np
 from tvimdesign.device.components.bearing import BEARINGS, load_per_torque
 from tvimdesign.device.components.process import runout
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 
 BASE_SCREWS = 4  # Screws that fix the motor's housing from below
 

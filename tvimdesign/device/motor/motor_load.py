@@ -8,9 +8,7 @@ import numpy as np
 
 from tvimdesign.device.core.motor_choice import WITH_DRIVER, WITH_MOTOR
 from tvimdesign.device.core.task import WITH_ARM
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.layers import driven
 
 quantities = QuantityGroup("Task", (*WITH_MOTOR, *WITH_ARM))

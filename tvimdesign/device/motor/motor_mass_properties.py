@@ -9,9 +9,7 @@ from tvimdesign.device.components.fastening import screw_moments
 from tvimdesign.device.core.mass_properties import template_made_inertia, template_volume
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.solids import shapes
 
 quantities = QuantityGroup("Size and weight", WITH_MOTOR)

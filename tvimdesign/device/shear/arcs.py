@@ -12,9 +12,7 @@ import numpy as np
 from tvimdesign.device.components.liner_and_adhesive import WITH_LINER
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.heater_form import CUT, WITH_CUTOUT, WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least, at_most
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least, at_most
 from tvimdesign.physics.layers import shear_lag
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.solids.shapes import NOTHING, Section, inner_corner, outer_corner, rectangle_at, sector, stacked

@@ -16,9 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
 from tvimdesign.physics.heat_flow.layer_end import room
 from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link

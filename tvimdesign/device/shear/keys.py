@@ -9,9 +9,7 @@ plate's area, filled with a plastic like the one around.
 import numpy as np
 
 from tvimdesign.device.components.dowels import WITH_LEG_PINS
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.motions.contacts import joint_play
 from tvimdesign.physics.solids import fasteners, structure
 from tvimdesign.physics.solids.shapes import Section, disc_at

@@ -16,9 +16,7 @@ import numpy as np
 
 from tvimdesign.device.shear.floor_heat import CORNER
 from tvimdesign.device.shear.melt_lip import NO_LIP
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.heat_flow import lumps, shape_factors
 from tvimdesign.physics.heat_flow.layer_end import WalledEnd, below_lip, sheet_end, sheeted_end, walled_end
 from tvimdesign.physics.heat_flow.lumps import Link

@@ -11,9 +11,7 @@ import numpy as np
 from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.shear.floor_heat import CORNER, SIDE
 from tvimdesign.device.shear.layer_end import ColdEnd
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.heat_flow import columns, conduction, heat, layer_end, lumps, peltier, shape_factors
 
 quantities = QuantityGroup("Switch")

@@ -16,9 +16,7 @@ from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.shear.spreader_seat import PAD_PARTS, TILE_PARTS
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least, at_most
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least, at_most
 from tvimdesign.physics.layers import lasting_load, layer, shear_lag
 from tvimdesign.physics.polymers import melt, polymer, transitions
 from tvimdesign.physics.solids import structure

@@ -8,9 +8,7 @@ The module's colder plate ends a porch before that end, on which the leads are s
 import numpy as np
 
 from tvimdesign.device.core.heater_form import WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at
 
 LEADS = 2.0  # Of a module

@@ -21,9 +21,7 @@ import numpy as np
 from tvimdesign.device.components.axial_preload import GRAVITY, HOUR
 from tvimdesign.device.core.clearances import MM
 from tvimdesign.device.shear.floor_heat import BELOW
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Feature, Scalar, at_most
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_most
 from tvimdesign.physics.heat_flow import layer_end, shape_factors
 from tvimdesign.physics.heat_flow.layer_end import Arm, Lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Place

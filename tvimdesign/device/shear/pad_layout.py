@@ -21,9 +21,7 @@ import numpy as np
 from tvimdesign.device.components.liner_and_adhesive import WITH_PADS
 from tvimdesign.device.core.clearances import MM
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, stacked
 
 tile_places = QuantityGroup("Layout", WITH_TILES)

@@ -10,9 +10,7 @@ import numpy as np
 
 from tvimdesign.device.components.liner_and_adhesive import WITH_PADS
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.heat_flow.shape_factors import constriction
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.solids import plates, structure

@@ -8,7 +8,7 @@ from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
 from tvimdesign.device.core import softening
-from tvimdesign.device.table.module import Module
+from tvimdesign.device.table import Module
 from tvimdesign.device.table.quantity import EQUILIBRIUM_STIFFENING, SOFTENING, STIFFENING
 from tvimdesign.physics.heat_flow import heat, lumps
 

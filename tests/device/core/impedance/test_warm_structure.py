@@ -8,7 +8,7 @@ from device_values import inputs_of, values_of
 
 from tvimdesign.device import MODES, table_for
 from tvimdesign.device.core.impedance.warm_structure import parts_now
-from tvimdesign.device.table.module import Module
+from tvimdesign.device.table import Module
 from tvimdesign.physics.heat_flow import heat
 
 LEFT = ["structure_stiffness", "core_stiffness", "plate_stiffness", "floor_stiffness", "core_radius",

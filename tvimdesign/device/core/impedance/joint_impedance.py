@@ -16,9 +16,7 @@ import numpy as np
 
 from tvimdesign.base.record import Record
 from tvimdesign.device.core.materials import CRYSTALLIZING, GLASS
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.layers import block, lasting_load, layer
 from tvimdesign.physics.motions import motion, one_sided
 from tvimdesign.physics.polymers import plastics, polymer, transitions, viscoelasticity

@@ -13,9 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tvimdesign.device.core.materials import CRYSTALLIZING
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import contacts
 from tvimdesign.physics.polymers import melt

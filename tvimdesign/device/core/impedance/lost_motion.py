@@ -11,9 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_most
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_most
 from tvimdesign.physics.motions import contacts
 from tvimdesign.physics.spring import pin_slip
 

@@ -8,9 +8,7 @@ import numpy as np
 
 from tvimdesign.base.record import own_data
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_most
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_most
 from tvimdesign.physics.layers.layer import series_stiffness
 from tvimdesign.physics.polymers import plastics
 from tvimdesign.physics.solids import plates, structure

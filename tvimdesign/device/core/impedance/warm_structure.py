@@ -12,9 +12,7 @@ and PCL, so that their mean is 0.31 to 0.36 of the way out where the PCL begins 
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar, at_least
-from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
 from tvimdesign.physics.polymers import plastics

@@ -16,7 +16,7 @@ import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import Input
-from tvimdesign.device.table.quantity import Feature
+from tvimdesign.device.table import Feature
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, resolve_measured, series_of
