@@ -19,7 +19,7 @@ from tvimdesign.report.output.numbers import (
 )
 from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.run.blocks.tables import requested_torque
-from tvimdesign.report.run.blocks.verdict import most_in_doubt
+from tvimdesign.report.run.blocks.verdict import meet_every_limit, most_in_doubt
 from tvimdesign.report.run.reasons import NO_ROOM, active
 from tvimdesign.report.run.uncertainty_data import lever, yield_of
 from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE
@@ -268,13 +268,15 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
     name, share = most_in_doubt(uncertainty)
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
-    least, draws = share_in_doubt((study.get("robust") or {}).get("plausible")), uncertainty["draws"]
-    every = f"{round(draws * uncertainty['ranges_hold']['share'])} of {draws} plausible cases meet every limit"
+    missed = [1.0 - met for met in uncertainty["held"].values()]
+    each = sum(missed) / (1.0 - uncertainty["ranges_hold"]["share"])  # of the cases that violate any
+    every = f"{meet_every_limit(uncertainty)}, others violate {each:.2g} of {len(missed)} on average"
     needs = f"it needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
-    count = sum(met < least for met in uncertainty["held"].values())
+    least = share_in_doubt((study.get("robust") or {}).get("plausible"))
+    count = sum(1.0 - share < least for share in missed)
     more = f"{count} limits in under {percent(least)}" if count else ""
-    text = f"{every}; {label(name)} met in {percent(share, 2)}"
-    return [Fact("Model", [text], DOT.join(filter(None, [needs, more])))]
+    worst = f"{label(name)} met in {percent(share, 2)}"
+    return [Fact("Model", [every], DOT.join(filter(None, [worst, needs, more])))]
 
 
 def study_fact(answer: StudyResult) -> list[Fact]:

@@ -10,7 +10,8 @@
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
-9. Limits are met in less than `share_in_doubt` of the cases: *Build it, one module first: measure X and Y*.
+9. A limit is met in less than `share_in_doubt` of the cases: *Build it, one module first: measure X and Y*. If less
+   than `DOUBT` of the cases meet all limits together, too, with their number.
 10. *Build it*; here and in 9 with a bought part that is not to be had, and the share of cases if the study asks one.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
@@ -188,15 +189,24 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     what_else = " and ".join(warning.but for warning in warnings if warning.but)
     but = f", but {what_else}" if what_else else ""
     plausible = (answer.design.study.get("robust") or {}).get("plausible")
-    made_for = f"; made for {percent(plausible)} of plausible cases" if plausible else ""
+    made_for = f"; {percent(plausible)} of plausible cases are asked of each limit alone" if plausible else ""
     if not uncertainty:
         return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
-    decided = limits_in_doubt(uncertainty, share_in_doubt(plausible))
+    together = uncertainty.get("ranges_hold")
+    few = f", as {meet_every_limit(uncertainty)}" if together and together["share"] < DOUBT else ""
+    decided = limits_in_doubt(uncertainty, share_in_doubt(plausible)) or limits_in_doubt(uncertainty, 1.0 if few else 0)
     if not decided:
         return Verdict("build", f"Build it{but}{made_for}")
     first = _to_measure([name for name in decided if name])
     what = f"measure {first}" if first else f"check the {label(most_in_doubt(uncertainty)[0])}"
-    return Verdict("build_one", f"Build it, one module first: {what}{f'; {what_else}' if what_else else ''}{made_for}")
+    more = f"{f'; {what_else}' if what_else else ''}{made_for}"
+    return Verdict("build_one", f"Build it, one module first{few}: {what}{more}")
+
+
+def meet_every_limit(uncertainty: Mapping[str, Any]) -> str:
+    """Say how many of the cases meet every limit."""
+    draws = uncertainty["draws"]
+    return f"{round(draws * uncertainty['ranges_hold']['share'])} of {draws} plausible cases meet every limit"
 
 
 def limits_in_doubt(uncertainty: Mapping[str, Any], least: float) -> dict[str, dict[str, float]]:
