@@ -384,7 +384,10 @@ def test_a_share_asked_of_each_limit_is_compared_with_the_least():
     for robust, more in ((None, 2), ({"plausible": 0.79}, 2), ({"plausible": 0.5}, 2), ({"plausible": 0.81}, 3)):
         (fact,) = _model(uncertainty, {"robust": robust})
         share = max(75, round(100 * (robust or {}).get("plausible", 0)))
-        assert fact.text == f"{meet} · wall around the cover's screws met in 52 % · it needs bond >= 1 MPa · {more} limits in under {share} %"
+        assert (
+            fact.text == f"{meet} · wall around the cover's screws met in 52 % "
+            f"· it needs bond >= 1 MPa · {more} limits in under {share} %"
+        )
 
 
 TABLES = ("At the operating points", "What the module is", "Limits not met in all cases")

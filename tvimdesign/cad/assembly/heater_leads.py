@@ -61,7 +61,7 @@ def fuse_in_words(record: Record, design: Design) -> str:
         return f"None fits: {error}. {NOT_TO_BE_ORDERED}"
     size = " x ".join(f"{1e3 * record.value(name):.3g}" for name in ("body_diameter", "body_length"))
     works, holds = up(hottest - ZERO_CELSIUS), f"{fuse.holds - ZERO_CELSIUS:.3g} °C {HOLDING}"
-    longer = f", less than the heater's peak: ask the maker how long it lasts there at {current:.3g} A"
+    longer = f", less than the heater's peak: ask the maker how long it lasts there, or for {fuse_to_ask_for(design)}"
     details = [
         f"opens from {fuse.opens_from - ZERO_CELSIUS:.3g} to {fuse.opens_at - ZERO_CELSIUS:.3g} °C",
         f"the heater has {works} °C at most",
@@ -70,6 +70,16 @@ def fuse_in_words(record: Record, design: Design) -> str:
         "ask for its rating in direct current",
     ]
     return f"{_misfit(record, design, fuse, hottest, bears)}{record.title}, {fuse.designation}: {'; '.join(details)}"
+
+
+def fuse_to_ask_for(design: Design) -> str:
+    """Return the ratings of a fuse that would fit, to ask makers for; empty where nothing is known of the cycle."""
+    hottest, current = largest(design, _HOTTEST), largest(design, _STRONGEST)
+    if hottest is None or current is None:
+        return ""
+    opens, volts = min(_ratings(design).values()), design.supply_voltage or largest(design, ("peak_voltage",))
+    ends = f"opens by {opens - ZERO_CELSIUS:.3g} °C and holds {up(hottest - ZERO_CELSIUS)} °C"
+    return f"one that {ends} ({current:.2g} A{f', {volts:.3g} V' if volts else ''} d.c.)"
 
 
 def _misfit(record: Record, design: Design, fuse: HeaterFuse, hottest: float, bears: Mapping[str, float]) -> str:

@@ -18,8 +18,8 @@ from tvimdesign.report.output.numbers import (
     with_unit,
 )
 from tvimdesign.report.output.terminal import DOT
-from tvimdesign.report.run.blocks.tables import requested_torque
 from tvimdesign.report.run.blocks.verdict import meet_every_limit, most_in_doubt
+from tvimdesign.report.run.blocks.warnings import frozen_turn
 from tvimdesign.report.run.reasons import NO_ROOM, active
 from tvimdesign.report.run.uncertainty_data import lever, yield_of
 from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE
@@ -88,7 +88,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value)), _coldest(value)),
-        *_impedance(value, min(requested_torque(answer.design), answer.design.values["holding_torque"])),
+        *_impedance(value, *frozen_turn(answer.design)),
         *_drag(value),
         *_task(value, answer.design.choices),
         *_duty(answer),
@@ -154,23 +154,21 @@ _LOSES = {
 }
 
 
-def _impedance(value: Values, torque: float) -> list[Fact]:
+def _impedance(value: Values, torque: float, angle: float, stiffness: str) -> list[Fact]:
     """Return the link's stiffness frozen, with its angle under a torque, as heating stops, and with its damping.
 
-    Frozen, the core leans if the torque leaves the bearing some of its play. None if heating never stops.
+    None if heating never stops.
     """
     if math.isinf(value.values["softened_stiffness"]):
         return []
     unit = value.table.unit("softened_stiffness")
-    upright, leaning = "joint_stiffness_at_link@cold", "joint_stiffness_in_play"
-    held, free = torque / value.values[upright] + value.values["bearing_play"], torque / value.values[leaning]
     frozen, soft = (
-        f"{in_unit(value.values[name], unit, DIGITS)}{value.ends(name)}"
-        for name in (leaning if free < held else upright, "softened_stiffness")
+        f"{in_unit(value.values[name], unit, DIGITS)}{value.ends(name)}" for name in (stiffness, "softened_stiffness")
     )
     ends = f"{from_si(value.values['softened_temperature'], 'degC'):.0f} {pretty('degC')}"
-    play = "" if free < held or not value.values["bearing_play"] else " with the bearing's play"
-    turned = f"turns {from_si(min(free, held), 'deg'):.2g}°{play} at {with_unit(torque, 'N*m', 2)}"
+    upright = stiffness == "joint_stiffness_at_link@cold" and value.values["bearing_play"]
+    play = " with the bearing's play" if upright else ""
+    turned = f"turns {from_si(angle, 'deg'):.2g}°{play} at {with_unit(torque, 'N*m', 2)}"
     damped = f"with damping {in_unit(value.values['softened_impedance'], unit, DIGITS)}"
     return [Fact(f"Link, {pretty(unit)}", [f"frozen {frozen}: {turned}", f"soft at {ends} {soft}"], damped)]
 

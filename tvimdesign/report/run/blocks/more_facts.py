@@ -13,7 +13,7 @@ from tvimdesign.report.output.choices_tables import choice_text, own_choices
 from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, percent, range_text, with_unit
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.run.blocks.facts import DIGITS, Fact, Values, tolerances_in_words
-from tvimdesign.report.run.blocks.tables import requested_torque
+from tvimdesign.report.run.blocks.warnings import frozen_turn
 from tvimdesign.report.run.uncertainty_data import changes, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
@@ -55,7 +55,7 @@ _FROZEN = {
 
 def _creep(value: Values, answer: StudyResult) -> Iterator[str]:
     """Yield how far the frozen link creeps under a torque that lasts, with its range."""
-    torque = min(requested_torque(answer.design), value.values["holding_torque"])
+    torque, *_ = frozen_turn(answer.design)
     entry = value.intervals.get("creep_stiffness") or {}
     low, crept, high = (
         from_si(torque / stiffness, "deg") if (stiffness := of) else None

@@ -17,7 +17,7 @@ from tvimdesign.device import Choice, Input, Table, table_for
 from tvimdesign.report.output.numbers import in_labels, with_unit
 from tvimdesign.solve.nlp.constraints import advice_of, on_cycle, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
-from tvimdesign.solve.result import ConstraintCheck, StudyResult
+from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.robust import Extreme, least_with_margins
 from tvimdesign.study import Study, given, read_study_text
 from tvimdesign.study.written_studies import started_at
@@ -45,24 +45,24 @@ class Remedies:
         self._table = table_for(answer.design.mode)
         self._study = Study.model_validate(answer.design.study)
 
-    def of(self, check: ConstraintCheck, lines: Sequence[str], *, cheap: bool = False) -> Remedy:
+    def of(self, output: str, lines: Sequence[str], *, cheap: bool = False) -> Remedy:
         """Return the first line that cures; else the last one, or why it does not cure; empty without lines.
 
-        `check` is the advice or rating that the design does not follow. A `cheap` remedy needs no search.
+        `output` has the advice or rating that the design does not follow. A `cheap` remedy needs no search.
         """
         refusal: str | None = ""
         failed: set[str] = set()
         for line in lines:
             entry = plain_data(line)
             if changes := _changes(entry, self._table):
-                if _cures(check, changes, self._answer, self._table):
+                if _cures(output, changes, self._answer, self._table):
                     changed = self._study.model_copy(update={"module": {**self._study.module, **changes}})
                     if self._answer.solution is None or cheap or self._least(changed, "module_mass") is not None:
                         self._study = changed
                         return Remedy(line, tried=True)
                 failed.add(line)
             elif "require" in entry and not (cheap or self._answer.solution is None or self._deadline.passed):
-                if on_cycle(self._table, check.output):
+                if on_cycle(self._table, output):
                     continue
                 refusal = self._misses(line)
                 if refusal is None:
@@ -115,7 +115,7 @@ def _changes(entry: Mapping[str, Any], table: Table) -> dict[str, Any]:
     return changes
 
 
-def _cures(check: ConstraintCheck, changes: Mapping[str, Any], answer: StudyResult, table: Table) -> bool:
+def _cures(output: str, changes: Mapping[str, Any], answer: StudyResult, table: Table) -> bool:
     """Return whether the advice is followed with a part or number changed, the working cycle being the same."""
     design = answer.design
     study = Study.model_validate(design.study)
@@ -125,12 +125,12 @@ def _cures(check: ConstraintCheck, changes: Mapping[str, Any], answer: StudyResu
         values = given(changed)
         values |= {name: design.values[name] for name in study.vary if name in design.values}
         values |= {row.name: design.values[row.name] for row in table.supplied}
-        value = table.evaluate(values, [check.output])[check.output]
+        value = table.evaluate(values, [output])[output]
         if not _fits(changes, values, table):
             return False
     except TvimError:
         return False
-    limits = [limit for limit in (*ratings_of(table), *advice_of(table)) if limit.output == check.output]
+    limits = [limit for limit in (*ratings_of(table), *advice_of(table)) if limit.output == output]
     return all(limit.residual(value) <= CYCLE_TOLERANCE for limit in limits)
 
 

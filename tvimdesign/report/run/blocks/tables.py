@@ -12,11 +12,10 @@ from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, 
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
 from tvimdesign.report.run.blocks.verdict import TO_MEASURE, least_shares, limits_in_doubt
-from tvimdesign.report.run.blocks.warnings import unreached_points
+from tvimdesign.report.run.blocks.warnings import requested_torque, unreached_points
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.study.design import Design
 
 _MOVES = 0.02  # Share of an output's variance from which an input counts as moving it
 _NAMED = 4
@@ -82,13 +81,6 @@ def module_grid(answer: StudyResult) -> Grid:
         for row in shown if not (hot_unreached and row.at_end)
     ]  # fmt: skip
     return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
-
-
-def requested_torque(design: Design) -> float:
-    """Return the torque [N*m] that the study asks the frozen joint to hold, or the one that is held."""
-    requested = [limit["limit"] for limit in design.study["require"]
-             if (limit["output"], limit["sense"]) == ("holding_torque", ">=")]  # fmt: skip
-    return max(requested, default=0.0) or design.values["holding_torque"]
 
 
 def torque_path_grid(answer: StudyResult) -> Grid:

@@ -9,16 +9,19 @@ from typing import Any, NamedTuple
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.record import own_data, plain_data
 from tvimdesign.base.units import format_quantity, from_si
+from tvimdesign.cad.assembly.heater_leads import fuse_to_ask_for
 from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.output.terminal import duration
-from tvimdesign.report.run.blocks.remedies import Remedies
+from tvimdesign.report.run.blocks.remedies import Remedies, Remedy
 from tvimdesign.report.run.reasons import endings
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult
+from tvimdesign.study.design import Design
 
 LOOSE = 0.05  # Share of the first swing without contact from which on small motions say little of the joint
 _PLACE = re.compile(r"<(\w+)>")
+TURNED = 0.1  # Share of the stroke from which on a turn of the frozen joint is warned of
 TEMPERATURE = 0.5  # Kelvin by which heating may stop below the hot point
 SHOWN = 3  # Warnings of the first screen; their remedies are tried
 _LEVELS = ("grave", "serious", "")
@@ -45,7 +48,9 @@ def warnings_of(answer: StudyResult, doubts: Sequence[str], deadline: Deadline =
     from_records = [_other("doubt", line=doubt) for doubt in doubts]
     if not answer.has_design:
         return from_records
-    own = [*_of_the_module(answer), *_of_advice(answer, deadline), *_of_points(answer), *_of_the_search(answer)]
+    remedies = Remedies(answer, deadline)
+    own = [*_of_the_module(answer), *_of_frozen_turn(answer, remedies), *_of_advice(answer, remedies),
+           *_of_points(answer), *_of_the_search(answer)]  # fmt: skip
     return sorted([*own, *from_records], key=lambda warning: _LEVELS.index(warning.level))
 
 
@@ -53,8 +58,8 @@ hints = partial(own_data, __file__, "warnings.yaml")  # Texts on each advice and
 
 
 def _hint(name: str, value: float = -math.inf) -> dict[str, Any]:
-    """Return the entry of a rating or an advice with a value [SI]; empty if it has none."""
-    entry = dict((hints()["ratings"] | hints()["advice"]).get(name, {}))
+    """Return the entry of a warning with a value [SI]; empty if it has none."""
+    entry = dict((hints()["ratings"] | hints()["advice"] | hints()["others"]).get(name, {}))
     return entry | entry["above"] if "above" in entry and value > entry["above"]["value"] else entry
 
 
@@ -78,20 +83,58 @@ def _of_the_module(answer: StudyResult) -> Iterator[RunWarning]:
         yield _other("never_stiff")
 
 
-def _of_advice(answer: StudyResult, deadline: Deadline) -> Iterator[RunWarning]:
+def requested_torque(design: Design) -> float:
+    """Return the torque [N*m] that the study asks the frozen joint to hold, or the one that is held."""
+    requested = [limit["limit"] for limit in design.study["require"]
+             if (limit["output"], limit["sense"]) == ("holding_torque", ">=")]  # fmt: skip
+    return max(requested, default=0.0) or design.values["holding_torque"]
+
+
+def frozen_turn(design: Design) -> tuple[float, float, str]:
+    """Return the torque [N*m] on the frozen joint, the angle it turns the link, and the stiffness on which that rests.
+
+    The core leans if the torque leaves the bearing some of its play.
+    """
+    values, torque = design.values, min(requested_torque(design), design.values["holding_torque"])
+    upright, leaning = "joint_stiffness_at_link@cold", "joint_stiffness_in_play"
+    held, free = torque / values[upright] + values["bearing_play"], torque / values[leaning]
+    return (torque, free, leaning) if free < held else (torque, held, upright)
+
+
+def _of_frozen_turn(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarning]:
+    """Compare the angle that the frozen joint turns under its torque with the stroke."""
+    (torque, angle, _), stroke = frozen_turn(answer.design), answer.design.values["stroke"]
+    share = angle / stroke
+    if not share > TURNED:
+        return
+    hint, stiffness = _hint("frozen_turn", share), f"{torque / (TURNED * stroke):.3g}"
+    places = {
+        "angle": format_quantity(angle, "deg", 2), "torque": format_quantity(torque, "N*m", 2),
+        "share": f"{100.0 * share:.0f} %", "stroke": format_quantity(angle / TURNED, "deg", 2), "stiffness": stiffness,
+    }  # fmt: skip
+    remedy = remedies.of("joint_stiffness_in_play", [filled(hint["mend"], places)])
+    yield RunWarning(filled(hint["say"], places), _cure(answer, remedy), hint.get("level", ""), hint.get("but", ""))
+
+
+def _cure(answer: StudyResult, remedy: Remedy) -> str:
+    """Return a remedy in words, by what trying it showed."""
+    if answer.solution is None and remedy.line.startswith("require:"):
+        return f"{_VARY} {remedy.line}"
+    how = "write" if remedy.tried else _OTHER_SIZES if remedy.failed else "may help:"
+    return f"{how} {remedy.line}" if remedy.line else remedy.words
+
+
+def _of_advice(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarning]:
     """Yield ratings and advice that the design does not follow, the gravest first."""
-    table, above, remedies = table_for(answer.design.mode), answer.design.above_rating, Remedies(answer, deadline)
+    table, above = table_for(answer.design.mode), answer.design.above_rating
     levels = {check.output: "grave" if check.output in above else _hint(check.output, check.value).get("level", "")
               for check in answer.warnings}  # fmt: skip
     harmless = "" if missed_points(answer) else "hot_point_margin"
     levels[harmless] = ""
     for place, check in enumerate(sorted(answer.warnings, key=lambda check: _LEVELS.index(levels[check.output]))):
         lines = [] if check.output == harmless else lines_of(check.output, answer)
-        remedy = remedies.of(check, lines, cheap=place >= SHOWN)
-        how = "write" if remedy.tried else _OTHER_SIZES if remedy.failed else "may help:"
-        cure = f"{how} {remedy.line}" if remedy.line else remedy.words
-        if answer.solution is None and remedy.line.startswith("require:"):
-            cure = f"{_VARY} {remedy.line}"
+        cure = _cure(answer, remedies.of(check.output, lines, cheap=place >= SHOWN))
+        cure = cure or filled(_hint(check.output).get("ask", ""), {"fuse": fuse_to_ask_for(answer.design)})
         if check.output in above:
             cure = f"{cure} or accept: [{check.output}]".removeprefix(" or ")
         text = advice_text(check.output, check.value, check.origin, table)
