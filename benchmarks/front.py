@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from quick import Quick
 from reference_problem import LONGEST, Reference, study
 
-from tvimdesign.solve.batch.batch_model import Kernel, of_columns
+from tvimdesign.solve.batch.batch_model import kernel_of
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -51,10 +51,7 @@ class ManyDesigns:
         self.count = len(outputs)
         self._limits = reference.limits
         wanted = [*outputs, *(limit.output for limit in reference.limits)]
-        places = [(0, place) for place in reference.places]
-        places.append((1, model.switch_names.index(reference.event)))
-        seen = np.ones(len(model.switch_names))
-        self._arithmetic = Kernel(of_columns(model.outputs(wanted), [model.start, seen], places))
+        self._arithmetic = kernel_of(model, wanted, names, [reference.event])
         self._switch = CycleKernel(model, names, [reference.event])
         self._pace = Pace({"softening": pace}, {})
 

@@ -19,7 +19,7 @@ from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
-from tvimdesign.solve.batch.batch_model import Kernel, of_columns
+from tvimdesign.solve.batch.batch_model import kernel_of
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.study import given, read_study
 
@@ -61,10 +61,13 @@ def _report_rate(name: str, count: int, do: Callable[[], object]) -> None:
 
 def arithmetic(model: DeviceFunctions, count: int) -> None:
     """Time the rows that are arithmetic."""
-    places = [(0, model.index[name]) for name in MOVING]
-    function = of_columns(model.outputs(OUTPUTS), [model.start, np.ones(len(model.switch_names))], places)
+    moving, inputs = ca.SX.sym("moving", len(MOVING)), ca.SX(ca.DM(model.start))
+    for i, name in enumerate(MOVING):
+        inputs[model.index[name]] = moving[i]
+    values = model.outputs(OUTPUTS).call([inputs, ca.SX.ones(len(model.switch_names))], True, False)
+    function = ca.Function("moving", [moving], values)
     began = time.perf_counter()
-    kernel = Kernel(function)
+    kernel = kernel_of(model, OUTPUTS, MOVING, [])
     print(f"{len(OUTPUTS)} outputs of {len(MOVING)} inputs, {function.n_instructions()} operations; "
           f"compiled in {time.perf_counter() - began:.2f} s")  # fmt: skip
     columns = _columns(model, MOVING, count, 0.01)

@@ -23,7 +23,7 @@ DRIVEN = np.array([1.0, 0.0, 2.0])
 def motion_of(write: Callable[[Any, Any, Any], Any], size: int, constants: int, mass: Array | None = None) -> Motion:
     y, u, k = ca.SX.sym("y", size), ca.SX.sym("u"), ca.SX.sym("k", constants)
     rates = write(y, u, k)
-    return Motion(y, u, k, rates, ca.jacobian(rates, y), np.ones(size) if mass is None else mass)
+    return Motion.of(y, u, k, rates, ca.jacobian(rates, y), np.ones(size) if mass is None else mass)
 
 
 @pytest.fixture(scope="module")

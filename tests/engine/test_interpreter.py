@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tvimdesign.engine import interpreter
-from tvimdesign.engine import tape as tape_module
 from tvimdesign.engine.tape import Tape
 
 Array = NDArray[np.float64]
@@ -249,21 +248,3 @@ def test_unknown_operations_are_refused_or_give_no_number():
     with pytest.raises(ValueError, match=rf"operation {ca.OP_FMOD} is not known"):
         Tape.of([x, y], [ca.fmod(x, y) + 1.0])
     assert np.isnan(interpreter.slopes_of(90, 1.0, 2.0)[0])
-
-
-def test_a_stored_tape_computes_to_the_bit_what_the_recorded_one_does(monkeypatch, tmp_path):
-    x = ca.SX.sym("x", 3)
-    value = x[0]
-    for k in range(tape_module.LONG):
-        value = ca.sin(value * x[1 + k % 2]) + 0.1 * k
-    monkeypatch.setenv("TVIMDESIGN_CACHE", "")
-    recorded = (Tape.of([x], [value, x[1] * value]), *Tape.parted([x[:2], x[2:]], [value]))
-    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "cache"))
-    written = (Tape.of([x], [value, x[1] * value]), *Tape.parted([x[:2], x[2:]], [value]))
-    monkeypatch.setattr(tape_module, "_recorded", None)
-    stored = (Tape.of([x], [value, x[1] * value]), *Tape.parted([x[:2], x[2:]], [value]))
-    for tapes in zip(recorded, written, stored, strict=True):
-        at = np.linspace(0.3, 0.9, int(tapes[0].arguments[-1]))
-        values = [[part.tolist() for part in tape.values(at)] for tape in tapes]
-        assert values[0] == values[1] == values[2]
-        assert all(tape.arguments.tolist() == tapes[0].arguments.tolist() for tape in tapes)

@@ -24,7 +24,7 @@ COUNT = 21
 
 def _columns(function: Callable[[object], object], places: Array) -> Array:
     x = ca.SX.sym("x")
-    return Kernel(ca.Function("f", [x], [function(x)]))(places[None])[0]
+    return Kernel(Tape.of([x], [function(x)]))(places[None])[0]
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ def test_functions_are_right_over_their_whole_range(name, low, high):
 def test_powers_are_right_where_their_logarithms_are_small():
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     given = np.random.default_rng(2).uniform(0.2, 4.0, (2, 5_000))
-    powers = Kernel(ca.Function("f", [x, y], [x**y]))(given)[0]
+    powers = Kernel(Tape.of([x, y], [x**y]))(given)[0]
     assert np.max(np.abs(powers / given[0].astype(np.longdouble) ** given[1] - 1.0)) < 3e-15
 
 
@@ -80,7 +80,7 @@ def cooling() -> tuple[Motion, Tape]:
     """Return a body that cools at a rate of its own, one that follows it without mass, and the first's integral."""
     y, u, k = ca.SX.sym("y", 3), ca.SX.sym("u"), ca.SX.sym("k")
     rates = ca.vertcat(u - k * y[0], y[0] ** 2 - y[1], y[0])
-    return Motion(y, u, k, rates, ca.jacobian(rates, y), np.array([1.0, 0.0, 1.0])), Tape.of([y, u, k], [0.5 - y[0]])
+    return Motion.of(y, u, k, rates, ca.jacobian(rates, y), np.array([1.0, 0.0, 1.0])), Tape.of([y, u, k], [0.5 - y[0]])
 
 
 def _marched(motion: Motion, rates: Array, steps: int, scales: Array) -> tuple[Array, lanes.Room, Array]:

@@ -99,10 +99,13 @@ def table_for(mode: str) -> Table:
     if mode not in MODES:
         raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")
     files = _files()
-    if mode != LOCK:
-        return Table(with_parts(gather((*files["shared"], *files[mode]), (mode,))), PHASES)
-    sprung = gather((*files["shared"], *files["shear"]), ("shear", LOCK))
-    return Table(with_parts(without_springs(sprung, gather(files[LOCK], ()))), PHASES)
+    of_mode = ("shear", LOCK) if mode == LOCK else (mode,)
+    gathered: Iterable[Quantity] = gather((*files["shared"], *files[of_mode[0]]), of_mode)
+    if mode == LOCK:
+        gathered = without_springs(gathered, gather(files[LOCK], ()))
+    table = Table(with_parts(gathered), PHASES)
+    object.__setattr__(table, "mode", mode)
+    return table
 
 
 def without_springs(quantities: Iterable[Quantity], own: Iterable[Quantity]) -> tuple[Quantity, ...]:

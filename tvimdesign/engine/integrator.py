@@ -6,11 +6,13 @@ along by the factors that each stage's Newton ended with, so they are those of t
 Source: Alexander, SIAM J. Numer. Anal. 14 (1977), 1006.
 """
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from tvimdesign.engine.interpreter import Array, Code, push, run
 from tvimdesign.engine.sparse_lu import Integers, Pattern, factor, pattern_of, solve, solve_many
@@ -49,18 +51,31 @@ class System(NamedTuple):
 
 
 class Motion:
-    """An equation of motion, recorded from expressions (SX)."""
+    """An equation of motion, recorded."""
 
-    def __init__(self, y: Any, u: Any, k: Any, rates: Any, jacobian: Any, mass: Array) -> None:
-        self.rates = Tape.of([y, u, k], [rates], inverses=True)
-        self.slopes = Tape.of([y, u, k], [rates, jacobian], inverses=True)
-        rows, columns = (np.array(part, dtype=np.int64) for part in jacobian.sparsity().get_triplet())
-        pattern, entries, diagonal = pattern_of(y.numel(), rows, columns)
-        self.size = y.numel()
+    def __init__(self, rates: Tape, slopes: Tape, places: Integers, mass: Array) -> None:
+        """Take f, then f with its Jacobian, whose entries have these `places`: a row of rows and one of columns."""
+        self.rates, self.slopes, self.places, self.size = rates, slopes, places, mass.size
+        pattern, entries, diagonal = pattern_of(self.size, *places)
         self.system = System(
             mass, self.rates.code, self.rates.results[0], self.slopes.code, self.slopes.results[0],
             self.slopes.results[1], pattern, entries, diagonal,
         )  # fmt: skip
+
+    @classmethod
+    def of(cls, y: Any, u: Any, k: Any, rates: Any, jacobian: Any, mass: Array) -> Self:
+        """Record expressions (SX) of symbols."""
+        alone, both = (Tape.of([y, u, k], results, inverses=True) for results in ([rates], [rates, jacobian]))
+        return cls(alone, both, np.array(jacobian.sparsity().get_triplet(), dtype=np.int64), mass)
+
+    def arrays(self) -> list[NDArray[Any]]:
+        """Return what `of_arrays` makes the motion from."""
+        return [*self.rates.arrays(), *self.slopes.arrays(), self.places, self.system.mass]
+
+    @classmethod
+    def of_arrays(cls, arrays: Iterator[NDArray[Any]]) -> Self:
+        """Return the motion of the next of some arrays."""
+        return cls(Tape.of_arrays(arrays), Tape.of_arrays(arrays), next(arrays), next(arrays))
 
     def registers(self, k: Array, dk: Array) -> tuple[Array, Array, Array]:
         """Return registers for the rates, their tangents, and the slopes, with the constants in place."""

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import hashlib
-import io
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.user_cache import find_code, keep_code
 from tvimdesign.engine import interpreter
 from tvimdesign.engine.interpreter import Array, Code, push, run
 from tvimdesign.engine.vectors import tangent_registers
@@ -31,9 +27,6 @@ _COMMUTE = frozenset((interpreter.ADD, interpreter.MUL))
 _wrapped: Any = vars(ca)["_casadi"]
 _operation, _given, _to = (getattr(_wrapped, f"Function_instruction_{part}") for part in ("id", "input", "output"))
 """CasADi's methods without their wrappers, which take half of the time."""
-LONG = 1000  # Operations from which on a tape is read from the user's cache in less time than it is recorded
-_MAKER = f"casadi {vars(ca)['__version__']} {hashlib.sha256(Path(__file__).read_bytes()).hexdigest()}"
-"""Maker of a stored tape: another version makes its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,37 +51,23 @@ class Tape:
 
         With `inverses`, what several quotients are divided by is inverted once, which may change their last bits.
         """
-        return cls._stored(function, f"inverses {inverses}", lambda: [_recorded(function, inverses)])[0]
+        return cls._of_record(_recorded(function, inverses))
 
     @classmethod
-    def parted(cls, arguments: Sequence[Any], results: Sequence[Any]) -> tuple[Tape, Tape]:
+    def parted(cls, arguments: Sequence[Any], results: Sequence[Any], *, inverses: bool = True) -> tuple[Tape, Tape]:
         """Record expressions in two: constants that follow from the last argument alone; then the results, of the other
         arguments and these constants.
         """
-        function = _function(arguments, results)
-        constants, values = cls._stored(function, "parted", lambda: _parted(_recorded(function, inverses=True)))
-        return constants, values
+        constants, values = _parted(_recorded(_function(arguments, results), inverses=inverses))
+        return cls._of_record(constants), cls._of_record(values)
 
-    @classmethod
-    def _stored(cls, function: Any, manner: str, recorded: Callable[[], Sequence[_Record]]) -> list[Tape]:
-        """Return the tapes of a function: those of long ones from the user's cache, where they stay once recorded."""
-        if function.n_instructions() < LONG:
-            return [cls._of_record(record) for record in recorded()]
-        key = f"{_MAKER} {manner}", function.serialize()
-        if (stored := find_code(*key)) is not None:
-            arrays = iter(np.load(io.BytesIO(stored)).values())
-            return [cls._of_arrays(arrays) for _ in range(int(next(arrays)))]
-        tapes = [cls._of_record(record) for record in recorded()]
-        stream = io.BytesIO()
-        np.savez(stream, len(tapes), *(array for tape in tapes for array in tape._arrays()))
-        keep_code(stream.getvalue(), *key)
-        return tapes
-
-    def _arrays(self) -> list[NDArray[Any]]:
+    def arrays(self) -> list[NDArray[Any]]:
+        """Return what `of_arrays` makes the tape from."""
         return [*self.code, self.registers, self.arguments, np.array(len(self.results)), *self.results]
 
     @classmethod
-    def _of_arrays(cls, arrays: Iterator[NDArray[Any]]) -> Tape:
+    def of_arrays(cls, arrays: Iterator[NDArray[Any]]) -> Tape:
+        """Return the tape of the next of some arrays."""
         code = Code(*(next(arrays) for _ in Code._fields))
         return cls(code, next(arrays), next(arrays), tuple(next(arrays) for _ in range(int(next(arrays)))))
 

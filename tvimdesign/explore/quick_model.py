@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.working_cycle.cycle import Simulator, Trajectory
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.symbols import ca
-from tvimdesign.solve.batch.batch_model import Kernel, pace_of
+from tvimdesign.simulation.working_cycle.phase_functions import TEMPERATURES
+from tvimdesign.solve.batch.batch_model import pace_of
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel
 from tvimdesign.solve.batch.phase_kernel import Steps
 from tvimdesign.study import Study, given
@@ -28,6 +28,7 @@ _STEPS = Steps(of_pace=28, first=1.0 / 32.0, growth=1.2)
 _LOOSE, _SAMPLES = 1e-3, 10
 _PHASES: tuple[str, ...] = ("softening", "stiffening")
 _SHOWN = 24  # Moments of a phase that are drawn
+_WATCHED = (TEMPERATURES, "impedance_now", "electrical_power")
 _CURVES = ("hot_side", "near_face", "far_face", "joint_impedance", "electrical_power")
 
 
@@ -94,8 +95,6 @@ class QuickModel:
         moving = [name for name in self.model.names if name != "rotor_cells"]
         try:
             kernel = CycleKernel(self.model, moving, self.model.switch_names, _STEPS)
-            for drawn in self._maps.values():
-                drawn.record()
         except ValueError:
             return  # an unknown operation: the simulator goes on
         self._kernel = kernel
@@ -105,23 +104,9 @@ class _Drawn:
     """The curves of one phase at moments evenly spaced."""
 
     def __init__(self, model: DeviceFunctions, name: str) -> None:
-        phase = model.phases[name]
-        self._sign, self._current = phase.phase.sign, model.index[phase.phase.current_input]
-        state, current = ca.SX.sym("state", phase.state_size), ca.SX.sym("current")
-        inputs = ca.SX.sym("inputs", len(model.names))
-        given = [state, current, inputs]
-        kelvin, watched = (
-            function.call(given, True, False)[0]
-            for function in (phase.temperatures, phase.watch(["impedance_now", "electrical_power"]))
-        )
-        rows = ca.vertcat(kelvin[1], kelvin[2], kelvin[3 + model.cells], watched)
-        self._function = ca.Function("drawn", given, [rows], {"cse": True})
-        self._mapped = self._function.map(_SHOWN)
-        self._kernel: Kernel | None = None
-
-    def record(self) -> None:
-        """Record what all moments are evaluated by at once. Raises ValueError."""
-        self._kernel = Kernel(self._function)
+        phase = model.phases[name].phase
+        self._sign, self._current, self._engine = phase.sign, model.index[phase.current_input], model.engines[name]
+        self._rows = [1, 2, 3 + model.cells, -2, -1]
 
     def curves(self, inputs: Array, times: Array, states: Array, end: float) -> dict[str, list[float]]:
         """Time [s], temperatures [degC] of pads and layer's faces, impedance [N*m/rad] and power [W]."""
@@ -132,9 +117,7 @@ class _Drawn:
             return {}
         at = line.at(moments / times[-1])
         currents = np.full((1, _SHOWN), self._sign * inputs[self._current])
-        columns = np.repeat(inputs[:, None], _SHOWN, axis=1)
-        given, kernel = (at, currents, columns), self._kernel
-        rows = kernel(np.concatenate(given)) if kernel else np.asarray(self._mapped(*given))
+        rows = self._engine.at_instants(_WATCHED, inputs, at, currents)[self._rows]
         rows[:3] -= ZERO_CELSIUS
         return {"time": moments.tolist(), **dict(zip(_CURVES, rows.tolist(), strict=True))}
 

@@ -20,6 +20,7 @@ from tvimdesign.simulation.joint_tests.case import one_sided
 from tvimdesign.simulation.link_motion.sampled_motion import PER_DECADE
 from tvimdesign.simulation.working_cycle.curves import MEMORY, PHASE_UNITS, temperature_names
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
+from tvimdesign.simulation.working_cycle.phase_functions import FRACTIONS
 from tvimdesign.simulation.working_cycle.symbols import ca
 
 MOVING = ("ambient_temperature", "frequency@hot")  # Inputs of the table that may change in an FMU
@@ -72,7 +73,7 @@ def joint_equations(resolved: ResolvedModule) -> JointEquations:
     if MEMORY in model.index:
         inputs[model.index[MEMORY]] = ca.if_else(given[0] > 0.0, model.start[model.index[MEMORY]], 1.0)
     at = (state, given[0], inputs)
-    names = temperature_names(model, model.start, phase)
+    names = temperature_names(model, model.start, "softening")
     seen = phase.evaluated(tuple(INSTANT.values()), lambda *values: values)(*at)
     slices = phase.evaluated(_OF_SLICES, _slices)(*at)
     rates = phase.rates(*at)
@@ -80,7 +81,7 @@ def joint_equations(resolved: ResolvedModule) -> JointEquations:
         "initial": [phase.initial(inputs)],
         "rates": [rates],
         "rates_and_jacobian": [rates, ca.jacobian(rates, state)],
-        "observed": [ca.vertcat(phase.temperatures(*at), ca.sum1(phase.fractions(*at)) / model.cells, seen)],
+        "observed": [ca.vertcat(phase.temperatures(*at), ca.sum1(phase.watch([FRACTIONS])(*at)) / model.cells, seen)],
         "mechanics": [slices],
     }
     start: tuple[float, ...] = (0.0, *(float(model.start[model.index[name]]) for name in MOVING))

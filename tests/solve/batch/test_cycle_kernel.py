@@ -9,11 +9,12 @@ import pytest
 from support import STUDIES, digits, fine, study_path
 
 from tvimdesign.device import table_for
+from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.cycle import Cycle
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.solve.batch import cycle_kernel
-from tvimdesign.solve.batch.batch_model import Kernel, of_columns
+from tvimdesign.solve.batch.batch_model import Kernel, kernel_of
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.study import given, read_study
 
@@ -129,7 +130,7 @@ def test_operations_are_those_of_casadi_and_its_c_library():
                 ca.fmax(x, y), x / y, x * y, -x, x * x, 2 * x, 1 / (x + 3.0)]  # fmt: skip
     function = ca.Function("f", [x, y], [ca.vertcat(*entries)])
     columns = np.array(list(itertools.product(PLACES, repeat=2))).T.copy()
-    for place, values in zip(columns.T, Kernel(function)(columns).T, strict=True):
+    for place, values in zip(columns.T, Kernel(Tape.of_function(function))(columns).T, strict=True):
         expected = np.asarray(function(*place)).ravel()
         assert values == pytest.approx(expected, rel=1e-15, abs=5e-324, nan_ok=True), place
 
@@ -140,24 +141,25 @@ def test_the_kernel_of_the_table_agrees_with_casadi(study):
     table = table_for(read.mode)
     model = DeviceFunctions(table, given(read), tuple(read.operating_points), read.solver.cells)
     moving = ["wire_diameter", "coil_diameter", "preload_angle", "pcl_inner_radius", "pcl_flexural_modulus", "current"]
-    places = [(0, model.index[name]) for name in moving]
-    base = [model.start, np.full(len(model.switch_names), 50.0)]
-    function = of_columns(model.outputs(model.output_names), base, places)
-    random = np.random.default_rng(1)
-    columns = np.array([[model.start[i]] for _, i in places]) * random.uniform(0.99, 1.01, (len(moving), 21))
-    values, expected = Kernel(function)(columns), np.asarray(function(columns))
+    places = [model.index[name] for name in moving]
+    columns = model.start[places, None] * np.random.default_rng(1).uniform(0.99, 1.01, (len(moving), 21))
+    supplied = np.full((len(model.switch_names), 21), 50.0)
+    values = kernel_of(model, model.output_names, moving, model.switch_names)(np.concatenate([columns, supplied]))
+    inputs = np.repeat(model.start[:, None], 21, axis=1)
+    inputs[places] = columns
+    expected = np.asarray(model.outputs(model.output_names)(inputs, supplied))
     for name, ours, theirs in zip(model.output_names, values, expected, strict=True):
         assert ours == pytest.approx(theirs, rel=digits(name, 1e-13), abs=1e-15, nan_ok=True), name
 
 
 def test_arrays_of_any_order_and_workers_give_the_same_bits():
     x = ca.SX.sym("x", 2)
-    kernel = Kernel(ca.Function("f", [x], [x[0] - 2.0 * x[1]]))
+    kernel = Kernel(Tape.of([x], [x[0] - 2.0 * x[1]]))
     columns = np.arange(20.0).reshape(10, 2).T
     assert kernel(columns)[0] == pytest.approx(columns[0] - 2.0 * columns[1])
     with pytest.raises(ValueError, match="takes 2 rows, got 3"):
         kernel(np.zeros((3, 4)))
-    kernel = Kernel(ca.Function("f", [x], [ca.vertcat(ca.exp(x[0]) * ca.log(x[1]), x[0] ** x[1])]))
+    kernel = Kernel(Tape.of([x], [ca.vertcat(ca.exp(x[0]) * ca.log(x[1]), x[0] ** x[1])]))
     columns = np.random.default_rng(2).uniform(0.1, 3.0, (2, 10_007))
     alone = kernel(columns)
     assert alone[1] == pytest.approx(columns[0] ** columns[1], rel=1e-15)

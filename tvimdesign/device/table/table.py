@@ -34,6 +34,7 @@ class Table:
     quantities: tuple[Quantity, ...]
     phases: tuple[Phase, ...] = ()
     by_name: dict[str, Quantity] = field(init=False, repr=False)
+    mode: str = field(init=False, default="")  # The mode it was made for by the package's own equations, if it was
 
     def __post_init__(self) -> None:
         """Index the quantities; raise ValueError for a name that is doubled or unknown, a circle or an unread input."""

@@ -15,7 +15,7 @@ from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.working_cycle.current_profile import Array, CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator, Trajectory
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
-from tvimdesign.simulation.working_cycle.phase_functions import SHOWN, PhaseFunctions
+from tvimdesign.simulation.working_cycle.phase_functions import FRACTIONS, SHOWN, TEMPERATURES
 
 MEMORY = "melt_memory"
 HISTORIES = 5  # Solid fractions, equally spaced from the least to the largest, whose extremes are taken
@@ -168,16 +168,12 @@ def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory,
     Stiffness and damping are those of the joint at the frequency of the operating point where the phase leads; energy
     is what the supply gave since the phase began.
     """
-    states, times = trajectory.states, trajectory.times
-    currents = trajectory.currents[None, :]
-    columns = np.repeat(inputs[:, None], len(times), axis=1)
-    compiled = model.phases[phase]
-    temperatures = np.asarray(compiled.temperatures.map(len(times))(states, currents, columns)) - ZERO_CELSIUS
-    frozen = np.mean(np.asarray(compiled.fractions.map(len(times))(states, currents, columns)), axis=0)
-    names = temperature_names(model, inputs, compiled)
-    history = dict(zip(names, temperatures.tolist(), strict=True))
-    watched = compiled.watch(["impedance_now", *SHOWN.values()]).map(len(times))(states, currents, columns)
-    drawn = dict(zip(("joint_impedance", *SHOWN), np.asarray(watched), strict=True))
+    times, names = trajectory.times, temperature_names(model, inputs, phase)
+    wanted = (TEMPERATURES, FRACTIONS, "impedance_now", *SHOWN.values())
+    seen = model.engines[phase].at_instants(wanted, inputs, trajectory.states, trajectory.currents)
+    kelvin, solid, shown = np.split(seen, [len(names), len(names) + model.cells])
+    history, frozen = dict(zip(names, (kelvin - ZERO_CELSIUS).tolist(), strict=True)), np.mean(solid, axis=0)
+    drawn = dict(zip(("joint_impedance", *SHOWN), shown, strict=True))
     power = drawn["electrical_power"]
     energy = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(times))])
     more = {"current": trajectory.currents, "frozen": frozen, **drawn,
@@ -185,14 +181,13 @@ def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory,
     return {"time": times.tolist(), **history, **{name: column.tolist() for name, column in more.items()}}
 
 
-def temperature_names(model: DeviceFunctions, inputs: Array, compiled: PhaseFunctions) -> list[str]:
+def temperature_names(model: DeviceFunctions, inputs: Array, phase: str) -> list[str]:
     """Return a name for each of a phase's temperatures, in their order."""
     depth = [f"cell_{i + 1}" for i in range(model.cells)]
     plate = [f"rotor_{i + 1}" for i in range(int(inputs[model.index["rotor_cells"]]))]
     names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate]
-    beside, around = compiled.bodies
-    names += [*(f"rotor_beside_{i + 1}" for i in range(beside - 1)), "core_and_link"]
-    names += ["sink"] * (compiled.temperatures.numel_out(0) - len(names) - around)
+    beside, around, sinks = model.engines[phase].bodies
+    names += [*(f"rotor_beside_{i + 1}" for i in range(beside - 1)), "core_and_link", *["sink"] * sinks]
     return [*names, *(f"beside_pads_{i + 1}" for i in range(around - 1)), "housing"]
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -17,10 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.record import Record
-from tvimdesign.device import Table
+from tvimdesign.device import Phase, Table
+from tvimdesign.device.table.table import AS_DRAWN
+from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
+from tvimdesign.simulation.working_cycle.recordings import Recordings
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.study import Study, brought_along, given
 from tvimdesign.study.design import Design
@@ -115,16 +118,28 @@ class DeviceFunctions:
     @built_once
     def phases(self) -> dict[str, PhaseFunctions]:
         """Return every phase of the working cycle by name, in the order they are gone through."""
-        inputs, known = self._symbols[0], self._settled
-        return {
-            phase.name: PhaseFunctions(self.table, phase, inputs, known, self.cells, self.names)
-            for phase in self.table.phases
-        }
+        return {phase.name: self._phase(phase) for phase in self.table.phases}
+
+    def _phase(self, phase: Phase) -> PhaseFunctions:
+        return PhaseFunctions(self.table, phase, self._symbols[0], lambda: self._settled, self.cells, self.names)
+
+    def _engine(self, phase: PhaseFunctions) -> PhaseEngine:
+        return PhaseEngine(phase, self.recordings(["stack_now", "ambient_temperature", *phase.quantities], phase.phase))
+
+    def recordings(self, wanted: Iterable[str], *more: Any) -> Recordings:
+        """Return what is recorded of some quantities; `more` tells them apart from others of the same names."""
+        if not self.table.mode:
+            return Recordings("")
+        read = frozenset[str]().union(*(self.table.ancestors(name) for name in wanted))
+        words = {name: word for name, word in self.words.items() if name in read or name == AS_DRAWN}
+        return Recordings(repr(
+            (self.table.mode, self.names, words, self.points, self.cells, self._rotor_cells, self._apart, *more)
+        ))  # fmt: skip
 
     @built_once
     def engines(self) -> dict[str, PhaseEngine]:
         """Return the engine of every phase by name; what one records serves all who step this device."""
-        return {name: PhaseEngine(phase) for name, phase in self.phases.items()}
+        return {name: self._engine(phase) for name, phase in self.phases.items()}
 
     @built_once
     def either_way(self) -> PhaseFunctions:
@@ -132,13 +147,12 @@ class DeviceFunctions:
 
         It melts `melting_time` behind the equilibrium curve, which the first phase follows.
         """
-        phase = replace(self.table.phases[0], history=True)
-        return PhaseFunctions(self.table, phase, self._symbols[0], self._settled, self.cells, self.names)
+        return self._phase(replace(self.table.phases[0], history=True))
 
     @built_once
     def either_way_engine(self) -> PhaseEngine:
         """Return the engine of that phase."""
-        return PhaseEngine(self.either_way)
+        return self._engine(self.either_way)
 
     @built_once
     def output_names(self) -> list[str]:
@@ -168,6 +182,16 @@ class DeviceFunctions:
         written = ca.densify(ca.cse(ca.vertcat(*(values[name] for name in wanted))))
         return ca.Function("outputs", [*self._symbols[:2]], [written])
 
+    def dependence(self, wanted: Sequence[str]) -> list[tuple[str, str]]:
+        """Return the pairs of a wanted output and an input that it depends on, with these records and options."""
+        key = " ".join(["dependence of", *wanted])
+
+        def record() -> list[NDArray[Any]]:
+            return [np.array(self.outputs(wanted).jac_sparsity(0, 0).get_triplet(), dtype=np.int64)]
+
+        (places,) = self.recordings(wanted).arrays(key, record)
+        return [(wanted[row], self.names[column]) for row, column in places.T.tolist()]
+
     def values(self, inputs: NDArray[np.float64], cycle: Mapping[str, float]) -> dict[str, float]:
         """Return every output in SI by full name."""
         return self.some_values(self.output_names, inputs, cycle)
@@ -178,9 +202,16 @@ class DeviceFunctions:
         """Return the wanted outputs in SI: quicker than all of them on a first call."""
         if not wanted:
             return {}
-        vector = [cycle[name] for name in self.switch_names]
-        numbers = np.asarray(self.outputs(wanted)(inputs, vector)).ravel()
-        return dict(zip(wanted, (float(number) for number in numbers), strict=True))
+        (numbers,) = self.tape(wanted).values(inputs, np.array([cycle[name] for name in self.switch_names]))
+        return dict(zip(wanted, numbers.tolist(), strict=True))
+
+    def tape(self, wanted: Sequence[str]) -> Tape:
+        """Return the wanted outputs, recorded: of the inputs and of what the cycle supplies."""
+        key = " ".join(["tape of", *wanted])
+        tape: Tape = self.built(
+            key, lambda: self.recordings(wanted).tapes(key, 1, lambda: [Tape.of_function(self.outputs(wanted))])[0]
+        )
+        return tape
 
     def built(self, key: str, build: Callable[[], Any]) -> Any:
         """Return what a key stands for, built when first asked for, for all devices of one structure."""

@@ -4,16 +4,17 @@ A direction says how the inputs move: a column of `along`, a row an input. The p
 `phase_run` steps it.
 """
 
-from collections.abc import Collection
-from functools import cached_property
+from collections.abc import Collection, Sequence
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.engine.integrator import Motion
 from tvimdesign.engine.interpreter import Array
-from tvimdesign.engine.lanes import lanes_of
+from tvimdesign.engine.lanes import evaluate, lanes_of
 from tvimdesign.engine.tape import Tape
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
@@ -22,6 +23,7 @@ from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, Instant, PhaseOutputs
 from tvimdesign.simulation.working_cycle.phase_results import PhaseResults
 from tvimdesign.simulation.working_cycle.phase_run import PhaseRun
+from tvimdesign.simulation.working_cycle.recordings import Recordings
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 
 _NONE = np.zeros(0)
@@ -38,20 +40,44 @@ class Watch(NamedTuple):
 class PhaseEngine:
     """One phase, recorded when it is first asked for; `inputs` is a vector in the order of the model's names."""
 
-    def __init__(self, phase: PhaseFunctions) -> None:
-        self.phase = phase
+    def __init__(self, phase: PhaseFunctions, recordings: Recordings) -> None:
+        self.phase, self._recordings = phase, recordings
         self.integrals = [row.name for row in phase.paths if row.reduce == "integral"]
-        self.size = phase.state_size
-        self.lip = 0 if phase._stack.lip is None else 2
-        """Temperatures of the lip, which has no heat capacity: unknowns beside the state."""
+        numbers, self._heavy = recordings.arrays("sizes", self._sizes)
+        self.size, self.lip, *self.bodies = numbers.tolist()
+        """Count of the state's entries; of temperatures of the lip, which has no heat capacity: unknowns beside the
+        state; of bodies beside the plate, core and link last, of those around the pads, the housing last; of sinks."""
         self._watches: dict[tuple[str, ...], Watch] = {}
         self._lanes: dict[tuple[str, ...], Array] = {}
         place = phase.input_names.index(phase.phase.current_input)
         self._current_place = place
 
+    def _sizes(self) -> list[NDArray[Any]]:
+        """Return counts, and which of the phase's quantities take most of the work."""
+        stack = self.phase._stack
+        bodies = len(stack.beside), len(stack.around), 1 if stack.sink else 0
+        counts = self.phase.state_size, 2 if stack.lip else 0, *bodies
+        heavy = [ca.n_nodes(ca.SX(self.phase._instant[name])) > MANY for name in self._rows]
+        return [np.array(counts), np.array(heavy, dtype=bool)]
+
+    @property
+    def _rows(self) -> list[str]:
+        return [row.name for row in (*self.phase.events, *self.phase.paths, *self.phase.steadies)]
+
+    @cached_property
+    def network(self) -> Tape:
+        """Record conductances and capacities of the bodies, and conductances of the links between them."""
+        return self._recordings.tapes("network", 1, lambda: [Tape.of([self.phase._inputs], self.phase.network)])[0]
+
     @cached_property
     def recorded(self) -> tuple[Motion, Tape]:
         """The equation of motion, and what it takes from the inputs: constants, unit of time, first state."""
+        arrays = self._recordings.arrays(
+            "motion", lambda: [*(array for part in self._motion() for array in part.arrays())]
+        )
+        return Motion.of_arrays(arrays), Tape.of_arrays(arrays)
+
+    def _motion(self) -> tuple[Motion, Tape]:
         phase, lip = self.phase, ca.SX.sym("lip", self.lip)
         stack = phase._stack
         if self.lip:
@@ -65,7 +91,7 @@ class PhaseEngine:
         y = ca.vertcat(phase._state, lip, ca.SX.sym("integrals", len(self.integrals)))
         mass = np.ones(y.numel())
         mass[self.size : self.size + self.lip] = 0.0
-        motion = Motion(y, phase._drive, k, value, ca.jacobian(value, y), mass)
+        motion = Motion.of(y, phase._drive, k, value, ca.jacobian(value, y), mass)
         current = phase.phase.sign * symbols(phase._inputs)[self._current_place]
         first = phase._initial(phase._stack._replace(freezing=None))
         given = Tape.of([phase._inputs], [constants, _heating_time(phase._stack, current), ca.vertcat(first)])
@@ -74,15 +100,36 @@ class PhaseEngine:
     @cached_property
     def start(self) -> Tape:
         """Record the state that a phase goes on from."""
+        return self._recordings.tapes("start", 1, self._started)[0]
+
+    def _started(self) -> list[Tape]:
         before = ca.SX.sym("before", len(self.phase._initial(self.phase._stack._replace(freezing=None))))
-        return Tape.of([before, self.phase._inputs], [self.phase.begin(before, self.phase._inputs)])
+        return [Tape.of([before, self.phase._inputs], [self.phase.begin(before, self.phase._inputs)])]
 
     def watch(self, *names: str) -> Watch:
         """Record what quantities are at an instant."""
         if names not in self._watches:
-            values = ca.densify(ca.vertcat(*(ca.SX(self.phase._instant[name]) for name in names)))
-            self._watches[names] = Watch(*Tape.parted(self.phase._arguments, [values]))
+            self._watches[names] = Watch(
+                *self._recordings.tapes(f"watch {' '.join(names)}", 2, partial(self._watched, names))
+            )
         return self._watches[names]
+
+    def _watched(self, names: Sequence[str]) -> tuple[Tape, Tape]:
+        values = ca.densify(ca.vertcat(*(ca.SX(self.phase._instant[name]) for name in names)))
+        return Tape.parted(self.phase._arguments, [values])
+
+    def at_instants(self, names: Sequence[str], inputs: Array, states: Array, currents: Array) -> Array:
+        """Return quantities, one below the other, at instants of one device, a column each."""
+        (constants,) = self.watch(*names).given.values(inputs)
+        return self.evaluated(tuple(names), constants, np.vstack([states[: self.size], currents]))
+
+    def evaluated(self, names: tuple[str, ...], constants: Array, given: Array) -> Array:
+        """Return quantities at instants whose state and current are `given`, with the constants of a run."""
+        tape, w, first = self.watch(*names).at, self.lanes(names), len(given)
+        w[first : tape.arguments[-1]] = constants[:, None]
+        values = np.empty((len(tape.results[0]), given.shape[1]))
+        evaluate(tape.code, w, np.arange(first), given, tape.results[0], values, 0, given.shape[1])
+        return values
 
     def lanes(self, names: tuple[str, ...]) -> Array:
         """Return registers in which these quantities are evaluated at many instants."""
@@ -96,9 +143,8 @@ class PhaseEngine:
 
         What needs the moduli of the layer's slices shares them; all else is a small part of the work.
         """
-        names = [row.name for row in (*self.phase.events, *self.phase.paths, *self.phase.steadies)]
-        heavy = [name for name in names if ca.n_nodes(ca.SX(self.phase._instant[name])) > MANY]
-        groups = (tuple(name for name in names if name not in heavy), tuple(heavy))
+        rows = list(zip(self._rows, self._heavy.tolist(), strict=True))
+        groups = (tuple(name for name, heavy in rows if heavy == of) for of in (False, True))
         return {name: (group, place) for group in groups for place, name in enumerate(group)}
 
     def run(

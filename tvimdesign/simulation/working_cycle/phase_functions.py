@@ -12,15 +12,18 @@ from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 
 SHOWN = {"joint_stiffness": "stiffness_now", "joint_damping": "damping_now", "electrical_power": "electrical_power"}
 """Quantities of an instant that a phase is drawn with, by the name of their column."""
+TEMPERATURES, FRACTIONS = "temperatures", "fractions"
+"""Names of all temperatures of an instant [K], and of the solid fraction of each cell of the polymer."""
 
 
 class PhaseFunctions:
     """One phase of a device with its records chosen. Functions are built when first asked for and kept."""
 
     def __init__(
-        self, table: Table, phase: Phase, inputs: Any, known: dict[str, Any], cells: int, input_names: Sequence[str]
-    ) -> None:
-        """Build the functions. `known` holds every given quantity, numbers as entries of the symbol `inputs`.
+        self, table: Table, phase: Phase, inputs: Any, given: Callable[[], dict[str, Any]], cells: int,
+        input_names: Sequence[str],
+    ) -> None:  # fmt: skip
+        """Write nothing yet. `given` returns every given quantity, numbers as entries of the symbol `inputs`.
 
         `cells` divides the polymer.
         """
@@ -32,19 +35,27 @@ class PhaseFunctions:
         self.steadies = tuple(row for row in table.supplied if isinstance(row, Steady) and row.phase == phase.name)
         self._inputs = inputs
         self._drive = ca.SX.sym("drive_current")
-        self._known = {**known, PHASE: phase, DRIVE: symbols(self._drive)[0]}
+        self._given = given
         self._cells = cells
         self._watched: dict[tuple[str, ...], Any] = {}  # Functions of what is wanted (`watch`)
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of all that is written of an instant."""
+        rows = [row.name for row in (*self.events, *self.paths, *self.steadies)]
+        helpers = (
+            "stack_profile", "layer_surroundings", "end_places", "layer_temperatures", "state_rates", "impedance_now",
+        )  # fmt: skip
+        return [*(name for name in helpers if name in self.table.by_name), *SHOWN.values(), *rows]
+
+    @cached_property
+    def _known(self) -> dict[str, Any]:
+        return {**self._given(), PHASE: self.phase, DRIVE: symbols(self._drive)[0]}
 
     @cached_property
     def _stack(self) -> heat.Stack:
         stack: heat.Stack = self.table.evaluate_instant(self._known, ["stack_now"])["stack_now"]
         return stack
-
-    @property
-    def bodies(self) -> tuple[int, int]:
-        """Count of bodies beside the plate, core and link last, and of those around the pads, the housing last."""
-        return len(self._stack.beside), len(self._stack.around)
 
     @cached_property
     def _state(self) -> Any:
@@ -57,12 +68,10 @@ class PhaseFunctions:
 
     @cached_property
     def _instant(self) -> dict[str, Any]:
-        rows = [row.name for row in (*self.events, *self.paths, *self.steadies)]
-        helpers = (
-            "stack_profile", "layer_surroundings", "end_places", "layer_temperatures", "state_rates", "impedance_now",
-        )  # fmt: skip
-        wanted = (*(name for name in helpers if name in self.table.by_name), *SHOWN.values(), *rows)
-        return self.table.resolve_instant(self._written, wanted)
+        instant = self.table.resolve_instant(self._written, self.quantities)
+        seen = instant["stack_profile"]
+        temperatures = [seen.cold, seen.hot, seen.near, seen.cells, seen.far, seen.plate, seen.beside, seen.sink]
+        return instant | {TEMPERATURES: ca.vertcat(*temperatures, seen.around), FRACTIONS: seen.fractions}
 
     @property
     def _arguments(self) -> list[Any]:
@@ -72,26 +81,21 @@ class PhaseFunctions:
     def _function(self, name: str, values: Iterable[Any]) -> Any:
         return ca.Function(name, self._arguments, [ca.vertcat(*values)])
 
-    @cached_property
-    def lumps(self) -> Any:
-        """The function inputs -> conductance [W/K] and capacity [J/K] of every body around the layer, sink included.
+    @property
+    def network(self) -> tuple[Any, Any]:
+        """Expressions for bodies and links.
 
-        One that is not above zero belongs to no module, as where the core is wider than the layer's inner edge; its
-        temperature runs away.
+        First conductance [W/K] and capacity [J/K] of every body around the layer, sink included. One that is not above
+        zero belongs to no module, as where the core is wider than the layer's inner edge; its temperature runs away.
+        Then the conductance [W/K] of every link between them; one that corrects another may be below zero. Those to
+        the air only correct what surfaces lose.
         """
         sink = (self._stack.sink,) if self._stack.sink else ()
         chained = (*self._stack.beside, *sink)
         numbers = [part.conductance for part in chained]
         numbers += [body.capacity for body in (*chained, *self._stack.around)]
-        return ca.Function("lumps", [self._inputs], [ca.vertcat(*numbers)])
-
-    @cached_property
-    def links(self) -> Any:
-        """The function inputs -> conductance [W/K] of every link between them; one that corrects another may be below
-        zero. Those to the air only correct what surfaces lose.
-        """
-        links = [link for link in self._stack.links if link.second != AMBIENT]
-        return ca.Function("links", [self._inputs], [ca.vertcat(*(link.conductance for link in links))])
+        links = [link.conductance for link in self._stack.links if link.second != AMBIENT]
+        return ca.vertcat(*numbers), ca.vertcat(*links)
 
     @cached_property
     def initial(self) -> Any:
@@ -146,14 +150,7 @@ class PhaseFunctions:
     @cached_property
     def temperatures(self) -> Any:
         """The function -> temperatures [K]: cold, hot, near face, cells, far face, plate, beside, sink, around."""
-        seen = self._instant["stack_profile"]
-        ends = [seen.plate, seen.beside, seen.sink, seen.around]
-        return self._function("temperatures", [seen.cold, seen.hot, seen.near, seen.cells, seen.far, *ends])
-
-    @cached_property
-    def fractions(self) -> Any:
-        """The function -> solid fraction of each cell of the polymer."""
-        return self._function("fractions", [self._instant["stack_profile"].fractions])
+        return self._function(TEMPERATURES, [self._instant[TEMPERATURES]])
 
     def _parted(self, expression: Any) -> tuple[Any, Any, Any]:
         """Replace subexpressions of the inputs alone by symbols; return the expression and these symbols."""

@@ -17,7 +17,6 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.engine.integrator import STAGES, TIMES, Motion, advance, pursue, step
 from tvimdesign.engine.interpreter import Array
-from tvimdesign.engine.lanes import evaluate
 from tvimdesign.engine.vectors import LANES
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid, Instant, hermite
@@ -181,13 +180,10 @@ class PhaseRun:
 
     def values(self, group: tuple[str, ...], passed: Sequence[Instant]) -> Array:
         """Return quantities that are recorded together, a column each, at some instants, a row each."""
-        tape, w, size = self.of.watch(*group).at, self.of.lanes(group), self.of.size
-        w[size + 1 : tape.arguments[-1]] = self._constants_of(group)[0][:, None]
-        given, values = np.empty((size + 1, len(passed))), np.empty((len(group), len(passed)))
-        given[:size] = np.array([instant.state for instant in passed]).T[:size]
-        given[size] = [instant.current for instant in passed]
-        evaluate(tape.code, w, np.arange(size + 1), given, tape.results[0], values, 0, len(passed))
-        return values.T
+        given = np.empty((self.of.size + 1, len(passed)))
+        given[:-1] = np.array([instant.state for instant in passed]).T[: self.of.size]
+        given[-1] = [instant.current for instant in passed]
+        return self.of.evaluated(group, self._constants_of(group)[0], given).T
 
     def _values(self, group: tuple[str, ...], y: Array, current: float) -> Array:
         (values,) = self.of.watch(*group).at.values(

@@ -8,7 +8,6 @@ from collections.abc import Collection, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -42,9 +41,7 @@ class BatchModel:
         supplied = [name for name in model.switch_names if name in needed]
         self.cycle = CycleKernel(model, moving, supplied) if supplied else None
         names = self.cycle.names if self.cycle else ()
-        seen = np.ones(len(model.switch_names))
-        places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
-        self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
+        self._arithmetic = kernel_of(model, outputs, moving, names)
         self._places = [model.index[name] for name in moving]
         self._simulator = Simulator(model, _LOOSE, samples=2)
 
@@ -91,17 +88,16 @@ _BLOCK = 4096  # Designs a thread takes at a time: some milliseconds of work
 
 
 class Kernel:
-    """A function of vectors, recorded to run down columns of designs."""
+    """A tape that runs down columns of designs."""
 
-    def __init__(self, function: Any) -> None:
-        """Record. Raises ValueError for an operation that the interpreter does not know."""
-        scalar = function if function.is_a("SXFunction") else function.expand()
-        arguments = [ca.densify(argument) for argument in scalar.sx_in()]
-        results = [ca.densify(result) for result in scalar.call(arguments, True, False)]
-        self._tape = Tape.of(arguments, results)
-        self._places = np.arange(self._tape.arguments[-1])
-        self._results = np.concatenate(self._tape.results)
-        self.rows_in, self.rows_out = len(self._places), len(self._results)
+    def __init__(self, tape: Tape, *constants: Array) -> None:
+        """Take a tape; its last arguments may be `constants`, the same for all designs."""
+        self.rows_in = int(tape.arguments[-1 - len(constants)])
+        registers = tape.registers.copy()
+        registers[self.rows_in : tape.arguments[-1]] = np.concatenate([np.zeros(0), *constants])
+        self._tape, self._places = replace(tape, registers=registers), np.arange(self.rows_in)
+        self._results = np.concatenate(tape.results)
+        self.rows_out = len(self._results)
 
     def __call__(self, columns: Array, workers: int = 1) -> Array:
         """Evaluate: one row for each scalar of all arguments, one column a design, to rows of results."""
@@ -125,13 +121,18 @@ class Kernel:
         return results
 
 
-def of_columns(function: Any, base: Sequence[Array], moving: Sequence[tuple[int, int]]) -> Any:
-    """Return a function of some entries of its arguments; all others are constants that are folded in.
+def kernel_of(model: DeviceFunctions, outputs: Sequence[str], moving: Sequence[str], supplied: Sequence[str]) -> Kernel:
+    """Return outputs as a function of some inputs, then of some of what the cycle supplies; other inputs stay."""
 
-    `base` are the arguments' values, `moving` the (argument, entry) that stay free, in the order of the new vector.
-    """
-    free = ca.SX.sym("moving", len(moving))
-    arguments = [ca.SX(ca.DM(np.asarray(values))) for values in base]
-    for i, (argument, entry) in enumerate(moving):
-        arguments[argument][entry] = free[i]
-    return ca.Function("moving", [free], function.call(arguments, True, False))
+    def record() -> tuple[Tape, Tape]:
+        free, rest = ca.SX.sym("free", len(moving) + len(supplied)), ca.SX.sym("rest", len(model.names))
+        inputs, cycle = ca.SX(rest), ca.SX.ones(len(model.switch_names))
+        for i, name in enumerate(moving):
+            inputs[model.index[name]] = free[i]
+        for i, name in enumerate(supplied, start=len(moving)):
+            cycle[model.switch_names.index(name)] = free[i]
+        return Tape.parted([free, rest], model.outputs(outputs).call([inputs, cycle], True, False), inverses=False)
+
+    key = f"{' '.join(outputs)} by {' '.join(moving)} and {' '.join(supplied)}"
+    constants, tape = model.recordings(outputs).tapes(key, 2, record)
+    return Kernel(tape, *constants.values(model.start))

@@ -179,10 +179,8 @@ def _of_it_alone(study: Study, model: MixedDevice, limits: Sequence[Constraint],
     outputs = list(dict.fromkeys(limit.output for limit in without_cycle))
     free = {name for name in study.vary if isinstance(study.table.quantity(name), Input)}
     free |= {name for other in model.mixtures if other is not mixture for name in other.shares}
-    rows, columns = model.outputs(outputs).jac_sparsity(0, 0).get_triplet()
-    names = [model.names[column] for column in columns]
-    moved = {outputs[row] for row, name in zip(rows, names, strict=True) if name in free}
-    own = {outputs[row] for row, name in zip(rows, names, strict=True) if name in mixture.shares}
+    pairs = model.dependence(outputs)
+    moved, own = ({output for output, name in pairs if name in those} for those in (free, mixture.shares))
     return [limit for limit in without_cycle if limit.output in own - moved]
 
 

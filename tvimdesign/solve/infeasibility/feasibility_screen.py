@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.interrupts import raise_pending
+from tvimdesign.solve.batch.batch_model import Kernel
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
 from tvimdesign.solve.nlp.decision_vector import DecisionVector, ExtendedProblem
 from tvimdesign.solve.nlp.mixture import shared
@@ -36,7 +37,7 @@ class FeasibilityScreen:
         self._optimizer, self._problem, self._vector = optimizer, problem, DecisionVector(problem, optimizer.model)
         parameters = Parameters(optimizer.model.start, np.zeros(0), np.zeros((0, 0)))
         self._programme = ExtendedProblem(problem, parameters)
-        self._outputs: Any = optimizer.model.outputs(problem.wanted) if limits else None
+        self._outputs = Kernel(problem.outputs)
 
     @cached_property
     def _solver(self) -> SqpSolver:
@@ -76,13 +77,11 @@ class FeasibilityScreen:
         Margins for what spreads are left out.
         """
         model, problem, count = self._optimizer.model, self._problem, unknowns.shape[1]
-        if self._outputs is None:
-            return np.zeros((0, count))
         inputs = np.repeat(model.start[:, None], count, axis=1)
         for free, row in zip(problem.free, unknowns, strict=True):
             inputs[model.index[free.name]] = free.to_value(row)
         cycle = np.full((len(model.switch_names), count), np.nan)  # read by none of them
-        values = np.asarray(self._outputs(inputs, cycle)).reshape(len(problem.wanted), count)
+        values = self._outputs(np.concatenate([inputs, cycle]))
         return np.array([limit.residual(values[problem.wanted.index(limit.output)]) for limit in problem.limits])
 
     def impossible(self, within: Mapping[str, Ends], begins: Sequence[Array]) -> bool:

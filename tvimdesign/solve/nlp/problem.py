@@ -88,11 +88,9 @@ class Problem:
         self._last_modelled: deque[tuple[bytes, dict[str, Grid], Point]] = deque(maxlen=REMEMBERED)
 
     @cached_property
-    def _outputs(self) -> Tape:
-        """The wanted outputs, recorded once for a structure: of inputs and of what the cycle supplies."""
-        function = self.model.outputs(self.wanted)
-        tape: Tape = self.model.built(" ".join(["tape of", *self.wanted]), lambda: Tape.of_function(function))
-        return tape
+    def outputs(self) -> Tape:
+        """The wanted outputs, recorded: of inputs and of what the cycle supplies."""
+        return self.model.tape(self.wanted)
 
     @cached_property
     def _limit_rows(self) -> tuple[NDArray[np.int64], Array, Array]:
@@ -149,7 +147,7 @@ class Problem:
         values, slopes = np.zeros(0), np.zeros((0, len(x)))
         if self.wanted:
             numbers = np.where(np.isfinite(cycle), cycle, np.nan)
-            ((values, slopes),) = self._outputs.tangents([inputs, numbers], [along, of_cycle])
+            ((values, slopes),) = self.outputs.tangents([inputs, numbers], [along, of_cycle])
         rows, jacobian = [], []
         for current in self.free_currents:
             phase = driven.get(current.phase)

@@ -124,11 +124,13 @@ class Multistart:
         return self._links(self.model.start) <= 0.0
 
     def _bodies(self, inputs: Array) -> bool:
-        return all(np.all(np.asarray(self.model.phases[name].lumps(inputs)) > 0.0) for name in self.problem.phases)
+        return all(np.all(bodies > 0.0) for bodies, _ in self._networks(inputs))
 
     def _links(self, inputs: Array) -> Array:
-        links = [np.asarray(self.model.phases[name].links(inputs)).ravel() for name in self.problem.phases]
-        return np.concatenate(links) if links else np.zeros(0)
+        return np.concatenate([np.zeros(0), *(links for _, links in self._networks(inputs))])
+
+    def _networks(self, inputs: Array) -> list[list[Array]]:
+        return [self.model.engines[name].network.values(inputs) for name in self.problem.phases]
 
     def trial(self, inputs: Array) -> dict[str, float] | None:
         """Return the outputs of the switch at a point; None if it does not end, or is over before it starts.

@@ -133,11 +133,9 @@ class Optimizer:
 
     def _constant(self, limits: list[Constraint]) -> list[Constraint]:
         """Return the limits that no free number changes, by the table or with these records and options."""
-        free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
+        free = {*(f.name for f in self.free), *(current.row for current in self.currents)}
         outputs = list(dict.fromkeys(limit.output for limit in limits if not on_cycle(self.table, limit.output)))
-        rows, columns = self.model.outputs(outputs).jac_sparsity(0, 0).get_triplet()
-        places = {self.model.index[name] for name in free}
-        moved = {outputs[row] for row, column in zip(rows, columns, strict=True) if column in places}
+        moved = {output for output, name in self.model.dependence(outputs) if name in free}
         return [limit for limit in limits if limit.output in outputs and limit.output not in moved]
 
     def _begin(self) -> None:

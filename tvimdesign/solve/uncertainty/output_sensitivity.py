@@ -7,10 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Simulated, Table
-from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.cycle import CycleEngine
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions, ResolvedModule
-from tvimdesign.simulation.working_cycle.symbols import ca
 
 Array = NDArray[np.float64]
 
@@ -58,9 +56,7 @@ class OutputDerivatives:
         above = {name: {name.partition("@")[0], *model.table.ancestors(name)} for name in outputs}
         self.supplied = {name: behind & set(model.switch_names) for name, behind in above.items()}
         """What each output needs of the cycle."""
-        inputs, cycle = ca.SX.sym("inputs", len(model.names)), ca.SX.sym("cycle", len(model.switch_names))
-        values = model.outputs(self.outputs).call([inputs, cycle], True, False)[0]
-        self._tape, self._engine = Tape.of([inputs, cycle], [ca.densify(values)]), CycleEngine(model, fineness)
+        self._tape, self._engine = model.tape(self.outputs), CycleEngine(model, fineness)
 
     def at(self, inputs: Array, by: Sequence[str]) -> tuple[Array, Array, set[str]]:
         """Return values, derivatives (a column an input), and what the cycle does not supply at a design's inputs.

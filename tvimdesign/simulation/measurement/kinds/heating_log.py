@@ -21,6 +21,7 @@ from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, resolve_measured, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+from tvimdesign.simulation.working_cycle.curves import temperature_names
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.symbols import ca
@@ -239,14 +240,11 @@ class LoggedModule:
     @property
     def places(self) -> dict[str, int]:
         """Row of `PhaseFunctions.temperatures` of each place a thermocouple may be at."""
-        phase, cells = self._model.phases["softening"], self._model.cells
-        plate = int(self._model.start[self._model.index["rotor_cells"]])
-        beside, around = phase.bodies
-        far = 3 + cells
-        link = far + plate + beside
-        size = phase.temperatures.size1_out(0)
-        places = {
-            "cold_temperature": 0, "hot_temperature": 1, "near_face_temperature": 2, "far_face_temperature": far,
-            "rotor_temperature": far + plate, "link_temperature": link, "housing_temperature": size - 1,
+        model = self._model
+        names = temperature_names(model, model.start, "softening")
+        measured = {
+            "cold_temperature": "cold_side", "hot_temperature": "hot_side", "near_face_temperature": "near_face",
+            "far_face_temperature": "far_face", "rotor_temperature": f"rotor_{model.start[model.index['rotor_cells']]:g}",
+            "link_temperature": "core_and_link", "sink_temperature": "sink", "housing_temperature": "housing",
         }  # fmt: skip
-        return places | ({"sink_temperature": link + 1} if size - around > link + 1 else {})
+        return {name: names.index(place) for name, place in measured.items() if place in names}
