@@ -89,12 +89,12 @@ def run_study(
         write_answer(folder, answered)  # nothing that follows can lose it
         _add_uncertainty(answered, progress)
         answered.reported["verdict"] = verdict_of(answered).text
-        write_results(folder, answered)
-        write_summary(answered, folder)
         progress("")
         if not as_json:
             print_result = print_everything if full else print_first_screen
             print_result(answered, wide_console(), time.perf_counter() - began)
+        write_results(folder, answered)
+        write_summary(answered, folder)
         parts = ""
         if making and result.has_design:
             parts = _add_parts(making, answered, command)

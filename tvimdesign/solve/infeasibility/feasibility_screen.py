@@ -82,7 +82,8 @@ class FeasibilityScreen:
             inputs[model.index[free.name]] = free.to_value(row)
         cycle = np.full((len(model.switch_names), count), np.nan)  # read by none of them
         values = self._outputs(np.concatenate([inputs, cycle]))
-        return np.array([limit.residual(values[problem.wanted.index(limit.output)]) for limit in problem.limits])
+        residuals = [limit.residual(values[problem.wanted.index(limit.output)]) for limit in problem.limits]
+        return np.array(residuals).reshape(len(residuals), count)
 
     def impossible(self, within: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
         """Return whether searches from some inputs all end where no step brings the limits nearer, within some ends.

@@ -240,11 +240,11 @@ class LoggedModule:
     @property
     def places(self) -> dict[str, int]:
         """Row of `PhaseFunctions.temperatures` of each place a thermocouple may be at."""
-        model = self._model
+        model, plate = self._model, int(self._model.start[self._model.index["rotor_cells"]])
         names = temperature_names(model, model.start, "softening")
         measured = {
             "cold_temperature": "cold_side", "hot_temperature": "hot_side", "near_face_temperature": "near_face",
-            "far_face_temperature": "far_face", "rotor_temperature": f"rotor_{model.start[model.index['rotor_cells']]:g}",
+            "far_face_temperature": "far_face", "rotor_temperature": f"rotor_{plate}",
             "link_temperature": "core_and_link", "sink_temperature": "sink", "housing_temperature": "housing",
         }  # fmt: skip
         return {name: names.index(place) for name, place in measured.items() if place in names}
