@@ -125,13 +125,13 @@ def kernel_of(model: DeviceFunctions, outputs: Sequence[str], moving: Sequence[s
     """Return outputs as a function of some inputs, then of some of what the cycle supplies; other inputs stay."""
 
     def record() -> tuple[Tape, Tape]:
-        free, rest = ca.SX.sym("free", len(moving) + len(supplied)), ca.SX.sym("rest", len(model.names))
-        inputs, cycle = ca.SX(rest), ca.SX.ones(len(model.switch_names))
+        free, fixed = ca.SX.sym("free", len(moving) + len(supplied)), ca.SX.sym("fixed", len(model.names))
+        inputs, cycle = ca.SX(fixed), ca.SX.ones(len(model.switch_names))
         for i, name in enumerate(moving):
             inputs[model.index[name]] = free[i]
         for i, name in enumerate(supplied, start=len(moving)):
             cycle[model.switch_names.index(name)] = free[i]
-        return Tape.parted([free, rest], model.outputs(outputs).call([inputs, cycle], True, False), inverses=False)
+        return Tape.parted([free, fixed], model.outputs(outputs).call([inputs, cycle], True, False), inverses=False)
 
     key = f"{' '.join(outputs)} by {' '.join(moving)} and {' '.join(supplied)}"
     constants, tape = model.recordings(outputs).tapes(key, 2, record)
