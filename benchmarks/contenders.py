@@ -318,7 +318,7 @@ def aerosandbox(reference: Reference, begin: Array) -> End:
 def _heated(reference: Reference, begin: Array, columns: int) -> Array:
     """Return a simulated trajectory to start the collocation from, which its user needs as much as we do."""
     inputs = reference.inputs(begin)
-    trajectory = Simulator(reference.model).run(inputs, phases=["softening"]).trajectory
+    trajectory = Simulator(reference.model).run(inputs, phases=["softening"]).trajectories["softening"]
     return trajectory.at(np.linspace(0.0, 1.0, columns + 1)[1:])
 
 

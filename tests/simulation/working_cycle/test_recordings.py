@@ -1,4 +1,4 @@
-"""What is recorded of equations, from the user's cache."""
+"""Recordings of equations in the user's cache."""
 
 from dataclasses import replace
 
@@ -42,7 +42,7 @@ def test_stored_tapes_compute_to_the_bit_what_recorded_ones_do(tapes):
 
 
 @pytest.mark.usefixtures("_cache")
-def test_another_structure_name_or_code_is_recorded_anew(tapes, monkeypatch):
+def test_another_structure_name_or_code_has_records_of_its_own(tapes, monkeypatch):
     Recordings("a").tapes("all", 3, tapes)
     with pytest.raises(RuntimeError):
         Recordings("b").tapes("all", 3, _recorded)
@@ -75,10 +75,10 @@ def test_what_has_one_name_has_one_record(name, monkeypatch):
         STRUCTURES.forget()
         changed = {**known, choice: option} if choice else known
         model = DeviceFunctions(table, changed, tuple(study.operating_points), study.solver.cells)
-        tape = Tape.of_function(model.outputs(COUNTED))
-        seen.setdefault(model.recordings(COUNTED)._structure, []).append([a.tolist() for a in tape.arrays()])
+        arrays = Tape.of_function(model.outputs(COUNTED)).arrays()
+        seen.setdefault(model.recordings(COUNTED)._structure, []).append([array.tolist() for array in arrays])
     assert len(seen) > 2
-    assert all(one == alike[0] for alike in seen.values() for one in alike)
+    assert all(tape == alike[0] for alike in seen.values() for tape in alike)
     assert any(len(alike) > 1 for alike in seen.values())
 
 

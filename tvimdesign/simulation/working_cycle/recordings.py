@@ -1,4 +1,4 @@
-"""What is recorded of a device's equations, from the user's cache: written anew only where they are new.
+"""Recordings of a device's equations in the user's cache, written only where they are new.
 
 A recording is named by the code that writes equations, by the structure of the device, and by what is recorded of it.
 """
