@@ -112,7 +112,7 @@ def _is_private_group(number: int) -> bool:
 
 
 _KIND = "code"
-_MOST = 300  # Files that are kept, a study's kernels being some ten; those not used for the longest go first
+_MOST = 1000  # Files that are kept, a study's being some forty; those not used for the longest go first
 _DIGEST = hashlib.sha256().digest_size
 
 
