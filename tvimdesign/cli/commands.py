@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from typer import Argument, Option
@@ -11,9 +11,6 @@ from typer import Argument, Option
 from tvimdesign.base.errors import InputError
 from tvimdesign.cli import options
 from tvimdesign.cli.design_commands import atlas, compare, explore, robot, simulate, sweep, tolerate, verify
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -54,37 +51,17 @@ def run(
     prove: Annotated[bool, Option("--prove", help="Solve every combination of listed choices as well.")] = False,
     full: Annotated[bool, Option("--full", help="Print the tables, too, as summary.txt has them.")] = False,
     time_limit: options.TimeLimit = "",
-    verified: Annotated[
-        bool, Option("--verify", help="Check the design against finite elements after it, as `verify` does.")
-    ] = False,
-    fe_python: options.FePython = "",
     settings: options.Settings = None,
     json: options.AsJson = False,
 ) -> None:
     """Optimise or evaluate a study; write a folder of results."""
     from tvimdesign.report.run.run_study import run_study
 
-    folder = out or options.default_folder(study)
-    after = _verification(folder, fe_python, overwrite=overwrite, show=not json) if verified else None
     run_study(
-        study, folder, overwrite=overwrite, cad=cad, plots=plots,
+        study, out or options.default_folder(study), overwrite=overwrite, cad=cad, plots=plots,
         prove=prove, resume=resume, full=full, as_json=json,
         settings=options.changes(settings, time_limit),
     )  # fmt: skip
-    if after:
-        after()
-
-
-def _verification(run: Path, fe_python: str, *, overwrite: bool, show: bool) -> Callable[[], None]:
-    """Return a function that verifies a finished run. Raises InputError now where finite elements cannot be had."""
-    import sys
-
-    from tvimdesign.cad.fe.run_solvers import require_fe
-    from tvimdesign.report.verify_design import verify_design
-
-    require_fe(fe_python or sys.executable)
-    out = run.with_name(f"{run.resolve().name}-verified")
-    return lambda: verify_design(run, out, fe_python, overwrite=overwrite, as_json=False, show=show)
 
 
 @app.command()

@@ -110,11 +110,8 @@ TITLES = {
 }  # fmt: skip
 
 
-def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_json: bool, show: bool = True) -> None:
-    """Solve the parts of a design and write the folder.
-
-    Nothing is printed unless `show`. Raises InputError, SimulationError, OutputError.
-    """
+def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_json: bool) -> None:
+    """Solve the parts of a design and write the folder. Raises InputError, SimulationError, OutputError."""
     source = design_file(path)
     design = read_design(source)
     python = fe_python or sys.executable
@@ -128,8 +125,7 @@ def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_
             _write(command, data, rows, solved, Path(work))
         page = verify_page(command, design.name, data, rows)
         command.finish("verified", {"design": source}, design.study, page=page)
-    if show:
-        command.report(data, "report.html with table and pictures is")
+    command.report(data, "report.html with table and pictures is")
 
 
 def verify_page(command: Command, name: str, data: dict[str, Any], rows: list[Compared]) -> Page:

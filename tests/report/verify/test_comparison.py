@@ -2,7 +2,6 @@
 
 import csv
 import math
-import sys
 from typing import Any
 
 import pytest
@@ -13,7 +12,6 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.cad.fe import model_comparison as comparison
 from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
-from tvimdesign.cli import commands
 from tvimdesign.page.page_file import page_html
 from tvimdesign.report import verify_design
 from tvimdesign.report import verify_design as verify_report
@@ -156,27 +154,3 @@ def test_rows_pictures_and_solvers_are_on_the_page_worst_first(tmp_path):
         Compared(f"of_{model:g}", "s", "", model=model, fe=100.0, coarse=100.0) for model in (89.0, 91.0, 109.0, 110.5)
     ]
     assert far(rows) == ["of_89", "of_110.5"]
-
-
-STUDY = "mode: shear\n"
-
-
-def test_what_finite_elements_lack_is_reported_before_the_run(tmp_path, tvimdesign):
-    (tmp_path / "mine.yaml").write_text(STUDY)
-    refused = tvimdesign("run", "mine.yaml", "--verify", "--fe-python", str(tmp_path / "none"), cwd=tmp_path)
-    assert refused.returncode == 2
-    assert "--fe-python" in refused.stderr
-    assert not (tmp_path / "results").exists()
-
-
-def test_the_run_comes_first_and_its_folder_is_verified(monkeypatch, tmp_path):
-    done: list[Any] = []
-    monkeypatch.setattr("tvimdesign.report.run.run_study.run_study", lambda *_, **__: done.append("run"))
-    monkeypatch.setattr("tvimdesign.cad.fe.run_solvers.require_fe", done.append)
-    monkeypatch.setattr(
-        "tvimdesign.report.verify_design.verify_design",
-        lambda path, out, _, **given: done.append((path, out, given["show"])),
-    )
-    out = tmp_path / "wrist"
-    commands.run(tmp_path / "mine.yaml", out=out, verified=True, json=True)
-    assert done == [sys.executable, "run", (out, tmp_path / "wrist-verified", False)]
