@@ -20,7 +20,7 @@ from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.bill_of_materials import Item, as_ordered, beside, bill, fixtures
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
-from tvimdesign.report.output.results_format import results_schema
+from tvimdesign.report.output.tables import results_schema
 from tvimdesign.robot.joint_model import make_bodies
 from tvimdesign.study import Study, read_study
 from tvimdesign.study.conditions import Case, refuse_unequal

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from pint import Quantity
 
-    from tvimdesign.report.output.results_format import LimitEntry, RunResults, UncertaintyEntry
-
 
 StudyT = TypeVar("StudyT")  # The study of Python users, which makes results
 
@@ -44,7 +42,7 @@ class Reasons:
     """Reasons for a design: what the active limits cost, in sentences and as a table of every limit."""
 
     sentences: tuple[str, ...]
-    rows: tuple[LimitEntry, ...]
+    rows: tuple[dict[str, Any], ...]
 
     def table(self) -> pd.DataFrame:
         """Return a table of every limit: its state, its margin, and its cost in each output, in percent a step."""
@@ -145,7 +143,7 @@ class Result(Generic[StudyT]):
         return self._answered.result.design
 
     @property
-    def data(self) -> RunResults:
+    def data(self) -> dict[str, Any]:
         """Everything there is to know, as `results.json` has it."""
         return self._answered.reported
 
@@ -189,7 +187,7 @@ class Result(Generic[StudyT]):
         """
         return cycle_table(self._answered.result.histories)
 
-    def uncertainty(self) -> UncertaintyEntry:
+    def uncertainty(self) -> dict[str, Any]:
         """Return the yield, and intervals over the unmeasured inputs, as `results.json` has them.
 
         Computed when first asked for, in some seconds.
@@ -199,7 +197,8 @@ class Result(Generic[StudyT]):
             from tvimdesign.report.run.uncertainty_data import Uncertainty
 
             note_uncertainty(self._answered, Uncertainty(self._answered.study).data(self.design))
-        return self.data["uncertainty"]
+        entry: dict[str, Any] = self.data["uncertainty"]
+        return entry
 
     def intervals(self) -> pd.DataFrame:
         """Return the intervals of headlines and requirements from unmeasured inputs, and what to measure first.

@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     import pandas as pd
     from pint import Quantity
 
-    from tvimdesign.report.output.numbers import NumberEntry
-    from tvimdesign.report.output.results_format import IntervalEntry
-
 
 def quantity(value_si: float, unit: str) -> Quantity[float]:
     """Return a number in SI as a quantity of pint's application registry, in `unit`.
@@ -78,11 +75,11 @@ def cycle_table(histories: Mapping[str, Curves]) -> pd.DataFrame:
     return frame
 
 
-def interval_table(intervals: Mapping[str, IntervalEntry]) -> pd.DataFrame:
+def interval_table(intervals: Mapping[str, dict[str, Any]]) -> pd.DataFrame:
     """Return what each output may be, by name: all together and one at a time; infinite where it may never happen."""
     import pandas as pd
 
-    def ends(entry: NumberEntry, before: str = "") -> dict[str, float]:
+    def ends(entry: dict[str, Any], before: str = "") -> dict[str, float]:
         return {f"{before}{end}": _never(entry[end]) for end in ("low", "high")}
 
     rows = {

@@ -14,8 +14,7 @@ from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import si_unit, to_si
 from tvimdesign.device import Choice, table_for
 from tvimdesign.report.output.numbers import FORMAT, curves_csv, number_entry, with_unit
-from tvimdesign.report.output.results_format import results_schema
-from tvimdesign.report.output.tables import meaning, results, results_csv, soft_in_words, stiff_in_words
+from tvimdesign.report.output.tables import meaning, results, results_csv, results_schema, soft_in_words, stiff_in_words
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 

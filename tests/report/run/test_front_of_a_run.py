@@ -20,7 +20,7 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import table_for
 from tvimdesign.report.output.plot_process import PlotProcess
-from tvimdesign.report.output.results_format import results_schema
+from tvimdesign.report.output.tables import results_schema
 from tvimdesign.report.run import answered_study
 from tvimdesign.report.run import run_study as module
 from tvimdesign.report.run.blocks.sections import front_section

@@ -1,11 +1,11 @@
 """Tables of choices from lists: the best combinations, the cost of standard sizes, and the proof of the choice."""
 
 from collections.abc import Mapping
+from typing import Any
 
 from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.numbers import NumberEntry, number_entry
-from tvimdesign.report.output.results_format import ChoosingEntry, Listed
+from tvimdesign.report.output.numbers import number_entry
 from tvimdesign.solve.nlp.solution import Choosing, Standard
 from tvimdesign.solve.result import StudyResult
 
@@ -96,7 +96,7 @@ def tally_in_words(choosing: Choosing) -> str:
 
 def choosing_data(
     choosing: Choosing | None, table: Table, own: Mapping[str, str | float] | None = None
-) -> ChoosingEntry | None:
+) -> dict[str, Any] | None:
     """Return the account as plain data; None where nothing is listed. `own`: as of `price_in_words`."""
     if choosing is None:
         return None
@@ -122,8 +122,8 @@ def choosing_data(
     }
 
 
-def _plain(standard: Standard, table: Table) -> Listed:
-    def numbers(values: Mapping[str, str | float]) -> dict[str, str | NumberEntry]:
+def _plain(standard: Standard, table: Table) -> dict[str, Any]:
+    def numbers(values: Mapping[str, str | float]) -> dict[str, str | dict[str, Any]]:
         return {
             name: value if isinstance(value, str) else number_entry(value, table.unit(name))
             for name, value in values.items()

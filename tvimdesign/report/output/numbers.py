@@ -10,10 +10,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
-from typing import Any, Literal
-
-from pydantic import ConfigDict, with_config
-from typing_extensions import TypedDict
+from typing import Any
 
 from tvimdesign.base.record import own_data
 from tvimdesign.base.units import from_si, pretty, si_unit
@@ -57,47 +54,19 @@ def axis_label(name: str, unit: str) -> str:
     return f"{words[0].upper()}{words[1:]} ({shown if shown and shown != '1' else '–'})"
 
 
-FORMAT: Literal[1] = 1
+FORMAT = 1
 """Version of results.json, compare.json, findings.json and tolerances.json; a change that breaks a reader raises it."""
-UNITS: Literal["SI"] = "SI"
 
 
-@with_config(ConfigDict(extra="forbid"))
-class Entry(TypedDict):
-    """An entry that has no other keys than its own."""
-
-
-class Head(Entry):
-    """The first entries of every JSON file of results."""
-
-    format: Literal[1]
-    units: Literal["SI"]
-
-
-def head() -> Head:
+def head() -> dict[str, Any]:
     """Return the first entries of a JSON file of results."""
-    return {"format": FORMAT, "units": UNITS}
-
-
-class InSi(Entry):
-    """A number and what it may lie between, in SI."""
-
-    value: float | None
-    low: float | None
-    high: float | None
-    unit: str
-
-
-class NumberEntry(InSi):
-    """A number in the unit people read, and in SI. `low` and `high` are None where no range is known."""
-
-    si: InSi
+    return {"format": FORMAT, "units": "SI"}
 
 
 Ends = tuple[float | None, float | None]
 
 
-def number_entry(value: float, unit: str, ends: Ends | None = None) -> NumberEntry:
+def number_entry(value: float, unit: str, ends: Ends | None = None) -> dict[str, Any]:
     """Return a number (SI) of a quantity people read in `unit`, with its range (SI) if that is known."""
     low, high = ends or (None, None)
     return {

@@ -3,26 +3,15 @@
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict
-from typing import NamedTuple, cast
+from functools import partial
+from typing import Any, NamedTuple
 
 from tvimdesign.base.errors import CatalogError
-from tvimdesign.base.record import Record
+from tvimdesign.base.record import Record, own_data
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Choice, Input, Table
 from tvimdesign.report.output import numbers
 from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
-from tvimdesign.report.output.results_format import (
-    Answered,
-    CheckEntry,
-    ControlEntry,
-    CoolingEntry,
-    DutyEntry,
-    IdealizationEntry,
-    IntervalEntry,
-    ShareEntry,
-    ValueEntry,
-    Yield,
-)
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.duty import SHARE, ControlResult, DutyResult
 from tvimdesign.solve.nlp.solution import ActiveConstraint
@@ -224,7 +213,7 @@ def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
     return numbers.percent(margin, 2 if abs(margin) < 1.0 else 3)
 
 
-def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | None = None) -> CheckEntry:
+def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | None = None) -> dict[str, Any]:
     """Return one check as plain data; `ends` (SI) where history leaves its output open."""
     margin, margin_unit = margin_of(check, table)
     return {
@@ -238,15 +227,18 @@ def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | 
     }
 
 
-def results(answer: StudyResult, table: Table) -> Answered:
+results_schema = partial(own_data, __file__, "results.schema.yaml")  # The JSON schema of results.json and `run --json`
+
+
+def results(answer: StudyResult, table: Table) -> dict[str, Any]:
     """Return everything a script wants to know: every number in its unit and in SI, every check, how it was found."""
     design, reached = answer.design, answer.solution.yield_reached if answer.solution else None
     find_record, ends = catalog_of(design).record, answer.intervals
 
-    def entries(values: Mapping[str, float]) -> dict[str, ValueEntry]:
+    def entries(values: Mapping[str, float]) -> dict[str, dict[str, Any]]:
         return {name: _entry(name, value, answer, table, find_record) for name, value in values.items()}
 
-    def rows(checks: Iterable[ConstraintCheck]) -> list[CheckEntry]:
+    def rows(checks: Iterable[ConstraintCheck]) -> list[dict[str, Any]]:
         return [check_row(check, table, ends.get(check.output)) for check in checks]
 
     constant = answer.solution.constant if answer.solution else None
@@ -264,20 +256,15 @@ def results(answer: StudyResult, table: Table) -> Answered:
         "accepting": rows(answer.accepted),
         "accepted_in_vain": list(answer.accepted_in_vain),
         "idealizations": [
-            cast("IdealizationEntry", vars(each) | {"as_drawn": number_entries(each.as_drawn, table)})
-            for each in answer.idealizations
+            vars(each) | {"as_drawn": number_entries(each.as_drawn, table)} for each in answer.idealizations
         ],
         "current_profiles": design.current_profiles,
         "at_default_currents": entries(answer.constant_current),
-        "cooling": cast(
-            "CoolingEntry", vars(answer.cooling) | {"unpowered": number_entries(answer.cooling.unpowered, table)}
-        ),
+        "cooling": vars(answer.cooling) | {"unpowered": number_entries(answer.cooling.unpowered, table)},
         "best_constant_currents": (
             {"objective": constant.objective, "values": entries(constant.values)} if constant else None
         ),
-        "yield_reached": (
-            cast("Yield", asdict(reached) | {"nominal": number_entries(reached.nominal, table)}) if reached else None
-        ),
+        "yield_reached": asdict(reached) | {"nominal": number_entries(reached.nominal, table)} if reached else None,
         "choosing": choosing_data(
             answer.solution.choosing if answer.solution else None, table, choices_with_margins(answer)
         ),
@@ -285,12 +272,12 @@ def results(answer: StudyResult, table: Table) -> Answered:
     }
 
 
-def number_entries(values: Mapping[str, float], table: Table) -> dict[str, numbers.NumberEntry]:
+def number_entries(values: Mapping[str, float], table: Table) -> dict[str, dict[str, Any]]:
     """Return numbers (SI) by full name, each in the unit that people read."""
     return {name: numbers.number_entry(value, table.unit(name)) for name, value in values.items()}
 
 
-def duty_entry(duty: DutyResult, table: Table) -> DutyEntry:
+def duty_entry(duty: DutyResult, table: Table) -> dict[str, Any]:
     """Return the result of a duty, with units."""
     return {
         "values": number_entries(duty.values, table),
@@ -302,7 +289,7 @@ def duty_entry(duty: DutyResult, table: Table) -> DutyEntry:
     }
 
 
-def control_entry(control: ControlResult) -> ControlEntry:
+def control_entry(control: ControlResult) -> dict[str, Any]:
     """Return the controller and what it does, with units."""
     return {
         "controller": asdict(control.controller),
@@ -311,12 +298,12 @@ def control_entry(control: ControlResult) -> ControlEntry:
         "hottest_pads": numbers.number_entry(control.hottest_pads, "degC"),
         "settling": control.settling,
         "settling_of_nominal": control.settling_of_nominal,
-        "controlled": cast("ShareEntry", asdict(control.controlled)),
-        "stays_soft": cast("ShareEntry", asdict(control.stays_soft)),
+        "controlled": asdict(control.controlled),
+        "stays_soft": asdict(control.stays_soft),
     }
 
 
-def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> ValueEntry:
+def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> dict[str, Any]:
     design = answer.design
     row, known = table.quantity(name), provenance(name, design, table, find_record)
     return {
@@ -331,7 +318,7 @@ def _entry(name: str, value: float, answer: StudyResult, table: Table, find_reco
     }
 
 
-def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, IntervalEntry] | None = None) -> str:
+def results_csv(entries: Mapping[str, dict[str, Any]], intervals: Mapping[str, dict[str, Any]] | None = None) -> str:
     """Return the values of `results` as CSV, in the units people read, with status, range and source.
 
     `may_be_low` to `may_be_high` are the intervals over unmeasured inputs; `measure_first` carries most of one.

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import Any, cast
+from typing import Any
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
@@ -11,7 +11,6 @@ from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.device import Table
 from tvimdesign.engine.integrator import is_compiled
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
 from tvimdesign.report.output.tables import control_entry, duty_entry, results
 from tvimdesign.report.output.terminal import Progress, duration
 from tvimdesign.report.run.blocks.warnings import RunWarning, warnings_of
@@ -32,7 +31,7 @@ class AnsweredStudy:
     study: Study
     result: StudyResult
     front: FrontOfRun
-    reported: RunResults  # Everything a script wants to know: the content of results.json
+    reported: dict[str, Any]  # Everything a script wants to know: the content of results.json
     failures: list[TvimError] = field(default_factory=list)
     uncertainty: Mapping[str, Any] = field(default_factory=dict)
     """What `Uncertainty.data` returns; empty if it was not computed."""
@@ -98,8 +97,8 @@ def answer_study(
     return answered
 
 
-def _reported(result: StudyResult, table: Table) -> RunResults:
-    reported = cast("RunResults", results(result, table))
+def _reported(result: StudyResult, table: Table) -> dict[str, Any]:
+    reported = results(result, table)
     if result.duty:
         reported["duty"] = duty_entry(result.duty, table)
     if result.control:
@@ -115,16 +114,13 @@ def note_uncertainty(answered: AnsweredStudy, data: Mapping[str, Any]) -> None:
     """Add to what is reported how sure the design is; results.json has it without what only the screen needs."""
     answered.uncertainty = data
     if data:
-        answered.reported["uncertainty"] = cast("UncertaintyEntry", {name: data[name] for name in _OF_RESULTS})
+        answered.reported["uncertainty"] = {name: value for name, value in data.items() if name != "needs"}
 
 
 def note_left_out(answered: AnsweredStudy) -> None:
     """Add to what is reported which steps the time limit left out."""
     if answered.deadline.left_out:
         answered.reported["left_out"] = list(answered.deadline.left_out)
-
-
-_OF_RESULTS = tuple(UncertaintyEntry.__annotations__)
 
 
 def drawings(answered: AnsweredStudy) -> list[Drawing]:

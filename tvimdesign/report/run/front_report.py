@@ -18,7 +18,6 @@ from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import axis_label, csv_text, finite, head
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, OPTIMAL, Run, Trace
@@ -42,7 +41,7 @@ class FrontOfRun:
         self.study, self.table = study, table
         self.outputs: tuple[str, ...] = study.front.of if study.front else ()
         self.front: Front | None = None
-        self.entry: FrontEntry | None = None  # The front as plain data
+        self.entry: dict[str, Any] | None = None  # The front as plain data
         self.optimum: Point | None = None
         self._memory = FolderMemory(folder, study) if study.front and folder else None
         self._built: list[tuple[Optimizer, list[Run]]] = []
@@ -51,7 +50,9 @@ class FrontOfRun:
         """Take what found the study's optimum: the front is sought with it."""
         self._built.append((built, runs))
 
-    def seek(self, result: StudyResult, progress: Progress, reported: RunResults, troubles: list[TvimError]) -> None:
+    def seek(
+        self, result: StudyResult, progress: Progress, reported: dict[str, Any], troubles: list[TvimError]
+    ) -> None:
         """Seek the front; nothing where none is asked for.
 
         Messages go into `reported`, points without a design into `troubles`.
@@ -141,7 +142,7 @@ def ratings_note(above: Sequence[tuple[str, ...]]) -> str:
     return f"points {points} of the front are beyond their rating, which the study does not accept: {named}"
 
 
-def front_csv(front: FrontEntry) -> str:
+def front_csv(front: dict[str, Any]) -> str:
     """Return a line for each point, in units; its yield and the ratings it is beyond, if any point has them."""
     points, rows = front["points"], []
     yields, above = (any(key in point for point in points) for key in ("yield_share", "above_rating"))
@@ -155,7 +156,7 @@ def front_csv(front: FrontEntry) -> str:
     return csv_text(rows, columns, 8)
 
 
-def _head(name: str, front: FrontEntry) -> str:
+def _head(name: str, front: dict[str, Any]) -> str:
     return f"{name} [{front['units_of_values'][name]}]"
 
 
@@ -172,11 +173,11 @@ def plain(
     table: Table,
     yield_shares: Sequence[float] = (),
     above: Sequence[tuple[str, ...]] = (),
-) -> FrontEntry:
+) -> dict[str, Any]:
     """Return the front as plain data, in units and in SI; null is never."""
 
-    def entry(number: int, point: Point) -> FrontPoint:
-        point_entry: FrontPoint = {
+    def entry(number: int, point: Point) -> dict[str, Any]:
+        point_entry: dict[str, Any] = {
             "number": number, "status": status(front, number - 1), "design": f"front/{number:02d}.design.json",
             "values": {name: finite(from_si(point.values[name], table.unit(name))) for name in names},
             "si": {name: finite(point.values[name]) for name in names},

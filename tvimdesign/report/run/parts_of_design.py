@@ -19,7 +19,6 @@ from tvimdesign.cad.cad_report import CadReport, SolidCheck
 from tvimdesign.page.blocks import Block, Cell, Drawn, Folded, Grid, Head, Picture, Section, Steps, Words
 from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.results_format import Parts
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.study.design import Design, write_design
 
@@ -84,7 +83,7 @@ class BackgroundPartsJob:
         return report
 
 
-def plain_report(report: CadReport) -> Parts:
+def plain_report(report: CadReport) -> dict[str, Any]:
     """Return the parts' checks, files and notes as plain data."""
     return {
         "checks": [check.plain() for check in report.checks], "files": list(report.files), "notes": list(report.notes)

@@ -3,12 +3,12 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 from tvimdesign.base.units import pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.choices_tables import choice_text
 from tvimdesign.report.output.numbers import at_its_least, csv_text, finite, label, listed
-from tvimdesign.report.output.results_format import Conflict, LimitEntry, Optimum, SideEntry, Stands, Starts, Why
 from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
 from tvimdesign.solve.infeasibility.conflict_set import MARGIN_WORDS, conflict_in_words
 from tvimdesign.solve.nlp.solution import ActiveConstraint, ConflictSet, Side, Start
@@ -54,9 +54,9 @@ def _sentence(held: ActiveConstraint) -> str:
 _WHY_NOT = "it belongs to the supply, or stands in the same way as another limit"
 
 
-def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
+def why_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
     """Return every limit and end of a range at the optimum: how it stands, its margin, and what a step of it costs."""
-    rows: list[LimitEntry] = []
+    rows: list[dict[str, Any]] = []
     for limit in sorted(answer.solution.held if answer.solution and answer.has_design else (), key=_place):
         margin, unit = margin_of(limit, table)
         rows.append({
@@ -67,7 +67,7 @@ def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
     return rows
 
 
-def _stands(limit: ActiveConstraint) -> Stands:
+def _stands(limit: ActiveConstraint) -> str:
     """Return `slack` of a limit that could be somewhat tighter and change nothing."""
     if limit.shadow_price > PRICE_SHOWN:
         return "active"
@@ -79,7 +79,7 @@ def _place(limit: ActiveConstraint) -> tuple[int, float]:
     return {"active": (0, -limit.shadow_price), "touches": (1, 0.0), "slack": (2, limit.margin)}[_stands(limit)]
 
 
-def why(answer: StudyResult, table: Table) -> Why:
+def why(answer: StudyResult, table: Table) -> dict[str, Any]:
     """Return everything this page says, as plain data; costs are percent of each output for a step of the limit."""
     return {"limits": why_rows(answer, table), "sentences": sentences(answer)}
 
@@ -180,7 +180,7 @@ def endings(starts: Sequence[Start]) -> list[str]:
     return lines
 
 
-def optima(answer: StudyResult) -> list[Optimum]:
+def optima(answer: StudyResult) -> list[dict[str, Any]]:
     """Return every distinct optimum: objective, first start that found it, how many did, free numbers (SI)."""
     solution = answer.solution
     if solution is None:
@@ -196,7 +196,7 @@ def optima(answer: StudyResult) -> list[Optimum]:
     ]
 
 
-def starts_reported(answer: StudyResult) -> Starts:
+def starts_reported(answer: StudyResult) -> dict[str, Any]:
     """Return share of the free starts that converged, every optimum, and what became of the others."""
     starts = answer.solution.free_starts if answer.solution else ()
     failed = [start for start in starts if not start.converged]
@@ -211,7 +211,7 @@ def starts_reported(answer: StudyResult) -> Starts:
     }
 
 
-def conflicts_reported(conflict_set: ConflictSet | None) -> Conflict | None:
+def conflicts_reported(conflict_set: ConflictSet | None) -> dict[str, Any] | None:
     """Return the conflict as plain data, SI; None where there is none."""
     if conflict_set is None:
         return None
@@ -222,7 +222,7 @@ def conflicts_reported(conflict_set: ConflictSet | None) -> Conflict | None:
     }
 
 
-def _plain(side: Side) -> SideEntry:
+def _plain(side: Side) -> dict[str, Any]:
     return {
         "limit": side.text, "origin": side.origin, "broken_by": side.by, "move_to": side.move_words or None,
         "not_enough_for": list(side.beside),

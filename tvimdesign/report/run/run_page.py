@@ -18,10 +18,9 @@ from tvimdesign.cad.cad_report import PREVIEW
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
 from tvimdesign.report.output.command import record_files
-from tvimdesign.report.output.numbers import FORMAT, UNITS, axis_label, curves_csv, name_in_words
+from tvimdesign.report.output.numbers import axis_label, curves_csv, head, name_in_words
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.report.output.results_format import FrontEntry, RefusedRun
 from tvimdesign.report.output.tables import results_csv
 from tvimdesign.report.output.terminal import DOT, Progress
 from tvimdesign.report.run import parts_of_design as parts
@@ -250,7 +249,7 @@ def _rounded(values: Any) -> list[float]:
     return [float(f"{value:.5g}") for value in values]
 
 
-def drawn_front(table: Table, front: FrontEntry) -> Section:
+def drawn_front(table: Table, front: dict[str, Any]) -> Section:
     """Return the front: its points as curves to brush, and as a table with the file of each design."""
     says = (
         "The front: each point, and each line, is a whole design. Drag along an axis of the lower figure, or set "
@@ -302,10 +301,10 @@ def finish(folder: ResultsFolder, answered: AnsweredStudy) -> None:
     folder.finish(result.design.status, inputs, result.design.study, result.seconds)
 
 
-def refused_run(study: Study, error: InfeasibleError) -> RefusedRun:
+def refused_run(study: Study, error: InfeasibleError) -> dict[str, Any]:
     """Return the content of results.json for a study that was refused."""
     return {
-        "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
+        **head(), "name": study.name, "mode": study.mode,
         "status": "infeasible", "feasible": False, "reason": str(error),
     }  # fmt: skip
 

@@ -15,7 +15,6 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.numbers import in_unit, label, number, number_entry, percent, with_unit
-from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp import spread
@@ -100,7 +99,7 @@ class Uncertainty:
         end = float(np.interp(0.0, residuals[order], at[order]))
         return f"{label(main)} {'<=' if rising else '>='} {with_unit(end, self.table.unit(main), 3)}"
 
-    def _entry(self, uncertainty: DesignUncertainty, modules: int) -> UncertaintyEntry:
+    def _entry(self, uncertainty: DesignUncertainty, modules: int) -> dict[str, Any]:
         return {
             "parts_yield": share_entry(uncertainty.together),
             "modules": modules,
@@ -143,7 +142,7 @@ def uncertainty_of(answer: StudyResult, study: Study, deadline: Deadline = NEVER
 
 def interval_entry(
     name: str, interval: Interval, table: Table, before: tuple[float, float] | None = None
-) -> IntervalEntry:
+) -> dict[str, Any]:
     """Return an interval in the unit people read, and in SI, with the one before measurements, if there were any."""
     unit = table.unit(name)
     return {
@@ -155,7 +154,7 @@ def interval_entry(
     }
 
 
-def share_entry(share: Yield | None) -> ShareEntry | None:
+def share_entry(share: Yield | None) -> dict[str, Any] | None:
     """Return a share with its confidence interval as plain data."""
     return None if share is None else {"share": share.share, "low": share.low, "high": share.high}
 

@@ -9,7 +9,6 @@ from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
 from tvimdesign.report.output.numbers import in_labels, percent
 from tvimdesign.report.output.page_sections import number_cell
-from tvimdesign.report.output.results_format import FrontEntry, FrontPoint
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
 from tvimdesign.report.run.reasons import complaint, sentences
@@ -114,7 +113,7 @@ def assumptions_section(answered: AnsweredStudy) -> Section:
     return Section("assumptions", "Assumptions", [tables.intervals_grid(uncertainty["intervals"]), *folded])
 
 
-def front_section(front: FrontEntry, names: list[str], drawn: Block | None = None) -> Section:
+def front_section(front: dict[str, Any], names: list[str], drawn: Block | None = None) -> Section:
     """Return the front in words and a table of its points with the columns `names`; `drawn` stands between them."""
     blocks: list[Block] = [Points(front["in_words"])] if front["in_words"] else []
     if front["points"]:
@@ -122,7 +121,7 @@ def front_section(front: FrontEntry, names: list[str], drawn: Block | None = Non
     return Section("front", "Front", blocks)
 
 
-def _points(front: FrontEntry, names: list[str]) -> Grid:
+def _points(front: dict[str, Any], names: list[str]) -> Grid:
     units, yields = front["units_of_values"], any("yield_share" in point for point in front["points"])
     heads = [Head("point", right=True), *(Head(f"{name} [{units[name]}]" if units[name] else name, right=True)
                                           for name in names)]  # fmt: skip
@@ -132,7 +131,7 @@ def _points(front: FrontEntry, names: list[str]) -> Grid:
     return Grid("Points of the front", heads, [_point(point, names, yields) for point in front["points"]], note)
 
 
-def _point(point: FrontPoint, names: list[str], yields: bool) -> list[Cell]:
+def _point(point: dict[str, Any], names: list[str], yields: bool) -> list[Cell]:
     values = [point["values"][name] for name in names]
     cells = [Cell(str(point["number"]), point["number"])]
     cells += [number_cell(value) for value in values]
