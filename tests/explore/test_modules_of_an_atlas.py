@@ -11,7 +11,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.explore.source import open_source
 from tvimdesign.explore.state import tree_of
 from tvimdesign.report.atlas.atlas_page import STUDIES, rows_of
-from tvimdesign.report.atlas.make_atlas import SUMMARY
+from tvimdesign.report.atlas.atlas_page import SUMMARY
 from tvimdesign.study import read_study_text, read_tree
 from tvimdesign.sweep.atlas import OUTPUTS, AtlasCell
 

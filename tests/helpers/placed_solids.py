@@ -5,10 +5,16 @@ from collections.abc import Iterable
 import cadquery as cq
 from cad_designs import broken_rules
 
-from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
-from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, drawn_parts, place
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.study.design import Design
+
+
+def build(design: Design, rotor_angle: float = 0.0) -> dict[str, cq.Solid]:
+    """Every part of a module where it stands, the rotor turned by an angle [rad]."""
+    dims = dimensions(design)
+    return place(dims, drawn_parts(dims), rotor_angle)
 
 
 def placed_solids(dims: Dimensions, kinds: Iterable[str]) -> dict[str, cq.Solid]:

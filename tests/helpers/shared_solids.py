@@ -42,24 +42,24 @@ class Noted(dict[str, float]):
 
 @pytest.fixture(scope="session", autouse=True)
 def _shared_solids() -> Iterator[None]:
-    usual = assembly._built
+    usual = assembly.one_solid
     parts: dict[tuple[Any, ...], list[Drawn]] = {}
 
-    def built(name: str, draw: Callable[[], cq.Shape], progress: Any) -> cq.Solid:
+    def built(name: str, draw: Callable[[], cq.Shape]) -> cq.Solid:
         if not isinstance(draw, partial) or not isinstance(draw.func, FunctionType) or "<" in draw.func.__qualname__:
-            return usual(name, draw, progress)
+            return usual(name, draw)
         *more, dims = draw.args
         if type(dims.by_name) is not dict:  # they note what is read themselves
-            return usual(name, draw, progress)
+            return usual(name, draw)
         variants = parts.setdefault((draw.func, *more, dims.mode, shear_parts._pocket), [])  # a test replaces this
         for read, solid in variants:
             if all(dims.by_name.get(row) == value for row, value in read.items()):
                 return solid.copy()
         noted = Noted(dims.by_name)
-        solid = usual(name, partial(draw.func, *more, Dimensions(dims.mode, noted)), progress)
+        solid = usual(name, partial(draw.func, *more, Dimensions(dims.mode, noted)))
         variants[:] = [*variants, (noted.read, solid)][-MOST:]
         return solid.copy()
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(assembly, "_built", built)
+        patch.setattr(assembly, "one_solid", built)
         yield

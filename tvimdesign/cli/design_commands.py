@@ -134,7 +134,7 @@ def atlas(
     json: options.AsJson = False,
 ) -> None:
     """Map the lightest modules over torque and time. The folder is results/atlas."""
-    from tvimdesign.report.atlas.make_atlas import make_atlas
+    from tvimdesign.report.atlas.atlas_page import make_atlas
 
     make_atlas(
         plan, out or Path("results/atlas"), kinds=tuple(kinds or ()), workers=workers, overwrite=overwrite,

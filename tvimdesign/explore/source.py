@@ -9,8 +9,7 @@ from typing import Any
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.messages import Way
 from tvimdesign.explore.state import State, beginning, refuse_other_folders, sized_state
-from tvimdesign.report.atlas.atlas_page import STUDIES, module_points
-from tvimdesign.report.atlas.make_atlas import SUMMARY
+from tvimdesign.report.atlas.atlas_page import STUDIES, SUMMARY, module_points
 from tvimdesign.report.run.front_report import points_shown
 from tvimdesign.report.sweep_figures import shown_cells
 from tvimdesign.solve.nlp.solver_run import OPTIMAL

@@ -13,10 +13,11 @@ import cadquery as cq
 import numpy as np
 import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, WRIST, design_of, given
+from placed_solids import build
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.base.record import Record, plain_data
-from tvimdesign.cad.assembly.assembly import MODULES, build, drawn_parts, place
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_parts, place
 from tvimdesign.cad.assembly.assembly_note import (
     WrittenStep,
     all_steps,

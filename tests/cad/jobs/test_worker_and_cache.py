@@ -45,8 +45,7 @@ def stack(job: Job) -> list[SolidCheck]:
     return []
 
 
-def never_ends(job: Job) -> list[SolidCheck]:
-    job.progress("cutting the bore")
+def never_ends(_: Job) -> list[SolidCheck]:
     while True:
         pass
 
@@ -192,7 +191,6 @@ def test_stuck_crashed_and_refused_work_is_named(run, tmp_path):
     needing = Work(name="assembly", do=stack, needs=("bore", "plate"))
     done = run(stuck, needing, PLATE, limit=0.5)
     assert done.failed["bore"].startswith("bore: it was stopped after 0.5 s of processor time")
-    assert done.failed["bore"].endswith("(at: cutting the bore)")
     assert done.lost == ["assembly"]
     assert list(done.results) == ["plate"]
     done = run(Work(name="rotor", do=crashes), Work(name="hub", do=refuses), PLATE)

@@ -9,10 +9,10 @@ import cadquery as cq
 import numpy as np
 import pytest
 from cad_designs import TILES, VANE_TILE_ROWS, VANE_TILES, all_checks, broken_rules, design_of, random_blocks
-from placed_solids import assert_sound, placed_solids
+from placed_solids import assert_sound, build, placed_solids
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.assembly import build, drawn_parts
+from tvimdesign.cad.assembly.assembly import drawn_parts
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill
 from tvimdesign.cad.assembly.draft_module import DraftKernel
 from tvimdesign.cad.export.mesh import solid_mesh

@@ -10,10 +10,10 @@ import trimesh
 from cad_designs import BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, broken_rules, design_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from placed_solids import assert_sound, placed_solids
+from placed_solids import assert_sound, build, placed_solids
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.assembly import build, drawn_part, drawn_parts, place
+from tvimdesign.cad.assembly.assembly import drawn_part, drawn_parts, place
 from tvimdesign.cad.export.mesh import spring_mesh
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import tight_box

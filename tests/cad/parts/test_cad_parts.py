@@ -9,10 +9,11 @@ import cadquery as cq
 import numpy as np
 import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN_BLOCKS, MM, all_checks, broken_rules, design_of
+from placed_solids import build
 from sample_solids import of
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.assembly import MODULES, build, drawn_part, drawn_parts, place
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, drawn_parts, place
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawing_sheet import figure

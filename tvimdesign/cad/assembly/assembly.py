@@ -10,43 +10,30 @@ import numpy as np
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.export.mesh import Instance
-from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import MADE_TURNING, SPRINGS, kind_of
 from tvimdesign.cad.geometry.solids import polar, turned
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil, spring_solid
 from tvimdesign.cad.parts import compression_parts, fasteners, fittings, heater_parts, motor_parts, shear_parts
 from tvimdesign.cad.parts.common_parts import hand_of
-from tvimdesign.study.design import Design
-
-Progress = Callable[[str], None]
 
 
-def build(design: Design, rotor_angle: float = 0.0, progress: Progress | None = None) -> dict[str, cq.Solid]:
-    """Build and place every part of the module, the rotor turned by `rotor_angle` [rad].
-
-    Returns the solids by name: `rotor`, `pcl_arc_1`, `spring_right_3` ... `progress` gets the part being built.
-    Copies of one part share their geometry. Raises GeometryError where a part cannot be built.
-    """
-    dims = dimensions(design)
-    return place(dims, drawn_parts(dims, progress), rotor_angle, progress)
-
-
-def drawn_parts(dims: Dimensions, progress: Progress | None = None) -> dict[str, cq.Solid]:
+def drawn_parts(dims: Dimensions) -> dict[str, cq.Solid]:
     """Build one of every part but the springs, in the module's coordinates, by kind."""
-    return {kind: drawn_part(dims, kind, progress) for kind in MODULES[dims.mode].drawn(dims)}
+    return {kind: drawn_part(dims, kind) for kind in MODULES[dims.mode].drawn(dims)}
 
 
-def drawn_part(dims: Dimensions, kind: str, progress: Progress | None = None) -> cq.Solid:
+def drawn_part(dims: Dimensions, kind: str) -> cq.Solid:
     """Build one part that is no spring, in the module's coordinates."""
     if dims.spring_count % 2:
         raise GeometryError(f"spring_count is {dims.spring_count:g}; half of them are left-hand, so it must be even")
-    return _built(kind, partial(MODULES[dims.mode].drawn(dims)[kind], dims), progress)
+    return one_solid(kind, partial(MODULES[dims.mode].drawn(dims)[kind], dims))
 
 
 def free_spring(dims: Dimensions, kind: str) -> cq.Solid:
     """Build the spring as its maker delivers it, of the hand its kind says."""
     drawn = _swept if kind == "spring_right" else _mirrored
-    return _built(kind, lambda: drawn(free_coil(dims)), None)
+    return one_solid(kind, lambda: drawn(free_coil(dims)))
 
 
 def installed_coils(dims: Dimensions, rotor_angle: float = 0.0) -> dict[str, Coil]:
@@ -65,24 +52,20 @@ def spring_locations(dims: Dimensions) -> dict[str, cq.Location]:
     return locations
 
 
-def installed_springs(
-    dims: Dimensions, rotor_angle: float = 0.0, progress: Progress | None = None
-) -> dict[str, cq.Solid]:
+def installed_springs(dims: Dimensions, rotor_angle: float = 0.0) -> dict[str, cq.Solid]:
     """Build and place the springs on their pins, by name."""
     if not (coils := installed_coils(dims, rotor_angle)):
         return {}
     solids = {
-        "right": _built("spring_right", lambda: _swept(coils["spring_right"]), progress),
-        "left": _built("spring_left", lambda: _mirrored(coils["spring_left"]), progress),
+        "right": one_solid("spring_right", lambda: _swept(coils["spring_right"])),
+        "left": one_solid("spring_left", lambda: _mirrored(coils["spring_left"])),
     }
     return {name: solids[name.split("_")[1]].moved(location) for name, location in spring_locations(dims).items()}
 
 
-def place(
-    dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0, progress: Progress | None = None
-) -> dict[str, cq.Solid]:
+def place(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0) -> dict[str, cq.Solid]:
     """Place the drawn parts, and the springs built for the rotor's angle, by name."""
-    return MODULES[dims.mode].stand(dims, drawn, rotor_angle) | installed_springs(dims, rotor_angle, progress)
+    return MODULES[dims.mode].stand(dims, drawn, rotor_angle) | installed_springs(dims, rotor_angle)
 
 
 # Six pieces of work ask for the springs at rest; at either end of the stroke one hand is the other's mirror.
@@ -92,12 +75,6 @@ _swept = lru_cache(maxsize=8)(spring_solid)
 @lru_cache(maxsize=8)
 def _mirrored(coil: Coil) -> cq.Shape:
     return _swept(coil).mirror("XZ")
-
-
-def _built(name: str, draw: Callable[[], cq.Shape], progress: Progress | None) -> cq.Solid:
-    if progress:
-        progress(name)
-    return one_solid(name, draw)
 
 
 def one_solid(name: str, draw: Callable[[], cq.Shape]) -> cq.Solid:

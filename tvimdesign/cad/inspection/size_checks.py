@@ -93,16 +93,14 @@ def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid])
 
 
 def clearance_checks(
-    dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, progress: Callable[[str], None],
-    known: Mapping[str, Mesh] | None = None,
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, known: Mapping[str, Mesh] | None = None,
 ) -> list[SolidCheck]:  # fmt: skip
     """Compare every part with every other one at rest; on the way to a stop, those that do not move together.
 
     `known` are meshes of the drawn parts that are made already, by kind.
     """
     where = "at rest" if share == 0.0 else f"at {share * dims.stop_angle:+.4f} rad"
-    progress(f"interference {where}")
-    placed = place(dims, drawn, share * dims.stop_angle, progress)
+    placed = place(dims, drawn, share * dims.stop_angle)
     if share == 0.0:  # most parts touch: to sort out the others takes as long as to intersect them
         return list(interference_checks(placed, where))
     bodies = PlacedBodies(instances(dims, drawn, placed, known, share * dims.stop_angle))

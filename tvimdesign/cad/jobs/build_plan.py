@@ -283,7 +283,7 @@ def _sizes(job: Job) -> list[SolidCheck]:
 
 
 def _clearances(share: float, job: Job) -> list[SolidCheck]:
-    return clearance_checks(job.dims, _solids(job.needs), share, job.progress, _meshes(job.needs))
+    return clearance_checks(job.dims, _solids(job.needs), share, _meshes(job.needs))
 
 
 def _inspect(kind: str, job: Job) -> list[SolidCheck]:

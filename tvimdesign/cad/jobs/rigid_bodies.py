@@ -38,7 +38,8 @@ def run(design_path: Path, out: Path, _part_limit: float, send: Callable[..., No
     from tvimdesign.cad.inspection.size_checks import size_checks
 
     dims = dimensions(design)
-    drawn = drawn_parts(dims, lambda part: send(progress=part))
+    send(progress="parts")
+    drawn = drawn_parts(dims)
     placed = place(dims, drawn)
     checks = [asdict(check) for check in size_checks(design, placed)]
     send(progress="meshes")

@@ -39,7 +39,6 @@ class Job:
     titles: Mapping[str, str]  # Titles of the chosen records, by row
     needs: Mapping[str, Path]  # Folder `kept/` of each piece of work that this one needs
     folder: Path  # Where to write: files for the user under `out/`, what other pieces of work need under `kept/`
-    progress: Progress
 
 
 class Turn(IntEnum):
@@ -90,7 +89,6 @@ class _Task:
     worker: _Worker
     folder: Path
     watch: ProcessorLimit
-    step: str
     stopped: str = ""  # Which limit it exceeded
     reported: dict[str, Any] | None = None
 
@@ -176,7 +174,7 @@ class WorkerPool:
         with contextlib.suppress(OSError):  # `_poll` notices a dead worker
             worker.pipe.send((self._plan.index(work), needs, folder))
         assert worker.process.pid is not None
-        return _Task(work, worker, folder, ProcessorLimit(worker.process.pid, self._limit), work.name)
+        return _Task(work, worker, folder, ProcessorLimit(worker.process.pid, self._limit))
 
     def _fork(self) -> _Worker:
         pipe, its_end = self._context.Pipe()
@@ -186,27 +184,18 @@ class WorkerPool:
         return _Worker(process, pipe)
 
     def _poll(self, running: list[_Task], done: Done) -> None:
-        """Wait until a worker sends a message, ends, or exceeds its limit."""
+        """Wait until a worker answers, ends, or exceeds its limit."""
         if not running:
             return
         ready = wait([task.worker.pipe for task in running], timeout=CHECK_EVERY)
         for task in list(running):
-            over = self._receive(task) if task.worker.pipe in ready else _exceeds_limit(task)
-            if over:
+            is_ready = task.worker.pipe in ready
+            if is_ready:
+                with contextlib.suppress(EOFError, OSError):
+                    task.reported = task.worker.pipe.recv()
+            if is_ready or _exceeds_limit(task):
                 running.remove(task)
                 self._finish(task, done)
-
-    def _receive(self, task: _Task) -> bool:
-        """Receive a worker's message; return whether the piece of work is over."""
-        try:
-            message = task.worker.pipe.recv()
-        except (EOFError, OSError):
-            return True
-        if "step" in message:
-            task.step = message["step"]  # where it was, if it fails
-            return False
-        task.reported = message
-        return True
 
     def _finish(self, task: _Task, done: Done) -> None:
         """Store the result of a piece of work, or note why there is none; a worker that answered becomes idle."""
@@ -215,8 +204,7 @@ class WorkerPool:
             if not task.stopped:
                 task.worker.process.join(timeout=5.0)
             why = task.stopped or f"its process ended with code {task.worker.process.exitcode}"
-            at = "" if task.step == name else f" (at: {task.step})"
-            done.failed[name] = f"{name}: {why}{at}"
+            done.failed[name] = f"{name}: {why}"
             _stop(task.worker)
         elif "error" in task.reported:
             done.failed[name] = task.reported["error"]
@@ -250,7 +238,7 @@ def _child(plan: Sequence[Work], subject: TrackedDesign, pipe: Connection) -> No
     with contextlib.suppress(EOFError):
         while True:
             place, needs, folder = pipe.recv()
-            pipe.send(_done(plan[place], subject, needs, folder, lambda step: pipe.send({"step": step})))
+            pipe.send(_done(plan[place], subject, needs, folder))
             set_lower_priority(os.getpid())  # people wait for the first part
 
 
@@ -259,13 +247,11 @@ def _end_with(parent: BaseProcess) -> None:
     os._exit(1)
 
 
-def _done(
-    work: Work, subject: TrackedDesign, needs: Mapping[str, Path], folder: Path, progress: Progress
-) -> dict[str, Any]:
+def _done(work: Work, subject: TrackedDesign, needs: Mapping[str, Path], folder: Path) -> dict[str, Any]:
     """Do one piece of work; return its checks and what it read, or the error."""
     try:
         design, dims, titles, reads = subject.watched(work.named)
-        checks = work.do(Job(design, dims, titles, needs, folder, progress))
+        checks = work.do(Job(design, dims, titles, needs, folder))
         return {"checks": [check.fields() for check in checks], "reads": reads}
     except TvimError as error:
         return {"error": str(error) if str(error).startswith(work.name) else f"{work.name}: {error}"}

@@ -1,6 +1,7 @@
-"""The page of an atlas: what was asked, the map to brush, and every cell with its study or the limits that end it."""
+"""The command atlas: its rows, its page, and from a plan to a finished folder."""
 
 import math
+import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -8,13 +9,16 @@ from typing import Any
 
 from tvimdesign.base.units import from_si
 from tvimdesign.page.blocks import Cell, Drawn, Facts, Grid, Head, Page, Section
+from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.command import Command
-from tvimdesign.report.output.numbers import axis_label, number
+from tvimdesign.report.output.numbers import axis_label, csv_text, head, number
 from tvimdesign.report.output.page_sections import grid, number_cell
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, MASS, TORQUE, UNANSWERED
 from tvimdesign.study.atlas_studies import Atlas
-from tvimdesign.sweep.atlas import OUTPUTS, AtlasCell
+from tvimdesign.study.written_studies import study_text
+from tvimdesign.sweep.atlas import FAMILIES, OUTPUTS, AtlasCell, cells_of, compute, study_of
 
 STUDIES = "studies"
 _UNITS = dict(zip(OUTPUTS, ("g", "N*m", "N*m/rad", "s", "J", "mm"), strict=True))
@@ -176,3 +180,38 @@ def _empty(cells: Sequence[AtlasCell]) -> Grid:
     heads = ("kind", "torque [N·m]", "cycle [s]", "status", "limits that end it")
     rows = [(c.kind, number(c.torque), number(c.cycle), c.status, "; ".join(c.limits)) for c in cells]
     return grid("Cells without a module", heads, rows, right=(1, 2), code=())
+
+
+SUMMARY = "atlas.json"  # File of every row, with counts
+
+
+def make_atlas(
+    plan: Path | None, out: Path, *, kinds: tuple[str, ...], workers: int, overwrite: bool, resume: bool, plots: bool,
+    as_json: bool, reuse: tuple[Path, ...] = (),
+) -> None:  # fmt: skip
+    """Compute an atlas, with the families of others, and write its folder. Raises InputError, OutputError."""
+    atlas, began = Atlas.read(plan).only(kinds), time.perf_counter()
+    command = Command(out, overwrite=overwrite, as_json=as_json, plots=plots, resume=resume, keep=FAMILIES)
+    with command:
+        folder = command.folder
+        counts, failures = compute(atlas, folder.path, workers, command.progress, reuse)
+        command.failures += failures
+        command.progress("gathering the cells")
+        cells = cells_of(atlas, folder.path)
+        rows = rows_of(cells)
+        folder.write("atlas.csv", csv_text(rows, list(dict.fromkeys(name for row in rows for name in row))))
+        for cell in cells:
+            if cell.status == OPTIMAL:
+                text = study_text(study_of(atlas, cell), f"Cell {cell.name} of an atlas", folder.path)
+                folder.write(f"{STUDIES}/{cell.name}.yaml", text)
+        summary = {
+            **head(), "cells": len(cells), "statuses": dict(Counter(cell.status for cell in cells)), **counts,
+            "rows": rows,
+        }  # fmt: skip
+        folder.write_json(SUMMARY, summary)
+        command.begin_plots([Drawing("atlas", "analysis_figures.atlas", figure_data(atlas, cells))], "Atlas")
+        page = atlas_page(atlas, cells, counts, command)
+        command.shown = command.shown[:1]  # the tables are in the page and in atlas.csv
+        command.finish_plots(again="repeat the command with --resume")
+        command.finish("mapped", {"plan": plan} if plan else {}, {}, {"seconds": time.perf_counter() - began}, page)
+    command.report(summary, f"{FILE}, atlas.csv and {STUDIES}/ are")
