@@ -17,18 +17,6 @@ from tvimdesign.device.table.quantity import (
 from tvimdesign.device.table.table import Table
 
 __all__ = [
-    "MODES",
-    "Choice",
-    "Event",
-    "Input",
-    "Output",
-    "Path",
-    "Phase",
-    "Rule",
-    "Scalar",
-    "Simulated",
-    "Steady",
-    "Supplied",
-    "Table",
-    "table_for",
-]
+    "MODES", "Choice", "Event", "Input", "Output", "Path", "Phase", "Rule", "Scalar", "Simulated", "Steady",
+    "Supplied", "Table", "table_for",
+]  # fmt: skip

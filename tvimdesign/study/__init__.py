@@ -7,20 +7,7 @@ from tvimdesign.study.study import Options, ProfileOptions, Range, Requirement, 
 from tvimdesign.study.text.mistakes import StudyError
 
 __all__ = [
-    "Options",
-    "ProfileOptions",
-    "Range",
-    "Requirement",
-    "SolverOptions",
-    "Study",
-    "StudyError",
-    "Tolerance",
-    "brought_along",
-    "brought_along_by",
-    "drawn",
-    "given",
-    "read_study",
-    "read_study_text",
-    "read_tree",
+    "Options", "ProfileOptions", "Range", "Requirement", "SolverOptions", "Study", "StudyError", "Tolerance",
+    "brought_along", "brought_along_by", "drawn", "given", "read_study", "read_study_text", "read_tree",
     "standard_tolerances",
-]
+]  # fmt: skip
