@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import replace
 from functools import cache
@@ -82,14 +83,39 @@ def test_a_study_without_room_names_a_diameter_that_has_some(monkeypatch):
     monkeypatch.setattr(study_files, "_hardware", hardware)
     roomy = 0.083
     note = no_room(task, lambda _: None)
-    assert note.endswith("may miss a limit; --diameter '84 mm' leaves room, by estimate")
+    assert note.endswith(
+        "may miss a limit; --diameter '84 mm' leaves each limit alone room for three of four "
+        "plausible cases, by estimate"
+    )
     study = read_study_text(study_files.described(study_text(task, "middle"), note), "joint.yaml")
     assert study.description.lower() == f"{note}."
     assert all(joint.cautious for joint in tried)
     assert [round(1e3 * joint.diameter, 6) for joint in tried] == [77.0, 84.0]
     roomy = 1.0
-    assert no_room(task, lambda _: None).endswith("; no --diameter up to '98 mm' leaves room by estimate, either")
+    assert no_room(task, lambda _: None).endswith("plausible cases by estimate, either")
     assert no_room(replace(task, diameter=0.2), lambda _: None).endswith("the module may miss a limit")
+
+
+def test_a_stroke_that_no_hardware_bears_is_refused_before_the_search(monkeypatch):
+    steps: list[str] = []
+    monkeypatch.setattr(study_files, "_wider", lambda _: (None, ""))
+    with pytest.raises(InfeasibleError, match=r"±1[12].*° is the largest stroke that .* allow") as refusal:
+        sized_text(JointTask.read(**WRIST, stroke="20 deg"), "joint", steps.append)
+    assert "--stroke '10 deg'" in str(refusal.value)
+    assert not any("choosing" in step for step in steps)
+
+
+def test_what_no_number_alone_cures_is_cured_by_several(monkeypatch):
+    """A usual joint of 100 mm holds 8 N*m (100/70)^3 = 23 N*m; half of it and an eighth of that as stiffness fit."""
+    task, fits = JointTask.read(**WRIST | {"diameter": "100 mm", "torque": "500 N.m"}), 12.0
+    monkeypatch.setattr(study_files, "_hardware", lambda joint: "large" if joint.torque < fits else "")
+    for alone in ("_wider_and_stiffer", "_other_stiffness", "_weaker"):
+        monkeypatch.setattr(study_files, alone, lambda _: None)
+    monkeypatch.setattr(study_files, "_wider", lambda _: (None, ""))
+    refusal = study_files._refusal(task, "joint", math.inf, lambda _: None)
+    assert "  --torque '11 N.m' --stiffness '1.3 N.m/rad'" in refusal
+    fits = 0.0
+    assert "torque down to 2.3 N.m" in study_files._refusal(task, "joint", math.inf, lambda _: None)
 
 
 @pytest.mark.gate

@@ -12,6 +12,7 @@ from tvimdesign.base.record import own_data, own_template
 from tvimdesign.base.units import format_quantity, from_si, parse_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Input, table_for
+from tvimdesign.study.study import Range, Study
 from tvimdesign.study.written_studies import SCHEMA_FILE
 
 SIZED_MODE = "shear"
@@ -87,7 +88,10 @@ class JointTask:
         row = _inputs()["stroke"]
         if task.stroke < row.lower or task.stroke > row.upper:
             most = format_quantity(row.upper, "deg", 3)
-            problems.append(f"stroke: {stroke} to either side of rest is beyond {most}, the most that a module turns")
+            problems.append(
+                f"stroke: {stroke} to either side of rest is beyond {most}, the most that a module turns; "
+                f"write for instance '{_EXAMPLES['stroke']}'"
+            )
         if task.torque < (soft := task.stiffness[0] * task.stroke):
             at_stroke = format_quantity(soft, "N*m", 2)
             problems.append(
@@ -110,7 +114,7 @@ class JointTask:
             "torque": f"{self.torque:.4g} N.m", "diameter": _mm(self.diameter), "time": f"{self.time:.4g} s",
             "stiffness": f"{centre:.4g} N.m/rad" if around else f"{low:.4g} to {high:.4g} N.m/rad",
             "supply": f"{self.voltage:.4g} V" + ("" if math.isinf(self.current) else f", {self.current:.4g} A"),
-            "stroke": f"{self.stroke:.4g} rad", **({"process": self.process} if self.process else {}),
+            "stroke": f"{from_si(self.stroke, 'deg'):.3g} deg", **({"process": self.process} if self.process else {}),
         }  # fmt: skip
 
     def with_stiffness(self, stiffness: float) -> Self:
@@ -211,6 +215,18 @@ def study_text(
         choice, other = record
         text = re.sub(rf"(?m)^  {choice}: (\S+).*$", rf"  {choice}: {other}   # in place of \1: limits conflict", text)
     return f"{text}\n"
+
+
+def with_free_stroke(study: Study) -> Study:
+    """Return the study of a joint with its stroke among what varies, and a preload that may follow it."""
+    row, preload = _inputs()["stroke"], study.vary["preload_angle"]
+    assert isinstance(preload, Range)
+    vary = {
+        **study.vary, "stroke": Range(lower=row.lower, upper=row.upper, start=parse_quantity(STROKE, "rad")),
+        "preload_angle": preload.model_copy(update={"lower": row.lower, "upper": row.upper + preload.upper}),
+    }  # fmt: skip
+    module = {name: value for name, value in study.module.items() if name != "stroke"}
+    return study.model_copy(update={"vary": vary, "module": module})
 
 
 _ROOMY = 0.93

@@ -105,8 +105,8 @@ def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(parts, hottest
     assert margins == pytest.approx({"cutout_margin": margin, "cutout_holding_margin": holding})
     cutout = listed(switched(changes, hottest))["thermal_cutout"]
     assert ("Not to be ordered" in cutout) == (margin < 0.0)
-    asked = f"or for one that opens by 105 °C and holds {hottest:g} °C ("
-    assert margin < 0.0 or (asked in cutout) == (holding < 0.0)
+    rated = f"or for one that opens by 105 °C and holds {hottest:g} °C ("
+    assert margin < 0.0 or (rated in cutout) == (holding < 0.0)
 
 
 def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin():

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import BelowYieldError, InfeasibleError, InputError
-from tvimdesign.base.units import format_quantity, pretty
+from tvimdesign.base.units import format_quantity, parse_quantity, pretty
 from tvimdesign.report.output.numbers import ends_text, label
-from tvimdesign.study import read_study_text, written_studies
+from tvimdesign.study import given, read_study_text, written_studies
 from tvimdesign.study.design import read_design
 from tvimdesign.study.sizing import (
     LARGEST,
@@ -25,6 +25,7 @@ from tvimdesign.study.sizing import (
     in_options,
     records_of,
     study_text,
+    with_free_stroke,
 )
 from tvimdesign.study.text.mistakes import printable
 from tvimdesign.study.tree import tree_of_text
@@ -68,6 +69,7 @@ def write_new_study(file: Path | None, example: str = "", result: Path | None = 
 
 _ROOMIER = (1.1, 1.2, 1.3, 1.4)  # Factors on a diameter that are tried for room for the assumed values
 _CANDIDATES = 3  # Sets of hardware that are tried, the best fit first
+_SEEDS = (1, 2)  # Of the starts of a search that decides on hardware
 _BESIDE = 2  # Sets of hardware that are tried with other numbers
 _WIDER, _ROOM = (1.1, 1.25), 1.03
 """Factors on a diameter that are tried, and room over the least: ranges follow the diameter, and must allow it."""
@@ -76,7 +78,11 @@ _STIFFER = (2.0, 4.0, 8.0, 16.0)
 _MORE_FRICTION = 1.0
 """Friction over the springs' torque at full stroke where less is not to be had: they still bring the joint back."""
 _WEAKER = (0.95, 0.9, 0.8, 0.65, 0.5)  # Torques that are tried, over the one asked for, if the largest is not found
-_SHORTER = (0.85, 0.7, 0.5, 0.3)  # Strokes that are tried, over the one asked for
+_SHORTER = (1.0, 0.9, 0.75)  # Strokes that are tried, over the largest that a search finds
+_USUAL, _LESSER = 8.0 / 0.07**3, (1.0, 0.5, 0.25, 0.1)
+"""Torque that usual joints hold over the cube of their diameter [N/m^2], and shares of it that are tried."""
+_AN_EIGHTH = 0.125  # Usual stiffness [N*m/rad] over the torque
+_ALONE = "each limit alone room for three of four plausible cases"
 
 
 def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: bool, **run: Any) -> None:
@@ -162,9 +168,9 @@ def no_room(task: JointTask, progress: Callable[[str], None]) -> str:
     wider = [replace(task, cautious=True, diameter=1e-3 * round(1e3 * factor * task.diameter)) for factor in _ROOMIER]
     wider = [other for other in wider if other.diameter <= LARGEST]
     roomy = next((other for other in wider if _hardware(other)), None)
-    ways = [f"--diameter '{roomy.options()['diameter']}' leaves room, by estimate"] if roomy else []
+    ways = [f"--diameter '{roomy.options()['diameter']}' leaves {_ALONE}, by estimate"] if roomy else []
     if wider and not roomy:
-        ways = [f"no --diameter up to '{wider[-1].options()['diameter']}' leaves room by estimate, either"]
+        ways = [f"no --diameter up to '{wider[-1].options()['diameter']}' leaves {_ALONE} by estimate, either"]
     missed = (
         "no listed hardware leaves room for errors of assumed values: where one is worse than assumed, the module may "
         "miss a limit"
@@ -188,6 +194,8 @@ def sized_text(
     Raises InfeasibleError, with the nearest numbers that were tried and have such hardware.
     """
     more_friction = replace(task, friction=_MORE_FRICTION)
+    if longest := _too_long(more_friction):
+        raise InfeasibleError(_refusal(task, name, math.inf, progress, longest))
     for allowed, words in (
         *([(replace(task, cautious=True), ", with room for the assumed values")] if room else []), (task, ""),
         (more_friction, f", friction up to {_MORE_FRICTION:g} of the springs' torque"),
@@ -223,14 +231,22 @@ def _with_another_record(task: JointTask, name: str, progress: Callable[[str], N
     return min(fitting, default=None)
 
 
-def _refusal(task: JointTask, name: str, least_changed: float, progress: Callable[[str], None]) -> str:
+def _refusal(
+    task: JointTask, name: str, least_changed: float, progress: Callable[[str], None], longest: Extreme | None = None
+) -> str:
     """Return why there is no study of a joint, and what to ask for instead.
 
-    `least_changed` is the least diameter [m] with another record in a set of hardware.
+    `least_changed` is the least diameter [m] with another record in a set of hardware; `longest` the largest stroke
+    that it can have, if that is too short.
     """
+    from tvimdesign.report.run.blocks.remedies import held_by  # it loads the compiler
+
     size, hold = format_quantity(task.diameter, "mm", 3), format_quantity(task.torque, "N*m", 3)
     soft = f"{ends_text(*task.stiffness)} {pretty('N*m/rad')} soft over ±{format_quantity(task.stroke, 'deg', 3)}"
     lines = [f"{name}: no joint of {size} holds {hold} frozen and has {soft}, with margins for its tolerances."]
+    if longest:
+        most = format_quantity(longest.value, "deg", 3)
+        lines.append(f"±{most} is the largest stroke that {held_by(longest)} allow at that diameter.")
     progress("looking for the nearest diameter that fits")
     wider, held_there = _wider(task)
     nearer = replace(task, diameter=1e-3 * math.ceil(_ROOM * min(least_changed, LARGEST) / 1e-3))
@@ -244,12 +260,18 @@ def _refusal(task: JointTask, name: str, least_changed: float, progress: Callabl
         lines.append("These fit by arithmetic, with margins by estimate; a run decides, on times too. Others as given:")
         other = "torque" if task.assumes_stroke else "stroke"
         ways += [] if any(f"--{other}" in way for way in ways) else [f"No lesser {other} alone was found that fits."]
-    return "\n".join([*lines, *ways] if ways else [*lines, "No one of the numbers cures it: ask for less of several."])
+    usual = replace(task, torque=_down(_LESSER[-1] * _usual_torque(task))).options()["torque"]
+    none = f"Nor does a torque down to {usual} with an eighth of it as the stiffness: another --diameter, or --process."
+    return "\n".join([*lines, *ways] if ways else [*lines, none])
+
+
+def _candidates(task: JointTask) -> list[str]:
+    return hardware_by_fit(task)[:_CANDIDATES]
 
 
 def _hardware(task: JointTask) -> str:
     """Return the best set of hardware with which the limits can hold with margins; empty if none does."""
-    return next((hardware for hardware in hardware_by_fit(task)[:_CANDIDATES] if _least_diameter(task, hardware)), "")
+    return next((hardware for hardware in _candidates(task) if _least_diameter(task, hardware)), "")
 
 
 def _least_diameter(task: JointTask, hardware: str) -> float | None:
@@ -265,16 +287,25 @@ def _extreme(
     from tvimdesign.solve.uncertainty.robust import least_with_margins  # it loads the compiler
 
     try:
-        return least_with_margins(read_study_text(study_text(task, hardware)), output, weight, margins=margins)
+        study = read_study_text(study_text(task, hardware))
     except InputError:  # no module at the start of the ranges
         return None
+    beyond = 0.0
+    if output == "stroke":
+        study, output, beyond = with_free_stroke(study), "stop_angle", given(study)["stop_margin"]
+    for seed in _SEEDS:
+        solver = study.solver.model_copy(update={"seed": seed})
+        seeded = study.model_copy(update={"solver": solver})
+        if extreme := least_with_margins(seeded, output, weight, margins=margins):
+            return extreme._replace(value=extreme.value - beyond)
+    return None
 
 
 def _nearest(task: JointTask, wider: JointTask | None) -> list[dict[str, str]]:
-    """Return options of `size` with which hardware fits: changed alone, else a diameter with a stiffness."""
+    """Return options of `size` with which hardware fits: changed alone, else with a stiffness."""
     changed = [wider, _weaker(task) if task.assumes_stroke else _shorter(task)]
     changed += [] if any(changed) else [_other_stiffness(task)]
-    changed = [way for way in changed if way] or [_wider_and_stiffer(task)]
+    changed = [way for way in changed if way] or [_wider_and_stiffer(task) or _lesser(task)]
     own = task.options()
     return [{name: text for name, text in way.options().items() if text != own[name]} for way in changed if way]
 
@@ -326,9 +357,41 @@ def _other_stiffness(task: JointTask) -> JointTask | None:
 
 
 def _shorter(task: JointTask) -> JointTask | None:
-    """Return the task with the largest of some shorter strokes that hardware of its diameter bears."""
-    strokes = (replace(task, stroke=_down(share * task.stroke)) for share in _SHORTER)
-    return next((shorter for shorter in strokes if _hardware(shorter)), None)
+    """Return the task with the largest stroke that hardware of its diameter bears."""
+    longest = _longest(task)
+    degrees = math.degrees(min(longest.value, task.stroke)) if longest else 0.0
+    strokes = (replace(task, stroke=math.radians(_down(share * degrees))) for share in _SHORTER if longest)
+    return next((shorter for shorter in strokes if shorter.stroke < task.stroke and _hardware(shorter)), None)
+
+
+def _too_long(task: JointTask) -> Extreme | None:
+    """Return the largest stroke of a diameter if the one asked for is beyond it, without margins even."""
+    longest = None if task.assumes_stroke else _longest(task, margins=False)
+    if longest is None or longest.value >= task.stroke:
+        return None
+    searches = (_extreme(task, hardware, "envelope_diameter", margins=False) for hardware in _candidates(task))
+    return None if any(least and least.value <= task.diameter for least in searches) else longest
+
+
+def _longest(task: JointTask, *, margins: bool = True) -> Extreme | None:
+    """Return the largest stroke [rad] of hardware for a diameter; None if no search finds one."""
+    found = [_extreme(task, hardware, "stroke", -1.0, margins=margins) for hardware in _candidates(task)]
+    return max((most for most in found if most), default=None)
+
+
+def _usual_torque(task: JointTask) -> float:
+    """Return the torque [N*m] to start from for a joint of a diameter: no more than the one asked for."""
+    return min(task.torque, _USUAL * task.diameter**3)
+
+
+def _lesser(task: JointTask) -> JointTask | None:
+    """Return the task with less torque, its usual stiffness and at most the usual stroke, which fit together."""
+    torques = [_down(share * _usual_torque(task)) for share in _LESSER]
+    stroke = min(task.stroke, parse_quantity(STROKE, "rad"))
+    lesser = (
+        replace(task, torque=torque, stroke=stroke).with_stiffness(_down(_AN_EIGHTH * torque)) for torque in torques
+    )
+    return next((other for other in lesser if _hardware(other)), None)
 
 
 def _wider_and_stiffer(task: JointTask) -> JointTask | None:
