@@ -20,7 +20,7 @@ from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.blocks.facts import _active_constraints
 from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.blocks.sections import assumptions_section
-from tvimdesign.report.run.blocks.tables import checks_grid, moves
+from tvimdesign.report.run.blocks.tables import checks_grid, intervals_grid, moves
 from tvimdesign.report.run.reasons import active, sentences, why_csv, why_rows
 from tvimdesign.report.run.run_page import glance
 from tvimdesign.solve.result import StudyResult, answer
@@ -196,3 +196,10 @@ def test_the_first_run_says_that_it_compiles(tmp_path, monkeypatch):
     (tmp_path / "integrator.advance-263.py311.nbi").touch()
     with pytest.raises(FirstMessageError, match=r"^preparing the equations$"):
         answer_study(tree, end_with)
+
+
+def test_a_range_without_an_end_is_a_row():
+    alone = {"low": 1293.0, "high": None}
+    never = {"value": 1742.0, **alone, "one_at_a_time": alone, "shares": {}, "to_halve": [], "unit": "s"}
+    (row,) = intervals_grid({"softening_time": never}).rows
+    assert [cell.text for cell in row[1:5]] == ["1742", "1293", "never", "1293 to never"]

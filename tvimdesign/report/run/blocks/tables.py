@@ -164,8 +164,9 @@ def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
     for output, interval in intervals.items():
         if interval["low"] == interval["high"]:
             continue
-        faint = _FAINT * (interval["high"] - interval["low"])
-        texts = (number(interval[end] if abs(interval[end]) > faint else 0.0) for end in ("value", "low", "high"))
+        ends = [interval[end] for end in ("value", "low", "high")]
+        faint = 0.0 if None in ends else _FAINT * (ends[2] - ends[1])
+        texts = (number(0.0 if end is not None and abs(end) <= faint else end) for end in ends)
         alone, first = interval["one_at_a_time"], next(iter(interval["shares"]), "")
         share = f"{100.0 * interval['shares'][first]:.0f} %" if first else ""
         half = f"{len(interval['to_halve'])}" if interval["to_halve"] else "many"
