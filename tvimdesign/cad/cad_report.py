@@ -106,7 +106,6 @@ print_stl = "print/{}.stl".format  # The part lying as it is printed, its holes 
 print_3mf = "print/{}.3mf".format  # Meshes with unit, name, material and colour
 plate_3mf = "print/plate_{}.3mf".format
 """A bed full of parts as they are printed, counted from 1, with the settings of their process."""
-mesh_stl = "mesh/{}.stl".format  # Triangles of a part that is bought, as it is: to look at and to simulate with
 drawing_dxf = "drawings/{}.dxf".format  # The drawing of a part that is made of the structure's material
 cut_dxf = "drawings/{}_cut.dxf".format  # The outline of a part that is a plate, for a laser or a water jet
 drawing_pdf = "drawings/{}.pdf".format  # That drawing, to print

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import cadquery as cq
 import numpy as np
-import trimesh
 from OCP.BinTools import BinTools
 from OCP.TopoDS import TopoDS_Shape
 
@@ -28,13 +27,12 @@ from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, dra
 from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export import print_files
-from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
+from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, write_mesh
 from tvimdesign.cad.export.print_files import Laid
 from tvimdesign.cad.export.step_file import Product, product, read_part, validation, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, STRUCTURE, Production, is_of_structure, kind_of
-from tvimdesign.cad.geometry.spring_solids import free_coil
 from tvimdesign.cad.inspection.inspect import casting_checks, module_checks, part_checks, setting_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.jobs.worker import Job, Turn, Work
@@ -52,19 +50,19 @@ def build_plan(dims: Dimensions) -> list[Work]:
     kinds = tuple(MODULES[dims.mode].drawn(dims))
     coils = SPRINGS if dims.spring_count else ()
     parts = [
-        work
-        for kind in kinds
-        for work in (
-            Work(name=kind, do=partial(_part, kind), turn=_turn(kind), words=f"drawing: {_words(kind)}"),
-            Work(
-                name=f"{kind}_for_makers",
-                do=partial(_for_makers, kind),
-                needs=(kind,),
-                named=PRODUCTION[kind].drawn,
-                turn=Turn.LATE,
-                words=f"drawings and print files: {_words(kind)}",
-            ),
+        Work(name=kind, do=partial(_part, kind), turn=_turn(kind), words=f"drawing: {_words(kind)}") for kind in kinds
+    ]
+    made = [
+        Work(
+            name=f"{kind}_for_makers",
+            do=partial(_for_makers, kind),
+            needs=(kind,),
+            named=PRODUCTION[kind].drawn,
+            turn=Turn.LATE,
+            words=f"drawings and print files: {_words(kind)}",
         )
+        for kind in kinds
+        if PRODUCTION[kind].drawn or PRODUCTION[kind].down != "bought"
     ]
     springs = [Work(name=kind, do=partial(_spring, kind), words=f"drawing: {_words(kind)}") for kind in coils]
     setting = [
@@ -89,6 +87,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
     return [
         Work(name=PICTURES, do=_pictures, needs=kinds, turn=Turn.FIRST),  # before all else, once the parts are there
         *parts,
+        *made,
         *springs,
         Work(name="sizes", do=_sizes, needs=kinds, words="volumes and inertias"),
         *clearances,
@@ -130,7 +129,7 @@ def _part(kind: str, job: Job) -> list[SolidCheck]:
 
 
 def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
-    """Make what a part is printed, milled or looked at from."""
+    """Make what a part is printed or milled from."""
     solid, what = _solids(job.needs)[kind], product(job.design, kind)
     if PRODUCTION[kind].drawn:
         requirements = drawing_requirements(kind, job.dims, job.design.choices)
@@ -142,9 +141,7 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
         _sheet(job, kind, solid, what, requirements)
         if outline := plate_outline(solid):
             _write(job.folder, cad_report.cut_dxf(kind), outline)
-    if PRODUCTION[kind].down == "bought":
-        return [_stl(job.folder, cad_report.mesh_stl(kind), kind, *print_files.printed_mesh(kind, solid))]
-    return [_print(job, kind, solid, what, PRODUCTION[kind])]
+    return [] if PRODUCTION[kind].down == "bought" else [_print(job, kind, solid, what, PRODUCTION[kind])]
 
 
 def _sheet(job: Job, kind: str, solid: cq.Solid, what: Product, requirements: DrawingRequirements) -> None:
@@ -191,12 +188,7 @@ def _of_structure(job: Job, fixture: str) -> Product:
 
 def _spring(kind: str, job: Job) -> list[SolidCheck]:
     """Make one spring as its maker delivers it."""
-    solid = free_spring(job.dims, kind)
-    mesh = spring_mesh(free_coil(job.dims))
-    checks = _step(job.folder, solid, product(job.design, kind))
-    body = print_files.closed(kind, mesh if kind == "spring_right" else mesh.mirrored())
-    _write(job.folder, cad_report.mesh_stl(kind), print_files.stl_bytes(body))
-    return [*checks, SolidCheck(cad_report.mesh_stl(kind), 0.0, 0.0, True, f"{kind}: its mesh is watertight")]
+    return _step(job.folder, free_spring(job.dims, kind), product(job.design, kind))
 
 
 def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
@@ -230,7 +222,9 @@ def _print(
         return SolidCheck(name, 1.0, 0.0, False, str(error))
     write_mesh(job.folder / "kept" / _PRINTED, Mesh(body.vertices, body.faces))
     _write(job.folder, cad_report.print_3mf(kind), print_files.threemf_bytes(body, what))
-    return _stl(job.folder, name, kind, body, distance)
+    _write(job.folder, name, print_files.stl_bytes(body))
+    text = f"{kind}: its mesh is watertight and nowhere further than stated from the part [mm]"
+    return SolidCheck(name, distance, CHORD, distance <= CHORD, text)
 
 
 def _plates(job: Job) -> list[SolidCheck]:
@@ -270,12 +264,6 @@ def _plates(job: Job) -> list[SolidCheck]:
     outside = spots.count(None)
     text = f"print beds: {beds}; parts on them: {len(copies) - outside}; too large for one, with room around: {outside}"
     return [SolidCheck(cad_report.plate_3mf(1), float(outside), 0.0, True, text, warned=bool(outside))]
-
-
-def _stl(folder: Path, name: str, kind: str, body: trimesh.Trimesh, distance: float) -> SolidCheck:
-    _write(folder, name, print_files.stl_bytes(body))
-    text = f"{kind}: its mesh is watertight and nowhere further than stated from the part [mm]"
-    return SolidCheck(name, distance, CHORD, distance <= CHORD, text)
 
 
 def _sizes(job: Job) -> list[SolidCheck]:
