@@ -280,16 +280,27 @@ def _unpriced(study: Study, values: Mapping[str, Any]) -> list[str]:
 
 
 def unpriced_kinds(table: Table, values: Mapping[str, Any], chosen: Mapping[str, Any]) -> list[str]:
-    """Return the kinds of a module that its cost leaves out, by `chosen` records or their names.
+    """Return the kinds of a module that its cost leaves out, by `chosen` records or their names."""
+    return [kind for kind, price in _prices(table, values, chosen).items() if not price]
 
-    Springs wound to order have no record.
-    """
-    return [
-        row.name.removesuffix("_price").replace("_", " ")
+
+def _prices(table: Table, values: Mapping[str, Any], chosen: Mapping[str, Any]) -> dict[str, float]:
+    """Return the prices of the kinds of a module, zero where none is known; springs made to order have no record."""
+    return {
+        row.name.removesuffix("_price").replace("_", " "): values[row.name]
         for row in table.inputs
-        if row.group == COST_GROUP and row.record and row.exists(chosen) and not values[row.name]
+        if row.group == COST_GROUP and row.record and row.exists(chosen)
         and (row.name == "spring_price" or chosen[row.record[0]] != "none")
-    ]  # fmt: skip
+    }  # fmt: skip
+
+
+def cost_in_words(table: Table, values: Mapping[str, Any], chosen: Mapping[str, Any]) -> list[str]:
+    """Return what the cost of a module counts, and what it leaves out; summary and list of parts say the same."""
+    prices = _prices(table, values, chosen)
+    counted, missing = (", ".join(kind for kind, price in prices.items() if bool(price) == known) for known in (1, 0))
+    words = [f"{format_quantity(values['cost'], 'USD', 3)} for what is fitted in one module, pieces by their share of "
+             f"a pack, without work: {counted or 'nothing'}"]  # fmt: skip
+    return [*words, f"without a price, so not in it: {missing}"] if missing else words
 
 
 def _pressed(study: Study, values: Mapping[str, Any]) -> list[str]:

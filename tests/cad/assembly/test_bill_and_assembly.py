@@ -39,7 +39,7 @@ from tvimdesign.catalog.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.blocks.warnings import hints
 from tvimdesign.study.design import Design
-from tvimdesign.study.resolve import unpriced_kinds
+from tvimdesign.study.resolve import cost_in_words, unpriced_kinds
 
 DESIGNS = [
     pytest.param("shear", BEARINGS, id="bearings"),
@@ -57,6 +57,7 @@ def test_note_and_bill_leave_the_same_kinds_out_of_the_cost():
     note = assembly_note(design, dimensions(design), items).decode()
     missing = note.partition("without a price, so not in it: ")[2].partition(". Ask")[0].split(", ")
     assert missing == unpriced_kinds(table_for("shear"), design.values, design.choices)
+    assert all(words in note for words in cost_in_words(table_for("shear"), design.values, design.choices))
     rows = csv.DictReader(io.StringIO(bill_csv(items).decode("utf-8-sig")))
     named = {"spring_right": "spring", "spring_left": "spring", "pcl_arc": "pcl"}
     free = {named.get(row["part"], row["part"].replace("_", " ")) for row in rows if not row["cost_all_usd"]}

@@ -313,9 +313,9 @@ def test_the_cost_names_parts_without_a_price():
         return next(fact.text for fact in facts if fact.label == "Cost")
 
     assert "12.3 USD" in cost(cost=12.3)
-    assert "without a price, so not in it: spring, heater, thermal cutout, structure, pcl; " in cost()
+    assert "without a price, so not in it: spring, heater, thermal cutout, structure, pcl · " in cost()
     prices = {"spring_price": 4.0, "heater_price": 18.0}
-    assert "without a price, so not in it: thermal cutout, structure, pcl; enter quotes" in cost(**prices)
+    assert "without a price, so not in it: thermal cutout, structure, pcl · quotes go" in cost(**prices)
     assert "not in it" not in cost(**prices, structure_price=40.0, pcl_price=50.0, thermal_cutout_price=4.0)
 
 

@@ -18,7 +18,7 @@ from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.catalog.offers import between
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
-from tvimdesign.study.resolve import unpriced_kinds
+from tvimdesign.study.resolve import cost_in_words
 
 
 def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra: Sequence[Item] = ()) -> bytes:
@@ -59,12 +59,12 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
 
 def _cost(items: Sequence[Item], design: Design) -> str:
     """Return the sum of what has a price, what of it one module uses, and what has none."""
-    sums, used = cost(items), design.values.get("cost", 0.0)
-    kinds = ", ".join(unpriced_kinds(table_for(design.mode), design.values, design.choices)) or "nothing"
-    uses = f"One module uses {used:.3g} USD of priced material and shares of packs; without a price, so not in it: "
+    sums, used = cost(items), ""
+    if design.values.get("cost"):
+        used = f"Of that, {'; '.join(cost_in_words(table_for(design.mode), design.values, design.choices))}. "
     return (
         f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list, some of them a neighbour's: "
-        f"{between(sums.low, sums.high)} for whole packs. {f'{uses}{kinds}. ' if used > 0.0 else ''}"
+        f"{between(sums.low, sums.high)} for whole packs, consumables, supply and electronics. {used}"
         f"Ask suppliers for quotes of the others.{_made_to_order(items, design)}"
     )
 

@@ -375,8 +375,8 @@ def _too_long(task: JointTask) -> Extreme | None:
 
 def _longest(task: JointTask, *, margins: bool = True) -> Extreme | None:
     """Return the largest stroke [rad] of hardware for a diameter; None if no search finds one."""
-    found = [_extreme(task, hardware, "stroke", -1.0, margins=margins) for hardware in _candidates(task)]
-    return max((most for most in found if most), default=None)
+    strokes = [_extreme(task, hardware, "stroke", -1.0, margins=margins) for hardware in _candidates(task)]
+    return max((most for most in strokes if most), default=None)
 
 
 def _usual_torque(task: JointTask) -> float:

@@ -17,7 +17,7 @@ from tvimdesign.report.run.blocks.warnings import frozen_turn
 from tvimdesign.report.run.uncertainty_data import changes, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.study.resolve import unpriced_kinds
+from tvimdesign.study.resolve import cost_in_words
 
 _GOOD = 0.9973  # Yield from which a module is no concern: three standard deviations to either side
 DAY = 86400.0  # [s]
@@ -69,11 +69,9 @@ def _creep(value: Values, answer: StudyResult) -> Iterator[str]:
 
 
 def _cost(value: Values, choices: Mapping[str, str]) -> Iterator[str]:
-    """Yield what one module uses, as far as it has a price, and what has none; whole packs are counted by the bill."""
-    yield f"{value('cost')} of priced material and shares of packs in one module, without work"
-    if missing := unpriced_kinds(value.table, value.values, choices):
-        yield f"without a price, so not in it: {', '.join(missing)}; enter quotes in the study's module section"
-    yield "whole packs, supply and electronics to buy: cad/assembly.md"
+    """Yield what the cost of a module counts, what it leaves out, and where the sum of the order is."""
+    yield from cost_in_words(value.table, value.values, choices)
+    yield "quotes go in the study's module section; whole packs, consumables, supply, electronics: cad/assembly.md"
 
 
 def _soft(answer: StudyResult) -> list[str]:
