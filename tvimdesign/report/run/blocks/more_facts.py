@@ -77,7 +77,7 @@ def _cost(value: Values, choices: Mapping[str, str]) -> Iterator[str]:
 def _soft(answer: StudyResult) -> list[str]:
     """Say what soft means, and whether the layer stalls on the way."""
     stalling = stalling_in_words(answer.histories.get("softening"), answer.design.values["softening_time"])
-    notes = ("a plausible case is measured by its own hot", "|Z| has stiffness and damping",
+    notes = ("in a plausible case, of its own |Z| at the hot point", "|Z| has stiffness and damping",
              "molten slices soften the PCL before its coldest melts")  # fmt: skip
     return [soft_in_words(answer.design, table_for(answer.design.mode)), *notes, *filter(None, [stalling])]
 

@@ -66,7 +66,7 @@ def points_grid(answer: StudyResult) -> Grid:
         end = value_text(answer, name, table) if name else ""
         rows.append((f"{row.name}{mark(named[0], answer)}", end, *values, pretty(row.unit), row.description))
     unreached = unreached_points(answer.design.values)
-    heads = ("", "heating ends", *(f"{point} (not reached)" if point in unreached else point for point in points))
+    heads = ("", "heating ends", *(f"{point} (PCL stays cooler)" if point in unreached else point for point in points))
     return grid("At the operating points", (*heads, "unit", "meaning"), rows, right=range(1, len(heads)))
 
 
