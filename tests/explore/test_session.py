@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from answers import shipped_answer
-from explored import TOKEN, Talk, awaited, served, small_study, talking
+from explored import SMALL, TOKEN, Talk, awaited, served, small_study, talking
 
 from tvimdesign.base.units import from_si
 from tvimdesign.explore.answer_worker import _done
@@ -185,6 +185,15 @@ def test_a_result_is_opened_with_its_own_optimum(tmp_path):
         value, reported = shown["at"][name].split(" ", 1)
         assert reported == unit
         assert float(value) == pytest.approx(from_si(result.values[name], unit), rel=0.01)  # another is 2 to 5 % off
+
+
+def test_built_parts_are_drafted_as_they_were_drawn(tmp_path):
+    built = SMALL + "as_drawn: {running_clearance: 0.31 mm}\n"
+    source = open_source(small_study(tmp_path, built))
+    measured = State(way="evaluate", at={**source.first.at, "running_clearance": "0.4 mm"})
+    answer = Engine(source.tree, compiled=False).answer(measured, "quick")
+    assert answer.module is not None
+    assert answer.module["values"]["running_clearance"] == pytest.approx(0.31e-3)
 
 
 @pytest.mark.slow

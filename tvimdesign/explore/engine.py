@@ -286,7 +286,7 @@ class Engine:
 
 
 def _module(study: Study, values: Mapping[str, float], words: Mapping[str, str]) -> dict[str, Any]:
-    return {"mode": study.mode, "choices": dict(words), "values": all_finite(dict(values))}
+    return {"mode": study.mode, "choices": dict(words), "values": all_finite({**values, **study.as_drawn})}
 
 
 def _listed(study: Study, state: State) -> dict[str, str]:
