@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 from answers import shipped_answer
+from every import check_records
 from section_drawing import SECTIONS, missing
 from support import ROOT, STUDIES, study_path
 
-from tvimdesign.catalog import Catalog, check_records
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Output, table_for
 from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.solve.result import answer

@@ -4,10 +4,10 @@ import math
 from itertools import pairwise
 
 import pytest
-from every import of_every
+from every import check_records, of_every
 
 from tvimdesign.base.errors import CatalogError
-from tvimdesign.catalog import CATEGORIES, Catalog, check_records
+from tvimdesign.catalog import CATEGORIES, Catalog
 
 CATALOG = Catalog()
 MELTING = [

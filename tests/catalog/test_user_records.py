@@ -6,11 +6,12 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
+from every import check_records
 from support import ROOT, refused, sample_text
 
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.base.record import Record
-from tvimdesign.catalog import Catalog, check_records
+from tvimdesign.catalog import Catalog
 from tvimdesign.catalog.category import inherited_law_warnings
 from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 

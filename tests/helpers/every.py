@@ -1,9 +1,12 @@
-"""One check of many items as one test, which names every item that fails and why."""
+"""One check of many items as one test, which names every item that fails and why; all records of a catalogue."""
 
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 import pytest
+
+from tvimdesign.base.errors import CatalogError
+from tvimdesign.catalog import CATEGORIES, Catalog
 
 Item = TypeVar("Item")
 
@@ -25,3 +28,15 @@ def of_every(items: Iterable[Item], check: Callable[[Item], None]) -> None:
 def _name(item: object) -> str:
     name = getattr(item, "name", item)
     return "/".join(str(part) for part in name) if isinstance(name, tuple) else str(name)
+
+
+def check_records(catalog: Catalog) -> list[str]:
+    """Read every record and name everything that lacks a unit, a source, a status, or what its category requires."""
+    problems: list[str] = []
+    for category in CATEGORIES:
+        for name in catalog.names(category):
+            try:
+                catalog.record(category, name)
+            except CatalogError as error:
+                problems += str(error).splitlines()
+    return problems

@@ -1,6 +1,6 @@
 """The catalogue: materials, wires and Peltier modules as records, every value with unit, source and status."""
 
-from tvimdesign.catalog.catalog import Catalog, check_records
+from tvimdesign.catalog.catalog import Catalog
 from tvimdesign.catalog.category import CATEGORIES
 
-__all__ = ["CATEGORIES", "Catalog", "check_records"]
+__all__ = ["CATEGORIES", "Catalog"]

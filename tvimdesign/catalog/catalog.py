@@ -132,18 +132,6 @@ def _read_shipped(category: str, name: str, path: Path) -> Record:
     return Catalog()._read(category, name, path)
 
 
-def check_records(catalog: Catalog) -> list[str]:
-    """Read every record and name everything that lacks a unit, a source, a status, or what its category requires."""
-    problems: list[str] = []
-    for category in CATEGORIES:
-        for name in catalog.names(category):
-            try:
-                catalog.record(category, name)
-            except CatalogError as error:
-                problems += str(error).splitlines()
-    return problems
-
-
 def _shown(path: Path) -> str:
     """Name a user's file by its path, a shipped one by its place in the catalogue, the same on every machine."""
     return f"catalog/{path.relative_to(_SHIPPED).as_posix()}" if path.is_relative_to(_SHIPPED) else str(path)

@@ -5,11 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from every import check_records
 from measured_files import csv, holds, moduli, oscillated
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import CatalogError, InputError
-from tvimdesign.catalog import Catalog, check_records
+from tvimdesign.catalog import Catalog
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, unmeasured_inputs
 

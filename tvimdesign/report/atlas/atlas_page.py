@@ -91,11 +91,11 @@ def _band(cell: AtlasCell) -> list[float] | None:
     return [share * end for end in cell.intervals[TORQUE]] + list(cell.intervals[CYCLE])
 
 
-def ending_limits(cells: Sequence[AtlasCell], status: str, count: int = 3) -> str:
+def ending_limits(cells: Sequence[AtlasCell], status: str) -> str:
     """Return the limits that most often come first in cells of a status, with their shares."""
     first = Counter(cell.limits[0] for cell in cells if cell.status == status and cell.limits)
     total = sum(first.values())
-    return ", ".join(f"{text} ({100.0 * times / total:.0f} %)" for text, times in first.most_common(count))
+    return ", ".join(f"{text} ({100.0 * times / total:.0f} %)" for text, times in first.most_common(3))
 
 
 def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, float], command: Command) -> Page:

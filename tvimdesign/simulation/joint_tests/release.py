@@ -122,15 +122,15 @@ def _notes(resolved: ResolvedModule, releases: Sequence[Released]) -> list[str]:
     return notes
 
 
-def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tuple[float, float, float]]:
+def contact_seen(resolved: ResolvedModule) -> dict[str, tuple[float, float, float]]:
     """Return nominal, least and largest value of every quantity of a first swing, after `hold_time`."""
     if not one_sided(resolved):
         values = _rows_of_a_swing(resolved, Touching(1.0, 1.0))
         return {f"{name}@{point}": (float(x),) * 3 for point in resolved.points for name, x in values.items()}
     seen: dict[str, list[float]] = {}
     for case in cases(resolved):
-        internal = link.held(case.plant, angle, float(resolved.quantity("hold_time")))
-        motion = link.released(case.plant, angle, internal, case.friction, TURNS_OF_A_SWING)
+        internal = link.held(case.plant, ANGLE, float(resolved.quantity("hold_time")))
+        motion = link.released(case.plant, ANGLE, internal, case.friction, TURNS_OF_A_SWING)
         instants = _rows_of_a_swing(resolved, Touching(*motion.touching.astype(float)))
         for name, values in instants.items():
             mean = motion.average(values, 0.0, motion.first_swing())
