@@ -225,6 +225,13 @@ def test_curves_and_loops_are_those_of_the_table(result, data):
         assert torque[top] == pytest.approx(stiffness * stroke, rel=1e-6)
         lossy = 2.0 * np.pi * result.design.value(f"frequency@{point}") * result.design.value(f"joint_damping@{point}")
         assert np.trapezoid(torque, angle) == pytest.approx(np.pi * lossy * stroke**2, rel=2e-3)  # of a Kelvin body
+        angle, torque = np.array(loop["spring_angle"]), np.array(loop["springs"])
+        assert angle[[0, -1]] == pytest.approx([-full, full])
+        assert torque[[0, -1]] == pytest.approx(np.array([-1, 1]) * result.design.value("spring_torque_full_stroke"))
+        slope = np.gradient(torque, angle, edge_order=2)
+        for at, name in ((0.0, ""), (0.5, "_half_stroke"), (1.0, "_full_stroke")):
+            slope_there = np.interp(at * full, angle, slope)
+            assert slope_there == pytest.approx(result.design.value(f"spring_stiffness{name}"), rel=5e-3)
     history, depths = data["cycle"]["softening"], data["cycle"]["depths"]
     assert len(depths) == 10  # eight cells between two faces
     assert np.all(np.diff(depths) > 0.0)

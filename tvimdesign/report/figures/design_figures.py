@@ -100,9 +100,9 @@ def torque(data: dict[str, Any]) -> Figure:
     theme.caption(figure, data["title"])
     for loop, left, _, wide in theme.in_rows(loops, len(loops), 0.55, 0.62):
         axes = theme.place(figure, left, 0.42, wide, 1.55)
-        axes.plot(loop["angle"], loop["torque"], label="joint", **theme.style_of(0))
-        if any(loop["springs"]):
-            axes.plot(loop["angle"], loop["springs"], label="springs alone", **theme.style_of(1))
+        axes.plot(loop["angle"], loop["torque"], label="joint, small motions", **theme.style_of(0))
+        if "springs" in loop:
+            axes.plot(loop["spring_angle"], loop["springs"], label="springs alone", **theme.style_of(1))
         for side in (-1.0, 1.0):
             axes.axvline(side * data["stop_angle"], label="hard stops" if side > 0.0 else None, **theme.style_of(2))
         axes.set(xlabel=data["labels"]["angle"], ylabel=data["labels"]["torque"])

@@ -11,11 +11,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import from_si
 from tvimdesign.cad.cad_report import PREVIEW
-from tvimdesign.device import Table
+from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
 from tvimdesign.report.output.command import record_files
 from tvimdesign.report.output.numbers import axis_label, curves_csv, head, name_in_words
@@ -33,7 +35,7 @@ from tvimdesign.report.run.blocks.verdict import refused, starts_in_words
 from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.front_report import points_shown
 from tvimdesign.report.run.reasons import why_csv
-from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves, torque_loop
+from tvimdesign.simulation.working_cycle.curves import LOOP_SAMPLES, PHASE_UNITS, Curves, torque_loop
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design, write_design
@@ -113,15 +115,14 @@ def depths(answer: StudyResult, table: Table) -> list[float]:
 
 def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
     """Return torque over angle at every operating point, of the joint for small motions, and of its springs."""
-    loops = []
+    loops, springs = [], _spring_torque(design)
     for point in design.study["operating_points"]:
-        frequency, springs = design.value(f"frequency@{point}"), design.value("spring_stiffness")
+        frequency = design.value(f"frequency@{point}")
         stiffness, damping = (design.value(f"joint_{kind}@{point}") for kind in ("stiffness", "damping"))
         swing = min(design.value("stroke"), design.value("holding_torque") / stiffness)
         angle, torque = torque_loop(stiffness, damping, frequency, swing)
         title = f"{name_in_words(point)}: {shown(f'temperature@{point}'):.0f} °C, {frequency:g} Hz"
-        loops.append({"title": title, "angle": angle.tolist(), "torque": torque.tolist(),
-                      "springs": (springs * angle).tolist()})  # fmt: skip
+        loops.append({"title": title, "angle": angle.tolist(), "torque": torque.tolist(), **springs})
     contact = ", while the PCL is in contact" if design.value("parting_share") > 0.0 else ""
     return {
         "title": f"Torque that turns the joint through its stroke, at most by what it holds frozen{contact}",
@@ -131,6 +132,18 @@ def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
     }
 
 
+def _spring_torque(design: Design) -> dict[str, list[float]]:
+    """Return the torque of all springs over the whole stroke to both sides; empty without springs."""
+    if _SPRINGS not in design.values:
+        return {}
+    angle = np.linspace(-design.value("stroke"), design.value("stroke"), LOOP_SAMPLES)
+    known = {**design.choices, **design.values, "stroke": np.abs(angle)}
+    del known[_SPRINGS]
+    torque = np.sign(angle) * table_for(design.mode).evaluate(known, [_SPRINGS])[_SPRINGS]
+    return {"spring_angle": angle.tolist(), "springs": torque.tolist()}
+
+
+_SPRINGS = "spring_torque_full_stroke"
 _FILES = {
     "summary.pdf": "this screen as one page", "summary.txt": "tables as text", "results.csv": "every value",
     "why.csv": "shadow prices", "front.csv": "the front",
