@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from cad_designs import shipped_design
-from support import ROOT, wait_until
+from support import ROOT, cases_of, wait_until
 
 from tvimdesign.base.processes import communicate
 from tvimdesign.cli.options import default_folder, name_of
@@ -116,19 +116,7 @@ def test_the_new_study_ends_with_a_module_to_build(process, tmp_path):
     assert done.stdout.startswith("Build it · ")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["run", "nowhere.yaml"], "no such file"),
-        (["check", "README.md"], ""),
-        (["cad", "nowhere.json"], "nowhere.json"),
-        (["rows", "no such thing"], "no row"),
-        (["rows", "--mode", "bending"], "bending"),
-        (["runn"], "runn"),
-        (["simulate", "nowhere.yaml", "--test", "creep"], "no such file"),
-        (["run"], "STUDY"),
-    ],
-)
+@cases_of("cli", "bad_input")
 def test_bad_input_is_a_message_and_exit_code_2(tvimdesign, arguments, words):
     done = tvimdesign(*arguments)
     assert done.returncode == 2
@@ -265,16 +253,7 @@ def test_simulate_without_a_test_lists_the_tests_with_what_they_show(tvimdesign)
     assert not Path("results/finger-").exists()
 
 
-@pytest.mark.parametrize(
-    ("design", "parts", "test"),
-    [
-        ("results/elbow/design.json", "results/elbow-cad", "elbow"),
-        ("results/elbow/front/01.design.json", "results/elbow-front-01-cad", "elbow-front-01"),
-        ("results/elbow/front/02.design.json", "results/elbow-front-02-cad", "elbow-front-02"),
-        ("results/pair/shear/drawn.json", "results/pair/shear-drawn-cad", "shear-drawn"),
-        ("results/pair/shear/optimised.json", "results/pair/shear-optimised-cad", "shear-optimised"),
-    ],
-)
+@cases_of("cli", "folders")
 def test_every_design_has_a_folder_of_its_own(design, parts, test):
     assert default_folder(Path(design)) == Path(parts).resolve()
     assert name_of(Path(design)) == test

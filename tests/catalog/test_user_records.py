@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from every import check_records
-from support import ROOT, refused, sample_text
+from support import ROOT, cases_of, refused, sample_text
 
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.base.record import Record
@@ -113,17 +113,7 @@ def test_spectra_agree_with_viscosity_and_plateau(tmp_path):
     assert "values.plateau_modulus: missing; expected MPa" in refusal(tmp_path, text, "polymers")
 
 
-@pytest.mark.parametrize(
-    ("good", "bad", "message"),
-    [
-        ("3500", "3900", "values.zero_shear_viscosity: 3900 and tables.melt_spectrum contradict"),
-        ("3500", "35", "the sum of modulus times relaxation_time is 3491.07"),
-        ("1000, unit: kPa", "10, unit: kPa", "values.plateau_modulus: 10000 and tables.melt_spectrum contradict"),
-        ("3e5]", "-3.5]", "tables.melt_spectrum.rows[3].modulus: -3.5 does not do: it must be greater than zero"),
-        ("[4e-3, 2.4e5], ", "", "melt_spectrum has 5, solid_spectrum has 6 rows"),
-        ("[4e-3,", "[4e-2,", "rows[2].relaxation_time: 0.04 does not do: it must be below the row's before"),
-    ],
-)
+@cases_of("user_records", "melt_spectra")
 def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path, good, bad, message):
     assert good in OWN_SPECTRUM
     assert message in refusal(tmp_path, OWN_SPECTRUM.replace(good, bad, 1), "polymers")
@@ -149,16 +139,7 @@ def test_a_based_record_keeps_what_its_base_has(tmp_path):
     assert result.entry("area") == Catalog().record("peltiers", "qc_17").entry("area")
 
 
-@pytest.mark.parametrize(
-    ("bases", "message"),
-    [
-        ({"a": "b", "b": "c", "c": "a"}, "based_on: a -> b -> c -> a goes in a circle"),
-        ({"a": "a"}, "based_on: a -> a goes in a circle"),
-        ({"a": "qc_71"}, "based_on: peltiers has no record 'qc_71'; did you mean qc_17"),
-        ({"a": "[qc_17]"}, "based_on: expected the name of one record of peltiers"),
-        ({"a": "../../x"}, "based_on: peltiers has no record"),
-    ],
-)
+@cases_of("user_records", "bases")
 def test_what_a_record_cannot_be_based_on_is_named(tmp_path, bases, message):
     for name, base in bases.items():
         catalog = put(tmp_path, f"title: {name}\nbased_on: {base}\n", name=name)

@@ -9,12 +9,14 @@ import time
 import warnings
 from collections.abc import Callable, Sequence
 from contextlib import chdir, redirect_stderr, redirect_stdout
+from functools import cache
 from pathlib import Path
 from subprocess import CompletedProcess
 from typing import Any
 from unittest import mock
 
 import psutil
+import pytest
 import yaml
 from cvodes_cycle import CvodesSimulator
 
@@ -52,6 +54,18 @@ def refused(what: str) -> list[Any]:
     """Return cases of input that is refused, with the words of each refusal."""
     cases: list[Any] = yaml.safe_load((ROOT / f"tests/refused/{what}.yaml").read_text(encoding="utf-8"))
     return cases
+
+
+@cache
+def _tables(file: str) -> dict[str, list[list[Any]]]:
+    tables: dict[str, list[list[Any]]] = yaml.safe_load((ROOT / f"tests/cases/{file}.yaml").read_text(encoding="utf-8"))
+    return tables
+
+
+def cases_of(file: str, table: str) -> pytest.MarkDecorator:
+    """Return the mark that runs a test with each row of a table of tests/cases; its first row names the arguments."""
+    names, *rows = _tables(file)[table]
+    return pytest.mark.parametrize(names, rows)
 
 
 def is_at_work(process: int) -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support import ROOT
+from support import ROOT, cases_of
 
 from tvimdesign.report.simulate_study import figure_data, findings, sheet_csv
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
@@ -83,17 +83,7 @@ def test_kinds_are_listed(tvimdesign):
     }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ([], "give at least one FILE"),
-        (["nowhere.csv"], "there is no such file"),
-        (["weights.csv"], "--set arm=...: needed"),
-        (["weights.csv", "--set", "arm"], "expected a name, `=` and a value"),
-        (["weights.csv", "--as", "spring"], "no kind of measurement is named 'spring'"),
-        (["weights.csv", "--columns", "weights.csv"], "expected quantities with their columns"),
-    ],
-)
+@cases_of("fit_files", "errors")
 def test_an_error_is_reported(tvimdesign, weights, words, message):
     done = tvimdesign("fit", *words, "--no-plots", cwd=weights.parent)
     assert done.returncode == 2

@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 from rich.console import Console
+from support import cases_of
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import MODES
@@ -36,17 +37,7 @@ def test_every_word_and_every_term_finds_rows(mode):
             assert any(term in f"{row.name} {row.description}".lower() for row in every_mode), f"{word}: {term}"
 
 
-@pytest.mark.parametrize(
-    ("word", "name"),
-    [
-        ("weight", "module_mass"), ("power supply", "peak_voltage"), ("stiffness", "joint_stiffness"),
-        ("damping", "joint_damping"), ("speed", "response_time"), ("size", "envelope_diameter"),
-        ("Power  Supply", "peak_power"), ("bolt", "link_screw"), ("plastic", "pcl_thickness"),
-        ("play", "backlash"), ("lifetime", "spring_fatigue_safety"), ("travel", "stroke"),
-        ("heat sink", "sink_capacity"), ("wire diameter", "wire_diameter"),
-        ("peltier_temperature_margin", "heater_temperature_margin"),
-    ],
-)  # fmt: skip
+@cases_of("rows", "looked_for")
 def test_what_an_engineer_looks_for_is_found(word, name):
     assert name in {row.name for row in rows.matching(rows.named_rows("shear"), word)}
 

@@ -10,7 +10,7 @@ from answers import shipped_answer
 from numpy.typing import NDArray
 from robot_models import module_of
 from scipy.integrate import solve_ivp
-from support import study_path
+from support import cases_of, study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.heat_flow import heat, lumps
@@ -131,16 +131,7 @@ def test_a_duty_too_quick_for_a_cycle_has_its_limit_alone(monkeypatch):
     assert (too_often.values, too_often.most, too_often.limited_by) == ({}, 7.0, "time")
 
 
-@pytest.mark.parametrize(
-    ("sections", "words"),
-    [
-        ("require: {response_time@duty: '<= 60 s'}", "the study has no duty"),
-        ("duty: {switches_per_hour: 2}\nrequire: {module_mass@duty: '<= 60 g'}", "is not simulated in a duty"),
-        ("control: {draws: 2}\nrequire: {return_time@control: '<= 60 s'}", "is not simulated in a control"),
-        ("control: {draws: 2}\nrequire: {highest_switch_rate@control: '>= 2 1/h'}", "limit `highest_switch_rate@duty`"),
-        ("require: {overshoot: '<= 3 K'}", "limit `overshoot@control`"),
-    ],
-)
+@cases_of("duty", "not_simulated")
 def test_a_limit_on_what_is_not_simulated_is_refused(sections, words):
     with pytest.raises(StudyError, match=words):
         read_study_text(f"mode: shear\n{sections}")

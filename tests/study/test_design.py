@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 import yaml
 from cad_designs import shipped_design
-from support import STUDIES
+from support import STUDIES, cases_of
 
 from tvimdesign.base.errors import CatalogError, InputError, TvimError
 from tvimdesign.device import table_for
@@ -220,22 +220,7 @@ def test_values_are_the_study_s_the_record_s_or_the_default(read):
     assert result["youngs_modulus"] == 193e9
 
 
-@pytest.mark.parametrize(
-    ("module", "vary", "name", "value"),
-    [
-        ("", "wire_diameter: [1 mm, 2 mm]", "wire_diameter", 2e-3),
-        ("", "wire_diameter: [3 mm, 4 mm]", "wire_diameter", 3e-3),
-        ("", "wire_diameter: [2 mm, 3 mm]", "wire_diameter", 2.413e-3),
-        ("wire_diameter: 1.5 mm", "wire_diameter: [1 mm, 2 mm]", "wire_diameter", 1.5e-3),
-        ("wire_diameter: 1.5 mm", "wire_diameter: {from: 1 mm, to: 2 mm, start: 1.1 mm}", "wire_diameter", 1.1e-3),
-        ("", "wire_diameter: {catalog: metric, to: 2.2 mm}", "wire_diameter", 2e-3),
-        ("wire_diameter: 1.1 mm", "wire_diameter: {catalog: metric}", "wire_diameter", 1e-3),
-        ("", "arc_count: {choose: [3, 6]}", "arc_count", 3.0),
-        ("", "rate_model: {choose: [smi]}", "rate_model", "smi"),
-        ("", "rate_model: {choose: [smi, bending]}", "rate_model", "bending"),
-        ("rate_model: smi", "rate_model: {choose: [bending, smi]}", "rate_model", "smi"),
-    ],
-)
+@cases_of("design", "starts")
 def test_what_varies_starts_within(read, *, module, vary, name, value):
     result = _given(read, module, VARY % vary)[name]
     assert result == (value if isinstance(value, str) else pytest.approx(value))

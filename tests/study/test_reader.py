@@ -14,7 +14,7 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
-from support import STUDIES, refused, sample_text
+from support import STUDIES, cases_of, refused, sample_text
 
 from tvimdesign import __version__
 from tvimdesign.device import MODES, Output, Table, table_for
@@ -191,15 +191,7 @@ def mistake(section: str, name: str, value: str) -> Mistake:
     return problem
 
 
-@pytest.mark.parametrize(
-    ("name", "meant"),
-    [
-        ("outer_diameter", "envelope_diameter"), ("height", "envelope_height"), ("mass", "module_mass"),
-        ("weight", "module_mass"), ("stiffness@hot", "joint_stiffness@hot"), ("stiffness", "joint_stiffness@hot"),
-        ("stifness@cold", "joint_stiffness@cold"), ("torque", "holding_torque"), ("time", "response_time"),
-        ("mass@hot", "module_mass"), ("diamter", "envelope_diameter"), ("module_mas", "module_mass"),
-    ],
-)  # fmt: skip
+@cases_of("reader", "meant_limits")
 def test_a_limit_gets_the_quantity_that_is_meant(name, meant):
     assert mistake("require", name, "<= 1 mm").hint == f"did you mean {meant!r}?"
     # What is meant most often stands first among the names.

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pint
 import pytest
-from support import STUDIES, refused
+from support import STUDIES, cases_of, refused
 
 from tvimdesign.study import Range, Study, StudyError, read_study_text, read_tree
 from tvimdesign.study.text.mistakes import Mistakes
@@ -101,14 +101,7 @@ def test_a_number_with_its_unit_may_be_given_in_many_ways(value):
     assert read_tree(tree).module["pcl_thickness"] == pytest.approx(1.2e-3, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("value", "unit"),
-    [
-        ("15 N.m", "N*m"), ("5.6 N.m/rad", "newton*meter/radian"), ("100 degC", "degC"), ("1 Hz", "hertz"),
-        ("5 K", "delta_degC"), ("0.5 1", "dimensionless"), ("3 kg.mm^2", "kg * mm ** 2"),
-        ("3 J/kg/K", "J/kg/delta_degC"),
-    ],
-)  # fmt: skip
+@cases_of("tree", "units_of_pint")
 def test_pints_own_words_for_units_are_read(value, unit):
     from tvimdesign.base.units import parse_quantity
 

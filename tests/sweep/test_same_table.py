@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from small_sweeps import plan, swept, tables
-from support import ROOT, environment, study_path
+from support import ROOT, cases_of, environment, study_path
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
@@ -100,16 +100,7 @@ def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file, one_process
     assert (done.reused, done.computed, done.missing) == (4, 0, 0)
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["--shard", "4/3"], "--shard 4/3: expected part/parts, such as 1/3"),
-        (["--shard", "1/3", "--overwrite"], "--overwrite and --shard"),
-        (["--set", "sweep.over.pcl_thicknes=[1 mm]"], "did you mean 'pcl_thickness'?"),
-        (["--set", "sweep.over.current={from: 1 A, to: 2 A, count: 1000000}"], "6000000 cells; the limit is 100000"),
-        (["--resume", "--overwrite"], "--overwrite and --resume: choose one"),
-    ],
-)
+@cases_of("same_table", "refused")
 def test_what_cannot_be_done_is_reported_in_a_line(tvimdesign, study_file, tmp_path, words, message):
     done = tvimdesign("sweep", study_file, "--out", tmp_path / "out", *words)
     assert done.returncode == 2, done.stderr

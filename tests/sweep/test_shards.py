@@ -13,7 +13,7 @@ import pytest
 from scipy.stats import qmc
 from small_studies import ALGEBRAIC
 from small_sweeps import plan
-from support import ROOT, study_path
+from support import ROOT, cases_of, study_path
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError, OutputError
@@ -148,16 +148,7 @@ def test_bad_or_too_many_cells_are_refused_with_advice(tmp_path):
         plan(path)
 
 
-@pytest.mark.parametrize(
-    "sweep",
-    [
-        "{over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 3}, require.holding_torque: ['>= 5 N.m', '>= 6 N.m']}}",
-        "{over: {require.module_mass: {from: <= 200 g, to: <= 300 g, count: 3}, rate_model: [smi, bending]}}",
-        "{over: {operating_points.hot.temperature: {from: 90 degC, to: 110 degC, count: 3}, arc_count: [3, 4]}}",
-        "{over: {wire_diameter: [2 mm], coil_diameter: [20 mm, 25 mm], pcl_thickness: [1 mm, 1.2 mm]}}",
-        "{method: latin_hypercube, count: 4, over: {wire_diameter: {from: 2 mm, to: 3 mm}, solver.starts: [1, 2]}}",
-    ],
-)
+@cases_of("shards", "keys")
 def test_every_cell_has_a_key_of_its_own(tmp_path, sweep):
     sweep_plan = plan_over(tmp_path, sweep, OPTIMISED)
     keys = CellKeys(sweep_plan)

@@ -11,7 +11,7 @@ from judging.case import CASES, CaseError, read_case, read_cases
 from judging.figures import figure
 from judging.outcome import INSIDE, KNOWN, OUTSIDE, outcome
 from judging.page import page, values_csv
-from support import ROOT
+from support import ROOT, cases_of
 
 QUICK = ("spring_shigley_10_8", "heater_pc_heat", "freezing_avrami", "layer_in_series", "part_fits_iso_286")
 PAGE = ROOT / "docs/validation.md"
@@ -56,14 +56,7 @@ def test_a_case_is_inside_its_limit(name):
     assert values_csv([compared]).count("\n") == 1 + sum(len(part.rows) for part in compared.quantities)
 
 
-@pytest.mark.parametrize(
-    ("name", "old", "new"),
-    [
-        ("spring_shigley_10_8", "value: 1.1146", "value: 1.1176"),
-        ("heater_pc_heat", "values: [85.1,", "values: [75.1,"),
-        ("part_fits_iso_286", "values: [10, 15,", "values: [10, 16,"),
-    ],
-)
+@cases_of("validation_cases", "wrong_numbers")
 def test_a_wrong_number_fails_the_run(name, old, new, tmp_path, capsys):
     copied(name, tmp_path)
     assert run.main(["--folder", str(tmp_path), name]) == 0
@@ -102,19 +95,7 @@ def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path):
     assert outcome(read_case(gone)).verdict == outcome(read_case(grown)).verdict == OUTSIDE
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("kind: heater", "kind: cooler", "'cooler' is none of"),
-        ("    relative: 0.1\n", "", "a limit is needed"),
-        ("    value: 32\n", "", "give value, values or low and high"),
-        ("    value: 32\n", "    value: .nan\n", "not a finite number"),
-        ("    known_within: 0.25\n", "", "needs `known`, its reason"),
-        ("source:", "sauce:", "sauce: unknown"),
-        ("; page read 2026-11", "", "source: give its DOI, edition or year"),
-        ("compare: peltier_modules:largest_heat\n", "", "`open` says what is missing"),
-    ],
-)
+@cases_of("validation_cases", "lacks")
 def test_a_case_that_lacks_something_is_refused_by_name(old, new, message, tmp_path):
     path = copied("heater_electracool_heat", tmp_path, (old, new))
     with pytest.raises(CaseError, match=re.escape(message)) as refused:

@@ -6,6 +6,7 @@ from typing import Any
 import cadquery as cq
 import pytest
 from cad_designs import TILES, design_of
+from support import cases_of
 
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly import heater_leads
@@ -85,17 +86,7 @@ def test_cut_outs_and_beads_say_only_what_they_can():
     )
 
 
-@pytest.mark.parametrize(
-    ("parts", "hottest", "margin", "holding"),
-    [  # Parts bear 105 °C; 108 opens 3 above, 99 opens from 89 on and not within 5 of 84 °C. At 83 °C 108 holds 6 less.
-        ({"process": "print_pc_bambu"}, 91.5, -3.0, 0.0),
-        ({"process": "print_pc_bambu"}, 83.0, 1.0, -6.0),
-        # The heater bears 160 °C: 133 opens 27 below that, and holds 101 °C.
-        ({"process": "print_pei_1010"}, 83.0, 27.0, 18.0),
-        # The liner of PETG bears 60 °C: 73 opens 13 above it.
-        ({"process": "print_pei_1010", "liner_material": "petg", "key_count": 0.0}, 40.0, -13.0, 0.0),
-    ],
-)
+@cases_of("heater_leads", "margins_of_a_cut_out")
 def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(parts, hottest, margin, holding):
     changes = {"peltier_module": "silicone_9ar_08_24v", **parts}
     module = ", ".join(f"{name}: {word}" for name, word in changes.items())
@@ -149,19 +140,7 @@ def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out():
     assert "thermistor's own table: heating ends at 84.2 °C, as" in heater_leads.set_points_in_words(none)
 
 
-@pytest.mark.parametrize(
-    ("bead", "heater", "number"),
-    [  # beads in mm, as the makers' sheets have them: AMF58B 1.3 +-0.2 by 2.8 at most, B57540G 0.8 by 1.4
-        ((1.8, 4.0), "ma10_063_05_1", "AMF58B-103F3950"),
-        ((1.5, 2.8), "silicone_9ar_08_24v", "AMF58B-103F3950"),
-        ((1.49, 4.0), "ma10_063_05_1", "B57540G1103F000"),
-        ((1.8, 2.7), "ma10_063_05_1", "B57540G1103F000"),
-        ((0.8, 2.0), "polyimide_foil_24v", "B57540G1103F000"),
-        ((0.7, 4.0), "ma10_063_05_1", None),
-        ((0.0, 4.0), "ma10_063_05_1", "B57862S0103F040"),  # none drawn: glued to a pad, insulated wires, to 155 degC
-        ((0.0, 4.0), "silicone_9ar_08_24v", "AMF58B-103F3950"),  # that heater bears 160 degC
-    ],
-)
+@cases_of("heater_leads", "thermistors")
 def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(bead, heater, number):
     sizes = {"thermistor_diameter": 1e-3 * bead[0], "thermistor_length": 1e-3 * bead[1]}
     text = heater_leads.thermistor_in_words(switched({"peltier_module": heater, **sizes}))

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 from cad_designs import DRIVEN, TILES, design_of
+from support import cases_of
 
 from tvimdesign.cad.assembly.bill_of_materials import Item, beside, driver_inputs
 from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
@@ -103,26 +104,7 @@ def test_the_spread_holds_all_prices_of_one_screw_whatever_its_length():
         assert first != second or (high / few) / (low / many) <= 2.2, first
 
 
-@pytest.mark.parametrize(
-    ("kind", "record", "title", "supplier", "number"),
-    [
-        ("link_dowel", "iso_8734_2", "Dowel pin ISO 8734 - 2 m6 x 8 - A, hardened steel", "any fastener shop",
-         "ISO 8734 - 2 m6 x 8 - A"),
-        ("thermal_cutout", "microtemp_g4a", "Thermal cut-out MICROTEMP G4A, G4A01104C: opens", "Therm-O-Disc",
-         "G4A01104C"),
-        ("thermal_cutout", "ultimheat_5ma3", "Thermal cut-out 5MA3 of Ultimheat, 5MA3SPF152019340: opens", "Ultimheat",
-         "5MA3SPF152019340"),
-        ("thermal_cutout", "thermtrol_df", "Thermal cut-out DF077S to DF170S of Thermtrol, axial wires, DF119S: opens",
-         "Thermtrol, or Cantherm as SDF", "DF119S"),
-        ("thermal_cutout", "sefuse_sm_b", "Thermal cut-out SEFUSE SM092B0 to SM146B0 (SM/B) of Schott, SM110B0: opens",
-         "Schott", "SM110B0"),
-        ("heater", "cp30138", "Thermoelectric module CP30138 of Same Sky, 15 x 15 mm", "Same Sky", "CP30138"),
-        ("heater", "polyimide_foil_24v", "Etched-foil heater in polyimide, to the outline of its STEP file",
-         "any maker of foil heaters", "to drawings/heater.pdf"),
-        ("bearing", "ball_6803", "Thin deep-groove ball bearing 6803, 17 x 26 x 5 mm", "any bearing shop", "6803"),
-        ("spring_left", "music_wire", "Torsion spring of Music wire", "any spring maker", "to springs/spring.pdf"),
-    ],
-)  # fmt: skip
+@cases_of("offers", "numbers")
 def test_the_number_is_a_standards_a_makers_or_that_of_a_drawing(kind, record, title, supplier, number):
     offer = offer_for(kind, record, title)
     assert offer is not None

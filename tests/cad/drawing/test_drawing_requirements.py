@@ -12,7 +12,7 @@ import pytest
 import yaml
 from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, design_of
 from ezdxf.tools.text_size import text_size
-from support import ROOT
+from support import ROOT, cases_of
 from test_drawings import no_text_lies_on_another, sheet_of, texts
 
 from tvimdesign.base.errors import GeometryError
@@ -32,15 +32,7 @@ from tvimdesign.study.design import Design
 MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_ratio": 40.0}
 
 
-@pytest.mark.parametrize(
-    ("fit", "size", "lower", "upper"),
-    [  # ISO 286-2, tables of limit deviations, in micrometres
-        ("H7", 3, 0, 10), ("H7", 10, 0, 15), ("H7", 50, 0, 25), ("H8", 20, 0, 33), ("H6", 100, 0, 22),
-        ("h6", 20, -13, 0), ("h5", 15, -8, 0), ("h8", 40, -39, 0), ("js5", 25, -4.5, 4.5), ("JS7", 60, -15, 15),
-        ("g6", 30, -20, -7), ("G7", 40, 9, 34), ("k6", 40, 2, 18), ("k5", 20, 2, 11), ("H7", 31.5, 0, 25),
-        ("JS10", 14, -35, 35),
-    ],
-)  # fmt: skip
+@cases_of("drawing_requirements", "limit_deviations")
 def test_limit_deviations_are_those_of_the_standard(fit, size, lower, upper):
     assert limit_deviations(fit, size) == pytest.approx((1e-3 * lower, 1e-3 * upper))
 

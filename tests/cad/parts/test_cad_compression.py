@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from cad_designs import TILES, VANE_TILE_ROWS, VANE_TILES, all_checks, broken_rules, design_of, random_blocks
 from placed_solids import assert_sound, build, placed_solids
+from support import cases_of
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import drawn_parts
@@ -48,22 +49,7 @@ def failed(parts: dict[str, cq.Solid], among: str) -> set[str]:
     return {check.name for check in interference_checks(looked_at, "here") if not check.ok}
 
 
-@pytest.mark.parametrize(
-    ("degrees", "level", "expected"),
-    [
-        # At the mean radius of 18.5 mm a degree is 0.323 mm: vanes of 4 mm end at 6.19 degrees, blocks of 4 mm at
-        # 18.58, pads of 1 mm at 21.68; the housing's vane has its middle at 30.
-        (0.0, 6.0, "rotor"), (6.0, 6.0, "rotor"), (6.4, 6.0, "pcl_block_1"), (-6.4, 6.0, "pcl_block_2"),
-        (18.4, 6.0, "pcl_block_1"), (18.8, 6.0, "heater_2"), (41.2, 6.0, "heater_1"),
-        (21.5, 6.0, "heater_2"), (30.0, 11.9, "housing"), (60.0, 6.0, "rotor"),
-        # Levels: 0.4 mm of air, 11.964 mm of block and pad, 0.4 mm of air, 4 mm of plate; floor below zero.
-        (0.0, 0.3, None), (0.0, 0.5, "rotor"), (12.0, 0.3, None), (12.0, 0.5, "pcl_block_1"),
-        (12.0, 12.3, "pcl_block_1"), (12.0, 12.5, None), (30.0, 12.5, None), (30.0, 12.9, "rotor"),
-        (20.0, 0.2, "housing"), (20.0, 0.5, "heater_2"),
-        # The slot reaches through the floor, and up to 2 mm below the vane's top at 12.364 mm.
-        (30.0, 6.0, None), (30.0, -2.0, None), (30.0, 10.3, None), (30.0, 10.5, "housing"), (12.0, -2.0, "housing"),
-    ],
-)  # fmt: skip
+@cases_of("cad_compression", "places")
 def test_vanes_blocks_and_pads_stand_where_the_drawing_in_words_says(at_rest, degrees, level, expected):
     assert holders(at_rest, at(18.5, degrees, level)) == ([expected] if expected else [])
 
@@ -303,14 +289,7 @@ def test_adhesive_and_a_thermistor_for_each_spreader_are_in_the_list():
     assert (of_a_pad["thermistor"].quantity, "hole" in of_a_pad["thermistor"].title) == (1, False)
 
 
-@pytest.mark.parametrize(
-    ("mode", "wiring", "message"),
-    [
-        ("shear", "series", "in series"),
-        ("shear", "arcs_parallel", "arcs in parallel"),
-        ("compression", "vanes_parallel", "vanes in parallel"),
-    ],
-)
+@cases_of("cad_compression", "supplies")
 def test_the_supply_is_for_the_pads_as_they_are_wired(mode, wiring, message):
     design = design_of("wired", {"shear": TILES, "compression": VANE_TILES}[mode] | {"heater_wiring": wiring}, mode)
     design.values.update(peak_voltage=9.0, peak_current=2.0)

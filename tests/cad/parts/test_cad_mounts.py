@@ -11,6 +11,7 @@ from cad_designs import BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, broken_rules, 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from placed_solids import assert_sound, build, placed_solids
+from support import cases_of
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import drawn_part, drawn_parts, place
@@ -381,15 +382,7 @@ def test_it_touches_what_heats_the_block_and_cuts_nothing(changes, touched):
     assert below.intersect(placed["housing"]).Volume() == pytest.approx(0.0, abs=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("rule", "changes"),
-    [
-        ("thermistor_rim_gap", {"rotor_rim": 0.5e-3}),
-        ("thermistor_height_gap", {"thermistor_length": 14e-3}),
-        ("thermistor_end_gap", {"peltier_thickness": 0.3e-3}),
-        ("thermistor_hole_gap", {"placement_radius": 31e-3, "vane_count": 3}),
-    ],
-)
+@cases_of("cad_mounts", "beads")
 def test_a_bead_without_room_breaks_a_rule(rule, changes):
     assert rule in broken_rules(design_of("tight", {**BLOCKS, **BEAD_BY_BLOCK, **changes}, "compression"))
     bare = {name: value for name, value in changes.items() if "thermistor" not in name}

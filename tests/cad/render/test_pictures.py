@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
+from support import cases_of
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
@@ -61,15 +62,7 @@ def _upright(azimuth: float, radius: float = 30.0) -> Instance:
     return Instance(Mesh(np.array(body.vertices), np.array(body.faces)), matrix)
 
 
-@pytest.mark.parametrize(
-    ("springs", "polymer", "wedge"),
-    [
-        ((0.0, 180.0), (135.0, 315.0), (0.0, 135.0)),
-        ((180.0,), (315.0,), (180.0, 315.0)),
-        ((90.0,), (330.0,), (-30.0, 90.0)),  # the other way round it would be 240 degrees
-        ((0.0, 60.0), (30.0, 200.0), (60.0, 200.0)),
-    ],
-)
+@cases_of("pictures", "wedges")
 def test_the_wedge_shows_a_cut_spring_and_cut_polymer(springs, polymer, wedge):
     placed = {f"spring_right_{i}": _upright(at) for i, at in enumerate(springs)}
     placed |= {f"pcl_arc_{i}": _upright(at) for i, at in enumerate(polymer)}

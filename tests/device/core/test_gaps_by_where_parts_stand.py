@@ -8,6 +8,7 @@ import pytest
 from device_values import values_of
 from hypothesis import given as drawn
 from hypothesis import strategies
+from support import cases_of
 
 from tvimdesign.device import table_for
 from tvimdesign.device.core.layout import EVENED, evened_least
@@ -127,20 +128,7 @@ def test_screws_in_the_core_keep_apart(p):
     assert web == pytest.approx((top - deep) - (end + below), abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("margin", "limit", "supplied", "expected"),
-    [
-        # What a module is rated for less what it sees, in SI.
-        ("current_margin", "peltier_max_current", "peak_current", 0.7),
-        ("cooling_current_margin", "peltier_max_current", "stiffening_peak_current", 0.7),
-        ("pcl_temperature_margin", "pcl_decomposition_temperature", "peak_pcl_temperature", 12.0),
-        ("heater_temperature_margin", "peltier_max_temperature", "peak_heater_temperature", 12.0),
-        ("cold_side_temperature_margin", "peltier_max_temperature", "peak_cold_side_temperature", 12.0),
-        ("structure_temperature_margin", "structure_service_temperature", "peak_heater_temperature", 12.0),
-        ("stiffening_structure_margin", "structure_service_temperature", "peak_cold_side_temperature", 12.0),
-        ("softening_margin", "response_time", "softening_time", 4.0),
-    ],
-)
+@cases_of("gaps_by_where_parts_stand", "margins")
 def test_a_margin_is_what_is_left_below_the_limit_and_negative_above_it(margin, limit, supplied, expected, inputs):
     known = {**inputs, limit: inputs.get(limit, 30.0)}
     for left in (expected, -expected):

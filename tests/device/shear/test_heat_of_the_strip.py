@@ -9,7 +9,7 @@ import pytest
 from cad_designs import TILES, design_of
 from device_values import all_of
 from device_values import inputs_of as default_inputs
-from support import ROOT, study_path
+from support import ROOT, cases_of, study_path
 
 from tvimdesign.cad.assembly.bill_of_materials import beside
 from tvimdesign.device.shear import floor_heat
@@ -68,14 +68,7 @@ def beyond(name: str) -> list[dict[str, str]]:
     return [row for row in rows(name) if abs(float(row["difference [%]"])) > 100.0 * THREE_PERCENT]
 
 
-@pytest.mark.parametrize(
-    ("study", "length", "within"),
-    # The arcs' corners, rounded as the spreaders are, take less than a hundredth of their volume.
-    [
-        ("studies/elbow_printed", "edge_length", 0.01),
-        ("validation/fe_structure/studies/rigid_modules_compression", "ring_width", 1e-9),
-    ],
-)
+@cases_of("heat_of_the_strip", "rigid_modules")
 def test_rigid_modules_are_drawn_as_large_as_they_are(study, length, within):
     model = model_of(ROOT / f"{study}.yaml")
     plane, known = plane_of(model), inputs_of(model)

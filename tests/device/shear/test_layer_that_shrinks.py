@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from device_values import all_of, values_of
-from support import study_path
+from support import cases_of, study_path
 
 from tvimdesign.device import table_for
 from tvimdesign.physics.heat_flow import heat
@@ -203,17 +203,7 @@ def test_temperature_of_metal_and_plastic_lips():
     assert 0.1 < plastic.temperature < 0.45
 
 
-@pytest.mark.parametrize(
-    ("study", "warm", "given_heat"),
-    [
-        # Pads, layer, the plate's lowest eighth above the arcs and its mean, plate with lips beside it in three parts,
-        # floor below these; from the start to 107, 1095, 56 s by `validation/heat_sector/plane.py`, and what the
-        # layer's end gives to lip and clearance [W/m].
-        ("wrist_joint", (58.04, 52.29, 46.60, 40.83, 39.44, 36.59, 30.56, 53.38, 47.50, 36.47), 1.171),
-        ("finger", (69.61, 65.68, 61.95, 59.63, 57.28, 52.50, 41.78, 60.83, 54.15, 42.49), 1.047),
-        ("elbow_printed", (86.13, 68.08, 52.67, 39.53, 36.08, 30.76, 23.90, 46.71, 32.62, 24.34), 2.945),
-    ],
-)
+@cases_of("layer_that_shrinks", "plastic_lips")
 def test_a_plastic_lip_takes_what_the_plane_says(study, warm, given_heat):
     inputs = given(read_study(study_path(study)))
     values = TABLE.evaluate(inputs, ["lip", "edge_length", "pcl_melting"])

@@ -9,7 +9,7 @@ import textbook
 from every import of_every
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
-from support import STUDIES
+from support import STUDIES, cases_of
 
 from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
@@ -105,21 +105,7 @@ def test_cooling_power_is_that_of_the_sheet_within_a_tenth():
     of_every(RIGID, check)
 
 
-@pytest.mark.parametrize(
-    ("name", "hot", "difference"),
-    [
-        ("ma10_063_05_1", 323.0, 75.0),  # the sheet's own table for an ambient of 50 degC, in dry nitrogen
-        ("ma10_063_03", 323.0, 72.0),
-        ("pc_128_10_05", 323.15, 78.0),  # the drawing: 10 K more at a hot side of 50 degC
-        ("pc_288_10_08", 323.15, 81.0),
-        ("cp30138", 323.15, 72.0),  # the second rating of the sheet
-        ("cp30238", 323.15, 72.0),
-        ("cp30338", 323.15, 72.0),
-        ("cp60333", 323.15, 72.0),
-        ("cp60440", 323.15, 75.0),
-        ("tec1_12715", 323.15, 79.0),
-    ],
-)
+@cases_of("rigid_modules_on_the_shelf", "warmer_hot_side")
 def test_a_warmer_hot_side_raises_the_difference_as_the_sheet_says(name, hot, difference):
     module = module_of(CATALOG.record("peltiers", name))
     assert largest_difference(module, hot) == pytest.approx(difference, abs=4.0)

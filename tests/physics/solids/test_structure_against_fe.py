@@ -10,7 +10,7 @@ import pytest
 import yaml
 from device_values import inputs_of
 from random_designs import FRESH_BY_FE, FRESH_SEED, Draws
-from support import ROOT, study_path
+from support import ROOT, cases_of, study_path
 
 from tvimdesign.cad.fe.model_comparison import model_values
 from tvimdesign.device import table_for
@@ -266,14 +266,7 @@ def test_their_model_is_that_of_today(study):
                 assert today[quantity] == pytest.approx(value, rel=1e-3), (draw, quantity)
 
 
-@pytest.mark.parametrize(
-    ("name", "angle"),
-    [
-        ("wrist_compression_2, earlier", 39.6),
-        ("wrist_compression, shipped", 40.9),
-        ("compare_compression, shipped", 27.9),
-    ],
-)
+@cases_of("structure_against_fe", "leaning_blocks")
 def test_a_block_s_force_leans_out_of_its_vane_as_in_fe(name, angle):
     # FE of the force on the face between block and vane, validation/fe_structure/lean_out.py.
     assert np.degrees(quantity(name, "block_lean_out")) == pytest.approx(angle, rel=0.04)

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from comparable import COARSE, COMPRESSION, SHEAR, written
-from support import Command
+from support import Command, cases_of
 
 from tvimdesign.report.compare.compare_studies import answers
 
@@ -199,16 +199,7 @@ def test_finished_runs_are_compared_without_computing(tvimdesign, tmp_path, monk
     assert len([*(tmp_path / "out").glob("*/drawn.json")]) == 2
 
 
-@pytest.mark.parametrize(
-    ("names", "words"),
-    [
-        (["one.yaml"], "two studies or more"),
-        (["one.yaml", "one.yaml"], "one.yaml: given twice"),
-        (["one.yaml", "nowhere.yaml"], "no such file"),
-        (["one.yaml", "."], "results of finished runs alone"),
-        (["nothing.json", "."], "no such file"),
-    ],
-)
+@cases_of("compare", "refused_paths")
 def test_refused_paths(tvimdesign, tmp_path, names, words):
     written(tmp_path, one=SHEAR)
     done = tvimdesign("compare", *(tmp_path / name for name in names), "--out", tmp_path / "out")

@@ -6,6 +6,7 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
+from support import cases_of
 
 from tvimdesign.device import table_for
 from tvimdesign.study import Options, Range, Study, StudyError, read_study_text
@@ -69,18 +70,10 @@ def test_the_modules_value_may_lie_within_the_options(read, name, form, value):
 VALIDATOR = jsonschema.Draft7Validator(json_schema({mode: table_for(mode) for mode in ("shear", "compression")}))
 
 
-@pytest.mark.parametrize(
-    ("written", "read"),
-    [
-        ("[structure_temperature_margin, current_margin]", ("structure_temperature_margin", "current_margin")),
-        ("pcl_temperature_margin", ("pcl_temperature_margin",)),
-        ("[]", ()),
-        ("", ()),
-    ],
-)
+@cases_of("sections", "ratings")
 def test_ratings_are_read_by_name(written, read):
     text = f"mode: shear\naccept: {written}\n"
-    assert read_study_text(text).accept == read
+    assert read_study_text(text).accept == tuple(read)
     VALIDATOR.validate(yaml.safe_load(text))
 
 
@@ -105,16 +98,7 @@ def test_ratings_are_those_of_both_modes_and_no_rules():
     assert not [row.name for row in of["shear"] if row.rules or row.advice]
 
 
-@pytest.mark.parametrize(
-    ("written", "sense", "limit"),
-    [
-        ("'>= 5 g'", ">=", 5e-3),
-        ("'>=5 g'", ">=", 5e-3),
-        ("<= 5 kg", "<=", 5.0),
-        ("'<=   5e-1 kg'", "<=", 0.5),
-        ("' <= 5 g '", "<=", 5e-3),
-    ],
-)
+@cases_of("sections", "limits")
 def test_limits(read, written, sense, limit):
     (requirement,) = read(f"mode: shear\nrequire: {{module_mass: {written}}}").require
     assert (requirement.output, requirement.sense) == ("module_mass", sense)
@@ -164,15 +148,7 @@ def test_zero_pieces_are_a_constant_current(read, section):
 STUDY = "tvimdesign: 1\nname: x\nmode: shear\nvary: {{{}}}\nminimize: module_mass\n"
 
 
-@pytest.mark.parametrize(
-    ("row", "record", "lengths"),
-    [
-        # ISO 7380-1 M4 and ISO 4762 M2 as commonly sold; ISO 8734 pins of 2.5 mm between 8 and 12 mm.
-        ("retainer_screw_length", "{catalog: iso_7380_m4, to: 16 mm}", (8, 10, 12, 16)),
-        ("link_screw_length", "{catalog: iso_7380_m3, from: 10 mm, to: 12 mm}", (10, 12)),
-        ("link_dowel_length", "{catalog: iso_8734_2_5, from: 8 mm, to: 12 mm}", (8, 10, 12)),
-    ],
-)
+@cases_of("sections", "sold_lengths")
 def test_the_lengths_a_screw_or_pin_is_sold_in_are_those_that_are_tried(row, record, lengths):
     study = read_study_text(STUDY.format(f"{row}: {record}"), "x.yaml")
     result = study.vary[row]

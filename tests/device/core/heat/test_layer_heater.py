@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from stiff_when_warm import STIFF_WHEN_WARM
+from support import cases_of
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import ZERO_CELSIUS
@@ -71,39 +72,21 @@ def chosen(hottest: float, current: float, **bears: float) -> HeaterFuse:
     return heater_fuse(RECORD, hottest + ZERO_CELSIUS, current, ratings)
 
 
-@pytest.mark.parametrize(
-    ("hottest", "current", "bears", "designation", "opens", "holds", "above"),
-    [  # rows of the sheet, in degC: Tf and Th
-        (95.4, 2.0, {"heater": 120.0, "structure": 113.0}, "5MA3SPF109019340", 113.0, 84.0, ()),
-        (95.9, 2.5, {"heater": 120.0, "structure": 105.0}, "5MA3SPF109019340", 113.0, 84.0, ("structure",)),
-        (83.1, 12.0, {"heater": 160.0, "structure": 122.0}, "5MA3SPF121H19340", 122.0, 94.0, ()),
-        (107.0, 3.0, {"heater": 120.0, "structure": 110.0}, "5MA3SPF121019340", 122.0, 94.0, ("structure", "heater")),
-        (98.1, 1.0, {"heater": 112.9}, "5MA3SPF121019340", 122.0, 94.0, ("heater",)),  # 113 - 10 < 98.1 + 5
-    ],
-)
+@cases_of("layer_heater", "cut_outs")
 def test_the_cut_out_opens_before_the_least_rating(hottest, current, bears, designation, opens, holds, above):
     fuse = chosen(hottest, current, **bears)
     assert fuse.designation == designation
     assert (fuse.opens_at - ZERO_CELSIUS, fuse.holds - ZERO_CELSIUS) == pytest.approx((opens, holds))
     assert fuse.opens_at - fuse.opens_from == pytest.approx(10.0)
     assert fuse.opens_from >= hottest + ZERO_CELSIUS + 5.0
-    assert fuse.above == above
+    assert fuse.above == tuple(above)
 
 
-@pytest.mark.parametrize(
-    ("name", "hottest", "structure", "designation", "above"),
-    [  # in degC; what opens at 104 may open from 94, by IEC 60691
-        ("microtemp_g4a", 89.0, 105.0, "G4A01104C", ()),
-        ("microtemp_g4a", 88.0, 103.0, "G4A01104C", ("structure",)),  # what opens at 98 may open from 88
-        ("microtemp_g4a", 89.1, 105.0, "G4A01216C", ("structure",)),
-        ("thermtrol_df", 98.7, 120.0, "DF119S", ()),  # aluminium
-        ("thermtrol_df", 95.0, 110.0, "DF110S", ()),
-    ],
-)
+@cases_of("layer_heater", "other_makers")
 def test_other_makers_have_types_for_polycarbonate_and_aluminium(name, hottest, structure, designation, above):
     record = Catalog().record("thermal_fuses", name)
     fuse = heater_fuse(record, hottest + ZERO_CELSIUS, 2.5, {"structure": structure + ZERO_CELSIUS})
-    assert (fuse.designation, fuse.above) == (designation, above)
+    assert (fuse.designation, fuse.above) == (designation, tuple(above))
     with pytest.raises(InputError, match=r"no type bears the heater's 10\.1 A, the strongest 10 A"):
         heater_fuse(record, 330.0, 10.1, {"structure": 400.0})
 

@@ -10,6 +10,7 @@ from cad_designs import design_of, whole
 from device_values import all_of
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from support import cases_of
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
@@ -227,14 +228,7 @@ def test_springs_from_stock_have_their_record_s_sizes_and_margins():
     assert table.evaluate(none, ["stock_leg_margin"])["stock_leg_margin"] == 0.0
 
 
-@pytest.mark.parametrize(
-    "more",
-    [
-        "  wire_diameter: 1 mm\n",
-        "  spring_material: music_wire\n",
-        "vary:\n  coil_count: [3, 5]\nminimize: module_mass\n",
-    ],
-)
+@cases_of("springs_in_the_module", "brought_along")
 def test_what_the_record_brings_along_may_not_be_set_beside_it(more):
     with pytest.raises(InputError, match=r"torsion_springs/central_t10180.*leave .* out"):
         given_of(read_study_text(study_of(more)))

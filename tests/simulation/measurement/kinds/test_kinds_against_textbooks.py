@@ -10,7 +10,7 @@ import pytest
 from measured_files import arrhenius, csv, fit_files, measured, moduli, oscillated
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from support import ROOT
+from support import ROOT, cases_of
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import CATEGORIES, Catalog
@@ -205,18 +205,7 @@ def test_melting_between_two_temperatures(tmp_path):
     assert fit.value("latent_heat") == pytest.approx(70e3, rel=0.02)
 
 
-@pytest.mark.parametrize(
-    ("kind", "given", "message"),
-    [
-        ("pads", {}, "no kind of measurement is named 'pads'; did you mean pad?"),
-        ("frequency_sweep", {"largest_modes": "13"}, "--set largest_modes: 13 is not between 1 and 12"),
-        ("frequency_sweep", {"largest_modes": "0"}, "--set largest_modes: 0 is not between 1 and 12"),
-        ("torque_angle", {"arms": "1 mm"}, "--set arms: torque_angle has no such setting; did you mean arm?"),
-        ("torque_angle", {"arm": "1 kg"}, "--set arm: '1 kg'"),
-        ("pad", {}, "no column is current; pad needs current, voltage"),
-        ("", {}, "are of no kind there is"),
-    ],
-)
+@cases_of("kinds_against_textbooks", "lacks")
 def test_a_lack_is_reported(tmp_path, kind, given, message):
     path = csv(tmp_path / "x.csv", torque__N=[1.0, 2.0, 3.0], angle__deg=[1.0, 2.0, 3.0])
     with pytest.raises(InputError, match=message.replace("?", r"\?")):

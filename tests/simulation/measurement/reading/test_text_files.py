@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support import cases_of
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.reading.data_file import DataFile, read_data_file
@@ -55,35 +56,13 @@ def test_units_may_stand_in_a_row_of_their_own_or_after_a_slash(tmp_path):
     assert own.blocks[0].unused == ("Note",)
 
 
-@pytest.mark.parametrize(
-    ("heading", "quantity"),
-    [
-        ("T [degC]", "temperature"), ("t [s]", "time"), ("f (Hz)", "frequency"), ("F (N)", "force"),
-        ("Freq [rad/s]", "angular_frequency"), ("Freq [Hz]", "angular_frequency"),
-        ("Heat Flow (W/g)", "specific_heat_flow"), ("Heat Flow (mW)", "heat_flow"),
-        ("DSC/(mW/mg)", "specific_heat_flow"),
-        ("Storage Modulus (kPa)", "storage_modulus"),
-    ],
-)  # fmt: skip
+@cases_of("text_files", "short_names")
 def test_the_unit_decides_what_a_short_name_stands_for(tmp_path, heading, quantity):
     (block,) = read(tmp_path, f"angle [deg];{heading}\n1;1\n2;2\n3;3\n").blocks
     assert set(block.columns) == {"angle", quantity}
 
 
-@pytest.mark.parametrize(
-    ("heading", "quantity", "factor"),
-    [
-        ("torque_nm", "torque", 1.0), ("torque_mNm", "torque", 1e-3), ("current_A", "current", 1.0),
-        ("time_ms", "time", 1e-3), ("StorageModulus [kPa]", "storage_modulus", 1e3),
-        ("G' in Pa", "storage_modulus", 1.0),
-        ("HeatFlow(mW)", "heat_flow", 1e-3), ("Q [mW]", "heat_flow", 1e-3), ("voltage_mv", "voltage", 1e-3),
-        ("storage_modulus_pa", "storage_modulus", 1.0), ("Heatflow [W/g]", "specific_heat_flow", 1e3),
-        ("T_sample [K]", "temperature", 1.0), ("temperature_k", "temperature", 1.0),
-        ("viscosity_pa_s", "viscosity", 1.0), ("shear_rate_1_s", "shear_rate", 1.0), ("timeMin", "time", 60.0),
-        ("ang. freq. [rad/s]", "angular_frequency", 1.0), ("omega_rad_per_s", "angular_frequency", 1.0),
-        ("Storage Modulus, kPa", "storage_modulus", 1e3), ("ω [1/s]", "angular_frequency", 1.0),
-    ],
-)  # fmt: skip
+@cases_of("text_files", "headings")
 def test_headings_of_programs_are_read(tmp_path, heading, quantity, factor):
     (block,) = read(tmp_path, f"angle_deg;{heading}\n1;100\n2;200\n3;300\n").blocks
     assert set(block.columns) == {"angle", quantity}
@@ -93,17 +72,7 @@ def test_headings_of_programs_are_read(tmp_path, heading, quantity, factor):
 DSC = ["20.0 0.0 1.5", "21.0 6.0 1.6", "22.0 12.0 1.7"]
 
 
-@pytest.mark.parametrize(
-    ("head", "separator"),
-    [
-        ("T_sample;t;HeatFlow\n/degC;/s;/mW", ";"),
-        ("T_sample [°C];time_s;Q [mW]", ";"),
-        ("Temperature (°C),Time (s),HeatFlow(mW)", ","),
-        ("Tr t Heatflow\n[°C] [s] [mW]", " "),
-        ("Index Tr t Heatflow\n [°C] [s] [mW]", " "),  # a count of rows needs no unit
-        ("Sample Temperature\tTime\tHeat Flow\n°C\ts\tmW", "\t"),
-    ],
-)
+@cases_of("text_files", "calorimeters")
 def test_layouts_of_calorimeters_are_read(tmp_path, head, separator):
     number = "{} " if head.startswith("Index") else ""
     rows = "\n".join((number.format(i) + row).replace(" ", separator) for i, row in enumerate(DSC))
@@ -126,18 +95,7 @@ def test_one_text_is_split_by_blanks(tmp_path):
         read(tmp_path, "time (s) angle (deg)\n  0   1.0\n 1 2.0\n  2 3.0\n")
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("time [s];angle [deg]\n0;1\n1;x\n2;3\n", r"data.csv:3: column 2: 'x' is no number"),
-        ("time [s];angle [deg]\n0;1\n1;15e308\n2;3\n", r"data.csv:3: column 2: '15e308' is no number"),
-        ("time [s];angle\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle', has no unit"),
-        ("time [s];angle [mm]\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle \[mm\]': 'mm' is no unit of angle"),
-        ("time [s];angle [deg];temperature [K]\n0;1;0\n1;2;3\n2;3;3\n", "column 3, .*: 0 K is at absolute zero"),
-        ("time [s];angle [deg];temperature [K]\n0;1;1e-300\n1;2;3\n2;3;3\n", "3, .*: 1e-300 K is at absolute zero"),
-        ("time [s];angle [deg];torque [kN.m]\n0;1;1\n1;2;1e307\n2;3;1\n", r"'torque \[kN.m\]': a value is too large"),
-    ],
-)
+@cases_of("text_files", "wrong_columns")
 def test_a_wrong_column_stops_only_a_fit_that_needs_it(tmp_path, text, message):
     block = read(tmp_path, text).blocks[0]
     assert block.complete(["time"]) == 3
@@ -210,14 +168,7 @@ def test_a_date_beside_its_time_of_day(tmp_path):
     assert block.values("time") == pytest.approx([0.0, 5.0, 15.0])
 
 
-@pytest.mark.parametrize(
-    ("cells", "message"),
-    [
-        (["0:58", "1:03"], r"data.csv:2: column 'Time': '0:58' may be hh:mm or mm:ss; name the column 'time "),
-        (["00:00:58", "noon"], r"data.csv:3: column 'Time': 'noon' is no clock time"),
-        (["31.02.2026 10:00:00", "31.02.2026 10:00:05"], "a day that is none"),
-    ],
-)
+@cases_of("text_files", "wrong_clock_times")
 def test_a_clock_time_that_is_none_is_refused(tmp_path, cells, message):
     rows = "\n".join(f"{cell};{i};{i}" for i, cell in enumerate(cells))
     (block,) = read(tmp_path, f"Time;angle [deg];torque [N.m]\n{rows}\n").blocks
@@ -231,17 +182,7 @@ def test_of_two_columns_of_a_quantity_the_sample_s_counts(tmp_path):
     assert block.unused == ("Furnace Temperature (°C)",)
 
 
-@pytest.mark.parametrize(
-    ("mapped", "message"),
-    [
-        ({"angel": 1}, "angel is no quantity"),
-        ({"angle": {"columm": 1}}, "angle: expected a heading"),
-        ({"angle": {"column": 1, "unit": "kg"}}, "'kg' is no unit of it, such as deg"),
-        ({"decimal": "dot"}, "decimal: expected point, comma"),
-        ({"decimal": {"a": 1}}, "decimal: expected point, comma"),
-        (["angle"], "expected quantities with their columns"),
-    ],
-)
+@cases_of("text_files", "wrong_column_maps")
 def test_a_wrong_column_map_says_where(mapped, message):
     with pytest.raises(InputError, match=message):
         column_map(mapped, "map.yaml")
