@@ -108,13 +108,18 @@ def _others(rows: Sequence[Requirement], what: str, met: str, width: int, most: 
         title, limit, got, *_ = rows[0].cells
         tightest = ", the tightest" if len(rows) > 1 else ""
         return terminal.wrapped(f"{count}{tightest}: {title} {got}, asked {limit}", width, indent="  ")
-    return _listing(f"{count}, and of plausible cases", [_unsure(row) for row in rows], width, most)
+    listed = [f"{row.cells[0]} {row.got} ({row.requested}) in {_in_share(row)}" for row in rows]
+    lines = _listing(f"{count}, and of plausible cases", listed, width, most)
+    if len(lines) <= most:
+        return lines
+    return terminal.wrapped(
+        f"{count}; {rows[0].cells[0]} in {_in_share(rows[0])} of plausible cases", width, indent="  "
+    )
 
 
-def _unsure(row: Requirement) -> str:
-    """Return a requirement that is met, with its share of the plausible cases."""
-    share = "all" if row.met_in in (None, 1.0) else f"{int(100.0 * (row.met_in or 0.0))} %"
-    return f"{row.cells[0]} {row.got} ({row.requested}) in {share}"
+def _in_share(row: Requirement) -> str:
+    """Return the share of the plausible cases that meet a requirement."""
+    return "all" if row.met_in in (None, 1.0) else f"{int(100.0 * (row.met_in or 0.0))} %"
 
 
 def _fitting(cells: Sequence[Sequence[str]], width: int) -> list[str]:

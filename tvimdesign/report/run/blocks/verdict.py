@@ -199,7 +199,7 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
         return Verdict("build", f"Build it{but}{made_for}")
     first = _to_measure([name for name in decided if name])
     what = f"measure {first}" if first else f"check the {label(most_in_doubt(uncertainty)[0])}"
-    more = f"{f'; {what_else}' if what_else else ''}{made_for}"
+    more = f"{f'; {what_else}' if what_else else ''}{'' if few else made_for}"
     return Verdict("build_one", f"Build it, one module first{few}: {what}{more}")
 
 

@@ -110,7 +110,7 @@ def _of_frozen_turn(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarn
     hint, stiffness = _hint("frozen_turn", share), f"{torque / (TURNED * stroke):.3g}"
     places = {
         "angle": format_quantity(angle, "deg", 2), "torque": format_quantity(torque, "N*m", 2),
-        "share": f"{100.0 * share:.0f} %", "stroke": format_quantity(angle / TURNED, "deg", 2), "stiffness": stiffness,
+        "share": f"{100.0 * share:.0f} %", "stiffness": stiffness,
     }  # fmt: skip
     remedy = remedies.of("joint_stiffness_in_play", [filled(hint["mend"], places)])
     yield RunWarning(filled(hint["say"], places), _cure(answer, remedy), hint.get("level", ""), hint.get("but", ""))
