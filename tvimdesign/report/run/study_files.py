@@ -73,12 +73,9 @@ _SEEDS = (1, 2)  # Of the starts of a search that decides on hardware
 _BESIDE = 2  # Sets of hardware that are tried with other numbers
 _WIDER, _ROOM = (1.1, 1.25), 1.03
 """Factors on a diameter that are tried, and room over the least: ranges follow the diameter, and must allow it."""
-_STIFFER = (2.0, 4.0, 8.0, 16.0)
-"""Stiffnesses that are tried, over the one asked for, if no other diameter alone is enough."""
 _MORE_FRICTION = 1.0
 """Friction over the springs' torque at full stroke where less is not to be had: they still bring the joint back."""
-_WEAKER = (0.95, 0.9, 0.8, 0.65, 0.5)  # Torques that are tried, over the one asked for, if the largest is not found
-_SHORTER = (1.0, 0.9, 0.75)  # Strokes that are tried, over the largest that a search finds
+_SHARES = (1.0, 0.9, 0.75, 0.5)  # Of the largest torque or stroke that a search finds, which are tried
 _USUAL, _LESSER = 8.0 / 0.07**3, (1.0, 0.5, 0.25, 0.1)
 """Torque that usual joints hold over the cube of their diameter [N/m^2], and shares of it that are tried."""
 _AN_EIGHTH = 0.125  # Usual stiffness [N*m/rad] over the torque
@@ -303,9 +300,9 @@ def _extreme(
 
 def _nearest(task: JointTask, wider: JointTask | None) -> list[dict[str, str]]:
     """Return options of `size` with which hardware fits: changed alone, else with a stiffness."""
-    changed = [wider, _weaker(task) if task.assumes_stroke else _shorter(task)]
+    changed = [wider, _less(task)]
     changed += [] if any(changed) else [_other_stiffness(task)]
-    changed = [way for way in changed if way] or [_wider_and_stiffer(task) or _lesser(task)]
+    changed = [way for way in changed if way] or [_less_of_all(task)]
     own = task.options()
     return [{name: text for name, text in way.options().items() if text != own[name]} for way in changed if way]
 
@@ -335,15 +332,6 @@ def _wider_ones(task: JointTask) -> Iterator[tuple[JointTask, str]]:
             yield replace(task, diameter=diameter), hardware
 
 
-def _weaker(task: JointTask) -> JointTask | None:
-    """Return the task with the largest torque that hardware of its diameter holds."""
-    values = [_extreme(task, hardware, "holding_torque", -1.0) for hardware in hardware_by_fit(task)[:_BESIDE]]
-    torques = [most.value for most in values if most]
-    torques = [max(torques)] if torques else [share * task.torque for share in _WEAKER]
-    weaker = (replace(task, torque=_down(torque)) for torque in torques if torque < task.torque)
-    return next((weaker for weaker in weaker if _hardware(weaker)), None)
-
-
 def _other_stiffness(task: JointTask) -> JointTask | None:
     """Return the task with the nearest stiffness that hardware of its diameter has."""
     for hardware in hardware_by_fit(task)[:_BESIDE]:
@@ -356,27 +344,31 @@ def _other_stiffness(task: JointTask) -> JointTask | None:
     return None
 
 
-def _shorter(task: JointTask) -> JointTask | None:
-    """Return the task with the largest stroke that hardware of its diameter bears."""
-    longest = _longest(task)
-    degrees = math.degrees(min(longest.value, task.stroke)) if longest else 0.0
-    strokes = (replace(task, stroke=math.radians(_down(share * degrees))) for share in _SHORTER if longest)
-    return next((shorter for shorter in strokes if shorter.stroke < task.stroke and _hardware(shorter)), None)
+def _less(task: JointTask) -> JointTask | None:
+    """Return the task with the largest stroke, or torque where none was given, that hardware of its diameter has."""
+    by_torque = task.assumes_stroke
+    requested, most = (
+        task.torque if by_torque else task.stroke,
+        _most(task, "holding_torque" if by_torque else "stroke"),
+    )
+    values = [_down(share * min(most.value if most else requested, requested)) for share in _SHARES]
+    lesser = (replace(task, torque=value) if by_torque else replace(task, stroke=value) for value in values)
+    return next((other for other in lesser if other != task and _hardware(other)), None)
+
+
+def _most(task: JointTask, output: str, *, margins: bool = True) -> Extreme | None:
+    """Return the largest value of an output that hardware for a diameter allows; None if no search finds one."""
+    values = [_extreme(task, hardware, output, -1.0, margins=margins) for hardware in _candidates(task)]
+    return max((most for most in values if most), default=None)
 
 
 def _too_long(task: JointTask) -> Extreme | None:
     """Return the largest stroke of a diameter if the one asked for is beyond it, without margins even."""
-    longest = None if task.assumes_stroke else _longest(task, margins=False)
+    longest = None if task.assumes_stroke else _most(task, "stroke", margins=False)
     if longest is None or longest.value >= task.stroke:
         return None
     searches = (_extreme(task, hardware, "envelope_diameter", margins=False) for hardware in _candidates(task))
     return None if any(least and least.value <= task.diameter for least in searches) else longest
-
-
-def _longest(task: JointTask, *, margins: bool = True) -> Extreme | None:
-    """Return the largest stroke [rad] of hardware for a diameter; None if no search finds one."""
-    strokes = [_extreme(task, hardware, "stroke", -1.0, margins=margins) for hardware in _candidates(task)]
-    return max((most for most in strokes if most), default=None)
 
 
 def _usual_torque(task: JointTask) -> float:
@@ -384,7 +376,7 @@ def _usual_torque(task: JointTask) -> float:
     return min(task.torque, _USUAL * task.diameter**3)
 
 
-def _lesser(task: JointTask) -> JointTask | None:
+def _less_of_all(task: JointTask) -> JointTask | None:
     """Return the task with less torque, its usual stiffness and at most the usual stroke, which fit together."""
     torques = [_down(share * _usual_torque(task)) for share in _LESSER]
     stroke = min(task.stroke, parse_quantity(STROKE, "rad"))
@@ -392,17 +384,6 @@ def _lesser(task: JointTask) -> JointTask | None:
         replace(task, torque=torque, stroke=stroke).with_stiffness(_down(_AN_EIGHTH * torque)) for torque in torques
     )
     return next((other for other in lesser if _hardware(other)), None)
-
-
-def _wider_and_stiffer(task: JointTask) -> JointTask | None:
-    """Return the task with a diameter and a stiffness that cure it together: thin wire spreads beyond its band."""
-    centre = 0.5 * sum(task.stiffness)
-    for wider, hardware in list(_wider_ones(task))[:_BESIDE]:
-        for factor in _STIFFER:
-            stiffer = wider.with_stiffness(_down(factor * centre))
-            if _least_diameter(stiffer, hardware):
-                return stiffer
-    return None
 
 
 def _down(value: float) -> float:
