@@ -12,7 +12,7 @@ from tvimdesign.study.design import Design
 
 
 def build(design: Design, rotor_angle: float = 0.0) -> dict[str, cq.Solid]:
-    """Every part of a module where it stands, the rotor turned by an angle [rad]."""
+    """Return every part of a module where it stands, the rotor turned by an angle [rad]."""
     dims = dimensions(design)
     return place(dims, drawn_parts(dims), rotor_angle)
 
