@@ -93,7 +93,7 @@ def files_only(design: Path, out: Path) -> None:
 
     every = build_plan.build_plan
     build_plan.build_plan = lambda dims: [job for job in every(dims) if not job.name.startswith(CHECKS)]
-    run(design, out, 90.0, lambda **_: None)
+    run(design, out, lambda **_: None)
 
 
 def whole(design: Path, out: Path) -> None:

@@ -10,7 +10,7 @@ from cad_designs import BLOCKS, CASES, Made, design_of, whole
 from shared_solids import _shared_solids
 
 from tvimdesign.cad import CadReport, make_cad
-from tvimdesign.cad.make import JOB, LIMIT
+from tvimdesign.cad.make import JOB
 from tvimdesign.study.design import Design, write_design
 
 __all__ = ["_shared_solids"]
@@ -58,10 +58,10 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 def job(tmp_path: Path) -> Callable[..., CadReport]:
     """Make the parts of the paper's module with some values changed behind the model's back."""
 
-    def run(limit: float = LIMIT, **values: float) -> CadReport:
+    def run(**values: float) -> CadReport:
         good = whole(design_of("changed", {}))
         design = good.model_copy(update={"values": good.values | values})
         write_design(design, tmp_path / "design.json")
-        return make_cad(tmp_path / "design.json", tmp_path / "cad", limit=limit)
+        return make_cad(tmp_path / "design.json", tmp_path / "cad")
 
     return run

@@ -22,7 +22,7 @@ from tvimdesign.base import processes
 from tvimdesign.base.child_process import read_lines
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError
-from tvimdesign.cad import make_cad
+from tvimdesign.cad import make, make_cad
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.assembly_data import _linear
 from tvimdesign.cad.export.step_file import Product, in_fixed_order, write_assembly
@@ -218,9 +218,10 @@ def test_a_part_the_model_has_wrong_is_written_and_reported(job):
 
 
 def test_a_process_that_reports_no_progress_is_an_error(job, monkeypatch):
+    monkeypatch.setattr(make, "LIMIT", 0.05)
     monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
     with pytest.raises(GeometryError, match=r"the CAD process failed: it was stopped after 0.05 s of processor time"):
-        job(limit=0.05)
+        job()
 
 
 @pytest.mark.slow

@@ -20,36 +20,28 @@ from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError, end_pr
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
 LIMIT = 3600.0  # Seconds of processor time, of all processes together, without a report of progress
-PART_LIMIT = 600.0
-"""Seconds of processor time for one part with its files, or one set of checks; the longest takes about two."""
 HALF_MADE = ".parts.{}."  # Prefix of the folder in which a process makes parts, where none are kept between runs
 JOB = "tvimdesign.cad.jobs.main"
 WAITING = "--wait"
-"""First argument of a child that reads from standard input what to make: a line of JSON with design, folder and
-limit of processor time of a part. The second is the mode of the design that will come, or empty."""
+"""First argument of a child that reads from standard input what to make: a line of JSON with design and folder. The
+second is the mode of the design that will come, or empty."""
 
 
 def make_cad(
-    design_path: Path,
-    out: Path,
-    progress: Callable[[str], None] | None = None,
-    *,
-    limit: float = LIMIT,
-    part_limit: float = PART_LIMIT,
-    job: str = JOB,
+    design_path: Path, out: Path, progress: Callable[[str], None] | None = None, *, job: str = JOB
 ) -> CadReport:
     """Build, check and write the parts of the design file into the folder `out`.
 
     `progress` gets each step. The files are written even where a check fails (`report.failed`), so that one can look
     at what collides. `job` is the module that is run as the child process: another one can change how parts are drawn
     (`MODULES` in `cad/assembly/assembly.py`) and call this one's `main`. Raises GeometryError where a part cannot
-    be built or takes more than `part_limit` of processor time [s], naming the part, once the files of the others are
-    written; also where the process crashes or takes more than `limit` [s] without a report of progress. Raises
-    InputError where the design cannot be read, or the extra [cad] is not installed.
+    be built or takes too long, naming the part, once the files of the others are written; also where the process
+    crashes or takes more than `LIMIT` without a report of progress. Raises InputError where the design cannot be read,
+    or the extra [cad] is not installed.
     """
     with PartsProcess(job) as process:
-        process.begin(design_path, out, part_limit)
-        return process.finish(progress, limit)
+        process.begin(design_path, out)
+        return process.finish(progress)
 
 
 class PartsProcess:
@@ -90,21 +82,20 @@ class PartsProcess:
             for half_made in self._out.glob(f"{HALF_MADE.format(self._process.pid)}*"):
                 shutil.rmtree(half_made, ignore_errors=True)
 
-    def begin(self, design_path: Path, out: Path, part_limit: float = PART_LIMIT) -> None:
+    def begin(self, design_path: Path, out: Path) -> None:
         """Let it make the parts of a design file, which it reads at once, into the folder `out`; comes back at once."""
         make_folder(out)
         self._out = out
         assert self._process.stdin is not None
         with contextlib.suppress(BrokenPipeError):  # that it has died shows at the end
-            request = [str(design_path.resolve()), str(out.resolve()), str(part_limit)]
-            self._process.stdin.write(json.dumps(request) + "\n")
+            self._process.stdin.write(json.dumps([str(design_path.resolve()), str(out.resolve())]) + "\n")
             self._process.stdin.flush()
 
-    def finish(self, progress: Callable[[str], None] | None = None, limit: float = LIMIT) -> CadReport:
+    def finish(self, progress: Callable[[str], None] | None = None) -> CadReport:
         """Wait for what came of it; `progress` gets each step. Raises as `make_cad` does."""
         assert self._out is not None
         state: dict[str, Any] = {"progress": "starting"}
-        watch = ProcessorLimit(self._process.pid, limit)
+        watch = ProcessorLimit(self._process.pid, LIMIT)
         try:
             for message in _messages(self._lines, watch):
                 state |= message

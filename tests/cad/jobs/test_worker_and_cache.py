@@ -305,8 +305,9 @@ def test_a_thicker_layer_leaves_the_pins_as_they_were(run):
 
 STUCK = """
 import sys
-import time
+from functools import partial
 from tvimdesign.cad.jobs import main as job
+from tvimdesign.cad.jobs import worker
 from tvimdesign.cad.parts import shear_parts
 
 def stuck(dims):
@@ -314,6 +315,7 @@ def stuck(dims):
         pass
 
 shear_parts.DRAWN["{kind}"] = stuck
+worker.WorkerPool = partial(worker.WorkerPool, limit=20.0)
 sys.exit(job.main(sys.argv[1:]))
 """
 
@@ -324,7 +326,7 @@ def test_a_stuck_part_is_named_and_the_others_are_made(tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     with pytest.raises(GeometryError, match=r"^retainer: it was stopped after 20 s.*; the other \d+ files are written"):
-        make_cad(tmp_path / "design.json", tmp_path / "cad", part_limit=20.0, job="stuck_job")
+        make_cad(tmp_path / "design.json", tmp_path / "cad", job="stuck_job")
     assert (tmp_path / "cad/step/housing.step").exists()
     assert (tmp_path / "cad/drawings/rotor.pdf").exists()
     assert not (tmp_path / "cad/step/retainer.step").exists()

@@ -83,7 +83,7 @@ def warm_up(mode: str = "") -> None:
     import_module("tvimdesign.cad.render.pictures")
 
 
-def run(design_path: Path, out: Path, part_limit: float, send: Callable[..., None]) -> None:
+def run(design_path: Path, out: Path, send: Callable[..., None]) -> None:
     """Make what is not in the cache and put all files into `out`; `send` gets each step, then the results."""
     started = time.perf_counter()
     design = read_design(design_path)
@@ -99,7 +99,7 @@ def run(design_path: Path, out: Path, part_limit: float, send: Callable[..., Non
         own = cache_folder(_CACHE_NAME) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
         store = Cache(Path(own))
         pool = WorkerPool(
-            TrackedDesign(design, _titles(design)), store, lambda step: send(progress=step), part_limit,
+            TrackedDesign(design, _titles(design)), store, lambda step: send(progress=step),
             made=lambda result: _deliver(result, out),
         )  # fmt: skip
         done = pool.do(build_plan(dimensions(design)))
@@ -164,7 +164,7 @@ def _deliver(result: Result, out: Path) -> None:
         atomic_write(out / name, (result.folder / "out" / name).read_bytes())
 
 
-def main(arguments: list[str], job: Callable[[Path, Path, float, Callable[..., None]], None] = run) -> int:
+def main(arguments: list[str], job: Callable[[Path, Path, Callable[..., None]], None] = run) -> int:
     """Run a job, by default that of all parts; return the exit code. An error is a line of JSON too.
 
     With `--wait` it loads the CAD kernel, and reads a line of JSON with the other arguments from standard input.
@@ -184,8 +184,7 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, Callable[..., N
             if not line:
                 return 0
             arguments = json.loads(line)
-        design_path, out = (Path(argument) for argument in arguments[:2])
-        job(design_path, out, float(arguments[2]), send)
+        job(Path(arguments[0]), Path(arguments[1]), send)
     except TvimError as error:
         send(error=str(error), code=error.exit_code)
         return error.exit_code

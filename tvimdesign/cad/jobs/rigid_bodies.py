@@ -28,7 +28,7 @@ MESHES = "meshes"
 BASE, MOVING = "base", "moving"  # Bodies that stand with the housing, and turn with the rotor
 
 
-def run(design_path: Path, out: Path, _part_limit: float, send: Callable[..., None]) -> None:
+def run(design_path: Path, out: Path, send: Callable[..., None]) -> None:
     """Write mass properties and meshes of both bodies; `send` gets each step, then what the checks found."""
     started = time.perf_counter()
     design = read_design(design_path)
