@@ -67,7 +67,6 @@ def write_new_study(file: Path | None, example: str = "", result: Path | None = 
     print(f"names and units while you type: tvimdesign schema > {file.with_name(written_studies.SCHEMA_FILE)}")
 
 
-_ROOMIER = (1.1, 1.2, 1.3, 1.4)  # Factors on a diameter that are tried for room for the assumed values
 _CANDIDATES = 3  # Sets of hardware that are tried, the best fit first
 _SEEDS = (1, 2)  # Of the starts of a search that decides on hardware
 _BESIDE = 2  # Sets of hardware that are tried with other numbers
@@ -79,7 +78,6 @@ _SHARES = (1.0, 0.9, 0.75, 0.5)  # Of the largest torque or stroke that a search
 _USUAL, _LESSER = 8.0 / 0.07**3, (1.0, 0.5, 0.25, 0.1)
 """Torque that usual joints hold over the cube of their diameter [N/m^2], and shares of it that are tried."""
 _AN_EIGHTH = 0.125  # Usual stiffness [N*m/rad] over the torque
-_ALONE = "each limit alone room for three of four plausible cases"
 
 
 def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: bool, **run: Any) -> None:
@@ -162,17 +160,12 @@ def _chosen(file: Path, task: JointTask, room: bool) -> str:
 def no_room(task: JointTask, progress: Callable[[str], None]) -> str:
     """Return what it means that no hardware has room for the assumed values, and the next diameter that has."""
     progress("looking for a diameter with room for the assumed values")
-    wider = [replace(task, cautious=True, diameter=1e-3 * round(1e3 * factor * task.diameter)) for factor in _ROOMIER]
-    wider = [other for other in wider if other.diameter <= LARGEST]
-    roomy = next((other for other in wider if _hardware(other)), None)
-    ways = [f"--diameter '{roomy.options()['diameter']}' leaves {_ALONE}, by estimate"] if roomy else []
-    if wider and not roomy:
-        ways = [f"no --diameter up to '{wider[-1].options()['diameter']}' leaves {_ALONE} by estimate, either"]
-    missed = (
+    roomy, _ = _wider(replace(task, cautious=True, diameter=_ROOM * task.diameter))
+    size = f"--diameter '{roomy.options()['diameter']}'" if roomy else "no larger --diameter"
+    return (
         "no listed hardware leaves room for errors of assumed values: where one is worse than assumed, the module may "
-        "miss a limit"
+        f"miss a limit; {size} leaves room for most of them, by estimate: for each limit alone, not for all at once"
     )
-    return "; ".join([missed, *ways])
 
 
 def process_of(text: str) -> str:
