@@ -30,30 +30,23 @@ def ring(power: int, inner: float, outer: float, angle: float) -> float:
 
 
 @settings(max_examples=20, deadline=None)
-@given(**SIZES, speed=st.floats(1e-3, 3.0))
-def test_a_molten_film_drags_as_newton_says(inner, width, count, filled, thickness, speed):
+@given(**SIZES, speed=st.floats(1e-3, 3.0), turn=st.floats(0.05, 1.0))
+def test_a_molten_film_drags_and_a_frozen_ring_holds_as_integrals_say(
+    inner, width, count, filled, thickness, speed, turn
+):
     span, inner, outer = 2.0 * np.pi * filled / count, inner * MM, (inner + width) * MM
     sizes = {"pcl_inner_radius": inner, "pcl_outer_radius": outer, "arc_count": float(count), "arc_span": span}
     values = values_of(
-        "layer_drag_torque drag_torque friction_torque melt_stress pcl_viscosity@hot", "lock",
-        **sizes, pcl_thickness=thickness * MM, turn_speed=speed, melt_memory=1.0,
+        "layer_drag_torque drag_torque friction_torque melt_stress pcl_viscosity@hot "
+        "layer_holding_torque bond_strength turned_overlap",
+        "lock", **sizes, pcl_thickness=thickness * MM, turn_speed=speed, melt_memory=1.0, stroke=turn,
+        pcl_bond_strength=1e6,
     )  # fmt: skip
     viscosity = values["pcl_viscosity@hot"]
     torque = viscosity * speed * ring(2, inner, outer, count * span) / (thickness * MM)
     assert values["layer_drag_torque"] == pytest.approx(torque, rel=1e-9)
     assert values["melt_stress"] == pytest.approx(viscosity * speed * outer / (thickness * MM), rel=1e-9)
     assert values["drag_torque"] == pytest.approx(torque + values["friction_torque"], rel=1e-12)
-
-
-@settings(max_examples=20, deadline=None)
-@given(**SIZES, turn=st.floats(0.05, 1.0))
-def test_a_frozen_ring_holds_its_strength_times_radius_over_what_overlaps(inner, width, count, filled, thickness, turn):
-    span, inner, outer = 2.0 * np.pi * filled / count, inner * MM, (inner + width) * MM
-    sizes = {"pcl_inner_radius": inner, "pcl_outer_radius": outer, "arc_count": float(count), "arc_span": span}
-    values = values_of(
-        "layer_holding_torque bond_strength turned_overlap", "lock",
-        **sizes, pcl_thickness=thickness * MM, stroke=turn, pcl_bond_strength=1e6,
-    )  # fmt: skip
     left, strength = count * (span - turn), values["bond_strength"]
     # The rim reaches its strength first; were all of the ring at it, it would hold the integral of r dA.
     assert values["layer_holding_torque"] == pytest.approx(strength / outer * ring(2, inner, outer, left), rel=1e-9)

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import pytest
 from every import check_records, of_every
+from support import cases_of
 
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.catalog import CATEGORIES, Catalog
@@ -46,19 +47,9 @@ def test_a_record_has_what_its_shelf_requires():
     of_every(EVERY_RECORD, check)
 
 
-@pytest.mark.parametrize(
-    ("name", "diameter", "expected"),
-    [
-        ("music_wire", 1.0, 2211),
-        ("music_wire", 2.413, 2211 / 2.413**0.145),
-        ("oil_tempered", 2.0, 1855 / 2**0.187),
-        ("stainless_302", 1.0, 1867),
-        ("stainless_302", 4.0, 2065 / 4**0.263),
-        ("stainless_302", 8.0, 2911 / 8**0.478),
-    ],
-)
-def test_tensile_strength(name, diameter, expected):
-    assert strength(name, diameter) == pytest.approx(expected, rel=1e-9)
+@cases_of("shipped_records", "tensile_strengths")
+def test_tensile_strength(name, diameter, coefficient, exponent):
+    assert strength(name, diameter) == pytest.approx(coefficient / diameter**exponent, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -71,27 +62,9 @@ def test_en_wire_stays_just_below_its_line(name, offset, slope):
         assert 0.995 * line < strength(name, diameter) < 1.0001 * line
 
 
-JIS = {
-    "jis_swp_b": (
-        "0.32 2650, 0.35 2650, 0.4 2600, 0.45 2550, 0.5 2550, 0.55 2500, 0.6 2450, 0.65 2450, 0.7 2400, "
-        "0.8 2350, 0.9 2300, 1 2260, 1.2 2210, 1.4 2160, 1.6 2110, 1.8 2060, 2 2010, 2.3 1960, 2.6 1960, "
-        "2.9 1910, 3.2 1860, 3.5 1810, 4 1810, 4.5 1770, 5 1770, 5.5 1710, 6 1670, 6.5 1670, 7 1620"
-    ),
-    "jis_swp_a": (
-        "0.5 2300, 0.55 2260, 0.6 2210, 0.65 2210, 0.7 2160, 0.8 2110, 0.9 2110, 1 2060, 1.2 2010, 1.4 1960, "
-        "1.6 1910, 1.8 1860, 2 1810, 2.3 1770"
-    ),
-    "jis_sw_c": (
-        "0.32 2300, 0.35 2300, 0.4 2260, 0.45 2210, 0.5 2210, 0.55 2160, 0.6 2110, 0.65 2110, 0.7 2060, "
-        "0.8 2010, 0.9 2010, 1 1960, 1.2 1910, 1.4 1860"
-    ),
-}
-"""Least strengths [MPa] at standard diameters [mm] of JIS G 3522 and G 3521 (SW-C), as two makers print."""
-
-
-@pytest.mark.parametrize("name", JIS)
-def test_jis_wire_is_never_stronger_than_its_standard_nor_much_weaker(name):
-    table = [tuple(map(float, item.split())) for item in JIS[name].split(", ")]
+@cases_of("shipped_records", "jis")
+def test_jis_wire_is_never_stronger_than_its_standard_nor_much_weaker(name, least_strengths):
+    table = [tuple(map(float, item.split())) for item in least_strengths.split(", ")]
     for diameter, least in table:
         assert 0.944 * least < strength(name, diameter) <= least
     for (thinner, _), (_, least) in pairwise(table):  # between standard diameters the next larger one counts
@@ -147,28 +120,22 @@ def test_solid_spectrum_has_a_modulus_of_one_at_1_hertz():
     of_every(MELTING, check)
 
 
-DRIVERS = {
-    "moteus_c1": (10, 51, 5, 20, 0.8, 8.9, 38, 38, 9),
-    "moteus_n1": (10, 54, 9, 100, 0.8, 14.6, 46, 46, 8),
-    "moteus_r4": (10, 44, 12, 100, 0.8, 14.2, 53, 46),
-    "moteus_x1": (10, 54, 25, 120, 0.8, 23.8, 56, 56, 10),
-    "odrive_micro": (10, 31, 3.5, 7, 0.78, 11.7, 32, 32, 7),
-}
-"""Volts, uncooled and peak amperes, share of the supply, grams and mm of the README of mjbots/moteus (commit db1a762,
-2026-04-06) with its docs/guides/field-weakening.md, and of the data sheet of the ODrive Micro."""
 PRINTED = ("V", "V", "A", "A", "1", "g", "mm", "mm", "mm")
 
 
-def test_drivers_of_motors_are_as_their_makers_print_them():
-    assert set(DRIVERS) == set(CATALOG.names("motor_drivers"))
-    for name, values in DRIVERS.items():
-        entries = CATALOG.record("motor_drivers", name).entries
-        assert len(entries) == len(values)
-        names = [*CATEGORIES["motor_drivers"].values, "height"]
-        for field, value, unit in zip(names, values, PRINTED, strict=False):
-            assert (entries[field].unit, entries[field].status) == (unit, "datasheet")
-            scale = {"g": 1e-3, "mm": 1e-3}.get(unit, 1.0)
-            assert entries[field].value == pytest.approx(value * scale), (name, field)
+DRIVERS = cases_of("shipped_records", "motor_drivers")
+
+
+@DRIVERS
+def test_drivers_of_motors_are_as_their_makers_print_them(name, printed):
+    assert {driver for driver, _ in DRIVERS.args[1]} == set(CATALOG.names("motor_drivers"))
+    entries = CATALOG.record("motor_drivers", name).entries
+    assert len(entries) == len(printed)
+    names = [*CATEGORIES["motor_drivers"].values, "height"]
+    for field, value, unit in zip(names, printed, PRINTED, strict=False):
+        assert (entries[field].unit, entries[field].status) == (unit, "datasheet")
+        scale = {"g": 1e-3, "mm": 1e-3}.get(unit, 1.0)
+        assert entries[field].value == pytest.approx(value * scale), field
 
 
 def test_solids_soften_and_take_up_heat_as_calibrated():

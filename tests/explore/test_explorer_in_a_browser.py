@@ -5,18 +5,16 @@ import subprocess
 import sys
 from pathlib import Path
 
-import axe_playwright_python
 import pytest
 from explored import SMALL, small_study
-from opened_page import Opened
-from served_explorer import Served, exploring
+from opened_page import Opened, serious_faults
+from served_explorer import serving
 from support import environment
 
 WANTED = "minimize: {response_time: 1, module_mass: 1}"
 FRONT = "minimize: {response_time: 1, peak_power: 1}\nfront: {of: [response_time, peak_power], points: 3}"
 CELLS = "(one) => [...one.tBodies[0].rows].map((row) => [...row.cells].map((cell) => cell.innerText))"
 """Of a table."""
-AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")
 
 
 def run(study: Path, out: Path) -> None:
@@ -177,10 +175,7 @@ def test_a_phone_has_it_all_in_its_width_and_axe_finds_no_serious_fault(another,
     tops = page.evaluate(f"['draft', 'controls', 'limits'].map((id) => {place})")
     assert tops == sorted(tops)  # the module in 3-D is seen first
     page.evaluate("document.getElementById('report').remove()")  # the report has its own test
-    page.evaluate(AXE)
-    faults = page.evaluate("axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations)")
-    serious = [item for item in faults if item["impact"] in {"serious", "critical"}]
-    assert [(item["id"], [node["html"][:120] for node in item["nodes"][:3]]) for item in serious] == []
+    assert serious_faults(page) == []
 
 
 @pytest.mark.slow
@@ -231,25 +226,19 @@ def test_the_draft_in_3d_follows_a_slider_that_is_held(explorer):
 def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browser, tmp_path):
     study = small_study(tmp_path, SMALL.replace(WANTED, FRONT))
     run(study, tmp_path / "run")
-    result = Served(tmp_path / "run", tmp_path / "out")
-    result.begin()
-    try:
-        with exploring(browser, result.address) as explorer:
-            page = explorer.page
-            points = page.locator("#front svg path[d^='M1 0A']")
-            points.first.wait_for(state="attached")
-            page.get_by_text("Points, as buttons").click()
-            names = page.locator("#front details button")
-            assert (names.count(), points.count()) == (3, 2)  # the knee is a diamond
-            before = explorer.number
-            points.last.click(force=True)
-            page.get_by_text("Variables", exact=True).wait_for()
-            explorer.answered(before, "exact")
-            page.get_by_role("button", name="Make CAD").click()
-            page.locator("#report #assembly").wait_for()
-            figure = page.locator("#figure-solids")
-            figure.scroll_into_view_if_needed()
-            page.wait_for_selector("#figure-solids[data-state=drawn]")
-            assert explorer.complaints == []
-    finally:
-        result.end()
+    with serving(browser, tmp_path / "run", tmp_path / "out") as explorer:
+        page = explorer.page
+        points = page.locator("#front svg path[d^='M1 0A']")
+        points.first.wait_for(state="attached")
+        page.get_by_text("Points, as buttons").click()
+        names = page.locator("#front details button")
+        assert (names.count(), points.count()) == (3, 2)  # the knee is a diamond
+        before = explorer.number
+        points.last.click(force=True)
+        page.get_by_text("Variables", exact=True).wait_for()
+        explorer.answered(before, "exact")
+        page.get_by_role("button", name="Make CAD").click()
+        page.locator("#report #assembly").wait_for()
+        figure = page.locator("#figure-solids")
+        figure.scroll_into_view_if_needed()
+        page.wait_for_selector("#figure-solids[data-state=drawn]")

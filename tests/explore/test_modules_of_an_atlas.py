@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from explored import SMALL
-from served_explorer import Served, exploring
+from served_explorer import serving
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.source import open_source
@@ -57,19 +57,13 @@ def test_what_holds_no_module_of_its_mode_is_refused(folder):
 
 @pytest.mark.slow
 def test_a_clicked_module_is_seen_in_3_d(browser, folder, tmp_path):
-    served = Served(folder, tmp_path / "out")
-    served.begin()
-    try:
-        with exploring(browser, served.address) as explorer:
-            points = explorer.page.locator("#front svg path[d^='M1 0A']")
-            points.first.wait_for(state="attached")
-            assert points.count() == 2
-            before = explorer.number
-            points.last.click(force=True)
-            explorer.answered(before)
-            explorer.until("(after) => Number(document.getElementById('draft').dataset.draft) > after", before)
-            assert explorer.page.evaluate("document.getElementById('draft').viewer.parts.size") > 10
-            assert explorer.page.get_by_text("paraffin_rt60").count()
-            assert explorer.complaints == []
-    finally:
-        served.end()
+    with serving(browser, folder, tmp_path / "out") as explorer:
+        points = explorer.page.locator("#front svg path[d^='M1 0A']")
+        points.first.wait_for(state="attached")
+        assert points.count() == 2
+        before = explorer.number
+        points.last.click(force=True)
+        explorer.answered(before)
+        explorer.until("(after) => Number(document.getElementById('draft').dataset.draft) > after", before)
+        assert explorer.page.evaluate("document.getElementById('draft').viewer.parts.size") > 10
+        assert explorer.page.get_by_text("paraffin_rt60").count()

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from explored import SMALL, awaited, talking
-from served_explorer import Served, exploring
+from served_explorer import serving
 from support import sample_text
 
 from tvimdesign.base.errors import InputError
@@ -25,12 +25,7 @@ from tvimdesign.sweep.shards import SHARDS
 
 STUDY = sample_text("swept_cells")
 """The first cell has no design: its layer is too thin for the strain, which nothing that varies changes."""
-OWN = """
-title: Own
-based_on: music_wire
-values:
-  stress_relief_temperature: {value: 250, unit: degC, status: datasheet, source: a sheet of one's own}
-"""
+OWN = sample_text("own_heat_paths")
 
 
 @pytest.fixture(scope="module")
@@ -143,39 +138,26 @@ def test_a_page_gets_the_cells_once_and_shows_the_one_it_chooses(swept, tmp_path
 
 @pytest.mark.slow
 def test_a_cell_is_clicked_and_one_is_asked_for_by_its_number(browser, swept, tmp_path):
-    result = Served(swept, tmp_path / "out")
-    result.begin()
-    try:
-        with exploring(browser, result.address) as explorer:
-            page = explorer.page
-            page.get_by_role("heading", name="Cells").wait_for()
-            points = page.locator("#front svg").first.locator("path[d^='M1 0A']")
-            points.first.wait_for(state="attached")
-            page.get_by_text("Cells, as buttons").click()
-            assert page.locator("#front details button.plain").count() == points.count() == 2
-            explorer.shows("peak_power <=", "11 W")
-            before = explorer.number
-            points.first.click(force=True)
-            explorer.answered(before, "exact")
-            explorer.shows("peak_power <=", "9 W")
-            before = explorer.number
-            page.get_by_label("Number of a cell").fill("1")
-            page.get_by_role("button", name="Show this cell").click()
-            explorer.answered(before, "exact")
-            page.locator("#status").get_by_text("layer_strain_safety").wait_for()
-            assert explorer.complaints == []
-    finally:
-        result.end()
+    with serving(browser, swept, tmp_path / "out") as explorer:
+        page = explorer.page
+        page.get_by_role("heading", name="Cells").wait_for()
+        points = page.locator("#front svg").first.locator("path[d^='M1 0A']")
+        points.first.wait_for(state="attached")
+        page.get_by_text("Cells, as buttons").click()
+        assert page.locator("#front details button.plain").count() == points.count() == 2
+        explorer.shows("peak_power <=", "11 W")
+        before = explorer.number
+        points.first.click(force=True)
+        explorer.answered(before, "exact")
+        explorer.shows("peak_power <=", "9 W")
+        before = explorer.number
+        page.get_by_label("Number of a cell").fill("1")
+        page.get_by_role("button", name="Show this cell").click()
+        explorer.answered(before, "exact")
+        page.locator("#status").get_by_text("layer_strain_safety").wait_for()
 
 
-CONTROLLED = """
-mode: shear
-vary:
-  pcl_thickness: [0.6 mm, 2 mm]
-  arc_span: [20 deg, 110 deg]
-require: {envelope_diameter: "<= 0.09 m"}
-minimize: {module_mass: 1}
-"""
+CONTROLLED = sample_text("controlled_cells")
 
 
 def test_controls_have_units_labels_and_groups():

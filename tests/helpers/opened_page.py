@@ -5,10 +5,22 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import axe_playwright_python
 from playwright.sync_api import Browser, Page
 
 PATIENCE = 300_000
 """Milliseconds that a page may take on a busy machine."""
+
+
+AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")
+
+
+def serious_faults(page: Page, **options: Any) -> list[tuple[str, list[str]]]:
+    """Return the serious faults that axe finds in a page, each with the first places."""
+    page.evaluate(AXE)
+    run = "(asked) => axe.run(document, { resultTypes: ['violations'], ...asked }).then(({ violations }) => violations)"
+    serious = [fault for fault in page.evaluate(run, options) if fault["impact"] in {"serious", "critical"}]
+    return [(fault["id"], [node["html"][:120] for node in fault["nodes"][:3]]) for fault in serious]
 
 
 class Opened:

@@ -97,3 +97,16 @@ def exploring(browser: Browser, address: str, **settings: Any) -> Iterator[Explo
     explorer.answered(0)
     yield explorer
     context.close()
+
+
+@contextmanager
+def serving(browser: Browser, study: Path, out: Path) -> Iterator[Explorer]:
+    """Serve one explorer, with its page open."""
+    served = Served(study, out)
+    served.begin()
+    try:
+        with exploring(browser, served.address) as explorer:
+            yield explorer
+            assert explorer.complaints == []
+    finally:
+        served.end()

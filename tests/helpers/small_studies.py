@@ -1,41 +1,16 @@
 """Small studies that several tests begin from: their mode, what is given and what varies; each test asks its own."""
 
+from support import sample_text
+
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.study import Range, Study
 
-FOUR_SIZES_IN_SHEAR = """
-mode: shear
-vary:
-  wire_diameter: [1.5 mm, 3 mm]
-  coil_diameter: [12 mm, 30 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.5 A, 2 A]
-"""
+FOUR_SIZES_IN_SHEAR = sample_text("four_sizes_in_shear")
 
-ALGEBRAIC = """
-mode: shear
-module: {transmission: unity, placement_radius: 60 mm, pin_diameter: 6 mm}
-vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
-require: {spring_stiffness: ">= 5 N.m/rad"}
-accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
-minimize: springs_mass
-tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
-solver: {starts: 1}
-"""
+ALGEBRAIC = sample_text("algebraic")
 """Springs with tolerances; nothing here waits for a working cycle."""
 
-COMPRESSION_BLOCKS = """  pcl_outer_radius: [18 mm, 30 mm]
-  block_height: [4 mm, 14 mm]
-  block_depth: [2 mm, 8 mm]
-  vane_thickness: [2 mm, 6 mm]
-  current: [0.5 A, 2.5 A]
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  holding_torque: ">= 5 N.m"
-  peak_power: "<= 9 W"
-accept: [heater_temperature_margin]
-minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-"""
+COMPRESSION_BLOCKS = sample_text("compression_blocks")
 """What varies in a block of a compression module, and what is asked of it; begins within `vary`."""
 
 

@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+from support import sample_text
+
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.sweep_study import sweep_folder
 from tvimdesign.study.tree import tree_of_file
@@ -10,15 +12,7 @@ from tvimdesign.sweep.plan import SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import Executor
 from tvimdesign.sweep.shards import SHARDS
 
-SMALL = """
-mode: shear
-name: small
-sweep:
-  over:
-    pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 3}
-    pcl_inner_radius: [20 mm, 70 mm]
-  outputs: [spring_stiffness]
-"""
+SMALL = sample_text("small_sweep")
 """Half of the cells are no module: the layer would end before it begins."""
 
 

@@ -54,15 +54,7 @@ def test_a_fit_without_a_record_keeps_its_folder_and_json_has_it(tvimdesign, wei
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize(
-    ("file", "kind", "name", "truth"),
-    [
-        ("flow/plain.txt", "flow_curve", "zero_shear_viscosity", 1500.0),
-        ("amplitude/haake.txt", "amplitude_sweep", "linear_strain", 30.0),
-        *((f"dsc/{maker}.txt", "dsc", "melting_end", 62.0)
-          for maker in ("ta_universal", "trios_dsc", "setaram", "mettler", "netzsch", "plain_dsc")),
-    ],
-)  # fmt: skip
+@cases_of("fit_files", "plain_files")
 def test_a_file_goes_through_without_an_option(tvimdesign, tmp_path, file, kind, name, truth):
     shutil.copy(ROOT / "tests/simulation/measurement/kinds/instrument_files" / file, tmp_path / "data.txt")
     done = tvimdesign("fit", "data.txt", cwd=tmp_path)

@@ -10,7 +10,7 @@ from answers import shipped_answer
 from numpy.typing import NDArray
 from robot_models import module_of
 from scipy.integrate import solve_ivp
-from support import cases_of, study_path
+from support import study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.heat_flow import heat, lumps
@@ -25,7 +25,6 @@ from tvimdesign.study import Study, read_study
 from tvimdesign.study.reader import read_study_text
 from tvimdesign.study.sections import written
 from tvimdesign.study.study import Requirement
-from tvimdesign.study.text.mistakes import StudyError
 from tvimdesign.study.tree import tree_of_text
 from tvimdesign.sweep.plan import plan_of
 
@@ -129,12 +128,6 @@ def test_a_duty_too_quick_for_a_cycle_has_its_limit_alone(monkeypatch):
     too_often = duty_of(hurried, duty.model, duty.inputs, {})
     assert too_often is not None
     assert (too_often.values, too_often.most, too_often.limited_by) == ({}, 7.0, "time")
-
-
-@cases_of("duty", "not_simulated")
-def test_a_limit_on_what_is_not_simulated_is_refused(sections, words):
-    with pytest.raises(StudyError, match=words):
-        read_study_text(f"mode: shear\n{sections}")
 
 
 @pytest.fixture(scope="module")

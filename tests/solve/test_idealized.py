@@ -8,6 +8,7 @@ from functools import cache
 
 import pytest
 from answers import shipped_answer
+from support import sample_text
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
@@ -104,13 +105,7 @@ def test_a_foil_heater_heats_with_either_sign_of_its_current():
 
 
 # PETG, rated for 60 degC, holds pads that take the far face of the layer to 100 degC.
-SEARCHED = """
-mode: shear
-vary: {wire_diameter: [1.5 mm, 3.2 mm], placement_radius: [57 mm, 60 mm]}
-require: {spring_stiffness: ">= 4 N.m/rad"}
-minimize: module_mass
-solver: {starts: 1, cells: 8}
-"""
+SEARCHED = sample_text("above_a_rating")
 BOTH = ("structure_temperature_margin", "stiffening_structure_margin")
 PADS = "heater_temperature_margin"  # of the default module, 7 K above their 120 degC
 ACCEPTED = f"accept: [{', '.join((*BOTH, PADS))}]\n"

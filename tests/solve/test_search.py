@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR, with_limit_eased
-from support import ROOT, study_path
+from small_studies import FOUR_SIZES_IN_SHEAR, with_limit_eased
+from support import ROOT, sample_text, study_path
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import table_for
@@ -20,38 +20,7 @@ from tvimdesign.solve.search import optimize
 from tvimdesign.study import given, read_study, read_study_text
 
 TABLE = table_for("shear")
-SMALL = (
-    FOUR_SIZES_IN_SHEAR
-    + """
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  peak_power: "<= 9 W"
-  layer_holding_torque: ">= 40 N.m"
-minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 1}
-"""
-)
-BLOCKS_SMALL = (
-    """
-mode: compression
-module:
-  response_criterion: mean
-  core_radius: 8 mm
-  link_dowel: iso_8734_2
-  rotor_rim: 8 mm
-  pcl_inner_radius: 13 mm
-  block_height: 11 mm
-  block_depth: 4 mm
-  vane_thickness: 4 mm
-  coil_diameter: 12 mm
-  coil_count: 6.7
-vary:
-  coil_diameter: [10 mm, 16 mm]
-  coil_count: [4, 9]
-"""
-    + COMPRESSION_BLOCKS
-    + "solver: {starts: 7, seed: 1}\n"
-)
+SMALL, BLOCKS_SMALL = sample_text("searched_in_shear"), sample_text("searched_blocks")
 
 
 @pytest.fixture(scope="module")

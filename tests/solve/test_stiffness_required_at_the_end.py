@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from stiff_when_warm import STIFF_WHEN_WARM
-from support import sample_text
+from support import cases_of, sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
@@ -70,16 +70,7 @@ def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion, reache
 HOT = 'require: {joint_stiffness@hot: [">= 2 N.m/rad", "<= 3 N.m/rad"]'
 
 
-@pytest.mark.parametrize(
-    ("module", "more", "outputs"),
-    [
-        ("", "", ["joint_stiffness@hot"] * 2),  # the far face waits for 100 degC, which is the hot point
-        ("target_temperature: 90 degC", "", ["joint_stiffness@hot", "softened_stiffness"] * 2),
-        ("response_criterion: softening", "", ["joint_stiffness@hot", "softened_stiffness"] * 2),
-        ("response_criterion: softening", ', softened_stiffness: "<= 4 N.m/rad"',
-         ["joint_stiffness@hot", "softened_stiffness", "joint_stiffness@hot", "softened_stiffness"]),
-    ],
-)  # fmt: skip
+@cases_of("stiffness_required_at_the_end", "unreached")
 def test_a_limit_at_an_unreached_hot_point_is_also_put_on_the_end(module, more, outputs):
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n{HOT}{more}}}\n", "test")
     limits = [limit for limit in constraints_of(study, study.table, study.module) if limit.origin == "require"]

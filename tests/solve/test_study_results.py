@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from answers import shipped_answer
 from comparable import SHEAR
+from support import sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, parse_quantity
@@ -21,13 +22,7 @@ from tvimdesign.solve.result import answer
 from tvimdesign.study import Study, given, read_study_text
 from tvimdesign.study.resolve import missing_geometry
 
-STUDY = """
-mode: shear
-vary: {current: {from: 0.8 A, to: 2.5 A, start: 1.5 A}}
-require: {peak_power: "<= 60 W"}
-minimize: {response_time: 1}
-solver: {cells: 6, starts: 2}
-"""
+STUDY = sample_text("feasible_not_optimal")
 
 
 @pytest.mark.parametrize("first", [True, False])
@@ -84,17 +79,7 @@ def test_where_a_search_ends_without_a_design_nothing_is_handed_on():
         assert (bool(made), answered.has_design) == (is_design, is_design)
 
 
-PROCESS_STUDY = """
-mode: shear
-module: {{process: {process}, key_count: 0, stop_tooth_width: 15 mm}}
-vary:
-  wall_thickness: [0.8 mm, 5 mm]
-  rotor_thickness: [1 mm, 6 mm]
-  floor_thickness: [2.5 mm, 6 mm]
-accept: [heater_temperature_margin, structure_temperature_margin, stiffening_structure_margin]
-minimize: {{module_mass: 1}}
-solver: {{starts: 1}}
-"""
+PROCESS_STUDY = sample_text("walls_of_a_process")
 
 
 @pytest.mark.parametrize(("process", "wall"), [("print_petg", 1.2e-3), ("machine_6061", 1.0e-3)])

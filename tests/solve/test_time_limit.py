@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from explored import SMALL
 from small_studies import ALGEBRAIC
+from support import sample_text
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
@@ -24,20 +25,10 @@ from tvimdesign.solve.nlp.solver_run import ALTERNATIVES, BELOW_YIELD, MARGINS, 
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import SearchInterrupted, optimize
-from tvimdesign.study import Study, StudyError, drawn, given, read_study, read_study_text
+from tvimdesign.study import Study, drawn, given, read_study, read_study_text
 from tvimdesign.study.written_studies import study_text
 
-SEARCHED = """
-mode: shear
-vary:
-  wire_diameter: [1.2 mm, 3.2 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.5 A, 2.5 A]
-require: {holding_torque: ">= 2 N.m"}
-accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
-minimize: {module_mass: 1, response_time: 1}
-solver: {starts: 6, cells: 6, fineness: 0.67, time_limit: 5 min}
-"""
+SEARCHED = sample_text("limited_in_time")
 LISTED = SEARCHED.replace("starts: 6", "starts: 1").replace(
     "wire_diameter: [1.2 mm, 3.2 mm]",
     "wire_diameter: {from: 1.2 mm, to: 3.2 mm, step: 0.05 mm}\n  hub_depth: {from: 0 mm, to: 6 mm, step: 0.5 mm}",
@@ -165,14 +156,6 @@ def test_a_run_of_the_solver_ends_between_two_iterations():
     assert 0 < cut.start.iterations < whole.start.iterations
     assert np.array_equal(again.unknowns, whole.unknowns)
     assert optimizer._solvers == solvers
-
-
-def test_the_limit_is_a_time():
-    assert read_study_text(SEARCHED).solver.time_limit == 300.0
-    with pytest.raises(StudyError, match=r"solver\.time_limit: '60': say the unit"):
-        read_study_text(SEARCHED.replace("5 min", "60"))
-    with pytest.raises(StudyError, match=r"solver\.time_limit: 0 should be greater than 0"):
-        read_study_text(SEARCHED.replace("5 min", "0 s"))
 
 
 TWO_STARTS = SMALL.replace("starts: 1", "starts: 2")

@@ -31,7 +31,6 @@ from tvimdesign.study import (
     read_tree,
 )
 from tvimdesign.study.sections import NAMES
-from tvimdesign.study.text.mistakes import Mistake
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.study.written_studies import example_text, json_schema, template_text
 
@@ -41,7 +40,8 @@ Refuse = Callable[..., list[str]]
 GOOD = sample_text("of_the_small_table")
 
 
-def test_a_full_study(read):
+def test_a_full_study(read, validator):
+    validator.validate(yaml.safe_load(GOOD))
     study = read(GOOD)
     assert study.name == "The paper's module, re-optimised"
     assert study.description == "Two lines\nof text"
@@ -124,15 +124,7 @@ def test_no_folder_of_records(problems, tmp_path):
         assert line.startswith("x.yaml:2:10: catalog: ")
 
 
-WIRES = """\
-title: "Wire on our shelf"
-tables:
-  sizes:
-    columns: {wire_diameter: mm}
-    rows: [[2.4], [1.9], [9.0]]
-    source: "the drawer"
-    status: measured
-"""
+WIRES = sample_text("user_wires")
 
 
 def test_the_users_records_in_the_shipped_catalogue(tmp_path):
@@ -183,36 +175,9 @@ def _of_shipped_tables(text: str) -> list[str]:
     return str(refused.value).splitlines()
 
 
-def mistake(section: str, name: str, value: str) -> Mistake:
-    """Return the mistake of a study that has a line."""
-    with pytest.raises(StudyError) as caught:
-        read_study_text(f'mode: shear\n{section}: {{{name}: "{value}"}}\n', "test")
-    (problem,) = caught.value.problems
-    return problem
-
-
-@cases_of("reader", "meant_limits")
-def test_a_limit_gets_the_quantity_that_is_meant(name, meant):
-    assert mistake("require", name, "<= 1 mm").hint == f"did you mean {meant!r}?"
-    # What is meant most often stands first among the names.
-    assert mistake("require", "xyz", "<= 1 mm").expected.startswith("one of module_mass, envelope_diameter, ")
-
-
-@pytest.mark.parametrize(
-    ("name", "hint"),
-    [
-        ("outer_diameter", "limit 'envelope_diameter' under `require`"), ("wire", "did you mean 'wire_diameter'?"),
-        ("layer_thickness", "did you mean 'pcl_thickness'?"),
-    ],
-)  # fmt: skip
-def test_an_input_gets_the_input_or_the_limit_that_is_meant(name, hint):
-    assert mistake("module", name, "1 mm").hint == hint
-
-
-@pytest.mark.parametrize("text", [">= 1 Nm/rad, <= 1.5 Nm/rad", ">= 1 Nm/rad and <= 1.5 Nm/rad", "1 to 1.5 Nm/rad"])
-def test_two_limits_in_one_text_become_a_list(text):
-    problem = mistake("require", "spring_stiffness", text)
-    assert (problem.message, problem.expected) == ("2 limits in one text", 'a list: [">= 1 Nm/rad", "<= 1.5 Nm/rad"]')
+def test_a_limit_on_nothing_lists_first_what_is_meant_most_often():
+    (message,) = _of_shipped_tables("mode: shear\nrequire: {xyz: '<= 1 mm'}")
+    assert "expected one of module_mass, envelope_diameter, " in message
 
 
 WRONG = refused("studies")
@@ -232,19 +197,7 @@ def test_names_and_units_stand_in_the_schema(table):
     assert module["coil_count"]["description"] == "Coil count"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        GOOD,
-        "mode: shear",
-        "mode: shear\nmodule:\nvary: {wire_diameter: {catalog: metric, to: 2 mm}}\nminimize: joint_stiffness@hot",
-        "mode: shear\nvary: {coil_count: {choose: [2, '3']}}\nminimize: {module_mass: 50 %}",
-        "mode: shear\nvary: {rate_model: {choose: [smi]}}\nminimize: {module_mass: 1e-1}",
-        "mode: shear\nsweep: {over: {pcl_thickness: {from: 1 mm, to: 2 mm, step: 1 mm}, arc_count: {from: 3, to: 5}}}",
-        "mode: shear\nsweep: {method: sobol, count: 8, over: {require.module_mass: {from: <= 90 g, to: <= 120 g}}}",
-        "mode: shear\nsweep: {cells: [{pcl_thickness: 1 mm, rate_model: smi}], outputs: all, most: 3}",
-    ],
-)
+@cases_of("reader", "good")
 def test_a_good_study_fits(validator, read, text):
     validator.validate(yaml.safe_load(text))
     read(text)

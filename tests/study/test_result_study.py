@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from cad_designs import shipped_design
 from comparable import COMPRESSION, SHEAR, cases
-from support import ROOT, refused
+from support import ROOT, refused, sample_text
 
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
@@ -19,18 +19,7 @@ from tvimdesign.study.study import Options, Range, Robust, Tolerance
 from tvimdesign.study.text.values import exactly
 from tvimdesign.study.written_studies import evaluating, study_text
 
-SEARCHED = """
-mode: shear
-vary:
-  hub_depth: {from: 0 mm, to: 6 mm, step: 2 mm}
-  wire_diameter: [1.2 mm, 3.2 mm]
-  pcl_thickness: [0.6 mm, 2 mm]
-  current: [0.5 A, 2.5 A]
-require: {holding_torque: ">= 2 N.m"}
-accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
-minimize: {module_mass: 1, response_time: 1}
-solver: {starts: 1, cells: 8}
-"""
+SEARCHED = sample_text("searched_result")
 
 
 def values_of(folder: Path) -> dict[str, float | str]:
@@ -113,13 +102,7 @@ def test_a_current_profile_becomes_given_currents():
     assert resolve_study(again).current_profiles["softening"].plain() == PROFILES["softening"]
 
 
-MODULE = """
-mode: shear
-module: {current: 1.5 A, cooling_current: 0.3 A}
-tolerances: {current: {plus_minus: 5 %}, pcl_thickness: {plus_minus: 0.05 mm}}
-
-solver: {cells: 8}
-"""
+MODULE = sample_text("given_currents")
 
 
 def study(currents: str) -> Study:

@@ -13,7 +13,7 @@ import pytest
 from scipy.stats import qmc
 from small_studies import ALGEBRAIC
 from small_sweeps import plan
-from support import ROOT, cases_of, study_path
+from support import ROOT, cases_of, sample_text, study_path
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError, OutputError
@@ -101,12 +101,7 @@ def test_full_disks_and_folders_in_the_way_keep_the_cells_before(tmp_path):
         written(tmp_path / "other", KEYS)
 
 
-OPTIMISED = """
-mode: shear
-vary: {wire_diameter: [1.5 mm, 3 mm], coil_diameter: [10 mm, 30 mm], pcl_thickness: [0.6 mm, 2 mm]}
-minimize: module_mass
-require: {holding_torque: '>= 10 N.m', module_mass: '<= 300 g'}
-"""
+OPTIMISED = sample_text("optimised_cells")
 
 
 def plan_over(tmp_path: Path, sweep: str, study: str = "mode: shear\n") -> SweepPlan:

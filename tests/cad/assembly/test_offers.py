@@ -111,22 +111,7 @@ def test_the_number_is_a_standards_a_makers_or_that_of_a_drawing(kind, record, t
     assert (offer.supplier, offer.number) == (supplier, number)
 
 
-@pytest.mark.parametrize(
-    ("kind", "title", "asks", "number"),
-    [
-        ("driver", f"{BRIDGE} both ways round", (9.5, 2.0), "4035 (DRV8874 carrier)"),
-        ("driver", f"{BRIDGE} one way round", (9.5, 2.6), "2992 (G2 24v13)"),
-        ("driver", f"{BRIDGE} one way round", (36.0, 2.6), None),
-        ("driver", f"{DOWN} both ways round", (10.6, 2.9), "TEC-1091"),
-        ("driver", f"{DOWN} both ways round", (10.6, 4.1), None),
-        ("driver", f"{DOWN} one way round", (1.2, 1.9), "DPS5005"),
-        ("supply", "", (9.5, 1.9), "B0DZGTTBGZ"),
-        ("supply", "", (9.5, 2.6), "IRM-90-12ST (MEAN WELL)"),
-        ("supply", "", (13.0, 2.6), "B0D2XZCGL5"),
-        ("supply", "", (13.0, 4.1), "LRS-150-24"),
-        ("supply", "", (13.0, 6.6), None),
-    ],
-)
+@cases_of("offers", "first_taken")
 def test_the_first_that_bears_volts_and_amperes_is_taken(kind, title, asks, number):
     offer = offer_for(kind, "", title, *asks)
     assert (offer.number if offer else None) == number
@@ -147,14 +132,7 @@ def test_the_sum_is_of_whole_packs_and_counts_what_has_no_price():
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-@pytest.mark.parametrize(
-    ("wiring", "expected"),
-    [
-        ("series", [[1, 2, 3, 4, 5, 6]]),
-        ("arcs_parallel", [[1, 2], [3, 4], [5, 6]]),
-        ("all_parallel", [[1], [2], [3], [4], [5], [6]]),
-    ],
-)
+@cases_of("offers", "strings")
 def test_heaters_are_in_strings_as_they_are_wired(wiring, expected):
     assert strings(design_of("wired", TILES | {"heater_wiring": wiring})) == expected
 

@@ -18,6 +18,7 @@ from ezdxf.document import Drawing
 from ezdxf.entities import Dimension
 from ezdxf.math import Vec3
 from ezdxf.tools.text_size import text_size
+from support import cases_of
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
@@ -325,19 +326,7 @@ print(hashlib.sha256(sheet.dxf()).hexdigest())
     assert reported[0].stdout == reported[1].stdout
 
 
-@pytest.mark.parametrize(
-    ("azimuths", "words"),
-    [
-        ([45.0, 135.0, 225.0, 315.0], "every 90° from 45°"),
-        ([315.0], "at 315°"),
-        ([28.68, 45.0, 61.32, 118.68, 135.0, 151.32, 208.68, 225.0, 241.32, 298.68, 315.0, 331.32],
-         "at 28.68°, 45°, 61.32°, 4 times around"),
-        ([*range(10, 70, 10), *range(190, 250, 10)], "from 10° every 10° to 60°, 2 times around"),
-        # Two beside x in each of three groups: the widest gap is within, the pattern starts behind it.
-        ([10.0, 110.0, 130.0, 230.0, 250.0, 350.0], "at 110°, 130°, 3 times around"),
-        ([10.0, 20.0, 50.0, 70.0], "at 10°, 20°, 50°, 70°"),
-    ],
-)  # fmt: skip
+@cases_of("drawings", "azimuths")
 def test_azimuths_are_written_as_short_as_their_pattern(azimuths, words):
     assert around(azimuths) == words
 

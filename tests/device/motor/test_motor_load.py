@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
-from support import study_path
+from support import sample_text, study_path
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device.motor import motor_load
@@ -17,16 +17,7 @@ from tvimdesign.study.reader import read_study_text
 
 MOMENTS, ANGLES = [0.0, 0.25, 0.5], np.radians([0.0, 20.0, 40.0])
 LENGTH, ARM, PAYLOAD, GRAVITY = 0.1, 0.1, 0.2, 9.80665
-TASK = """task:
-  arm_length: 100 mm
-  arm_mass: 100 g
-  arm_centre_share: 0.5
-  arm_inertia_share: 0.25
-  payload: 200 g
-  pose_angle: 60 deg
-  gravity_angle: 90 deg
-  trajectory: {moments: [0 s, 0.25 s, 0.5 s], angles: [0 deg, 20 deg, 40 deg]}
-"""
+TASK = sample_text("task_of_a_motor")
 SINE = """  sine_amplitude: 0.1 rad
   sine_from: 0.5 Hz
   sine_to: 2 Hz

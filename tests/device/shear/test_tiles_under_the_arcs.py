@@ -11,7 +11,7 @@ from device_values import inputs_of
 from device_values import values_of as of_default
 from heat_sector.spreader import mean_rise
 from random_designs import FRESH_SEED, Draws, Tally
-from support import study_path
+from support import cases_of, study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
@@ -66,19 +66,7 @@ def test_margins_are_the_gaps_of_the_rectangles_beyond_the_clearance(tiles):
         )
 
 
-@pytest.mark.parametrize(
-    ("rule", "module"),
-    [
-        ("tile_radial_margin", {"pcl_outer_radius": 36 * MM}),
-        ("tile_side_margin", {"tiles_per_arc": 3.0}),
-        ("lead_tile_margin", {"arc_span": 1.9}),
-        ("lead_slot_end_margin", {"arc_span": 1.8}),
-        ("lead_hole_margin", {"lead_hole_diameter": 2.5 * MM}),
-        ("lead_ground_gap", {"foot_height": 2.0 * MM}),
-        ("window_depth", {"window_ledge": 5.5 * MM}),
-        ("floor_web_margin", {"spreader_thickness": 2.5 * MM}),
-    ],
-)
+@cases_of("tiles_under_the_arcs", "without_room")
 def test_a_module_without_room_breaks_its_rule(rule, module):
     assert values_of(rule)[rule] >= 0.0
     assert values_of(rule, **module)[rule] < 0.0

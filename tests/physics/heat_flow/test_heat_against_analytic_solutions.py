@@ -17,6 +17,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.special import erf, erfc
+from support import cases_of
 
 from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.physics.polymers import polymer
@@ -134,14 +135,7 @@ def neumann(solid: float, melt: float, far: float, face: float) -> float:
     return brentq(balance, 1e-3, 2.0)
 
 
-@pytest.mark.parametrize(
-    ("solid", "melt", "far", "face"),
-    [
-        (0.225, 0.18, 310.0, 370.0), (0.225, 0.18, 320.0, 390.0),
-        # Four and 62 times as much in one phase as in the other; 28 cells with half cells in series are 4 to 8 % off.
-        (0.2, 0.8, 310.0, 370.0), (0.2, 12.4, 310.0, 370.0), (0.8, 0.2, 326.0, 370.0),
-    ],
-)  # fmt: skip
+@cases_of("heat_against_analytic_solutions", "neumann")
 def test_front_between_two_phases_advances_as_neumann_found(solid, melt, far, face, bare_stack, integrate):
     # Solid below its melting point, in a layer four times as deep that the heat does not get through; cells as deep
     # as the default in a millimetre. Its first cells warm up in one piece, which puts the front behind while it is some

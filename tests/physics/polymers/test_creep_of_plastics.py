@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import yaml
 from scipy.integrate import quad, solve_ivp
+from support import cases_of
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.polymers import plastics, transitions
@@ -248,13 +249,7 @@ def test_moduli_and_shares_by_handbook():
     assert transitions.linear_share(share) == pytest.approx(share / 3.0, rel=0.04)
 
 
-@pytest.mark.parametrize(
-    ("youngs", "poisson", "plate", "solid"),
-    [
-        (2.1e9, 0.37, 4e-3, 0.90e6), (2.1e9, 0.37, 2.5e-3, 0.71e6),
-        (68.9e9, 0.33, 4e-3, 4.25e6), (68.9e9, 0.33, 2.5e-3, 3.26e6),
-    ],
-)  # fmt: skip
+@cases_of("creep_of_plastics", "in_finite_elements")
 def test_solids_in_finite_elements_pull_no_harder_and_not_much_less(youngs, poisson, plate, solid):
     # `solid`: peak at mid-thickness of a full ring, 26 to 40 mm, 1 mm of PCL on a pad of 1.5 mm and 300 MPa, floor
     # 4 mm, clamped at 13.4 mm; the layer shrinks by 6.55 % of its thickness. Axisymmetric, quadratic quadrilaterals,

@@ -8,7 +8,7 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
-from support import ROOT
+from support import ROOT, sample_text
 
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import si_unit, to_si
@@ -19,17 +19,7 @@ from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")
-STUDY = """
-mode: shear
-module: {pcl_grade: pcl_50k, pcl_latent_heat: 80 kJ/kg, response_criterion: softening}
-vary:
-  wire_diameter: {choose: [2 mm, 2.5 mm]}
-  current: [0.5 A, 2 A]
-require: {spring_stiffness: ">= 4 N.m/rad"}
-minimize: {module_mass: 1, response_time: 1}
-profile: {softening: 2}
-solver: {starts: 1, cells: 6, fineness: 0.67}
-"""
+STUDY = sample_text("reported_results")
 
 
 @pytest.mark.parametrize(

@@ -33,8 +33,8 @@ def plan(section: dict[str, Any]) -> SweepPlan:
 
 def seen(sweep_plan: SweepPlan, masses: Iterable[float | None]) -> CellTable:
     """Cells with these masses, refused where there is none; every even one violates a limit, and none is ever soft."""
-    table = CellTable(sweep_plan)
-    list(table.seeing(row(sweep_plan, number, mass) for number, mass in enumerate(masses, start=1)))
+    table, rows = CellTable(sweep_plan), [row(sweep_plan, *cell) for cell in enumerate(masses, start=1)]
+    assert list(table.seeing(rows)) == rows
     return table
 
 
@@ -99,28 +99,15 @@ def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path, monkeypatch
     assert [point["number"] for point in drawn(text)["brushed"]["points"]] == [1, 4, 7]
 
 
-def plan_of_section(**section: object) -> SweepPlan:
-    return plan_of(tree_of_values({"mode": "shear", "sweep": section}, "study", Path()))
-
-
-def seen_cells(sweep_plan: SweepPlan, masses: list[float | None]) -> CellTable:
-    table = CellTable(sweep_plan)
-    ends = [["evaluated", 0, 0.1, ""] if mass else ["refused", None, None, "no"] for mass in masses]
-    rows = [[number + 1, *sweep_plan.axis_values(number), *end, mass, 100.0, float("inf")]
-            for number, (mass, end) in enumerate(zip(masses, ends, strict=True))]  # fmt: skip
-    assert list(table.seeing(rows)) == rows
-    return table
-
-
 def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers():
-    sweep_plan = plan_of_section(over={"pcl_thickness": {**THICKNESS, "count": 3}, "rate_model": ["smi", "bending"]})
-    table = seen_cells(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0])
+    sweep_plan = plan(GRID)
+    table = seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0])
     data = figure_data(sweep_plan, table)
     masses = data["panels"][0]["series"]
     assert {series["label"]: series["y"] for series in masses} == {"smi": [5.0, 4.0, 3.0], "bending": [6.0, 2.0]}
     assert data["panels"][2]["series"][0]["y"] == []  # what never happens
     assert data["joined"]
-    assert table.best["module_mass"] == {"cell": 6, "value": 2.0, "unit": "g"}
+    assert table.best["module_mass"] == {"cell": 5, "value": 3.0, "unit": "g"}  # cell 6 violates a limit
     assert table.statuses == {"evaluated": 5, "refused": 1}
     figure = sweep(data)
     assert [axes.get_ylabel() for axes in figure.axes] == [panel["label"] for panel in data["panels"]]
@@ -129,10 +116,8 @@ def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers():
 
 @pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
 def test_a_sample_is_a_cloud_over_two_axes(method):
-    sweep_plan = plan_of_section(
-        method=method, count=8, over={"pcl_thickness": THICKNESS, "current": {"from": "1 A", "to": "2 A"}}
-    )
-    data = figure_data(sweep_plan, seen_cells(sweep_plan, [float(number + 1) for number in range(8)]))
+    sweep_plan = plan({**CLOUD, "method": method})
+    data = figure_data(sweep_plan, seen(sweep_plan, [float(number + 1) for number in range(8)]))
     assert data["y"] == "Current (A)"
     assert data["panels"][0]["series"][0]["colour"] == [float(number + 1) for number in range(8)]
     assert len(sweep(data).axes) == 6  # each panel has its scale

@@ -5,14 +5,9 @@ import json
 from pathlib import Path
 
 import pytest
-from support import Command
+from support import Command, sample_text
 
-STUDY = """
-mode: shear
-module: {transmission: unity, leg_model: ignored, spring_material: paper_wire}
-require: {spring_stiffness: [">= 5.3 N.m/rad", "<= 6 N.m/rad"]}
-tolerances: {standard: true}
-"""
+STUDY = sample_text("tolerated")
 
 
 @pytest.fixture(scope="module")

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from support import cases_of
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer
@@ -265,16 +266,7 @@ def test_bad_temperatures_tests_and_numbers_are_refused_with_their_place(resolve
             check_rising(values, "there", "K")
 
 
-@pytest.mark.parametrize(
-    ("modes", "message"),
-    [
-        ([], "here: the spectrum has no modes; expected at least one"),
-        ([(1.0, 5.0), (0.1, -2.5)], "here: mode 2 has the modulus -2.5 Pa; expected a number greater than zero"),
-        ([(0.0, 5.0)], "here: mode 1 has the relaxation time 0 s; expected a number greater than zero"),
-        ([(1.0, math.nan)], "here: mode 1 has the modulus nan Pa"),
-        ([(math.inf, 1.0)], "here: mode 1 has the relaxation time inf s"),
-    ],
-)
+@cases_of("rheometer", "no_spectra")
 def test_what_is_no_spectrum_is_refused_with_its_place(modes, message):
     with pytest.raises(InputError) as caught:
         check_spectrum(modes, "here")

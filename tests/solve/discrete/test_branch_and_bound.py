@@ -12,7 +12,7 @@ import pytest
 from choosing import with_each_record
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support import ROOT
+from support import ROOT, sample_text
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound, Node
@@ -220,12 +220,7 @@ def _each(box: Box) -> list[Box]:
     return [tuple((place, place) for place in combination) for combination in itertools.product(*places)]
 
 
-STUDY = """
-mode: shear
-vary: {coil_count: {from: 3, to: 5, step: 1}, current: [0.5 A, 2.5 A]}
-minimize: module_mass
-solver: {cells: 6, starts: 1}
-"""
+STUDY = sample_text("chosen_in_a_tree")
 OVER = "Maximum_Iterations_Exceeded"
 
 

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from support import sample_text
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
@@ -10,19 +11,7 @@ from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, read_study
 from tvimdesign.study.resolve import record_checks
 
-STUDY = """
-mode: shear
-catalog: records
-module: {transmission: unity, placement_radius: 60 mm, pin_diameter: 6 mm, process: print_peek}
-vary:
-  peltier_module: {choose: [dear, cheap]}
-  wire_diameter: [1.5 mm, 3.2 mm]
-  floor_thickness: [3 mm, 6 mm]
-require: {spring_stiffness: ">= 5 N.m/rad"}
-accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
-minimize: cost
-solver: {starts: 1, alternatives: 2}
-"""
+STUDY = sample_text("cheapest")
 HEATER = 'title: "{name} heater"\nbased_on: flexible_1600\n'
 PRICE = 'values:\n  price: {{value: {price}, unit: USD, status: datasheet, source: "a quote"}}\n'
 

@@ -51,14 +51,7 @@ def test_the_best_three_are_those_of_enumeration(text):
     _as_enumerated(study, optimize(study))
 
 
-HEATER = """title: A foil heater of a random shelf
-based_on: {base}
-values:
-  resistance: {{value: {resistance}, unit: ohm, status: measured, source: "a test"}}
-  thickness: {{value: {thickness}, unit: mm, status: measured, source: "a test"}}
-  max_temperature: {{value: {hottest}, unit: degC, status: measured, source: "a test"}}
-  max_current: {{value: {most}, unit: A, status: measured, source: "a test"}}
-"""
+HEATER = sample_text("mixed_heater")
 
 
 @pytest.mark.slow

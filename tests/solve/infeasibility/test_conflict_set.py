@@ -9,7 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
-from support import ROOT, sample_text, study_path
+from support import ROOT, cases_of, sample_text, study_path
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.solve.discrete.relaxation import Relaxation
@@ -26,21 +26,8 @@ from tvimdesign.study.sizing import JointTask, study_text
 from tvimdesign.study.tree import tree_of_text
 
 STIFF = sample_text("conflict_in_stiffness")
-HEAVY = """
-mode: shear
-vary: {wire_diameter: [1.5 mm, 3 mm], coil_diameter: [12 mm, 30 mm], pcl_thickness: [0.6 mm, 2 mm]}
-require: {spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"}
-minimize: module_mass
-solver: {starts: 1}
-"""
-HURRIED = """
-mode: shear
-vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], current: [0.5 A, 2 A]}
-require: {response_time: "<= 150 s", peak_power: "<= 9 W", spring_stiffness: ">= 5 N.m/rad"}
-minimize: module_mass
-accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
-solver: {cells: 8, starts: 1}
-"""
+HEAVY = sample_text("conflict_in_mass")
+HURRIED = sample_text("conflict_in_time")
 
 
 @cache
@@ -240,26 +227,10 @@ def test_a_start_restarted_from_a_feasible_design_converges():
     assert again.start.objective == pytest.approx(run.start.objective, rel=1e-6)
 
 
-FINGER = """
-mode: shear
-module: {{
-  stock_spring: central_t10160, process: print_pc, placement_radius: 18 mm,
-  pcl_inner_radius: 8 mm, pcl_outer_radius: 13 mm, core_radius: 5 mm,
-  pin_diameter: 2 mm, leg_overhang: 1.5 mm, key_count: 0}}
-vary: {{{vary}}}
-require: {{{limit}}}
-minimize: module_mass
-solver: {{starts: 1}}
-"""
+FINGER = sample_text("conflict_in_a_finger")
 
 
-@pytest.mark.parametrize(
-    ("vary", "limit"),
-    [
-        ("preload_angle: [0.2 rad, 0.8 rad]", 'spring_stiffness: ">= 5 N.m/rad"'),
-        ("pcl_thickness: [0.5 mm, 1 mm]", 'spring_rate: ">= 1 N.m/rad"'),  # nothing that is varied changes it
-    ],
-)
+@cases_of("conflict_set", "other_springs")
 def test_another_spring_is_named_and_no_number_of_it(vary, limit):
     with pytest.raises(InfeasibleError) as caught:
         refuse_infeasible(read_study_text(FINGER.format(vary=vary, limit=limit), "test"))
@@ -269,13 +240,7 @@ def test_another_spring_is_named_and_no_number_of_it(vary, limit):
     assert "wire_diameter," not in message
 
 
-ONLY_THE_CYCLE = """
-mode: shear
-vary: {current: {from: 0.8 A, to: 2.5 A, start: 1.5 A}}
-require: {peak_power: "<= 1 W"}
-minimize: {response_time: 1}
-solver: {cells: 8, starts: 1}
-"""
+ONLY_THE_CYCLE = sample_text("conflict_in_the_cycle")
 """Its one free number changes nothing but the working cycle."""
 
 
@@ -323,12 +288,7 @@ def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch):
     assert solution.objective <= usual.objective * (1.0 + 1e-6)
 
 
-STUDY = """
-mode: shear
-vary: {coil_count: [3, 5], pcl_thickness: [0.6 mm, 2 mm]}
-minimize: module_mass
-solver: {cells: 6, starts: 1}
-"""
+STUDY = sample_text("conflict_without_a_point")
 
 
 @pytest.mark.parametrize(

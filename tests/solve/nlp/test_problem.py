@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from explored import SMALL
 from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR
-from support import fine
+from support import fine, sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
@@ -21,15 +21,7 @@ from tvimdesign.solve.optimizer.optimum_near import optimum_near
 from tvimdesign.study import Study, given, read_study_text, read_tree
 from tvimdesign.study.tree import tree_of_text, with_settings
 
-REQUIRED = """
-require:
-  spring_stiffness: ">= 5 N.m/rad"
-  peak_power: "<= 9 W"
-  peak_heater_temperature: "<= 120 degC"
-  softened_stiffness: "<= 20 N.m/rad"
-minimize: {module_mass: 1, cycle_time: 2}
-solver: {cells: 8, starts: 1}
-"""
+REQUIRED = sample_text("required_of_a_problem")
 SHEAR = FOUR_SIZES_IN_SHEAR + "  cooling_current: [0.3 A, 1.5 A]\n" + REQUIRED
 COMPRESSION = f"""
 mode: compression
@@ -204,13 +196,7 @@ def test_a_peak_of_a_profile_is_an_unknown_that_no_sample_exceeds():
         Optimizer(read_study_text(text, "a test"))
 
 
-STUDY = """
-mode: {mode}
-vary: {{current: [0.5 A, 2.5 A], core_radius: [7 mm, 16 mm], coil_count: [3, 8], link_thickness: [3 mm, 8 mm]}}
-minimize: {{switch_energy: 1, peak_power: 1}}
-require: {{holding_torque: ">= 10.8 N.m"}}
-solver: {{cells: 6, starts: 1}}
-"""
+STUDY = sample_text("problem_in_a_mode")
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from explored import SMALL
+from support import sample_text
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.interrupts import interrupt_came, interrupt_handler
@@ -91,14 +92,7 @@ def test_every_status_has_words_and_most_a_next_step():
     assert "phase of the moon" in meaning("Phase_Of_The_Moon").words
 
 
-STUDY = """
-tvimdesign: 1
-mode: shear
-vary: {pcl_thickness: [0.8 mm, 2 mm]}
-require: {module_mass: "<= 2 kg"}
-minimize: GOAL
-solver: {cells: 6, starts: 2}
-"""
+STUDY = sample_text("ended_run")
 
 
 @pytest.mark.gate
@@ -111,12 +105,7 @@ def test_a_search_for_nothing_is_no_optimum(tvimdesign, tmp_path):
 
 
 HORIZON = 3600.0
-LATE = """
-mode: shear
-vary: {current: [0.1 A, 3 A]}
-minimize: peak_power
-solver: {cells: 6, starts: 1}
-"""
+LATE = sample_text("late_event")
 
 
 @pytest.mark.gate

@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from scipy.stats import qmc
-from support import study_path
+from support import sample_text, study_path
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import SimulationError
@@ -142,15 +142,7 @@ def test_a_seed_gives_its_points_evenly_spread_if_many():
     assert qmc.discrepancy(points) < 0.5 * qmc.discrepancy(np.random.default_rng(1).random((64, 12)))
 
 
-STUDY = """
-mode: shear
-vary:
-  core_radius: [6 mm, 30 mm]
-  pcl_inner_radius: [15 mm, 30 mm]
-  placement_radius: [30 mm, 60 mm]
-minimize: response_time
-solver: {starts: 8}
-"""
+STUDY = sample_text("started_often")
 
 
 def test_no_search_begins_with_a_core_wider_than_the_layer_s_inner_edge():

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from small_studies import ALGEBRAIC
-from support import study_path
+from support import sample_text, study_path
 
 from tvimdesign.base.deadline import NEVER
 from tvimdesign.base.units import format_quantity
@@ -39,16 +39,7 @@ from tvimdesign.study import read_study_text
 from tvimdesign.study.reader import read_tree
 from tvimdesign.study.tree import tree_of_file, with_settings
 
-TIMED = """
-mode: shear
-module: {transmission: unity}
-vary: {current: [0.5 A, 2.5 A], pcl_thickness: [0.8 mm, 2 mm]}
-require: {response_time: "<= 300 s", pcl_stiffness@hot: "<= 3.5 N.m/rad"}
-accept: [structure_temperature_margin, stiffening_structure_margin, heater_temperature_margin]
-minimize: peak_power
-tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
-solver: {starts: 1, cells: 12}
-"""
+TIMED = sample_text("robust_in_time")
 
 UNMEASURED = ALGEBRAIC.replace("springs_mass", "module_mass").replace(
     "3, 8]", "3, 8], retainer_screw_length: [8 mm, 16 mm]"

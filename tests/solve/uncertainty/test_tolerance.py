@@ -8,7 +8,7 @@ from statistics import NormalDist
 
 import numpy as np
 import pytest
-from support import study_path
+from support import sample_text, study_path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import Catalog
@@ -150,11 +150,7 @@ def test_without_requirements_the_spread_of_the_switch_is_reported(resolved):
     assert all(module.table.output(name).headline for name in outputs)
 
 
-RECORD = """title: "bench module"
-based_on: handbook
-values:
-  rotor_contact: {value: 4000, unit: "W/m^2/K", low: 3000, high: 5000, status: measured, source: "a log"}
-"""
+RECORD = sample_text("measured_heat_path")
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import yaml
-from support import study_path
+from support import ROOT, study_path
 
 from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.constraints import constraints_of
@@ -70,21 +70,7 @@ def test_a_margin_is_limited_by_each_part_that_holds():
     assert whole.name not in limited
 
 
-URDF = """<robot name="arm">
-  <link name="upper"/>
-  <link name="forearm"><inertial><origin xyz="0.1 0.02 0.01" rpy="0.3 0.2 -0.4"/><mass value="0.8"/>
-    <inertia ixx="0.001" ixy="0.0001" ixz="0.0002" iyy="0.004" iyz="-0.0001" izz="0.0045"/></inertial></link>
-  <link name="hand"><inertial><origin xyz="0 0.03 0"/><mass value="0.3"/>
-    <inertia ixx="0.0002" ixy="0" ixz="0" iyy="0.0003" iyz="0" izz="0.0004"/></inertial></link>
-  <link name="tip"/>
-  <joint name="elbow" type="revolute"><parent link="upper"/><child link="forearm"/><axis xyz="0.1 0.9 0.2"/>
-    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-  <joint name="wrist" type="revolute"><parent link="forearm"/><child link="hand"/>
-    <origin xyz="0.25 0 0.02" rpy="0.5 -0.2 0.7"/><axis xyz="1 0 0"/>
-    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-  <joint name="grip" type="fixed"><parent link="hand"/><child link="tip"/><origin xyz="0.06 0.02 0"/></joint>
-</robot>
-"""
+URDF = (ROOT / "tests/studies/texts/arm.urdf").read_text()
 
 
 def test_an_arm_of_a_urdf_is_that_of_mujoco(tmp_path):

@@ -49,14 +49,7 @@ def test_what_cannot_heat_or_be_held_is_named():
         chosen(80.0, 20.0, heater=120.0)
 
 
-@pytest.mark.parametrize(
-    ("module", "message"),
-    [
-        ("peltier_module: comb_electrodes", "pcl_resistivity has no value, needed as heat_source is layer .*pcl_80k"),
-        ("heat_source: layer", "electrode_gap has no value, needed as heat_source is layer .*flexible_1600"),
-        (f"{COMB}, cooling_current: 1 A", "cooling_current of 1 A and peltier_module comb_electrodes"),
-    ],
-)
+@cases_of("layer_heater", "not_together")
 def test_what_cannot_stand_together_is_named(module, message):
     own = "pcl_resistivity: 0.1 ohm.m, " if module.startswith("heat_source") else ""
     with pytest.raises(InputError, match=message):

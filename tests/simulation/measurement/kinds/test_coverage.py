@@ -10,6 +10,7 @@ from fit_coverage import MADE, Estimate, code, counted, fit_of, kept_in, table, 
 from made_measurements.faults import FAULTS
 from measured_files import holds, measured
 from scipy.stats import chi2, norm
+from support import cases_of
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.measure_files import kind_sheet, kind_sheets, measure_of
@@ -125,13 +126,7 @@ def test_calorimeters(path):
         assert any("not used: Index, Furnace Temperature (°C)" in line for line in done.read())
 
 
-@pytest.mark.parametrize(
-    ("head", "row", "message"),
-    [
-        ("time [s];gadget [V2];strain [1]", "{0};{0};0.{0}", r"(?s)--set stress=...: needed.*not used: 'gadget"),
-        ("depth [mm];width [mm]", "{0};{0}", r"(?s)of no kind there is .*The nearest: .* needs .*not used: 'depth"),
-    ],
-)
+@cases_of("coverage", "not_used")
 def test_a_refusal_says_what_was_not_used(tmp_path, head, row, message):
     path = tmp_path / "x.csv"
     path.write_text("\n".join([head, *(row.format(i) for i in range(1, 9))]) + "\n")

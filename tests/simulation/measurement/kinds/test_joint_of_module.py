@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from cvodes_cycle import CvodesSimulator
 from measured_files import csv, fit_files, holds, measured, turned
-from support import study_path
+from support import cases_of, study_path
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
@@ -207,16 +207,7 @@ def test_a_single_thermocouple_leaves_six_values_open_and_the_fit_says_so(tmp_pa
     assert any("apart" in sentence or "do not bound" in sentence for sentence in result.fit.words)
 
 
-@pytest.mark.parametrize(
-    ("columns", "given", "message"),
-    [
-        ({"rotor__degC": [22.0, 23.0, 24.0, 25.0]}, {}, "--set study=...: needed"),
-        ({"rotor__degC": [22.0, 23.0, 24.0, 25.0]}, {"study": str(STUDY), "fitted": "rotor"}, "no contact or loss"),
-        ({"rotor__degC": [22.0] * 4, "housing__degC": [30.0] * 4}, {"study": str(STUDY)}, "differ by 8.0 K"),
-        ({"sink__degC": [22.0] * 4}, {"study": str(STUDY)}, "the module of the study has no such place"),
-        ({"rotor__degC": [22.0] * 4, "current__A": [1.0, 0.0, 1.0, 0.0]}, {"study": str(STUDY)}, "one heating"),
-    ],
-)
+@cases_of("joint_of_module", "lacks")
 def test_a_lack_is_reported(tmp_path, columns, given, message):
     path = csv(tmp_path / "l.csv", **{"time__s": range(4), "current__A": [1.0] * 4, **columns})
     with pytest.raises(InputError, match=message):

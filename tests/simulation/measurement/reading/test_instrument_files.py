@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from measured_files import workbook
+from support import cases_of
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.reading.data_file import Block, read_data_file
@@ -47,14 +48,7 @@ def rheocompass(names: tuple[str, str, str, str]) -> bytes:
     return "\r\n".join(lines).encode("utf-16")
 
 
-@pytest.mark.parametrize(
-    "names",
-    [
-        ("Intervalle", "Module de Stockage", "Module de Perte", "Température"),
-        ("Interval", "Storage Modulus", "Loss Modulus", "Temperature"),
-        ("Abschnitt", "Speichermodul", "Verlustmodul", "Temperatur"),
-    ],
-)
+@cases_of("instrument_files", "rheocompass")
 def test_rheocompass_in_three_languages(tmp_path, names):
     tables = blocks(tmp_path, "sweep.csv", rheocompass(names))
     assert [round(float(block.values("temperature")[0] - 273.15), 9) for block in tables] == [60.0, 80.0]

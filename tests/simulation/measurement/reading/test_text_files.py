@@ -144,18 +144,7 @@ def test_a_gap_is_counted_and_drops_no_column(tmp_path, gap):
     assert data.shown()[-1] == "    angle: 'angle [deg]' in °, 1 to 4, 1 gap"
 
 
-@pytest.mark.parametrize(
-    ("heading", "cells", "seconds"),
-    [
-        ("Timestamp", ["2026-11-26T23:59:58", "2026-11-27T00:00:03.5", "2026-11-27 00:01:00"], [0.0, 5.5, 62.0]),
-        ("Date/Time", ["26.11.2026 23:59:58", "27.11.2026 00:00:03", "27.11.2026 00:01:00"], [0.0, 5.0, 62.0]),
-        ("Time", ["03/04/2026 23:59", "03/05/2026 00:02", "03/05/2026 00:03"], [0.0, 180.0, 240.0]),
-        ("Time", ["23:59:58", "00:00:03", "00:01:00"], [0.0, 5.0, 62.0]),
-        ("Time", ["11:59:58 AM", "12:00:03 PM", "1:00:00 p.m."], [0.0, 5.0, 3602.0]),
-        ("Time [mm:ss]", ["0:58", "1:03", "1:06"], [0.0, 5.0, 8.0]),
-        ("Time (hh:mm)", ["0:58", "OPEN", "1:06"], [0.0, np.nan, 480.0]),
-    ],
-)
+@cases_of("text_files", "clock_times")
 def test_clock_times_are_seconds_from_the_first_row(tmp_path, heading, cells, seconds):
     rows = "\n".join(f"{cell};{i}" for i, cell in enumerate(cells))
     (block,) = read(tmp_path, f"{heading};angle [deg]\n{rows}\n").blocks
