@@ -105,7 +105,7 @@ def test_what_no_number_alone_cures_is_cured_by_several(monkeypatch):
     refusal = study_files._refusal(task, "joint", math.inf, lambda _: None)
     assert "  --torque '11 N.m' --stiffness '1.3 N.m/rad'" in refusal
     fits = 0.0
-    assert "torque down to 2.3 N.m" in study_files._refusal(task, "joint", math.inf, lambda _: None)
+    assert "down to 10 % of the torque usual" in study_files._refusal(task, "joint", math.inf, lambda _: None)
 
 
 @pytest.mark.gate

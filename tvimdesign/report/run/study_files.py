@@ -250,8 +250,8 @@ def _refusal(
         lines.append("These fit by arithmetic, with margins by estimate; a run decides, on times too. Others as given:")
         other = "torque" if task.assumes_stroke else "stroke"
         ways += [] if any(f"--{other}" in way for way in ways) else [f"No lesser {other} alone was found that fits."]
-    usual = replace(task, torque=_down(_LESSER[-1] * _usual_torque(task))).options()["torque"]
-    none = f"Nor does a torque down to {usual} with an eighth of it as the stiffness: another --diameter, or --process."
+    least = f"{100.0 * _LESSER[-1]:.0f} % of the torque usual at this diameter, and an eighth of it as stiffness"
+    none = f"Nothing down to {least}, fits: another --diameter or --process."
     return "\n".join([*lines, *ways] if ways else [*lines, none])
 
 
@@ -364,14 +364,9 @@ def _too_long(task: JointTask) -> Extreme | None:
     return None if any(least and least.value <= task.diameter for least in searches) else longest
 
 
-def _usual_torque(task: JointTask) -> float:
-    """Return the torque [N*m] to start from for a joint of a diameter: no more than the one asked for."""
-    return min(task.torque, _USUAL * task.diameter**3)
-
-
 def _less_of_all(task: JointTask) -> JointTask | None:
     """Return the task with less torque, its usual stiffness and at most the usual stroke, which fit together."""
-    torques = [_down(share * _usual_torque(task)) for share in _LESSER]
+    torques = [_down(share * min(task.torque, _USUAL * task.diameter**3)) for share in _LESSER]
     stroke = min(task.stroke, parse_quantity(STROKE, "rad"))
     lesser = (
         replace(task, torque=torque, stroke=stroke).with_stiffness(_down(_AN_EIGHTH * torque)) for torque in torques
