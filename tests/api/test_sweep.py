@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support import cases_of
 
 import tvimdesign as tvim
 from tvimdesign.api.notebook import in_notebook, shown_progress
@@ -87,20 +88,7 @@ def test_requirements_may_be_swept(study):
     assert sweep.warm_solves == 0
 
 
-@pytest.mark.parametrize(
-    ("axes", "message"),
-    [
-        ({}, "there is no `sweep:`"),
-        ({"pcl_thickness": []}, "pcl_thickness: is an empty list"),
-        ({"pcl_thickness": "1 mm"}, "pcl_thickness: is no list"),
-        ({"pcl_thickness": ["1 mm", "1 furlong"]}, "no unit"),
-        ({"pcl_thicknes": ["1 mm"]}, "did you mean 'pcl_thickness'"),
-        (
-            {"pcl_thickness": {"from": "1 mm", "to": "2 mm", "count": 1000}, "current": ["1 A"] * 1000},
-            "1000000 cells; the limit is 100000",
-        ),
-    ],
-)
+@cases_of("api_sweep", "refused")
 def test_what_cannot_be_swept_is_refused_before_anything_is_solved(study, axes, message):
     with pytest.raises(tvim.InputError, match=message):
         study.sweep(axes, progress=False)

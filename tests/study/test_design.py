@@ -37,44 +37,15 @@ def test_a_design_that_lacks_an_input_is_of_another_version(tmp_path):
         read_design(other)
 
 
-def _set(*path: str | int, to: Any) -> Callable[[Any], None]:
-    def change(plain: Any) -> None:
-        for step in path[:-1]:
-            plain = plain[step]
-        plain[path[-1]] = to
-
-    return change
-
-
-EDITS: dict[str, tuple[Callable[[Any], None], str]] = {
-    "a word for a number": (_set("study", "module", "stroke", to=None), r"study\.module\.stroke: Input should be a"),
-    "an end of a range": (
-        _set("study", "vary", "current", "upper", to="x"), r"study\.vary\.current\.upper: Input should"
-    ),
-    "an input that is text": (_set("study", "module", "stroke", to="0.1 rad"), r"stroke: is the text .0\.1 rad"),
-    "an input of its study": (_set("study", "module", "strok", to=0.1), "did you mean 'stroke'"),
-    "a value of its study": (_set("study", "module", "stroke", to=9.0), r"study\.module\.stroke: .* above the upper"),
-    "a limit on nothing": (_set("study", "require", 0, "output", to="stiffnes"), "no such name: 'stiffnes'"),
-    "a mode": (_set("mode", to="sheer"), "did you mean 'shear'"),
-    "another mode": (_set("study", "mode", to="compression"), "the design's mode is shear"),
-    "a choice": (_set("choices", "cold_side", to="opened"), "did you mean 'open'"),
-    "a choice that is none": (_set("choices", "wire_diameter", to="x"), "no such choice: 'wire_diameter'"),
-    "a number that is text": (_set("values", "module_mass", to="66 g"), r"values\.module_mass: Input should be"),
-    "a number out of range": (_set("values", "wire_diameter", to=1.0), r"values\.wire_diameter: 1000 mm is outside"),
-    "a profile of no phase": (_set("current_profiles", to={"rest": {}}), "no such phase: 'rest'"),
-    "a profile that is none": (_set("current_profiles", to={"softening": {"moments": [0]}}), "is no profile"),
-    "a field": (_set("colour", to="red"), "colour: unknown name"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", EDITS)
-def test_an_edited_design_is_refused_in_words_with_the_line(name, tmp_path):
-    change, expected = EDITS[name]
-    plain = _plain()
-    change(plain)
+@cases_of("design", "edits")
+def test_an_edited_design_is_refused_in_words_with_the_line(path, to, message, tmp_path):
+    plain = place = _plain()
+    for step in path[:-1]:
+        place = place[step]
+    place[path[-1]] = to
     edited = tmp_path / "design.json"
     edited.write_text(json.dumps(plain, indent=2))
-    with pytest.raises(StudyError, match=expected) as reported:
+    with pytest.raises(StudyError, match=message) as reported:
         read_design(edited)
     assert all(problem.line > 0 for problem in reported.value.problems)
 

@@ -8,6 +8,7 @@ from cad_designs import VANE_TILE_ROWS, VANE_TILES
 from device_values import inputs_of
 from device_values import values_of as of_default
 from plane_conduction import conducted
+from support import cases_of
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
@@ -21,20 +22,10 @@ def values_of(rows: str, of: dict[str, Any] = VANE_TILES, **module: Any) -> dict
     return of_default(rows, "compression", **{**of, **module})
 
 
-@pytest.mark.parametrize(
-    ("rule", "of", "module"),
-    [
-        ("tile_side_margin", VANE_TILES, {"pcl_outer_radius": 31.2 * MM}),
-        ("tile_side_margin", VANE_TILE_ROWS, {"pcl_outer_radius": 39 * MM}),
-        ("tile_height_margin", VANE_TILES, {"block_height": 14.9 * MM}),
-        ("lead_slot_margin", VANE_TILES, {"slot_share": 0.17}),
-        ("inner_web_margin", VANE_TILES, {"slot_share": 0.9, "vane_count": 3, "block_depth": 3 * MM}),
-        ("outer_web_margin", VANE_TILES, {"slot_share": 0.75}),
-        ("tile_end_margin", VANE_TILES, {"spreader_thickness": 3 * MM}),
-        ("slot_opening", VANE_TILES, {"block_depth": 11 * MM}),
-    ],
-)
-def test_a_module_without_room_breaks_its_rule(rule, of, module):
+@cases_of("tiles_in_the_vanes", "without_room")
+def test_a_module_without_room_breaks_its_rule(rule, rows, module):
+    of = VANE_TILES if rows == 1 else VANE_TILE_ROWS
+
     def is_valid(**changes: float) -> bool:
         return bool(values_of(rule, of, **changes)[rule] >= TABLE.output(rule).rules[0].value)
 

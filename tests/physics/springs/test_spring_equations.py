@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
+from support import cases_of
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics import spring
@@ -85,30 +86,11 @@ def test_stress_factors_are_those_of_a_curved_bar(index):
     assert spring.inner_fibre_factor_en(index) == pytest.approx(exact, rel=0.02)
 
 
-@pytest.mark.parametrize(
-    ("record", "diameter", "expected"),
-    [
-        # Shigley, 10th ed., table 10-4, from its columns for inches: A in kpsi*in^m, d in inch.
-        ("music_wire", 0.095 * INCH, 201 * KPSI / 0.095**0.145),
-        ("music_wire", 0.020 * INCH, 201 * KPSI / 0.020**0.145),
-        ("oil_tempered", 0.125 * INCH, 147 * KPSI / 0.125**0.187),
-        ("hard_drawn", 0.080 * INCH, 140 * KPSI / 0.080**0.190),
-        ("chrome_vanadium", 0.162 * INCH, 169 * KPSI / 0.162**0.168),
-        ("chrome_silicon", 0.135 * INCH, 202 * KPSI / 0.135**0.108),
-        ("stainless_302", 0.050 * INCH, 169 * KPSI / 0.050**0.146),
-        ("stainless_302", 0.150 * INCH, 128 * KPSI / 0.150**0.263),
-        ("stainless_302", 0.300 * INCH, 90 * KPSI / 0.300**0.478),
-        # EN 10270-1: R_m = 1971 - 740 log10 d (SM), 2220 - 820 log10 d (SH), d in mm.
-        ("patented_wire_sm", 0.5e-3, (1971 - 740 * np.log10(0.5)) * 1e6),
-        ("patented_wire_sm", 2.4e-3, (1971 - 740 * np.log10(2.4)) * 1e6),
-        ("patented_wire_sh", 1.0e-3, (2220 - 820 * np.log10(1.0)) * 1e6),
-        ("patented_wire_sh", 8.0e-3, (2220 - 820 * np.log10(8.0)) * 1e6),
-    ],
-)
-def test_wire_strength_agrees_with_the_handbook(record, diameter, expected):
+@cases_of("spring_equations", "handbook_wires")
+def test_wire_strength_agrees_with_the_handbook(record, inches, kpsi, exponent):
     rows = Catalog().record("spring_materials", record).table("strength")
-    strength = spring.tensile_strength(diameter, [(row["coefficient"], row["exponent"]) for row in rows])
-    assert strength == pytest.approx(expected, rel=8e-3)
+    strength = spring.tensile_strength(inches * INCH, [(row["coefficient"], row["exponent"]) for row in rows])
+    assert strength == pytest.approx(kpsi * KPSI / inches**exponent, rel=8e-3)
 
 
 @given(tensile=st.floats(1e9, 2.5e9), ratio=st.floats(0.3, 0.6))

@@ -100,7 +100,9 @@ def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(reported
     assert reported["values"]["mean_time"]["note"] == ""
 
 
-def test_values_have_status_range_and_source(rows):
+def test_values_have_status_range_and_source(rows, reported):
+    assert rows.keys() == reported["values"].keys()
+    assert float(rows["module_mass"]["value"]) == pytest.approx(reported["values"]["module_mass"]["value"])
     # What `based_on` takes from pcl_80k has that record's own words.
     written = {**_record("pcl_80k"), **_record("pcl_50k")}
     for name, field in {"pcl_conductivity_melt": "conductivity_melt", "pcl_melting_start": "melting_start"}.items():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import yaml
-from support import ROOT, study_path
+from support import ROOT, cases_of, study_path
 
 from tvimdesign.device import table_for
 from tvimdesign.solve.nlp.constraints import constraints_of
@@ -103,23 +103,9 @@ def test_an_arm_of_a_urdf_is_that_of_mujoco(tmp_path):
     assert longer.module["arm_mass"] == 2.0
 
 
-@pytest.mark.parametrize(
-    ("task", "content", "words"),
-    [
-        ({"urdf": "arm.urdf"}, URDF, "`urdf` stands alone"),
-        ({"urdf": "arm.urdf", "joint": "knee"}, URDF, "no revolute joint 'knee': it has elbow, wrist"),
-        ({"urdf": "arm.urdf", "joint": "elbow"}, URDF[:200], "is no XML"),
-        ({"urdf": "arm.urdf", "joint": "elbow"}, URDF.replace('"0.25 0 0.02"', '"0.25 0"'), "is not three numbers"),
-        (
-            {"urdf": "arm.urdf", "joint": "elbow"},
-            URDF.replace('child link="tip"', 'child link="forearm"'),
-            "own parent",
-        ),
-        ({"urdf": "arm.urdf", "joint": "wrist", "arm_length": "1 mm"}, URDF, "its arm_centre_share is"),
-        ({"urdf": "none.urdf", "joint": "elbow"}, URDF, "cannot be read"),
-    ],
-)
-def test_a_urdf_without_an_arm_is_refused(task, content, words, tmp_path):
-    (tmp_path / "arm.urdf").write_text(content)
+@cases_of("task", "wrong_arms")
+def test_a_urdf_without_an_arm_is_refused(task, old, new, words, tmp_path):
+    assert old in URDF
+    (tmp_path / "arm.urdf").write_text(URDF.replace(old, new) if old else URDF)
     with pytest.raises(StudyError, match=words):
         read_study_text(_text(task), folder=tmp_path)
