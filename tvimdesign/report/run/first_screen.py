@@ -110,7 +110,7 @@ def _others(rows: Sequence[Requirement], what: str, met: str, width: int, most: 
         return terminal.wrapped(f"{count}{tightest}: {title} {got}, asked {limit}", width, indent="  ")
     listed = [f"{row.cells[0]} {row.got} ({row.requested}) in {_in_share(row)}" for row in rows]
     lines = _listing(f"{count}, and of plausible cases", listed, width, most)
-    if len(lines) <= most:
+    if what == "others" or len(lines) <= most:
         return lines
     return terminal.wrapped(
         f"{count}; {rows[0].cells[0]} in {_in_share(rows[0])} of plausible cases", width, indent="  "

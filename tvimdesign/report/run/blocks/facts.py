@@ -268,13 +268,13 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     missed = [1.0 - met for met in uncertainty["held"].values()]
     each = sum(missed) / (1.0 - uncertainty["ranges_hold"]["share"])  # of the cases that violate any
-    every = f"{meet_every_limit(uncertainty)}, others violate {each:.2g} of {len(missed)} on average"
+    others = f"others violate {each:.2g} of {len(missed)} on average"
     needs = f"it needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
     least = share_in_doubt((study.get("robust") or {}).get("plausible"))
     count = sum(1.0 - share < least for share in missed)
     more = f"{count} limits in under {percent(least)}" if count else ""
     worst = f"{label(name)} met in {percent(share, 2)}"
-    return [Fact("Model", [every], DOT.join(filter(None, [worst, needs, more])))]
+    return [Fact("Model", [meet_every_limit(uncertainty)], DOT.join(filter(None, [needs, others, worst, more])))]
 
 
 def study_fact(answer: StudyResult) -> list[Fact]:

@@ -249,6 +249,6 @@ def starts_in_words(answer: StudyResult) -> list[str]:
     if not optima:
         return ["no start converged, a later search did"]
     if started == 1:
-        return ["one start; more: `solver.starts`"]
+        return ["from 1 start"]
     agree = answer.solution.reached(optima[0])
     return [f"found by 1 of {started} starts" if agree == 1 else f"{agree} of {started} starts agree"]

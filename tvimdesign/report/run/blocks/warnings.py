@@ -113,7 +113,8 @@ def _of_frozen_turn(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarn
         "share": f"{100.0 * share:.0f} %", "stiffness": stiffness,
     }  # fmt: skip
     remedy = remedies.of("joint_stiffness_in_play", [filled(hint["mend"], places)])
-    yield RunWarning(filled(hint["say"], places), _cure(answer, remedy), hint.get("level", ""), hint.get("but", ""))
+    say, but = (filled(hint.get(key, ""), places) for key in ("say", "but"))
+    yield RunWarning(say, _cure(answer, remedy), hint.get("level", ""), but)
 
 
 def _cure(answer: StudyResult, remedy: Remedy) -> str:
