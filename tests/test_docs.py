@@ -1,4 +1,4 @@
-"""Documentation: its words, links, and the site that is built of it."""
+"""Documentation: its words, links, tables of devices, and the site that is built of it."""
 
 import ast
 import os
@@ -10,10 +10,13 @@ from pathlib import Path
 
 import pytest
 from answers import shipped_answer
+from atlas import COLUMNS, MARKS, UNITS, devices, table
+from atlas import PAGE as DEVICES_PAGE
 from every import check_records
 from section_drawing import SECTIONS, missing
 from support import ROOT, STUDIES, study_path
 
+from tvimdesign.base.units import parse_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Output, table_for
 from tvimdesign.report.run.uncertainty_data import Uncertainty
@@ -253,3 +256,17 @@ def test_the_site_builds_strictly_and_loads_nothing_from_another_host(tmp_path):
         assert not loaded, f"{name} loads {loaded}"
     assert "<math" in pages["theory/springs.html"]
     assert 'id="wire_diameter"' in pages["reference/layout.html"]
+
+
+@pytest.mark.parametrize("device", devices(), ids=lambda device: device["name"])
+def test_device_has_quote_source_and_readable_quantities(device):
+    assert all(device[name] for name in ("quote", "source", "read"))
+    assert device["kind"] in MARKS
+    assert set(device) - set(COLUMNS) <= {"name", "kind", "quote", "verbatim", "source", "read"}
+    assert any(name in device for name in COLUMNS)
+    for name, unit in UNITS.items():
+        assert name not in device or parse_quantity(device[name], unit) > 0
+
+
+def test_the_page_has_the_table_of_the_data():
+    assert table() in DEVICES_PAGE.read_text(encoding="utf-8")

@@ -4,6 +4,7 @@ import hashlib
 import json
 import re
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 import cadquery as cq
@@ -12,9 +13,10 @@ import numpy as np
 import plain_module
 import pytest
 import trimesh
+import yaml
 from answers import shipped_answer
 from cad_designs import as_it_starts
-from support import STUDIES, Command, study_path
+from support import STUDIES, TASKS, Command, study_path
 
 from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.bill_of_materials import Item, as_ordered, beside, bill, fixtures
@@ -22,7 +24,8 @@ from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.report.output.tables import results_schema
 from tvimdesign.robot.joint_model import make_bodies
-from tvimdesign.study import read_study
+from tvimdesign.solve.result import answer
+from tvimdesign.study import read_study, read_study_text
 from tvimdesign.study.conditions import Case, refuse_unequal
 from tvimdesign.study.sections.tolerances import standard_tolerances
 from tvimdesign.study.study import Options
@@ -151,6 +154,9 @@ def test_mass_inertia_and_envelope_of_a_study_are_those_of_its_solids(runs, stud
     assert base.mass + moving.mass == pytest.approx(values["module_mass"], rel=1e-5)
     assert moving.about_axis() == pytest.approx(values["parts_inertia"], rel=1e-5)
     bounds = np.array([trimesh.load(tmp_path / body.mesh).bounds for body in (base, moving)])
+    for body, (lowest, highest) in zip((base, moving), bounds, strict=True):
+        assert (tmp_path / body.mesh).stat().st_size < 2e6
+        assert np.all((lowest < body.centre) & (body.centre < highest))
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
     assert max(high[:2].max(), -low[:2].min()) <= 0.5 * values["envelope_diameter"] * (1.0 + MESHED)
     assert high[2] - low[2] == pytest.approx(values["envelope_height"], abs=2e-5)
@@ -231,7 +237,7 @@ def test_both_of_the_pair_are_asked_the_same_and_may_be_compared():
 
 
 @pytest.mark.slow
-@to_order
+@pytest.mark.parametrize("path", [*ORDERED, *TASKS], ids=lambda path: str(path.stem))
 def test_a_study_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path):
     result = shipped_answer(path.stem)
     assert result.design.status == "optimal"
@@ -240,6 +246,30 @@ def test_a_study_comes_to_an_optimum_that_95_percent_of_the_modules_keep(path):
     assert result.solution is not None
     assert result.solution.yield_reached is not None
     assert result.solution.yield_reached.together >= 0.95
+    values = result.design.values
+    borne = values["load_safety"] * values["task_torque@cold"] if path in TASKS else 0.0
+    assert values["holding_torque"] >= borne * (1.0 - 1e-6)
+
+
+LONGER = 1.5
+"""Processor time of a study over that of the same one without its task."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", TASKS, ids=lambda path: str(path.stem))
+def test_a_task_takes_no_longer_than_its_torque(path):
+    values, text = shipped_answer(path.stem).design.values, yaml.safe_load(path.read_text())
+    del text["task"]
+    struck = values["impact_torque@cold"] if text["require"].pop("impact_torque_margin", None) else 0.0
+    torque = max(struck, values["load_safety"] * values["task_torque@cold"])
+    text["require"]["holding_torque"] = f">= {torque} N.m"
+    plain = read_study_text(yaml.safe_dump(text, allow_unicode=True))
+    times = []
+    for study in (plain, read_study(path)):
+        start = process_time()
+        answer(study)
+        times.append(process_time() - start)
+    assert times[1] < LONGER * times[0]
 
 
 STANDARDS = r"ISO \d{3,}|EN \d{5}|ASTM A\d+|JIS G \d{4}|AWG \d+|\b606\d\b"
@@ -289,7 +319,7 @@ def test_bought_items_have_a_number_a_standard_or_sizes_to_order_by(path):
 
 
 MADE = ("elbow_printed", "elbow_machined", "wrist_joint", "wrist_compression", "paper_shear", "machined_compression",
-        "driven_joint")  # fmt: skip
+        "driven_joint", *(path.stem for path in TASKS))  # fmt: skip
 """Studies whose parts are made: the others differ from these in dimensions alone."""
 
 

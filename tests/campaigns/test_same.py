@@ -41,19 +41,13 @@ def test_lost_added_and_different_values_are_distinguished():
     assert relative_difference(math.inf, 1.0) == relative_difference(1.0, math.nan) == math.inf
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "difference"),
-    [
-        ("mass", math.nextafter(0.1, 1.0), ("mass", "0.1", "0.10000000000000002")),
-        ("choice:motor", "small", ("choice:motor", "none", "small")),
-        ("choice:motor", 1.0, ("choice:motor", "none", "1.0")),
-        ("time", 7.0, ("time", "inf", "7.0")),
-        ("nan", 0.0, ("nan", "nan", "0.0")),
-        ("stiffness@hot", None, ("stiffness@hot", "5.0", "None")),
-    ],
-)
-def test_a_changed_value(name, value, difference):
-    assert changes_of({**FROZEN, name: value}) == [difference]
+CHANGED = [("mass", math.nextafter(0.1, 1.0)), ("choice:motor", "small"), ("choice:motor", 1.0), ("time", 7.0),
+           ("nan", 0.0), ("stiffness@hot", None)]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "value"), CHANGED)
+def test_a_changed_value(name, value):
+    assert changes_of({**FROZEN, name: value}) == [(name, str(FROZEN[name]), str(value))]
 
 
 @pytest.mark.parametrize(("change", "count"), [(1e-10, 0), (1e-8, 1)])

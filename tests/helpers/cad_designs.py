@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Callable, Mapping
-from math import radians
 from typing import Any, NamedTuple
 
 import numpy as np
-from support import study_path
+import yaml
+from support import ROOT, study_path
 
 from tvimdesign import __version__
 from tvimdesign.cad import CadReport
@@ -18,69 +18,17 @@ from tvimdesign.study import given as resolve
 from tvimdesign.study.design import Design
 
 MM = 1e-3
-WRIST = {
-    "wire_diameter": 1.4 * MM, "coil_diameter": 9.0 * MM, "coil_count": 4.25, "placement_radius": 26.5 * MM,
-    "pcl_inner_radius": 11.5 * MM, "pcl_outer_radius": 18.5 * MM, "arc_span": radians(60.0), "pcl_thickness": 0.6 * MM,
-    "core_radius": 6.2 * MM, "hub_wall": 2.0 * MM, "radial_clearance": 0.6 * MM, "rotor_rim": 1.0 * MM,
-    "rotor_thickness": 2.5 * MM, "pin_diameter": 2.5 * MM, "leg_overhang": 3.0 * MM,
-    # Half the size takes smaller screws: M2 in the core.
-    "link_screw": "iso_4762_m2", "link_screw_length": 8.0 * MM, "retainer_screw": "iso_7380_m3",
-    "retainer_screw_length": 8.0 * MM, "notch_width": 8.0 * MM,
-    "link_dowel": "iso_8734_1", "link_dowel_length": 8.0 * MM,
-}  # fmt: skip
-ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_angle": 0.21,
-               "stop_tooth_width": 4.0 * MM}  # fmt: skip
-BLOCKS = {
-    "coil_diameter": 12.0198 * MM, "coil_count": 6.6, "core_radius": 8.0 * MM, "pcl_inner_radius": 13.0 * MM,
-    "pcl_outer_radius": 24.0 * MM, "rotor_rim": 7.5 * MM, "block_height": 11.964 * MM, "block_depth": 4.0 * MM,
-    "vane_thickness": 4.0 * MM, "link_dowel": "iso_8734_2",
-}  # fmt: skip
-WRIST_BLOCKS = {name: value for name, value in WRIST.items() if name not in {"arc_span", "pcl_thickness"}} | {
-    "coil_diameter": 7.0 * MM, "coil_count": 6.2, "pcl_inner_radius": 9.5 * MM, "pcl_outer_radius": 16.0 * MM,
-    "rotor_rim": 4.3 * MM, "vane_count": 4, "block_height": 5.5 * MM, "block_depth": 3.0 * MM,
-    "vane_thickness": 2.5 * MM,
-}  # fmt: skip
-ODD_BLOCKS = WRIST_BLOCKS | {"spring_pairs": 3, "vane_count": 3, "coil_count": 6.7, "preload_angle": 0.21,
-                             "slot_share": 0.6}  # fmt: skip
-# Bearings on either side of a lip, in a hub that reaches below the floor, and in one that is as high as the blocks; one
-# with posts that turn; both under a cover, one with inserts for its screws.
-BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 * MM, "core_radius": 7.5 * MM,
-            "pcl_outer_radius": 39.2 * MM,
-            "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate", "thread_insert": "heat_set",
-            "link_screw": "iso_4762_m2", "link_screw_length": 10.0 * MM, "link_bolt_ratio": 0.58,
-            "retainer_screw": "iso_7380_m3", "link_dowel": "iso_8734_1_5"}  # fmt: skip
-BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "corner_radius": 0.5 * MM,
-                           "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "slot_corner_offset": -0.1 * MM,
-                          "pcl_inner_radius": 17.0 * MM,
-                           "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 4.3 * MM,
-                           "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate",
-                           "link_dowel_count": 2}  # fmt: skip
-# A motor below the feet: with an encoder and printed, and the larger one without, milled, below blocks.
-DRIVEN = {"motor": "ilm_e70x10", "encoder": "on_axis_28"}
-DRIVEN_BLOCKS = BLOCKS | {"motor": "ilm_e85x13", "process": "machine_6061", "corner_radius": 0.5 * MM,
-                          "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "slot_corner_offset": -0.1 * MM,
-                          "spring_pairs": 3}  # fmt: skip
-# A wave spring around the core of a plain bore, with lips beside the layer, and one below a bearing.
-SPRUNG = {"axial_preload": "wave_21x25", "melt_lip": "rings", "pcl_thickness": 0.95 * MM}
-SPRUNG_BEARINGS = BEARINGS | {
-    "bearing": "ball_6802",
-    "axial_preload": "wave_22_2x23_8",
-    "hub_depth": 8.0 * MM,
-    "foot_height": 14.0 * MM,
-}
-SPRUNG_BLOCKS = BLOCKS | {"axial_preload": "wave_17x21"}
-# Two rectangular Peltier modules of 20 by 10 mm below each of three arcs, and a spreader on them.
-TILES = {"peltier_module": "ma10_063_05_1", "tiles_per_arc": 2, "arc_count": 3, "arc_span": 1.95,
-         "floor_thickness": 6.5 * MM}  # fmt: skip
-# In compression: one of 15 by 15 mm behind each of eight blocks, or two of 11.4 by 11.4 mm; springs as tall as these.
-VANE_TILES = {
-    "peltier_module": "cp30138", "pcl_inner_radius": 16 * MM, "pcl_outer_radius": 32 * MM, "block_height": 15.5 * MM,
-    "vane_count": 4, "coil_diameter": 12 * MM, "coil_count": 10.6, "wire_diameter": 2 * MM, "block_depth": 6 * MM,
-    "rotor_rim": 4 * MM,
-}  # fmt: skip
-VANE_TILE_ROWS = VANE_TILES | {
-    "peltier_module": "qc_17", "tiles_per_block": 2, "pcl_outer_radius": 40.4 * MM, "block_height": 12 * MM,
-}  # fmt: skip
+_MODULES = yaml.safe_load((ROOT / "tests/cases/modules_of_parts.yaml").read_text(encoding="utf-8"))
+
+
+def _module(name: str) -> dict[str, Any]:
+    base = _module(_MODULES[name]["based_on"]) if "based_on" in _MODULES[name] else {}
+    return base | _MODULES[name]["module"]
+
+
+WRIST, ODD, BLOCKS, WRIST_BLOCKS, ODD_BLOCKS, BEARINGS, BEARING_BLOCKS = map(_module, list(_MODULES)[:7])
+DRIVEN, DRIVEN_BLOCKS, SPRUNG, SPRUNG_BEARINGS, SPRUNG_BLOCKS = map(_module, list(_MODULES)[7:12])
+TILES, VANE_TILES, VANE_TILE_ROWS = map(_module, list(_MODULES)[12:])
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),

@@ -247,18 +247,9 @@ def test_the_template_and_its_commented_lines_fit_the_schema():
 
 
 TABLES = {mode: table_for(mode) for mode in MODES}
-OF_THE_OTHER = [
-    ("shear", "compression", "module: {block_depth: 5 mm}"),
-    ("shear", "compression", "vary: {block_height: [3 mm, 5 mm]}\nminimize: module_mass"),
-    ("shear", "compression", "require: {block_strain: '<= 0.4'}"),
-    ("compression", "shear", "module: {pcl_thickness: 1 mm}"),
-    ("compression", "shear", "module: {pcl_bond_strength: 3 MPa}"),
-    ("compression", "shear", "vary: {arc_span: [30 deg, 40 deg]}\nminimize: module_mass"),
-    ("compression", "shear", "vary: {current: [1 A, 2 A]}\nminimize: layer_strain"),
-]
 
 
-@pytest.mark.parametrize(("mode", "other", "text"), OF_THE_OTHER)
+@cases_of("reader", "of_the_other_mode")
 def test_the_schema_takes_a_name_in_its_own_mode(mode, other, text):
     validator = jsonschema.Draft7Validator(json_schema(TABLES))
     assert validator.is_valid(yaml.safe_load(f"mode: {other}\n{text}"))

@@ -38,24 +38,13 @@ def constructed_direction(pin: float, placement: float, azimuth: float, offset: 
 
 
 @given(**lengths)
-def test_direction_is_that_of_the_line_constructed_with_vectors(pin, placement, azimuth, share, hand):
-    offset = share * (placement - pin)
+def test_direction_is_that_of_vectors_and_its_slopes_are_derivatives(pin, placement, azimuth, share, hand):
+    offset, step = share * (placement - pin), 1e-30
     expected = constructed_direction(pin, placement, azimuth, offset, hand)
     assert spring.leg_direction(pin, placement, azimuth, offset, hand) == pytest.approx(expected, abs=1e-9)
-
-
-@given(**lengths)
-def test_ratio_is_the_derivative_of_the_direction(pin, placement, azimuth, share, hand):
-    offset = share * (placement - pin)
     # The complex step cannot pass atan2; a five-point stencil is good to 1e-9 here.
     slope = five_points(lambda f: spring.leg_direction(pin, placement, f, offset, hand), azimuth)
     assert spring.leg_ratio(pin, placement, azimuth, offset, hand) == pytest.approx(slope, rel=1e-6, abs=1e-7)
-
-
-@given(**lengths)
-def test_curvature_is_the_derivative_of_the_ratio(pin, placement, azimuth, share, hand):
-    offset = share * (placement - pin)
-    step = 1e-30
     slope = spring.leg_ratio(pin, placement, azimuth + 1j * step, offset, hand).imag / step
     assert spring.leg_curvature(pin, placement, azimuth, offset, hand) == pytest.approx(slope, rel=1e-9, abs=1e-9)
 

@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from PIL import Image
 from small_sweeps import SMALL
-from support import study_path
+from support import sample_text, study_path
 
 import tvimdesign as tvim
 from tests.helpers.figures import faults, signed
@@ -139,25 +139,13 @@ def test_it_is_one_sheet_of_a4(tmp_path, rows):
     assert all(0.0 < x < 1.0 and y < 1.0 for x, y in places)
 
 
-STUDIES = {
-    "optimised": """
-mode: shear
-vary: {wire_diameter: [1.5 mm, 3 mm], pcl_thickness: [0.6 mm, 2 mm]}
-minimize: {module_mass: 1, response_time: 1}
-solver: {starts: 1, cells: 8}
-""",
-    "evaluated, in compression": """
-mode: compression
-module: {response_criterion: softening, current: 2 A}
-solver: {cells: 8}
-""",
-}
+STUDIES = {"optimised": "figures_of_shear", "evaluated, in compression": "figures_of_compression"}
 NAMES = ("cycle", "stiffness_and_damping", "power_and_energy", "impedance", "torque")
 
 
 @pytest.fixture(scope="module", params=STUDIES)
 def result(request: pytest.FixtureRequest) -> StudyResult:
-    study = read_study_text(STUDIES[request.param], "a test")
+    study = read_study_text(sample_text(STUDIES[request.param]), "a test")
     return answer(study)
 
 

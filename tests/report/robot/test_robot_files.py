@@ -18,9 +18,8 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 import pytest
-import trimesh
 from answers import shipped_answer
-from cad_designs import CASES, design_of, whole
+from cad_designs import design_of, whole
 from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 from robot_models import model_of, module_of
@@ -32,7 +31,7 @@ from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.robot.fmu_file import compiled, write_fmu
-from tvimdesign.robot.joint_model import JointModel, JointState, make_bodies
+from tvimdesign.robot.joint_model import JointModel, JointState
 from tvimdesign.robot.model_files import held_angles, maxwell_hinges, mjcf, ros2_control, sdf, urdf, without_spring
 from tvimdesign.simulation.joint_tests.release import ANGLE, release
 from tvimdesign.simulation.trial import Trial
@@ -106,22 +105,6 @@ def test_a_time_step_that_is_none_is_refused(tvimdesign, tmp_path, step, message
     done = tvimdesign("robot", design, "--timestep", step, "--out", tmp_path / "robot")
     assert done.returncode == 2
     assert message in done.stderr
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("case", ["paper", "blocks", "bearings"])
-def test_the_bodies_have_the_table_s_mass_and_inertia(case, tmp_path):
-    mode, overrides = CASES[case]
-    design = whole(design_of(case, overrides, mode))
-    base, moving, report = make_bodies(write_design(design, tmp_path / "design.json"), tmp_path)
-    assert not report.failed
-    assert base.mass + moving.mass == pytest.approx(design.value("module_mass"), rel=1e-5)
-    assert moving.about_axis() == pytest.approx(design.value("parts_inertia"), rel=1e-5)
-    for body in (base, moving):
-        mesh = trimesh.load(tmp_path / body.mesh)
-        assert (tmp_path / body.mesh).stat().st_size < 2e6
-        assert all(low < at < high for low, at, high in zip(mesh.bounds[0], body.centre, mesh.bounds[1], strict=True))
-        assert max(abs(mesh.bounds[:, :2].ravel())) <= 0.5 * design.value("envelope_diameter") * 1.001
 
 
 def _refuse(message: str) -> None:

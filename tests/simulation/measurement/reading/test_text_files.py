@@ -103,16 +103,7 @@ def test_a_wrong_column_stops_only_a_fit_that_needs_it(tmp_path, text, message):
         block.complete(["time", "angle", "temperature", "torque"])
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("time [s];angle [deg]\n0;1\n1;2;9\n2;3\n", r"data.csv:3: 3 cells, but 2 headings; '9' has none"),
-        ("0;1\n1;2\n2;3\n", r"data.csv:1: numbers without a row of headings above them"),
-        ("time [s];angle [deg]\n0;1\nbad;worse\n2;3\n", r"data.csv:3: no number in this row"),
-        ("nothing\nhere\n", r"no line has two numbers side by side"),
-        (b"\x00\x01\x02\x00\x00" * 40, r"this is no text"),
-    ],
-)
+@cases_of("text_files", "wrong_files")
 def test_a_file_that_does_not_go_together_is_refused_with_its_line(tmp_path, text, message):
     with pytest.raises(InputError, match=message):
         read(tmp_path, text)
