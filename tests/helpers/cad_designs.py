@@ -21,14 +21,15 @@ MM = 1e-3
 _MODULES = yaml.safe_load((ROOT / "tests/cases/modules_of_parts.yaml").read_text(encoding="utf-8"))
 
 
-def _module(name: str) -> dict[str, Any]:
-    base = _module(_MODULES[name]["based_on"]) if "based_on" in _MODULES[name] else {}
+def module_of_parts(name: str) -> dict[str, Any]:
+    """Return the inputs and choices of a module of tests/cases/modules_of_parts.yaml."""
+    base = module_of_parts(_MODULES[name]["based_on"]) if "based_on" in _MODULES[name] else {}
     return base | _MODULES[name]["module"]
 
 
-WRIST, ODD, BLOCKS, WRIST_BLOCKS, ODD_BLOCKS, BEARINGS, BEARING_BLOCKS = map(_module, list(_MODULES)[:7])
-DRIVEN, DRIVEN_BLOCKS, SPRUNG, SPRUNG_BEARINGS, SPRUNG_BLOCKS = map(_module, list(_MODULES)[7:12])
-TILES, VANE_TILES, VANE_TILE_ROWS = map(_module, list(_MODULES)[12:])
+WRIST, ODD, BLOCKS, WRIST_BLOCKS, ODD_BLOCKS, BEARINGS, BEARING_BLOCKS = map(module_of_parts, list(_MODULES)[:7])
+DRIVEN, DRIVEN_BLOCKS, SPRUNG, SPRUNG_BEARINGS, SPRUNG_BLOCKS = map(module_of_parts, list(_MODULES)[7:12])
+TILES, VANE_TILES, VANE_TILE_ROWS = map(module_of_parts, list(_MODULES)[12:15])
 CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "paper": ("shear", {}), "wrist": ("shear", WRIST), "odd": ("shear", ODD),
     "blocks": ("compression", BLOCKS), "wrist blocks": ("compression", WRIST_BLOCKS),

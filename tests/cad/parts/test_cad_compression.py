@@ -107,21 +107,6 @@ def test_a_housing_vane_in_a_pad_is_found(at_rest):
     assert {f"housing | heater_{index} here" for index in range(1, 12, 2)} <= failed(moved, "housing heater")
 
 
-@pytest.mark.parametrize(
-    ("row", "value", "words"),
-    [
-        ("vane_count", 2.5, "whole number"),
-        ("housing_vane_angle", -0.1, "housing: span"),
-        ("rotor_vane_angle", 0.0, "rotor: span"),
-        ("block_angle", float("nan"), "pcl_block: block_angle is nan"),
-    ],
-)
-def test_what_cannot_be_drawn_names_the_part(blocks, row, value, words):
-    design = blocks.model_copy(update={"values": blocks.values | {row: value}})
-    with pytest.raises(GeometryError, match=words):
-        build(design)
-
-
 def test_corners_of_slots_and_pockets_have_room_for_cutters_and_pads(at_rest):
     width = POCKET_WIDTH * 1.5
     pocket = rounded(block((0.0, 10.0), width, 0.0, 4.0), 1.5)

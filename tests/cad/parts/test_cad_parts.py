@@ -8,9 +8,21 @@ import cad_designs
 import cadquery as cq
 import numpy as np
 import pytest
-from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN_BLOCKS, MM, all_checks, broken_rules, design_of
+from cad_designs import (
+    BEARING_BLOCKS,
+    BEARINGS,
+    BLOCKS,
+    CASES,
+    DRIVEN_BLOCKS,
+    MM,
+    all_checks,
+    broken_rules,
+    design_of,
+    module_of_parts,
+)  # fmt: skip
 from placed_solids import build
 from sample_solids import of
+from support import cases_of
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, drawn_parts, place
@@ -45,19 +57,9 @@ def test_the_cases_keep_the_rules_in_valid_solids(design):
 
 SIZED = {
     **{name: CASES[name] for name in ("paper", "blocks", "bearings", "bearings among blocks", "driven")},
-    "three arcs": ("shear", {
-        "arc_count": 3, "arc_span": 1.3, "spring_pairs": 3, "wire_diameter": 1.8e-3, "coil_diameter": 17e-3,
-        "key_count": 5, "key_diameter": 4e-3, "pcl_inner_radius": 24e-3, "pcl_outer_radius": 41e-3,
-        "floor_thickness": 5e-3, "core_radius": 8e-3, "link_dowel": "iso_8734_2", "link_thickness": 6e-3,
-        "preload_angle": 0.4, "pcl_thickness": 1.6e-3,
-    }),
-    "tall vanes": ("compression", {
-        "vane_count": 4, "block_height": 13e-3, "block_depth": 4e-3, "vane_thickness": 3e-3, "slot_share": 0.6,
-        "core_radius": 8e-3, "link_dowel": "iso_8734_2", "pcl_inner_radius": 13e-3, "pcl_outer_radius": 24e-3,
-        "rotor_rim": 8e-3, "coil_diameter": 12e-3, "coil_count": 7.5, "running_clearance": 0.6e-3,
-        "floor_thickness": 5e-3, "spring_pairs": 3,
-    }),
-}  # fmt: skip
+    "three arcs": ("shear", module_of_parts("THREE_ARCS")),
+    "tall vanes": ("compression", module_of_parts("TALL_VANES")),
+}
 # Springs to what the kernel sweeps a wire to; the housing's holes and corners count at one radius in its inertia.
 WITHIN = {"spring_right_volume": 1e-5, "spring_left_volume": 1e-5, "module_mass": 2e-6, "housing_inertia": 1e-3,
           "motor_hub_inertia": 1e-6}  # fmt: skip
@@ -115,40 +117,20 @@ def test_legs_pins_and_cores_in_the_way_are_found(paper):
     assert any(check.name.startswith("rotor | spring") for check in checks)
 
 
-@pytest.mark.parametrize(
-    ("row", "value", "words"),
-    [
-        ("spring_count", 5.0, "even"),
-        ("arc_count", 2.5, "whole number"),
-        ("arc_span", 0.01, "housing: span"),
-        ("rotor_radius", float("nan"), "rotor: rotor_radius is nan"),
-    ],
-)
-def test_what_cannot_be_drawn_names_the_part(paper, row, value, words):
-    design = paper.model_copy(update={"values": paper.values | {row: value}})
+@cases_of("cad_parts", "not_drawn")
+def test_what_cannot_be_drawn_names_the_part(request, of, row, value, words):
+    whole_design = request.getfixturevalue(of)
+    design = whole_design.model_copy(update={"values": whole_design.values | {row: value}})
     with pytest.raises(GeometryError, match=words):
         build(design)
 
 
 @pytest.mark.gate
-@pytest.mark.parametrize(
-    "overrides",
-    [
-        # Vertices that rounding to a millionth of a millimetre splits: 24.409863 mm sin 30 deg, and 19.1828805 + 2 mm.
-        {"wire_diameter": 1.63299783e-3, "coil_diameter": 14.4195471e-3, "coil_count": 6.98764356,
-         "placement_radius": 46.8342295e-3, "core_radius": 15.4269817e-3, "link_thickness": 3.34797794e-3,
-         "pcl_inner_radius": 21.1112372e-3, "pcl_outer_radius": 26.409863e-3, "arc_span": radians(42.5021918),
-         "pcl_thickness": 1.31773805e-3, "preload_angle": 0.323144964, "spring_pairs": 3, "arc_count": 4},
-        {"wire_diameter": 1.65787036e-3, "coil_diameter": 31.2027823e-3, "coil_count": 5.13113728,
-         "placement_radius": 55.0633984e-3, "core_radius": 13.6670048e-3, "link_thickness": 3.48622919e-3,
-         "pcl_inner_radius": 19.1828805e-3, "pcl_outer_radius": 33.6000928e-3, "arc_span": radians(77.4763998),
-         "pcl_thickness": 1.74894889e-3, "preload_angle": 0.18294328, "spring_pairs": 1, "arc_count": 3},
-    ],
-)  # fmt: skip
-def test_meshes_close_where_rounding_splits_their_vertices(overrides):
-    dims = dimensions(design_of("split", overrides))
-    for name, solid in drawn_parts(dims).items():
-        assert closed(name, solid_mesh(solid)).is_watertight
+@pytest.mark.parametrize("name", ["SPLIT_AT_THE_LAYER", "SPLIT_AT_THE_EDGE"])
+def test_meshes_close_where_rounding_splits_their_vertices(name):
+    dims = dimensions(design_of("split", module_of_parts(name)))
+    for kind, solid in drawn_parts(dims).items():
+        assert closed(kind, solid_mesh(solid)).is_watertight
 
 
 @pytest.mark.parametrize(("process", "radius"), [("print_petg", 0.2), ("machine_6061", 1.5)])

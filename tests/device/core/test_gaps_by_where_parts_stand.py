@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from cad_designs import module_of_parts
 from device_values import values_of
 from hypothesis import given as drawn
 from hypothesis import strategies
@@ -15,16 +16,7 @@ from tvimdesign.device.core.layout import EVENED, evened_least
 
 MM = 1e-3
 TABLE = table_for("shear")
-SIZES: dict[str, dict[str, Any]] = {
-    "as it is": {},
-    "other sizes": {
-        "spring_pairs": 3, "arc_count": 3, "arc_span": 1.5, "wire_diameter": 1.9 * MM, "coil_diameter": 17 * MM,
-        "coil_count": 4.6, "coil_gap": 0.15 * MM, "preload_angle": 0.37, "stroke": 0.13, "placement_radius": 61 * MM,
-        "pcl_inner_radius": 23 * MM, "pcl_outer_radius": 42 * MM, "pcl_thickness": 1.7 * MM, "rotor_rim": 2.3 * MM,
-        "rotor_thickness": 3.3 * MM, "radial_clearance": 0.7 * MM, "axial_clearance": 0.6 * MM, "core_radius": 9 * MM,
-        "hub_wall": 2.6 * MM, "window_ledge": 2.4 * MM, "pin_diameter": 3.4 * MM, "pin_radius_ratio": 0.47,
-    },
-}  # fmt: skip
+SIZES: dict[str, dict[str, Any]] = {"as it is": {}, "other sizes": module_of_parts("OTHER_SIZES")}
 
 
 class Disc(NamedTuple):

@@ -76,18 +76,15 @@ def _together(study: str, seed: int) -> float:
     return Tolerancing(resolve_design(result.design), lambda _: None).analyse(1 << 13, seed).together.share
 
 
-@pytest.mark.slow
-def test_an_independent_draw_confirms_the_yield_of_all_limits_together():
-    band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.8 N.m/rad"]')
-    assert _together(band, 11) < 0.55
-    assert 0.9 <= _together(f"{band}robust: {{yield: 90 %}}\n", 11) < 0.93
+BAND = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.8 N.m/rad"]')
 
 
 @pytest.mark.slow
-def test_limits_on_times_and_sizes_together_come_to_the_yield_too():
-    # Each of them at that share alone would leave a tenth of the modules beyond one of them.
-    assert _together(TIMED, 12) < 0.5
-    assert 0.9 <= _together(f"{TIMED}robust: {{yield: 90 %}}\n", 12) < 0.93
+@pytest.mark.parametrize(("text", "seed", "nominal"), [(BAND, 11, 0.55), (TIMED, 12, 0.5)])
+def test_an_independent_draw_confirms_the_yield_of_all_limits_together(text, seed, nominal):
+    # Each limit on times and sizes at that share alone would leave a tenth of the modules beyond one of them.
+    assert _together(text, seed) < nominal
+    assert 0.9 <= _together(f"{text}robust: {{yield: 90 %}}\n", seed) < 0.93
 
 
 @pytest.mark.slow
