@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 from cad_designs import shipped_design
 from support import ROOT, STUDIES, environment, run_process, study_path
 
@@ -102,17 +103,7 @@ def test_shipped_studies_are_listed_and_copied_once(tvimdesign, tmp_path):
 # --- completion ---
 
 
-OFFERED = {
-    "tvimdesign ru": "run",
-    "tvimdesign run studies/paper_re": "studies/paper_reconstructed.yaml",
-    "tvimdesign run stu": "studies/",
-    "tvimdesign compare studies/wrist_joint.yaml studies/wrist_c": "studies/wrist_compression.yaml",
-    "tvimdesign simulate studies/finger.yaml --test rela": "relaxation",
-    "tvimdesign rows wire_dia": "wire_diameter",
-    "tvimdesign run studies/finger.yaml --set pcl_thick": "pcl_thickness=",
-    "tvimdesign new --example wrist_j": "wrist_joint",
-    "tvimdesign cad cad/elbow_printed/des": "cad/elbow_printed/design.json",
-}
+OFFERED = yaml.safe_load((ROOT / "tests/cases/completions.yaml").read_text(encoding="utf-8"))
 """What a shell offers, among others, for the last of some words."""
 COMPLETES = """
 import contextlib, io, json, os, sys

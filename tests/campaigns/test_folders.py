@@ -114,35 +114,19 @@ def test_what_is_no_optimum_is_bettered():
     assert attack.improved(values, answered.solution.reference) > random_studies.BETTER
 
 
+AFTER = {"run": 2.5, "run_with_parts": 12.0, "front": 4.0, "sweep": 5.0, "parts": 6.0, "explorer": 6.0, "tolerate": 6.0,
+         "robot": 6.5, "prove": 6.0}  # fmt: skip
+TRIES = [Try("run", signal.SIGKILL, 1.0), Try("simulate", signal.SIGTERM, 1.2), Try("explorer", signal.SIGINT, 2.5),
+         *(Try(command, number, after) for command, after in AFTER.items() for number in kills.SIGNALS)]  # fmt: skip
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("command", "number", "after"),
-    [
-        ("run", signal.SIGKILL, 1.0),
-        ("simulate", signal.SIGTERM, 1.2),
-        ("explorer", signal.SIGINT, 2.5),
-        *(
-            pytest.param(command, number, after, marks=pytest.mark.slow)
-            for command, after in (
-                ("run", 2.5),
-                ("run_with_parts", 12.0),
-                ("front", 4.0),
-                ("sweep", 5.0),
-                ("parts", 6.0),
-                ("explorer", 6.0),
-                ("tolerate", 6.0),
-                ("robot", 6.5),
-                ("prove", 6.0),
-            )
-            for number in kills.SIGNALS
-        ),
-    ],
-)
-def test_a_command_that_is_ended_leaves_nothing_behind(command, number, after, tmp_path):
-    kills.prepare(command, tmp_path)
+@pytest.mark.parametrize("attempt", TRIES, ids=str)
+def test_a_command_that_is_ended_leaves_nothing_behind(attempt, tmp_path):
+    kills.prepare(attempt.command, tmp_path)
     own = tmp_path / "one"
     own.mkdir()
-    assert kills.faults_after(Try(command, number, after), own) == []
+    assert kills.faults_after(attempt, own) == []
 
 
 def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path, monkeypatch):

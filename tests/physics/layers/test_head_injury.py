@@ -34,11 +34,8 @@ def test_head_injury_is_the_worst_window_of_a_half_sine(pulse, steps, error):
     assert head_injury(forces, MASS, step) == pytest.approx(_exact(pulse), rel=error)
 
 
-def test_head_injury_of_a_constant_push_lasts_15_ms():
+def test_head_injury_of_a_constant_push_lasts_15_ms_and_of_none_is_none():
     step, multiple = 0.0005, 50.0
     forces = [multiple * MASS * GRAVITY] * 60  # 30 ms
     assert head_injury(forces, MASS, step) == pytest.approx(0.015 * multiple**2.5, rel=1e-9)
-
-
-def test_nothing_is_hurt_without_a_force():
     assert head_injury([0.0] * 5, MASS, 1e-3) == 0.0

@@ -9,6 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+import yaml
 from choosing import with_each_record
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -159,22 +160,7 @@ def test_unsolved_boxes_are_split_in_the_middle_and_lists_ascend():
 
 
 SOLVER = ("solver.starts=2", "solver.cells=6", "solver.fineness=0.67", "solver.alternatives=32")
-SHELVES = {
-    # Four of its heaters; two are too large for three arcs.
-    "shelf": (
-        "vary.peltier_module={choose: [ma10_063_05_1, ma10_063_03, pc_128_10_05, pc_072]}",
-        "vary.wire_diameter={choose: [1.6 mm, 1.7018 mm, 1.8034 mm]}", "vary.spring_pairs={choose: [2, 3]}",
-        "vary.process={choose: [print_pc]}", "vary.spring_material={choose: [music_wire]}",
-        "vary.tiles_per_arc={choose: [2]}",
-    ),
-    # Wire too thin, and heaters that the cycle alone rules out.
-    "shelf_compression": (
-        "vary.peltier_module={choose: [silicone_9ar_02_24v, silicone_9ar_08_24v, polyimide_foil_24v, "
-        "silicone_9ar_04_12v]}",
-        "vary.wire_diameter={choose: [2.1 mm, 2.4 mm]}", "vary.process={choose: [print_abs, print_pc]}",
-        "vary.spring_material={choose: [chrome_silicon]}", "vary.coil_count=[3, 5]", "require.peak_voltage=<= 9 V",
-    ),
-}  # fmt: skip
+SHELVES = yaml.safe_load((ROOT / "tests/cases/shelves.yaml").read_text(encoding="utf-8"))
 """Studies of `benchmarks/` with shorter lists."""
 
 
