@@ -21,19 +21,7 @@ def test_studies_are_files_by_path_or_shipped_name():
         tvim.read_design("nowhere.json")
 
 
-def test_a_study_written_in_python_is_the_same_as_in_yaml(tmp_path):
-    text = """
-name: A joint
-mode: shear
-module: {current: 1.5 A, motor: none}
-vary: {wire_diameter: [1.2 mm, 3 mm], coil_count: [3, 8], spring_material: {choose: [music_wire, stainless_302]}}
-require: {spring_stiffness: [">= 4 N.m/rad", "<= 6 N.m/rad"], joint_damping@hot: ">= 0.5 N.m.s/rad"}
-minimize: {module_mass: 1, response_time: 2}
-operating_points: {warm: {temperature: 60 degC, frequency: 2 Hz}}
-solver: {starts: 2}
-write: {cad: false}
-"""
-    (tmp_path / "joint.yaml").write_text(text)
+def test_a_study_written_in_python_is_the_same_as_in_yaml():
     written = tvim.Study(
         name="A joint",
         mode="shear",
@@ -49,7 +37,7 @@ write: {cad: false}
         solver={"starts": 2},
         write={"cad": False},
     )
-    assert written.resolved == tvim.load(tmp_path / "joint.yaml").resolved
+    assert written.resolved == tvim.load(ROOT / "tests/studies/texts/study_of_python.yaml").resolved
 
 
 def test_all_mistakes_of_a_study_in_python_are_reported_at_once():

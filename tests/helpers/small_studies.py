@@ -10,9 +10,6 @@ FOUR_SIZES_IN_SHEAR = sample_text("four_sizes_in_shear")
 ALGEBRAIC = sample_text("algebraic")
 """Springs with tolerances; nothing here waits for a working cycle."""
 
-COMPRESSION_BLOCKS = sample_text("compression_blocks")
-"""What varies in a block of a compression module, and what is asked of it; begins within `vary`."""
-
 
 def with_limit_eased(study: Study, held: ActiveConstraint, share: float) -> Study:
     """Return the study with one limit, or one end of a range, eased by a share of its size."""

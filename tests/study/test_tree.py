@@ -6,19 +6,13 @@ from typing import Any
 import numpy as np
 import pint
 import pytest
-from support import STUDIES, cases_of, refused
+from support import STUDIES, cases_of, refused, sample_text
 
 from tvimdesign.study import Range, Study, StudyError, read_study_text, read_tree
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.tree import node_of, tree_of_text, tree_of_values, tree_yaml, with_settings
 
-TEXT = """
-mode: shear
-module: {current: 1.5 A, pcl_thickness: 1 mm}
-vary: {pcl_thickness: [0.6 mm, 2 mm], coil_diameter: [8 mm, 30 mm]}
-require: {holding_torque: ">= 12 N.m"}
-minimize: {module_mass: 1}
-"""
+TEXT = sample_text("set_on_the_command_line")
 
 
 def read(*settings: str) -> Study:
@@ -82,7 +76,7 @@ def test_mistakes_of_all_settings_and_of_the_file_are_reported_at_once():
     assert [problem.file for problem in caught.value.problems] == [
         "--set coil_diameter=1 s", "--set nothing", "--set solver.starts=many", "x.yaml",
     ]  # fmt: skip
-    assert caught.value.problems[-1].line == 3
+    assert caught.value.problems[-1].line == 2
 
 
 ureg: Any = pint.UnitRegistry()

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support import cases_of
 
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
 from tvimdesign.device.table.module import Module, names_read
@@ -119,27 +120,9 @@ def test_a_wrong_table_is_refused_by_name(quantities, message):
 
 
 TABLE = table_for("shear")
-# (input, output, which way): mechanics and rheology say so whatever the rest of the module.
-GROWS = [
-    ("wire_diameter", "spring_stiffness"), ("wire_diameter", "springs_mass"), ("coil_count", "springs_mass"),
-    ("preload_angle", "spring_stress"), ("preload_angle", "preload_margin"), ("stroke", "spring_stress"),
-    ("stroke", "layer_strain"), ("pcl_outer_radius", "pcl_stiffness@cold"), ("arc_span", "layer_holding_torque"),
-    ("core_radius", "core_holding_torque"),
-    ("arc_span", "pcl_damping@hot"), ("core_radius", "structure_stiffness"), ("rotor_thickness", "structure_stiffness"),
-    ("frequency@hot", "storage_modulus@hot"), ("placement_radius", "envelope_diameter"),
-    ("link_thickness", "envelope_height"), ("moving_inertia", "critical_damping"),
-]  # fmt: skip
-FALLS = [
-    ("coil_diameter", "spring_stiffness"), ("coil_count", "spring_stiffness"), ("wire_diameter", "spring_index"),
-    ("pcl_thickness", "pcl_stiffness@hot"), ("pcl_thickness", "layer_strain"), ("temperature@hot", "loss_modulus@hot"),
-    ("temperature@cold", "storage_modulus@cold"), ("stroke", "spring_fatigue_safety"),
-    ("moving_inertia", "natural_frequency@cold"), ("frequency@hot", "pcl_damping@hot"),
-]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("source", "result", "sign"), [(*pair, 1.0) for pair in GROWS] + [(*pair, -1.0) for pair in FALLS]
-)
+@cases_of("device_module", "follows")
 @settings(max_examples=15, deadline=None)
 @given(factor=st.floats(1.005, 1.25), seed=st.integers(0, 2**20))
 def test_result_follows_its_input(source, result, sign, factor, seed, inputs):

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from explored import SMALL
-from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR
+from small_studies import FOUR_SIZES_IN_SHEAR
 from support import fine, sample_text
 
 from tvimdesign.base.errors import InputError
@@ -23,13 +23,7 @@ from tvimdesign.study.tree import tree_of_text, with_settings
 
 REQUIRED = sample_text("required_of_a_problem")
 SHEAR = FOUR_SIZES_IN_SHEAR + "  cooling_current: [0.3 A, 1.5 A]\n" + REQUIRED
-COMPRESSION = f"""
-mode: compression
-module: {{response_criterion: softening, core_radius: 8 mm, link_dowel: iso_8734_2, rotor_rim: 8 mm,
-         pcl_inner_radius: 13 mm, block_height: 11 mm, block_depth: 4 mm, vane_thickness: 4 mm}}
-vary:
-{COMPRESSION_BLOCKS}solver: {{cells: 8, starts: 1}}
-"""
+COMPRESSION = sample_text("problem_in_compression")
 SLOW = SHEAR.replace("mode: shear", "mode: shear\nmodule: {current_slew: 0.2 A/s}")
 PROFILE = f"{SLOW}profile: {{softening: 3, stiffening: 2}}\n"
 STUDIES = {"shear": SHEAR, "compression": COMPRESSION, "profile": PROFILE}
