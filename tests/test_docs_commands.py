@@ -43,12 +43,16 @@ def _place(tmp_path: Path) -> None:
         (tmp_path / name).symlink_to(ROOT / name)
 
 
+def _write(place: Path, kind: str, text: str) -> None:
+    file = place / kind.removeprefix("FILE:")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+
+
 def _do(page: str, tvimdesign: Command, place: Path, more: list[str], skipped: set[str]) -> None:
     for kind, text in _steps(page):
         if kind != "command":
-            file = place / kind.removeprefix("FILE:")
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(text)
+            _write(place, kind, text)
             continue
         program, *words = shlex.split(text, comments=True)
         if words[0] in skipped:
@@ -65,9 +69,7 @@ def _records(page: str, place: Path) -> None:
     """Return the record that the page on Peltier modules takes from the catalogue's page."""
     if "peltier" in page:
         for kind, text in _steps("catalogue.md"):
-            file = place / kind.removeprefix("FILE:")
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(text)
+            _write(place, kind, text)
 
 
 @pytest.mark.gate

@@ -43,11 +43,8 @@ def test_a_study_written_in_python_is_the_same_as_in_yaml():
 def test_all_mistakes_of_a_study_in_python_are_reported_at_once():
     with pytest.raises(tvim.StudyError) as caught:
         tvim.Study(mode="shear", module={"curent": "1 A", "coil_count": "3,25"}, require={"module_mass": "<= 3 m"})
-    assert [problem.path for problem in caught.value.problems] == [
-        "module.curent",
-        "module.coil_count",
-        "require.module_mass",
-    ]
+    paths = [problem.path for problem in caught.value.problems]
+    assert paths == ["module.curent", "module.coil_count", "require.module_mass"]
     assert str(caught.value).startswith("Study(...): module.curent: no such input")
 
 

@@ -74,16 +74,8 @@ class AnotherStack:
         plate_heat = v("structure_density") * v("structure_specific_heat") * self.plate_cell * self.area
         self.mass = v("pcl_density") * self.area * self.cell
         sinks = [v("sink_capacity")] if self.sink else []
-        self.capacities = np.concatenate(
-            [
-                [self.cold] * 2,
-                np.full(CELLS, self.mass),
-                np.full(PLATE_CELLS, plate_heat),
-                *self.lumps,
-                [self.middle],
-                sinks,
-            ]
-        )
+        layer, plate = np.full(CELLS, self.mass), np.full(PLATE_CELLS, plate_heat)
+        self.capacities = np.concatenate([[self.cold] * 2, layer, plate, *self.lumps, [self.middle], sinks])
         self.start, self.end = v("pcl_melting_start") - 273.15, v("pcl_melting_end") - 273.15
         solid, melt = v("pcl_specific_heat_solid"), v("pcl_specific_heat_melt")
         first = solid * self.start

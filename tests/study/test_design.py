@@ -68,11 +68,8 @@ def test_all_mistakes_of_a_design_and_its_version_are_reported(tmp_path):
     edited.write_text(json.dumps(plain))
     with pytest.raises(StudyError) as reported:
         read_design(edited)
-    assert {problem.path for problem in reported.value.problems} == {
-        "tvimdesign",
-        "values.wire_diameter",
-        "choices.cold_side",
-    }
+    paths = {problem.path for problem in reported.value.problems}
+    assert paths == {"tvimdesign", "values.wire_diameter", "choices.cold_side"}
     assert "another version wrote it: '2019.1'" in str(reported.value)
 
 

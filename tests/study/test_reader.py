@@ -46,12 +46,9 @@ def test_a_full_study(read, validator):
     assert study.name == "The paper's module, re-optimised"
     assert study.description == "Two lines\nof text"
     assert (study.mode, study.task, study.catalog_folder) == ("shear", "optimize", None)
-    assert study.module == {
-        "spring_material": "stainless_302",
-        "wire_diameter": pytest.approx(2.413e-3),
-        "coil_count": 3.25,
-        "rate_model": "smi",
-    }
+    assert study.module["wire_diameter"] == pytest.approx(2.413e-3)
+    others = {name: value for name, value in study.module.items() if name != "wire_diameter"}
+    assert others == {"spring_material": "stainless_302", "coil_count": 3.25, "rate_model": "smi"}
     assert study.vary == {
         "wire_diameter": Range(lower=1.5e-3, upper=3.2e-3, start=study.module["wire_diameter"]),
         "coil_diameter": Range(lower=16e-3, upper=30e-3, start=20e-3),

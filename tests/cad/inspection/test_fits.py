@@ -114,12 +114,8 @@ def test_parts_are_apart_by_bores_copies_and_closed_meshes():
     broken = at(cylinder(5.0), 50.0)
     open_mesh = Instance(type(broken.mesh)(broken.mesh.vertices, broken.mesh.faces[1:]), broken.matrix)
     assert not PlacedBodies({"housing": at(cylinder(5.0), 0.0), "cover": open_mesh}).apart("housing", "cover")
-    placed = {
-        "housing": at(cylinder(5.0), 0.0),
-        "pcl_arc_1": at(cylinder(5.0), 10.0),
-        "pcl_arc_2": at(cylinder(5.0), 50.0),
-    }
-    bodies = PlacedBodies(placed)
+    places = {"housing": 0.0, "pcl_arc_1": 10.0, "pcl_arc_2": 50.0}
+    bodies = PlacedBodies({name: at(cylinder(5.0), place) for name, place in places.items()})
     assert not bodies.apart("housing", "pcl_arc_1")
     assert not bodies.apart("housing", "pcl_arc_2")
 

@@ -436,13 +436,7 @@ def test_screws_alone_and_loose_tangs_have_none_of_it():
     design = design_of("loose", {"link_fit": "clearance", "tang_hold": "hole"})
     dims = dimensions(design)
     assert "link_dowel" not in drawn_parts(dims)
-    assert [item.kind for item in beside(design, {})] == [
-        "polymer",
-        "heater_adhesive",
-        "thermistor",
-        "polyimide_film",
-        "wire_sleeve",
-        "mount_screw",
-    ]
+    kinds = ["polymer", "heater_adhesive", "thermistor", "polyimide_film", "wire_sleeve", "mount_screw"]
+    assert [item.kind for item in beside(design, {})] == kinds
     assert drawing_requirements("link", dims, design.choices).seats == []
     assert broken_rules(design_of("fitted", {})) == []

@@ -41,14 +41,8 @@ def test_overwriting_twice_keeps_what_the_user_put_there(tmp_path):
     for _ in range(2):
         finished(tmp_path, {"results.csv": "new\n"}, overwrite=True)
     assert texts(tmp_path) == {**yours, "results.csv": "new\n"}
-    assert {path.name for path in tmp_path.iterdir()} == {
-        "my.yaml",
-        "notes.txt",
-        "cad",
-        "plots",
-        "results.csv",
-        MANIFEST,
-    }
+    there = {path.name for path in tmp_path.iterdir()}
+    assert there == {"my.yaml", "notes.txt", "cad", "plots", "results.csv", MANIFEST}
 
 
 def test_a_file_changed_by_hand_is_kept_beside_with_a_word(tmp_path, capsys):

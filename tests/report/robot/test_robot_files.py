@@ -143,11 +143,7 @@ def test_sdf_has_the_bodies_the_stiffness_and_the_damping(mode):
     assert float(moving.findtext("inertia/iyz", "")) == pytest.approx(model.moving.inertia[1][2])
     joint = read.find("model/joint")
     assert joint is not None
-    assert (joint.findtext("parent"), joint.findtext("child"), joint.findtext("axis/xyz")) == (
-        "base",
-        "moving",
-        "0 0 1",
-    )
+    assert [joint.findtext(name) for name in ("parent", "child", "axis/xyz")] == ["base", "moving", "0 0 1"]
     names = ("limit/upper", "dynamics/spring_stiffness", "dynamics/damping")
     quantities = ("stop_angle", f"joint_stiffness@{state.point}", f"joint_damping@{state.point}")
     for name, quantity in zip(names, quantities, strict=True):

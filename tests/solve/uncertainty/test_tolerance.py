@@ -61,12 +61,8 @@ def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(resolved)
 
 def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(resolved):
     text = "tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: %s, adjusted_to: 2 deg}}\n"
-    for adjustable, adjusted, expected in (
-        ("true", None, 2.0),
-        ("false", None, 5.0),
-        ("false", True, 2.0),
-        ("true", False, 5.0),
-    ):
+    widths = {("true", None): 2.0, ("false", None): 5.0, ("false", True): 2.0, ("true", False): 5.0}
+    for (adjustable, adjusted), expected in widths.items():
         (contributor,) = contributors_of(resolved(text % adjustable), adjusted)
         assert np.degrees(contributor.plus_minus) == pytest.approx(expected)
     assert contributors_of(resolved("tolerances: {preload_angle: {plus_minus: 5 deg, adjustable: true}}\n")) == []

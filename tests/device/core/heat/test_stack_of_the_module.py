@@ -215,13 +215,8 @@ def test_the_supply_gives_volts_in_size_and_takes_nothing_back(known, stack):
 def test_a_switch_ends_by_the_criterion_that_was_chosen(stack):
     # Faces at 95 and 75 degC, the mean at 85, on the way to 100: what is left of each, over 100 K.
     profile = heat.profile(heat.initial_state(stack, 5, 300.0), stack)._replace(near=368.15, far=348.15)
-    m = Module(
-        stack_profile=profile,
-        mean_temperature=358.15,
-        target_temperature=373.15,
-        impedance_now=30.0,
-        soft_threshold=15.0,
-    )
+    impedances = {"impedance_now": 30.0, "soft_threshold": 15.0}
+    m = Module(stack_profile=profile, mean_temperature=358.15, target_temperature=373.15, **impedances)
     left = {"near_face": -0.05, "mean": -0.15, "far_face": -0.25, "softening": np.log(15.0 / 30.0)}
     for criterion, expected in left.items():
         m.response_criterion = criterion

@@ -150,12 +150,8 @@ def test_bonded_layer_relaxes_and_cannot_part(inputs, point):
 
 
 def test_frozen_joint_creeps_by_structure_and_pcl_in_series(inputs):
-    stiff = {
-        "elastic_support@cold": 80.0,
-        "link_stiffness": 200.0,
-        "structure_creep_share": 0.1,
-        "spring_stiffness": 0.0,
-    }
+    stiff = {"elastic_support@cold": 80.0, "link_stiffness": 200.0}
+    stiff |= {"structure_creep_share": 0.1, "spring_stiffness": 0.0}
     elastic = stiff | {"pcl_modes@cold": [(1e16, 1e7)], "joint_stiffness@cold": 80.0, "structure_creep_energy": 0.0}
     # Findley's law gives 0.1 of the elastic angle in the first hour, of support and link.
     crept = SHEAR.evaluate({**inputs, **elastic}, ["creep_stiffness"])["creep_stiffness"]
