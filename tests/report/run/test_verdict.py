@@ -35,6 +35,10 @@ FOUR = {
     "held": THREE["held"] | {"foot_margin >=": 0.7},
     "intervals": BOTH["intervals"] | {"foot_margin": {"shares": {"layer_height": 0.6}}},
 }
+WALL = {
+    "held": {"hole_margin >=": 0.3, **FOUR["held"]},
+    "intervals": {"hole_margin": {"shares": {"minimum_wall": 0.8}}, **FOUR["intervals"]},
+}
 RUBS = RunWarning(
     advice_text("friction_share", 13.7, "", table_for("shear")), "", "grave", "it does not return by its springs"
 )
@@ -56,7 +60,8 @@ def answer(
     """Return an optimised study as far as a verdict looks at it."""
     every = {"response_time": 60.0, "stiffening_time": 120.0, **(values or {})}
     design = SimpleNamespace(
-        mode="shear", status=status, values=every, value=every.__getitem__, above_rating=above,
+        mode="shear", choices={"making_method": "printed"}, status=status, values=every, value=every.__getitem__,
+        above_rating=above,
         study={"require": require, "robust": robust, "minimize": {"module_mass": 1.0}},
     )  # fmt: skip
     of = {"conflict_set": None, "out_of_time": None, "yield_reached": None, **solution}
@@ -118,7 +123,7 @@ def sides(*texts: str) -> ConflictSet:
          "Build it, one module first: measure the structure layer strength, the pin friction and the bond strength"),
         (answer(), SURE | FOUR, [],
          "Build it, one module first: measure the structure layer strength, the pin friction and 2 others "
-         "(summary.txt: Measure first)"),
+         "(summary.txt)"),
         (answer(robust={"plausible": 0.5}), SURE, [],
          "Build it, one module first: measure the structure layer strength; 50 % of plausible cases are asked "
          "of each limit alone"),
@@ -130,6 +135,9 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | FEW | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
          "Build it, one module first, as 5 of 512 plausible cases meet every limit: measure the structure layer "
          "strength"),
+        (answer(), SURE | WALL, [],
+         "Build it, one module first: print the test pieces and measure the thinnest sound wall and 4 others "
+         "(summary.txt)"),
         (answer(), {}, [], "Optimum found"),
     ],
 )  # fmt: skip

@@ -11,7 +11,7 @@ from tvimdesign.report.output.choices_tables import choice_text, shares
 from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, percent, range_text
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
-from tvimdesign.report.run.blocks.verdict import TO_MEASURE, least_shares, limits_in_doubt
+from tvimdesign.report.run.blocks.verdict import least_shares, limits_in_doubt
 from tvimdesign.report.run.blocks.warnings import requested_torque, unreached_points
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.nlp.solution import Choosing
@@ -232,7 +232,7 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any], least: 
         "run it: a wall or gap redraws what follows from it. Then order springs and heaters, and print the parts. The "
         "others: on the first module, or by the maker's sheet; with `--built` its parts stay as drawn."
     )
-    title = f"{TO_MEASURE}: what decides on limits that are met in under {percent(least)} of the plausible cases"
+    title = f"Measure first: what decides on limits that are met in under {percent(least)} of the plausible cases"
     return grid(title, heads, rows, code=(), note=note)
 
 

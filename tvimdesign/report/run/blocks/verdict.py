@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import table_for
+from tvimdesign.device import Input, table_for
 from tvimdesign.page.blocks import Tone
 from tvimdesign.report.output.numbers import in_labels, label, percent
 from tvimdesign.report.output.tables import margin_text
@@ -37,7 +37,6 @@ DOUBT = 0.25  # Share of the plausible cases in which the limit most in doubt mu
 
 _MOST_NAMED = 2  # Unmeasured inputs that a verdict names, and one more rather than count it
 
-TO_MEASURE = "Measure first"  # First words of the table that lists all of them
 
 _TONES: dict[str, Tone] = {
     "infeasible": "bad", "unfit": "bad", "rating": "bad", "margins_missed": "bad", "temperature": "warn",
@@ -197,8 +196,8 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     decided = limits_in_doubt(uncertainty, share_in_doubt(plausible)) or limits_in_doubt(uncertainty, 1.0 if few else 0)
     if not decided:
         return Verdict("build", f"Build it{but}{made_for}")
-    first = _to_measure([name for name in decided if name])
-    what = f"measure {first}" if first else f"check the {label(most_in_doubt(uncertainty)[0])}"
+    first = [name for name in decided if name]
+    what = _to_measure(first, answer) if first else f"check the {label(most_in_doubt(uncertainty)[0])}"
     more = f"{f'; {what_else}' if what_else else ''}{'' if few else made_for}"
     return Verdict("build_one", f"Build it, one module first{few}: {what}{more}")
 
@@ -228,13 +227,20 @@ def least_shares(uncertainty: Mapping[str, Any]) -> dict[str, float]:
     return dict(sorted(shares.items(), key=lambda entry: entry[1]))
 
 
-def _to_measure(names: Sequence[str]) -> str:
-    """Return inputs in words, or the first of them and how many more there are; empty without any."""
-    inputs = [f"the {label(name)}" for name in names]
-    if len(inputs) <= _MOST_NAMED + 1:
-        return " and ".join(filter(None, [", ".join(inputs[:-1]), *inputs[-1:]]))
-    named, more = ", ".join(inputs[:_MOST_NAMED]), len(inputs) - _MOST_NAMED
-    return f"{named} and {more} others (summary.txt: {TO_MEASURE})"
+def _to_measure(names: Sequence[str], answer: StudyResult) -> str:
+    """Say what to measure: all inputs, or the first and how many more there are; a printer's by its test pieces."""
+    design, inputs, most = answer.design, [f"the {label(name)}" for name in names], _MOST_NAMED
+    words, row = "measure", table_for(design.mode).by_name[names[0]]
+    if (
+        isinstance(row, Input)
+        and row.record
+        and row.record[0] == "process"
+        and design.choices["making_method"] != "milled"
+    ):
+        words, most = "print the test pieces and measure", 1
+    if len(inputs) <= most + 1:
+        return f"{words} {' and '.join(filter(None, [', '.join(inputs[:-1]), inputs[-1]]))}"
+    return f"{words} {', '.join(inputs[:most])} and {len(inputs) - most} others (summary.txt)"
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:
