@@ -1,6 +1,8 @@
 """Recordings of equations in the user's cache."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import casadi as ca
 import numpy as np
@@ -80,6 +82,17 @@ def test_what_has_one_name_has_one_record(name, monkeypatch):
     assert len(seen) > 2
     assert all(tape == alike[0] for alike in seen.values() for tape in alike)
     assert any(len(alike) > 1 for alike in seen.values())
+
+
+def test_code_that_records_or_writes_symbols_is_part_of_the_name():
+    package = Path(recordings.__file__).parents[2]
+    writing = {
+        path.relative_to(package).as_posix()
+        for path in package.rglob("*.py")
+        if re.search(r"\.recordings\(|def _symbols\(self\)", path.read_text(encoding="utf-8"))
+    }
+    assert writing >= {"solve/nlp/mixture.py", "solve/batch/batch_model.py"}
+    assert all(path.startswith(recordings.WRITERS) for path in writing)
 
 
 def _recorded():

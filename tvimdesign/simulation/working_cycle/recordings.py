@@ -18,7 +18,7 @@ from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.symbols import ca
 
 _PACKAGE = Path(__file__).parents[2]
-_WRITERS = ("base", "physics", "device", "engine", "simulation/working_cycle")
+WRITERS = ("base", "physics", "device", "engine", "simulation/working_cycle", "solve/nlp", "solve/batch")
 """Folders whose code and data make up the equations."""
 
 
@@ -26,9 +26,9 @@ _WRITERS = ("base", "physics", "device", "engine", "simulation/working_cycle")
 def _code() -> str:
     """Return the hash of all that equations follow from beside a device's structure."""
     digest = hashlib.sha256(vars(ca)["__version__"].encode())
-    for folder in _WRITERS:
-        for path in sorted((_PACKAGE / folder).rglob("*")):
-            if path.suffix in {".py", ".yaml", ".csv"}:
+    for folder in WRITERS:
+        for path in sorted((_PACKAGE / folder).rglob("*.*")):
+            if path.suffix != ".pyc" and path.parent.name != "__pycache__":
                 digest.update(f"{path.relative_to(_PACKAGE)} ".encode() + path.read_bytes())
     return digest.hexdigest()
 
