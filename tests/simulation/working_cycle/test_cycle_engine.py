@@ -19,7 +19,7 @@ from tvimdesign.simulation.working_cycle.symbols import ca, symbols
 from tvimdesign.study import drawn, given, read_study, read_study_text
 
 EXACT = 3e-3
-"""Relative error of values that an optimum is sought with; those that are reported are within 2e-4."""
+"""Relative error of values that an optimum is sought with; those that are reported are within 1e-4."""
 MOVED = ("current", "pcl_thickness", "rotor_thickness", "cooling_current", "ambient_temperature")
 MOST = {"softening": 60, "stiffening": 60, "equilibrium_stiffening": 25}
 """Steps of a phase of the shear module as it is: a guard of how fast it is, without a clock."""

@@ -41,7 +41,7 @@ class Cycle:
     """By phase, state and current that stay where the phase ended; none where there is no such state."""
 
 
-TOLERANCE = 1e-4  # Largest error of a step in the scaled state: values are within 2e-4 of what they converge to (test)
+TOLERANCE = 5e-5  # Largest error of a step in the scaled state: values are within 1e-4 of what they converge to (test)
 SAMPLES = 200  # Samples of a phase at least
 
 
