@@ -38,7 +38,7 @@ CASES: dict[str, tuple[str, Mapping[str, float | str]]] = {
     "sprung": ("shear", SPRUNG), "sprung bearings": ("shear", SPRUNG_BEARINGS),
     "sprung blocks": ("compression", SPRUNG_BLOCKS), "driven": ("shear", DRIVEN),
     "driven blocks": ("compression", DRIVEN_BLOCKS), "tiles": ("shear", TILES),
-    "tiles in vanes": ("compression", VANE_TILES),
+    "tiles in vanes": ("compression", VANE_TILES), "on a base": ("shear", TILES | {"housing_base": "separate"}),
 }  # fmt: skip
 
 

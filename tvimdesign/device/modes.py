@@ -26,6 +26,7 @@ def _files() -> dict[str, tuple[ModuleType, ...]]:
         cover,
         dowels,
         hard_stops,
+        housing_base,
         liner_and_adhesive,
         preload_adjuster,
         process,
@@ -78,7 +79,7 @@ def _files() -> dict[str, tuple[ModuleType, ...]]:
         materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
         warm_structure, large_motion, thermal_stack, softening, mass_properties, clearances, axial_preload,
         process, heater_form, screws, tang, dowels, hard_stops, liner_and_adhesive, bearing, preload_adjuster, cover,
-        motor_choice, motor_layout, motor_mass_properties, task, motor_load, cost,
+        housing_base, motor_choice, motor_layout, motor_mass_properties, task, motor_load, cost,
     )  # fmt: skip
     of_mode = {
         "shear": (

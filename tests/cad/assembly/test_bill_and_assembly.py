@@ -122,7 +122,7 @@ def test_springs_seats_and_screws_are_ordered_by_number_and_fit():
 
 
 @pytest.mark.parametrize(
-    "name", ["paper", "tiles", "tiles in vanes", "bearings", "sprung blocks", "bearings among blocks"]
+    "name", ["paper", "tiles", "tiles in vanes", "bearings", "sprung blocks", "bearings among blocks", "on a base"]
 )
 def test_parts_and_fasteners_are_counted_as_they_are_drawn(name):
     mode, changes = CASES[name]
@@ -223,6 +223,7 @@ MADE: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     "printed": ("shear", {"free_angle_sorting": radians(5.0)}, TOLERANCE),
     "milled": ("shear", COVERED | {"tang_hold": "hole"}, ADJUSTED),
     "blocks": ("compression", dict(BLOCKS), {}),
+    "on a base": ("compression", {**COVERED, **BLOCKS, "housing_base": "separate"}, {}),
     "tiles": ("shear", TILES | BEAD, {}),
     "tiles in vanes": ("compression", VANE_TILES | BEAD_BY_BLOCK, {}),
     "sprung": ("shear", dict(CASES["sprung"][1]), {}),

@@ -116,7 +116,7 @@ def test_holes_are_wider_and_parts_lie_on_their_side_in_print():
 def test_every_kind_says_how_it_is_come_by():
     cases = (
         ("all", BEARINGS | DRIVEN),
-        ("blocks", SPRUNG_BLOCKS, "compression"),
+        ("blocks", SPRUNG_BLOCKS | {"housing_base": "separate"}, "compression"),
         ("pinned", {"leg_pin": "iso_8734_3", "leg_pin_length": 12e-3}),
         ("tiles", TILES | {"thermistor_diameter": 1.1e-3, "liner_material": "peek", "liner_thickness": 0.8e-3}),
     )

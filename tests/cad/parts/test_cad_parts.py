@@ -38,9 +38,10 @@ from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.cad.inspection.inspect import casting_checks, casting_gap, part_checks
 from tvimdesign.cad.inspection.order import sequence
 from tvimdesign.cad.inspection.rays import Triangles, wall_checks
-from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
+from tvimdesign.cad.inspection.size_checks import _polar_moment, interference_checks, size_checks
 from tvimdesign.cad.parts import fasteners, jigs
 from tvimdesign.cad.parts.common_parts import link_dowels
+from tvimdesign.device import table_for
 from tvimdesign.study import read_study_text
 from tvimdesign.study.design import Design
 from tvimdesign.study.written_studies import result_text
@@ -72,6 +73,27 @@ def test_volumes_and_inertias_are_those_of_the_kernel(name):
     design = design_of(name, changes, mode)
     for check in size_checks(design, build(design)):
         assert abs(check.value) < WITHIN.get(check.name, 1e-9), check.text
+
+
+@pytest.mark.parametrize("case", ["on a base", "bearings among blocks", "driven"])
+def test_a_base_lets_the_floor_lie_flat_and_is_as_the_model_has_it(case):
+    mode, changes = CASES[case]
+    hanging = {}
+    for word in ("one_piece", "separate"):
+        design = design_of(case, {**changes, "housing_base": word}, mode)
+        dims = dimensions(design)
+        checks = part_checks(design, dims, "housing", housing := drawn_part(dims, "housing"))
+        hanging[word] = sum(check.value for check in checks if "overhang" in check.name)
+        assert housing.Volume() * 1e-9 == pytest.approx(design.values["housing_volume"], rel=1e-9)
+    base = drawn_part(dims, "base")
+    assert broken_rules(design) == []
+    assert [check.text for check in part_checks(design, dims, "base", base) if check.level != "pass"] == []
+    assert housing.BoundingBox().zmin == pytest.approx(base.BoundingBox().zmax) == pytest.approx(-dims.floor_thickness)
+    assert hanging["separate"] == 0.0
+    assert hanging["one_piece"] > 1e3 or design.choices["making_method"] == "milled"
+    moments = table_for(mode).evaluate({**design.values, **design.choices}, ["base_moments"])["base_moments"]
+    assert base.Volume() * 1e-9 == pytest.approx(moments.area, rel=1e-9)
+    assert _polar_moment(base) * 1e-15 == pytest.approx(moments.polar, rel=1e-3)  # corners count at one radius
 
 
 @pytest.mark.slow

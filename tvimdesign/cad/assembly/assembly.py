@@ -135,7 +135,8 @@ MODULES = {
 
 _ORDER = (
     "encoder_board", "encoder_magnet", "motor_screw", "motor_retainer", "motor_housing", "motor_stator",
-    "motor_bearing", "motor_rotor", "motor_hub", "retainer_screw", "retainer", "retainer_insert", "adjuster_screw",
+    "motor_bearing", "motor_rotor", "motor_hub", "base", "retainer_screw", "retainer", "retainer_insert",
+    "adjuster_screw",
     "thermal_cutout", "thermistor", "heater_lead", "housing", "cover_insert", "preload_spring", "bearing_outer",
     "bearing_inner", "adjuster_insert", "adjuster",
     "heater", "spreader", "pcl_arc", "pcl_block", "liner", "rotor", "leg_pin", "link_insert", "spring_right",

@@ -87,7 +87,7 @@ def _making(design: Design, dims: Dimensions, made: Sequence[Item]) -> list[str]
     if milled:
         listed = ", ".join(map(_words, milled)).capitalize()
         lines += ["## Machining", "", f"{listed}: from `step/` by the sheets in `drawings/`, which carry the fits.", ""]
-    lines += ["## Printing", "", *(_printing(kind) for kind in kinds if kind not in milled), ""]
+    lines += ["## Printing", "", *(_printing(kind, design, dims) for kind in kinds if kind not in milled), ""]
     but = ", those of dowel pins not: they are reamed" if dims.dowels_fitted or dims.leg_pins_fitted else ""
     wider = f", with upright holes {dims.hole_compensation:g} mm wider{but}" if dims.hole_compensation else ""
     solid = "Print them solid (infill 100 %): mass, stiffness and strength count the plastic throughout."
@@ -117,9 +117,9 @@ def _weigh(design: Design, kinds: Sequence[str], milled: Sequence[str]) -> str:
     return f" A housing that weighs less than {0.97 * mass:.3g} g has hollow places."
 
 
-def _printing(kind: str) -> str:
+def _printing(kind: str, design: Design, dims: Dimensions) -> str:
     lying = "as it stands in the module" if PRODUCTION[kind].down == "bottom" else "turned over"
-    return f"- {_words(kind)}: {lying}; {PRODUCTION[kind].why}."
+    return f"- {_words(kind)}: {lying}; {PRODUCTION[kind].why.format_map(Figures(design, dims, {}))}."
 
 
 class PlacedPart(NamedTuple):
@@ -359,6 +359,15 @@ def _greased(place: str, design: Design, _: Dimensions) -> str:
     return place if place in greased(design) else ""
 
 
+def _housing_on_bed(_: Design, dims: Dimensions) -> str:
+    """Return what of the housing lies on the bed, and what hangs."""
+    hang = ["the floor"] * (not dims.base_height) + ["the lip between the bearings"] * (dims.bearing_width > 0.0)
+    support = f"support only below {' and '.join(hang)}, in the open" if hang else "no support"
+    lies = "floor" if dims.base_height else "feet and skirt"
+    return f"{lies} on the bed: posts, hub and seats grow upwards and come out round; {support}"
+
+
+_AND_BASE = ", screws through floor and base both, tightened again after the first heating"
 _TO_REAM = 0.2  # What a drill leaves to a reamer up to 5 mm [mm]; workshop tables have 0.1 to 0.2
 _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "preload_force": _preload_force,
@@ -376,6 +385,8 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "leg_pin_height": lambda _, dims: f"{dims.leg_pin_length - dims.leg_pin_depth:.3g}",
     "set_points": lambda design, _: set_points_in_words(design),
     "cutout_place": _cutout_place,
+    "and_base": lambda _, dims: _AND_BASE if dims.base_height else "",
+    "housing_on_bed": _housing_on_bed,
     "heated_parts": lambda _, dims: "spreaders" if dims.spreader_depth else "heaters",
     "hot_side": lambda design, _: ", hot side to the PCL" if design.values.get("peltier_seebeck") else "",
     "ledge_pull": _ledge_pull,

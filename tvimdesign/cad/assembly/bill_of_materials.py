@@ -237,7 +237,8 @@ def _filament(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return the spools that the module's parts are printed of at home, with as much again for jigs and supports."""
     if cad_report.PRINT_TEMPERATURES[0] not in titles:
         return []
-    made = [design.values.get(f"{kind}_mass", 0.0) for kind in ("housing", "rotor", "link", "retainer", "cover")]
+    kinds = ("housing", "rotor", "link", "retainer", "cover", "base")
+    made = [design.values.get(f"{kind}_mass", 0.0) for kind in kinds]
     adjusters = design.values.get("adjuster_volume", 0.0) * design.value("structure_density")
     grams, record = 1e3 * (sum(made) + adjusters), str(design.choices["structure_material"])
     material = titles.get("structure_material", record)

@@ -79,15 +79,19 @@ def _run(commands: CommandGroup, command: list[str], about: str) -> None:
 
 
 def export_parts(design: Design, folder: Path) -> None:
-    """Write housing, rotor, link, all pads and PCL, one spring, and `inputs.json`: sizes in mm, values in SI."""
+    """Write housing, rotor, link, all pads and PCL, one spring, and `inputs.json`: sizes in mm, values in SI.
+
+    Of a base that is clamped below the housing the feet bear, as in the model: the housing has these in one piece.
+    """
     import cadquery as cq
 
     from tvimdesign.cad.assembly.assembly import MODULES
-    from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
     from tvimdesign.cad.geometry.spring_solids import installed_coil, spring_solid
 
     folder.mkdir(parents=True, exist_ok=True)
     dims, module = dimensions(design), MODULES[design.mode]
+    dims = Dimensions(dims.mode, {**dims.by_name, "base_height": 0.0, "base_sill": 0.0})
     kinds = (*module.made, *(["spreader"] if dims.spreader_depth else []))
     drawn = {kind: module.drawn(dims)[kind](dims) for kind in kinds}
     shapes = {kind: drawn[kind] for kind in ("housing", "rotor", "link")}

@@ -71,7 +71,7 @@ def supported_levels(kind: str, dims: Dimensions) -> tuple[tuple[float, float], 
     A face is level there, or ends in a fillet.
     """
     if kind == "housing":
-        levels = [-dims.floor_thickness]
+        levels = [] if dims.base_height else [-dims.floor_thickness]
         levels += [dims.hub_bottom_level + dims.lower_seat_depth] if dims.bearing_width > 0.0 else []
         return tuple((level, level) for level in levels)
     if kind != "rotor":

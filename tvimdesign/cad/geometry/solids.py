@@ -104,22 +104,28 @@ def wedge(along_x: Point, span: float, inset: float, bottom: float, top: float) 
 
 
 def spoked_disc(
-    radius: float, half_width: float, length: float, corner: float, azimuths: Sequence[float], levels: Point
-) -> cq.Solid:
-    """Draw upright disc about the axis with spokes to `length` that end in half discs, and fillets where they begin."""
+    radius: float, half_width: float, length: float, corner: float, azimuths: Sequence[float], levels: Point,
+    around: float = 0.0,
+) -> cq.Solid:  # fmt: skip
+    """Draw upright disc about the axis with spokes to `length` that end in half discs, and fillets where they begin.
+
+    With a radius `around` it is the ring from there inwards to the disc's, its spokes inwards, too.
+    """
     bottom, top = levels
     _require(radius=radius, half_width=half_width, corner=corner, height=top - bottom)
-    # The centre of a fillet touches disc and spoke.
-    along = sqrt((radius + corner) ** 2 - (half_width + corner) ** 2)
-    touch, beside = radius / (radius + corner), half_width + corner
+    out = -1.0 if around else 1.0
+    # The centre of a fillet touches circle and spoke.
+    rim = radius + out * corner
+    along = sqrt(rim**2 - (half_width + corner) ** 2)
+    touch, beside = radius / rim, half_width + corner
 
     def at(x: float, y: float, azimuth: float) -> Point:
         return x * cos(azimuth) - y * sin(azimuth), x * sin(azimuth) + y * cos(azimuth)
 
     def fillet(side: float, azimuth: float) -> tuple[Point, Point, Point]:
-        """Return where it touches the disc, its middle, and where it touches the spoke."""
-        inwards = cq.Vector(-along, -side * beside, 0.0).normalized() + cq.Vector(0.0, -side, 0.0)
-        half = inwards.normalized() * corner
+        """Return where it touches the circle, its middle, and where it touches the spoke."""
+        towards = cq.Vector(-out * along, -out * side * beside, 0.0).normalized() + cq.Vector(0.0, -side, 0.0)
+        half = towards.normalized() * corner
         return (
             at(touch * along, side * touch * beside, azimuth),
             at(along + half.x, side * beside + half.y, azimuth),
@@ -133,12 +139,12 @@ def spoked_disc(
         edges += [
             before,
             (before[2], near),
-            (near, at(length + half_width, 0.0, azimuth), far),
+            (near, at(length + out * half_width, 0.0, azimuth), far),
             (far, after[2]),
             after[::-1],
             (after[0], at(radius, 0.0, 0.5 * (azimuth + following)), later[0]),
         ]
-    return _KERNEL.get().prism(edges, [], bottom, top)
+    return _KERNEL.get().prism(around or edges, [edges] if around else [], bottom, top)
 
 
 def toothed_disc(radii: Point, corner: float, span: float, azimuths: Sequence[float], levels: Point) -> cq.Solid:

@@ -18,6 +18,7 @@ from tvimdesign.cad.geometry.solids import (
     ring,
     sector,
     slot,
+    spoked_disc,
     toothed_disc,
     turned,
 )
@@ -46,20 +47,30 @@ def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
 
 
 def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable[cq.Shape]) -> cq.Shape:
-    """Draw floor, hub, wall, skirt, spring posts, stops, cover bosses, feet and what the mode adds.
+    """Draw floor, hub, wall, spring posts, stops, cover bosses, what the mode adds, and skirt and feet without a base.
 
     Less bore, the mode's openings, tang and screw holes, and notches.
     """
     floor_bottom = -dims.floor_thickness
     floor = cylinder(dims.housing_outer_radius, floor_bottom, 0)
-    ground = floor_bottom - dims.foot_height
+    below = floor_bottom - (0.0 if dims.base_height else dims.foot_height)
     hub = cylinder(dims.hub_radius, dims.hub_bottom_level, dims.hub_top_level)
     posts, holes = spring_places(dims)
-    walls, cover_holes = walls_and_cover_holes(dims, ground)
-    feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
-    mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
+    walls, cover_holes = walls_and_cover_holes(dims, below)
+    feet = [] if dims.base_height else mounts(dims)
+    feet = [cylinder(dims.mount_boss_radius, below, floor_bottom, at) for at in feet]
+    mount_holes = [cylinder(0.5 * dims.mount_hole, below, 0, at) for at in mounts(dims)]
+    mount_holes += [] if dims.base_height else notches(dims)
     body = join(floor, [*walls, hub, *posts, *stops(dims), *feet, *added])
-    return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims))
+    return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes)
+
+
+def base(dims: Dimensions) -> cq.Shape:
+    """Draw the base: skirt, feet and the webs between them, with holes for the screws and notches above its sill."""
+    levels = (-dims.floor_thickness - dims.base_height, -dims.floor_thickness)
+    sizes = dims.housing_inner_radius, dims.mount_boss_radius, dims.placement_radius, dims.base_corner_radius
+    body = spoked_disc(*sizes, foot_azimuths(dims), levels, dims.housing_outer_radius)
+    return body.cut(*(cylinder(0.5 * dims.mount_hole, *levels, at) for at in mounts(dims)), *notches(dims))
 
 
 def stop_azimuths(dims: Dimensions) -> list[float]:
@@ -138,23 +149,24 @@ def by_feet(dims: Dimensions, radius: float) -> list[tuple[float, float]]:
     return [polar(radius, azimuth) for azimuth in foot_azimuths(dims)]
 
 
-def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shape], list[cq.Shape]]:
-    """Draw skirt and wall, with bosses where there is a cover, and the holes for its screws."""
+def walls_and_cover_holes(dims: Dimensions, bottom: float) -> tuple[list[cq.Shape], list[cq.Shape]]:
+    """Draw skirt and wall from a level, with bosses where there is a cover, and the holes for its screws."""
     inner, outer, rim = dims.housing_inner_radius, dims.housing_outer_radius, dims.rim_level
     if not dims.cover_height:
-        return [ring(inner, outer, ground, rim)], []
+        return [ring(inner, outer, bottom, rim)], []
     axes = by_feet(dims, inner)
     wall = bossed_ring((inner, outer), dims.cover_boss_radius, dims.cover_corner_radius, foot_azimuths(dims), (0, rim))
-    point, bottom = dims.drill_point_ratio, rim - dims.cover_screw_depth
-    holes = [hole for at in axes for hole in blind_hole(dims.cover_screw_hole, rim, bottom, point, at)]
-    return [ring(inner, outer, ground, 0), wall], holes
+    point, end = dims.drill_point_ratio, rim - dims.cover_screw_depth
+    holes = [hole for at in axes for hole in blind_hole(dims.cover_screw_hole, rim, end, point, at)]
+    return [ring(inner, outer, bottom, 0), wall], holes
 
 
 def notches(dims: Dimensions) -> list[cq.Shape]:
     """Draw what is cut from the skirt midway between feet: air for the pads' cold sides, and a way for their wires."""
-    width, floor_bottom = dims.notch_width, -dims.floor_thickness
+    width, top = dims.notch_width, -dims.floor_thickness
     inside = sqrt(dims.housing_inner_radius**2 - (0.5 * width) ** 2)
-    opening = block((inside, dims.housing_outer_radius + 1.0), width, floor_bottom - dims.foot_height, floor_bottom)
+    bottom = top - dims.foot_height + dims.base_sill
+    opening = block((inside, dims.housing_outer_radius + 1.0), width, bottom, top)
     return [turned(opening, azimuth) for azimuth in dims.azimuths("foot_count")]
 
 

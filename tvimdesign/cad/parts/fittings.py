@@ -1,4 +1,4 @@
-"""Bearings, the wave spring, the rotary adjusters of the springs and the cover: drawn and placed."""
+"""Bearings, the wave spring, the rotary adjusters of the springs, cover and base: drawn and placed."""
 
 from collections.abc import Callable, Mapping
 from math import atan2, pi
@@ -8,7 +8,7 @@ import cadquery as cq
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import blind_hole, block, cylinder, join, polar, ring, turned
 from tvimdesign.cad.geometry.spring_solids import installed_coil
-from tvimdesign.cad.parts.common_parts import hand_of, scale_dot, spring_axes
+from tvimdesign.cad.parts.common_parts import base, hand_of, scale_dot, spring_axes
 from tvimdesign.device.components.preload_adjuster import FIRST_DOT, LAST_DOT
 
 
@@ -70,13 +70,14 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
         **({"preload_spring": preload_spring} if dims.preload_height else {}),
         **({"adjuster": adjuster} if dims.adjuster_radius else {}),
         **({"cover": cover} if dims.cover_height else {}),
+        **({"base": base} if dims.base_height else {}),
     }
 
 
 def stand(dims: Dimensions, solids: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
     """Place what is there of them, the rotor at an angle [rad], by name."""
     placed: dict[str, cq.Shape] = {
-        kind: turned(solids[kind], 0.0) for kind in ("preload_spring", "cover") if kind in solids
+        kind: turned(solids[kind], 0.0) for kind in ("preload_spring", "cover", "base") if kind in solids
     }
     if "bearing_inner" in solids:
         down = cq.Location(cq.Vector(0, 0, dims.bearing_width - (dims.hub_top_level - dims.hub_bottom_level)))

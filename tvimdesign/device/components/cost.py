@@ -82,7 +82,7 @@ def pieces_bought(m: Module) -> tuple[tuple[Scalar, Scalar], ...]:
 @costs.output("USD")
 def material_cost(m: Module) -> Scalar:
     """Cost of the material of what is made, by its mass in the module: structure, liners and PCL."""
-    made = m.housing_mass + m.rotor_mass + m.link_mass + m.retainer_mass + m.cover_mass
+    made = m.housing_mass + m.rotor_mass + m.link_mass + m.retainer_mass + m.cover_mass + m.base_mass
     made += m.adjuster_volume * m.structure_density
     return made * m.structure_price + m.liner_mass * m.liner_price + m.pcl_mass * m.pcl_price
 
@@ -96,7 +96,7 @@ def cost(m: Module) -> Scalar:
 @costs.output("1")
 def unpriced_count(m: Module) -> Scalar:
     """Parts without a price, which the cost leaves out: pieces, parts made of the structure, liners, and the PCL."""
-    made = _MADE + m.adjuster_screw_count + np.fmin(m.cover_screw_count, 1.0)
+    made = _MADE + m.adjuster_screw_count + np.fmin(m.cover_screw_count, 1.0) + np.sign(m.base_height)
     by_mass = made * (1.0 - np.sign(m.structure_price)) + 1.0 - np.sign(m.pcl_price)
     by_mass += m.pocket_count * np.sign(m.liner_depth) * (1.0 - np.sign(m.liner_price))
     return by_mass + sum(count * (1.0 - np.sign(price)) for count, price in m.pieces_bought)

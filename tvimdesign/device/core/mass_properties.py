@@ -53,7 +53,7 @@ def spring_volume(m: Module) -> Scalar:
 
 @quantities.helper()
 def skirt_moments(m: Module) -> Section:
-    """Volume and its polar moment about the axis, of the housing below its floor: skirt, notches and feet."""
+    """Volume and its polar moment about the axis, of what stands below the floor: skirt, notches and feet."""
     skirt = shapes.ring(m.housing_inner_radius, m.housing_outer_radius)
     notches = shapes.notch(0.5 * m.notch_width, m.housing_inner_radius, m.housing_outer_radius).times(m.foot_count)
     foot = shapes.disc_at(m.mount_boss_radius, m.placement_radius) - shapes.disc_at(
@@ -88,7 +88,7 @@ def bare_housing_moments(m: Module) -> Section:
     """
     wall = shapes.ring(m.housing_inner_radius, m.housing_outer_radius).times(m.rim_level)
     return wall.plus(
-        m.skirt_moments,
+        m.skirt_moments if m.housing_base == "one_piece" else shapes.NOTHING,
         m.floor_moments,
         m.hub_moments,
         m.fixed_posts_moments,
@@ -210,7 +210,7 @@ quantities.from_template("peltier", "all heaters together", template_mass, "g")
 @quantities.output("g", headline=True)
 def module_mass(m: Module) -> Scalar:
     """Mass of the module with its motor, without wires beyond its floor and the screws that fix it."""
-    made = m.housing_mass + m.rotor_mass + m.link_mass + m.retainer_mass + m.cover_mass + m.pcl_mass
+    made = m.housing_mass + m.rotor_mass + m.link_mass + m.retainer_mass + m.cover_mass + m.pcl_mass + m.base_mass
     fasteners = m.screws_mass + m.inserts_mass + m.dowels_mass
     heater = m.peltier_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
     bought = m.springs_mass + heater + m.liner_mass + fasteners + m.bearings_mass + m.preload_spring_mass

@@ -69,9 +69,9 @@ def floor_in_air(m: Module) -> lumps.Surface:
 
 @quantities.helper()
 def housing_rest(m: Module) -> lumps.Body:
-    """The whole housing's heat capacity, and its wall and feet in the air; a mode takes the floor's bodies from it."""
+    """Heat capacity of housing and base, and their wall in the air; a mode takes the floor's bodies from it."""
     side = 2.0 * np.pi * m.housing_outer_radius * (m.rim_level + m.floor_thickness + m.foot_height)
-    return lumps.Body(m.housing_mass * m.structure_specific_heat, m.floor_in_air._replace(area=side))
+    return lumps.Body((m.housing_mass + m.base_mass) * m.structure_specific_heat, m.floor_in_air._replace(area=side))
 
 
 @quantities.helper()

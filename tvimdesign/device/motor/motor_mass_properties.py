@@ -211,4 +211,5 @@ def driven_inertia(m: Module) -> Scalar:
     on_arcs = m.pcl_mass + m.peltier_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
     carried = m.springs_inertia + on_arcs * at_pcl
     cover = m.cover_section.polar * m.cover_height * m.structure_density
-    return m.drive_inertia + m.housing_inertia + cover + carried
+    base = m.base_moments.polar * m.structure_density
+    return m.drive_inertia + m.housing_inertia + cover + carried + base

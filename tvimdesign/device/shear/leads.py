@@ -113,5 +113,5 @@ def lead_tile_margin(m: Module) -> Scalar:
 
 @rules.gap("the leads do not go through below the floor: more foot_height")
 def lead_ground_gap(m: Module) -> Scalar:
-    """Room between floor and ground beyond the leads."""
-    return m.foot_height - m.lead_diameter
+    """Room between floor and ground, or a base's sill, beyond the leads."""
+    return m.foot_height - m.base_sill - m.lead_diameter
