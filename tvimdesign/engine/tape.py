@@ -102,7 +102,7 @@ class Tape:
     def values(self, *arguments: Array) -> list[Array]:
         """Return the nonzeros of each result."""
         w = self._work
-        w[: self.arguments[-1]] = np.concatenate(arguments)
+        np.concatenate(arguments, out=w[: self.arguments[-1]])
         run(self.code, w)
         return [w[places] for places in self.results]
 
@@ -113,7 +113,8 @@ class Tape:
         if directions not in self._rooms:
             self._rooms[directions] = tangent_registers(self.registers.size, directions)
         d = self._rooms[directions]
-        w[:count], d[:count, :directions] = np.concatenate(arguments), np.concatenate(moved)
+        np.concatenate(arguments, out=w[:count])
+        np.concatenate(moved, out=d[:count, :directions])
         push(self.code, w, d)
         return [(w[places], d[places, :directions]) for places in self.results]
 
