@@ -26,7 +26,10 @@ class PhaseResults:
         """Quantities at the ends of the steps, by those that are recorded together."""
 
     def add_paths(self, outputs: PhaseOutputs, wanted: Collection[str] | None) -> None:
-        """Add what the phase adds up to, is at its end, or reaches; of a phase without an end, what it reaches."""
+        """Add what the phase adds up to, is at its end, or reaches; of a phase without an end, what it reaches.
+
+        Maxima are those of samples where there are any, else they are looked for between the steps, too.
+        """
         end = outputs.end or self.run.instants[-1]
         passed = self.passed(end)
         self._seen = {}
@@ -38,6 +41,9 @@ class PhaseResults:
                 outputs.add(row.name, end.state[place], end.of_state[place])
             elif row.reduce == "end":
                 outputs.add(row.name, *self.run.slopes(row.name, end))
+            elif row.name in outputs.samples:
+                values, slopes = outputs.samples[row.name]
+                outputs.add(row.name, values[np.argmax(values)], slopes[np.argmax(values)])
             else:
                 outputs.add(row.name, *self._highest(row.name, passed))
 
