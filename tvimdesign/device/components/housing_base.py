@@ -61,7 +61,7 @@ def base_corner_margin(m: Module) -> Scalar:
 
 
 strengths.after("foot_safety")
-_CLAMP = "under the torque the joint holds: a larger mount_screw, or `housing_base: one_piece`"
+_CLAMP = "under the torque the joint holds: more mount_clamp_ratio, or `housing_base: one_piece`"
 
 
 @strengths.output("1", at_least(1.0, f"the floor would slip on its base {_CLAMP}"), default=1.0)
