@@ -94,7 +94,7 @@ def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(reported
     assert (target["unit"], target["si"]["unit"]) == ("°C", "K")
     assert number_entry(float("inf"), "s")["value"] is None
     hot = result.design.values["joint_impedance@hot"]
-    expected = f"soft: |Z| <= {2.0 * hot:.3g} N·m/rad at 1 Hz, twice that at the hot point"
+    expected = f"soft: dynamic stiffness <= {2.0 * hot:.3g} N·m/rad at 1 Hz, twice that at the hot point"
     for name in ("softening_time", "response_time"):  # the switch ends when the joint is soft
         assert reported["values"][name]["note"] == expected
     assert reported["values"]["mean_time"]["note"] == ""
@@ -144,10 +144,11 @@ STATED = "impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance
 @pytest.mark.parametrize(
     ("module", "soft", "stiff"),
     [
-        (STATED, "|Z| <= 80 N·m/rad at 1 Hz, twice soft_impedance",
-         "|Z| >= 150 N·m/rad at 1 Hz, half of stiff_impedance"),
+        (STATED, "dynamic stiffness <= 80 N·m/rad at 1 Hz, twice soft_impedance",
+         "dynamic stiffness >= 150 N·m/rad at 1 Hz, half of stiff_impedance"),
         (f"{STATED}, softening_band: 1.5, stiffening_band: 4",
-         "|Z| <= 60 N·m/rad at 1 Hz, 1.5 times soft_impedance", "|Z| >= 75 N·m/rad at 1 Hz, 1/4 of stiff_impedance"),
+         "dynamic stiffness <= 60 N·m/rad at 1 Hz, 1.5 times soft_impedance",
+         "dynamic stiffness >= 75 N·m/rad at 1 Hz, 1/4 of stiff_impedance"),
     ],
 )  # fmt: skip
 def test_soft_and_stiff_are_shown_as_impedances(module, soft, stiff):

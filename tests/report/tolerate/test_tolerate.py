@@ -42,7 +42,7 @@ def test_the_folder_has_tables_in_si_and_a_manifest(results):
     assert stiffness["si"]["unit"] == stiffness["unit"] == "N·m/rad"
     for name in ("as_drawn", "low", "high", "worst_low", "deviation"):
         assert stiffness["si"][name] == pytest.approx(stiffness[name])
-    assert any(note.startswith("Soft is |Z| <= ") for note in reported["notes"])
+    assert any(note.startswith("Soft is dynamic stiffness <= ") for note in reported["notes"])
     rows = list(csv.DictReader((results[0] / "contributors.csv").read_text("utf-8-sig").splitlines()))
     mine = [row for row in rows if row["output"] == "spring_stiffness"]
     assert sum(float(row["share"]) for row in mine) == pytest.approx(1.0, abs=1e-4)

@@ -106,7 +106,7 @@ Value = Callable[[str], float]  # A number (SI) by its full name
 
 
 def soft_in_words(design: Design, table: Table) -> str:
-    """Return `|Z| <= 12.7 N·m/rad at 1 Hz, twice that at the hot point`: what the joint is from `softening_time` on."""
+    """Return what the joint is from `softening_time` on: `dynamic stiffness <= 12.7 N·m/rad at 1 Hz, twice ...`."""
     return _soft(design.value, design.choices["impedance_targets"], table)
 
 
@@ -116,7 +116,7 @@ def soft_of_module(resolved: ResolvedModule) -> str:
 
 
 def stiff_in_words(design: Design, table: Table) -> str:
-    """Return `|Z| >= 231 N·m/rad at 1 Hz, half of that at the cold point`: the joint from `stiffening_time` on."""
+    """Return what the joint is from `stiffening_time` on: `dynamic stiffness >= 231 N·m/rad at 1 Hz, half of ...`."""
     band = design.value("stiffening_band")
     of = "stiff_impedance" if design.choices["impedance_targets"] == "stated" else "that at the cold point"
     return f"{_at('>=', 'stiff', 'cold', design.value, table)}, {_PARTS.get(band, f'1/{band:.3g} of')} {of}"
@@ -147,7 +147,7 @@ def _soft(value: Value, targets: str, table: Table) -> str:
 
 def _at(sense: str, which: str, point: str, value: Value, table: Table) -> str:
     threshold = format_quantity(value(f"{which}_threshold"), table.unit(f"{which}_threshold"), digits=3)
-    return f"|Z| {sense} {threshold} at {format_quantity(value(f'frequency@{point}'), 'Hz')}"
+    return f"dynamic stiffness {sense} {threshold} at {format_quantity(value(f'frequency@{point}'), 'Hz')}"
 
 
 NOTHING = 5e-4  # Margin, as a share, below which a limit is active

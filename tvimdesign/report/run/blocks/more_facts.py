@@ -35,6 +35,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
                                          for words, kelvin in temperatures_in_order(answer.design).items())]),
         Fact("Frozen", [f"{value(name)} {words}" for name, words in _FROZEN.items() if name in value.values]),
         Fact("Held", list(_creep(value, answer))),
+        Fact("Bearing", [_NO_BEARING] if answer.design.choices["bearing"] == "none" else []),
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
         Fact("Cost", list(_cost(value, answer.design.choices))),
@@ -45,6 +46,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
     return [fact for fact in facts if fact.parts]
 
 
+_NO_BEARING = "the plain bore bears no load across the axis: your link needs a bearing of its own"
 _FROZEN = {
     "joint_stiffness_in_play": "at the link, its core leaning in the bearing's play",
     "joint_stiffness_at_link@cold": "at the link, its core upright",
@@ -77,7 +79,7 @@ def _cost(value: Values, choices: Mapping[str, str]) -> Iterator[str]:
 def _soft(answer: StudyResult) -> list[str]:
     """Say what soft means, and whether the layer stalls on the way."""
     stalling = stalling_in_words(answer.histories.get("softening"), answer.design.values["softening_time"])
-    notes = ("in a plausible case, of its own |Z| at the hot point", "|Z| has stiffness and damping",
+    notes = ("it counts stiffness and damping", "in a plausible case, of its own at the hot point",
              "molten slices soften the PCL before its coldest melts")  # fmt: skip
     return [soft_in_words(answer.design, table_for(answer.design.mode)), *notes, *filter(None, [stalling])]
 

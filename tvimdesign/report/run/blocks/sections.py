@@ -78,7 +78,7 @@ def _robustness(answer: StudyResult) -> list[str]:
             "margin they show; `tvimdesign tolerate` checks that on many modules."
         ]
     worst = "; ".join(lost_in_words(lost) for lost in reached.lost_to) if reached else ""
-    return [f"Most is lost to {worst}."] if worst else []
+    return [in_labels(f"Most is lost to {worst}.")] if worst else []
 
 
 def reasons_section(answered: AnsweredStudy) -> Section:

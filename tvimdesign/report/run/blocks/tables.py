@@ -100,7 +100,7 @@ def torque_path_grid(answer: StudyResult) -> Grid:
         (name, number(torque), number(torque / against, 3) if against else "", table.output(name).description)
         for name, torque in sorted(borne.items(), key=lambda part: part[1])
     ]
-    safety = f"the structure's strengths over {number(values['holding_safety'])}"
+    safety = f"the structure's strengths over `holding_safety`, {number(values['holding_safety'])}"
     title = f"Way of the frozen torque from link to ground, the weakest first, against {number(against)} N·m, {safety}"
     return grid(title, ("part", "bears [N·m]", "safety", "meaning"), rows, right=(1, 2))
 

@@ -146,7 +146,7 @@ def advice_text(output: str, value: float, origin: str, table: Table) -> str:
     """Return advice or a rating that is not followed, with its value (SI) and its reason, `origin` or a shorter one."""
     hint, shown = _hint(output, value), format_quantity(value, table.unit(output), 3)
     if "text" in hint:
-        return filled(hint["text"], {"size": shown.lstrip("-")})
+        return filled(hint["text"], {"size": shown.lstrip("-"), "share": f"{100.0 * abs(value):.2g} %"})
     return f"{label(output)} is {shown}: {hint.get('say', origin)}"
 
 
