@@ -1,7 +1,7 @@
 """Designs to make parts of, in either mode: the paper's size, a wrist's, and one whose coils end at an odd angle."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -138,7 +138,7 @@ def random_blocks(seed: int) -> Design:
             return design
 
 
-def all_checks(design: Design, drawn: Mapping[str, Any], say: Callable[[str], None] = lambda _: None) -> list[Any]:
+def all_checks(design: Design, drawn: Mapping[str, Any]) -> list[Any]:
     """Run every check of sizes at rest, and of clearances from stop to stop."""
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
@@ -146,5 +146,5 @@ def all_checks(design: Design, drawn: Mapping[str, Any], say: Callable[[str], No
     dims = dimensions(design)
     checks = rest_checks(design, dims, drawn)
     for share in POSITIONS:
-        checks += clearance_checks(dims, drawn, share, say)
+        checks += clearance_checks(dims, drawn, share)
     return checks

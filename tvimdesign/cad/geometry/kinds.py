@@ -76,8 +76,8 @@ def supported_levels(kind: str, dims: Dimensions) -> tuple[tuple[float, float], 
         return tuple((level, level) for level in levels)
     if kind != "rotor":
         return ()
-    top, pins = dims.rotor_top_level, pin_foot_level(dims)
-    return (top, top + dims.foot_fillet), (pins, pins)
+    top, pins = dims.rotor_top_level, [pin_foot_level(dims)] if dims.spring_count else []
+    return (top, top + dims.foot_fillet), *((level, level) for level in pins)
 
 
 def pin_foot_level(dims: Dimensions) -> float:

@@ -185,8 +185,8 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
     ]
     if dims.rotor_bottom_level > dims.hub_top_level:
         core.append(cylinder(dims.collar_radius, dims.hub_top_level, dims.rotor_top_level))
-    radius, places = 0.5 * dims.pin_foot_diameter, pin_places(dims)
-    top = dims.rotor_top_level
+    top, places = dims.rotor_top_level, pin_places(dims)
+    radius = 0.5 * dims.pin_foot_diameter if places else 0.0
     pins = [cylinder(radius, top, pin_foot_level(dims), at) for at in places]
     feet = [(dims.core_radius, (0.0, 0.0)), *((radius, at) for at in places)]
     pins += [foot(radius, dims.foot_fillet, top, at) for radius, at in feet]
@@ -247,9 +247,9 @@ def reamed_places(dims: Dimensions) -> list[tuple[float, float]]:
 
 def _dowel_holes_in_rotor(dims: Dimensions) -> list[cq.Shape]:
     """Draw what is cut from core and bosses for dowel pins."""
-    core, boss = dims.link_bottom_level, pin_foot_level(dims)
+    core = dims.link_bottom_level
     holes = [(dims.link_dowel_diameter, core, dims.link_dowel_depth, at) for at in link_dowels(dims)]
-    holes += [(dims.pin_diameter, boss, dims.leg_pin_depth, at) for at in leg_pins(dims)]
+    holes += [(dims.pin_diameter, pin_foot_level(dims), dims.leg_pin_depth, at) for at in leg_pins(dims)]
     return [
         hole
         for diameter, top, deep, at in holes
