@@ -111,10 +111,7 @@ def core_web(m: Module) -> Scalar:
     return m.link_bottom_level - m.core_bottom_level - m.link_screw_depth - m.retainer_screw_depth - points
 
 
-ONE_PIECE = (Feature("housing_base", "separate"),)
-
-
-@quantities.gap("feet and skirt leave a slot between them that closes: thinner feet", requires=ONE_PIECE)
+@quantities.gap("feet and skirt leave a slot between them that closes: thinner feet")
 def mount_wall_gap(m: Module) -> Scalar:
-    """Room between the mounting feet and the skirt beyond the process's least gap; zero with a base."""
+    """Room between the mounting feet and the skirt beyond the process's least gap; webs of a base lie in it."""
     return m.housing_inner_radius - m.placement_radius - m.mount_boss_radius - m.minimum_running_clearance
