@@ -268,7 +268,7 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     missed = [1.0 - met for met in uncertainty["held"].values()]
     each = sum(missed) / (1.0 - uncertainty["ranges_hold"]["share"])  # of the cases that violate any
-    others = f"others violate {each:.2g} of {len(missed)} on average"
+    others = f"others violate {each:.2g} of {len(missed)} limits on average"
     needs = f"it needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
     least = share_in_doubt((study.get("robust") or {}).get("plausible"))
     count = sum(1.0 - share < least for share in missed)
