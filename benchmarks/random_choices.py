@@ -36,7 +36,7 @@ from tvimdesign.study.design import Design
 STUDIES = Path(__file__).resolve().parents[1] / "studies"
 BASES = ("elbow_printed", "elbow_machined", "finger", "wrist_joint", "wrist_compression")
 CHOSEN = (
-    "stock_spring", "spring_material", "process", "peltier_module", "heater_fuse", "heater_wiring", "spreader_material",
+    "stock_spring", "spring_material", "process", "heater_module", "heater_fuse", "heater_wiring", "spreader_material",
     "liner_material", "link_screw", "link_fit", "tang_hold", "bearing", "axial_preload", "preload_adjuster", "cover",
 )  # fmt: skip
 """What is drawn at random."""

@@ -29,7 +29,7 @@ MOVING = ["wire_diameter", "coil_diameter", "coil_count", "preload_angle", "pcl_
           "rotor_rim"]  # fmt: skip
 OUTPUTS = ["spring_stiffness", "spring_index", "spring_static_safety", "spring_fatigue_safety", "preload_margin",
            "envelope_volume", "module_mass", "parts_inertia"]  # fmt: skip
-OF_SWITCH = ["current", "ambient_temperature", "peltier_seebeck", "peltier_resistance", "pcl_thickness"]
+OF_SWITCH = ["current", "ambient_temperature", "heater_seebeck", "heater_resistance", "pcl_thickness"]
 
 
 def main() -> None:

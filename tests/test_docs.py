@@ -163,14 +163,14 @@ def test_the_commands_in_the_readme_work(tvimdesign, tmp_path, left_out):
 
 def test_the_record_in_the_docs_can_be_used(tmp_path):
     page = (ROOT / "docs/catalogue.md").read_text()
-    record = re.findall(r"^```yaml title=\"my_records/peltiers/my_pad.yaml\"\n(.*?)^```", page, re.M | re.S)[0]
-    (tmp_path / "peltiers").mkdir()
-    (tmp_path / "peltiers/my_pad.yaml").write_text(record)
+    record = re.findall(r"^```yaml title=\"my_records/heaters/my_pad.yaml\"\n(.*?)^```", page, re.M | re.S)[0]
+    (tmp_path / "heaters").mkdir()
+    (tmp_path / "heaters/my_pad.yaml").write_text(record)
     catalog = Catalog(tmp_path)
     assert check_records(catalog) == []
-    text = f"mode: shear\ncatalog: {tmp_path}\nmodule: {{peltier_module: my_pad}}\n"
+    text = f"mode: shear\ncatalog: {tmp_path}\nmodule: {{heater_module: my_pad}}\n"
     study = read_study_text(text, "docs/catalogue.md")
-    assert answer(study).design.choices["peltier_module"] == "my_pad"
+    assert answer(study).design.choices["heater_module"] == "my_pad"
 
 
 def test_the_prints_that_measure_a_printer_are_described():

@@ -210,8 +210,8 @@ def test_a_study_requires_a_yield_of_parts_one_can_buy(path):
     assert study.robust is not None
     assert study.robust.share == pytest.approx(0.95)
     assert set(standard_tolerances(study.table)) <= set(study.tolerances), "`standard: true`, and what differs from it"
-    free = study.vary.get("peltier_module")
-    heaters = free.values if isinstance(free, Options) else [study.module.get("peltier_module", "flexible_1600")]
+    free = study.vary.get("heater_module")
+    heaters = free.values if isinstance(free, Options) else [study.module.get("heater_module", "flexible_1600")]
     assert "flexible_1600" not in heaters, "no maker's table has it"
     assert study.module.get("process", "print_petg") != "print_petg"
     assert study.tolerances["preload_angle"].adjustable == (study.module.get("preload_adjuster") == "rotary")

@@ -53,12 +53,12 @@ def _label_shear(axes: Axes, dims: Dimensions) -> None:
 def _label_compression(axes: Axes, dims: Dimensions) -> None:
     mean, out = 0.5 * (dims.pcl_inner_radius + dims.pcl_outer_radius), dims.pcl_outer_radius
     rotor, block, housing = 0.5 * dims.rotor_vane_angle, dims.block_angle, dims.housing_vane_angle
-    pad = dims.peltier_thickness / mean
+    pad = dims.heater_thickness / mean
     far = rotor + block + housing
     _around(axes, mean, (-rotor, rotor), "vane_thickness", (1.35 * out, -0.15 * out))
     _around(axes, mean, (rotor, rotor + block), "block_depth", (1.35 * out, 0.28 * out))
     _around(axes, mean, (rotor + block + pad, far - pad), "housing_vane_thickness", (1.35 * out, 0.70 * out))
-    _around(axes, mean, (far - pad, far), "peltier_thickness", (1.35 * out, 1.10 * out))
+    _around(axes, mean, (far - pad, far), "heater_thickness", (1.35 * out, 1.10 * out))
     names = ("slot_outer_radius", "slot_inner_radius", "pcl_outer_radius", "pcl_inner_radius", "hub_radius")
     _radii(axes, dims, names, -1.85 * out, 1.60 * out)
 

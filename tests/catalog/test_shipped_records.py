@@ -183,7 +183,7 @@ def test_eva_flows_through_a_melt_indexer_as_its_title_states():
     [("teci_12706", 52.6e-3, 2.05, 0.550), ("qc_17", 6.37e-3, 0.515, 0.028), ("pc_072", 29.9e-3, 0.446, 0.778)],
 )
 def test_peltier_follows_from_its_data_sheet(name, seebeck, resistance, conductance):
-    value = CATALOG.record("peltiers", name).value
+    value = CATALOG.record("heaters", name).value
     hot, drop = value("hot_side_temperature"), value("max_temperature_difference")
     current, voltage = value("max_current"), value("max_voltage")
     derived = {
@@ -199,8 +199,8 @@ def test_peltier_follows_from_its_data_sheet(name, seebeck, resistance, conducta
 def test_names_near_by_are_suggested():
     with pytest.raises(CatalogError, match="did you mean music_wire"):
         CATALOG.record("spring_materials", "musik_wire")
-    with pytest.raises(CatalogError, match="did you mean peltiers"):
-        CATALOG.names("peltier")
+    with pytest.raises(CatalogError, match="did you mean heaters"):
+        CATALOG.names("heater")
     with pytest.raises(CatalogError, match="did you mean youngs_modulus"):
         CATALOG.record("spring_materials", "music_wire").value("young_modulus")
     for field in ("table", "word", "entry"):

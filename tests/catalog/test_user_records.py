@@ -18,14 +18,14 @@ from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 GOOD = sample_text("user_polymer")
 
 
-def put(folder: Path, text: str | bytes, category: str = "peltiers", name: str = "mine") -> Catalog:
+def put(folder: Path, text: str | bytes, category: str = "heaters", name: str = "mine") -> Catalog:
     """Write one user record and return the catalogue that sees it."""
     (folder / category).mkdir(exist_ok=True)
     (folder / category / f"{name}.yaml").write_bytes(text.encode() if isinstance(text, str) else text)
     return Catalog(folder)
 
 
-def refusal(folder: Path, text: str | bytes, category: str = "peltiers") -> str:
+def refusal(folder: Path, text: str | bytes, category: str = "heaters") -> str:
     """Return the error of a record that is no good; it names the file, and `check_records` names it as well."""
     catalog = put(folder, text, category)
     with pytest.raises(CatalogError) as caught:
@@ -37,17 +37,17 @@ def refusal(folder: Path, text: str | bytes, category: str = "peltiers") -> str:
 
 def test_a_user_record_adds_to_the_shelf_or_replaces(tmp_path):
     catalog = put(tmp_path, GOOD)
-    assert catalog.names("peltiers") == sorted([*Catalog().names("peltiers"), "mine"])
-    record = catalog.record("peltiers", "mine")
+    assert catalog.names("heaters") == sorted([*Catalog().names("heaters"), "mine"])
+    record = catalog.record("heaters", "mine")
     assert record.value("conductance") == pytest.approx(0.11)
     assert record.value("thickness") == pytest.approx(1.524e-3)
     assert record.entry("max_temperature").value == pytest.approx(383.15)
     assert record.word("form") == "flexible"
-    assert record.file == str(tmp_path / "peltiers" / "mine.yaml")
+    assert record.file == str(tmp_path / "heaters" / "mine.yaml")
     assert check_records(catalog) == []
     catalog = put(tmp_path, GOOD, name="flexible_1600")
-    assert catalog.record("peltiers", "flexible_1600").title == "A module I measured"
-    assert catalog.record("peltiers", "qc_17").title == "QC-17-1.0-2.5AS"
+    assert catalog.record("heaters", "flexible_1600").title == "A module I measured"
+    assert catalog.record("heaters", "qc_17").title == "QC-17-1.0-2.5AS"
 
 
 @pytest.mark.parametrize(("good", "bad", "message"), refused("records"))
@@ -121,9 +121,9 @@ def test_a_based_record_keeps_what_its_base_has(tmp_path):
     assert result.entry("specific_heat") == petg.entry("specific_heat")
     assert set(result.entries) == set(petg.entries)
     text = "title: mine\nbased_on: qc_17\nvalues: {mass: {value: 9, unit: g, source: scale, status: measured}}"
-    result = put(tmp_path, text, name="qc_17").record("peltiers", "qc_17")
+    result = put(tmp_path, text, name="qc_17").record("heaters", "qc_17")
     assert result.value("mass") == pytest.approx(9e-3)
-    assert result.entry("area") == Catalog().record("peltiers", "qc_17").entry("area")
+    assert result.entry("area") == Catalog().record("heaters", "qc_17").entry("area")
 
 
 @cases_of("user_records", "bases")
@@ -131,7 +131,7 @@ def test_what_a_record_cannot_be_based_on_is_named(tmp_path, bases, message):
     for name, base in bases.items():
         catalog = put(tmp_path, f"title: {name}\nbased_on: {base}\n", name=name)
     with pytest.raises(CatalogError) as caught:
-        catalog.record("peltiers", "a")
+        catalog.record("heaters", "a")
     assert message in str(caught.value)
     assert str(tmp_path) in str(caught.value)
 
@@ -172,8 +172,8 @@ def test_pipes_folders_and_wrong_shelves_are_named(tmp_path):
             Catalog(tmp_path).record("wires", name)
     with pytest.raises(CatalogError, match="not there"):
         Catalog(tmp_path / "nowhere")
-    (tmp_path / "peltier").mkdir()
-    with pytest.raises(CatalogError, match="did you mean peltiers"):
+    (tmp_path / "heater").mkdir()
+    with pytest.raises(CatalogError, match="did you mean heaters"):
         Catalog(tmp_path)
 
 
@@ -207,15 +207,15 @@ def test_a_folder_that_is_a_link_is_reported_with_its_target(tmp_path):
     assert [str(item.message) for item in reported] == [
         f"{tmp_path / 'records'}: the folder of records leads to {tmp_path / 'kept'}"
     ]
-    assert catalog.record("peltiers", "mine").title == "A module I measured"
+    assert catalog.record("heaters", "mine").title == "A module I measured"
     (tmp_path / "own").mkdir()
-    (tmp_path / "own/peltiers").symlink_to(tmp_path / "kept/peltiers")
-    with pytest.warns(FolderWarning, match="own/peltiers: the folder of records leads to"):
+    (tmp_path / "own/heaters").symlink_to(tmp_path / "kept/heaters")
+    with pytest.warns(FolderWarning, match="own/heaters: the folder of records leads to"):
         Catalog(tmp_path / "own")
 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="Windows: no folder has a numbered owner that could be another")
-@pytest.mark.parametrize("folder", [".", "peltiers"])
+@pytest.mark.parametrize("folder", [".", "heaters"])
 def test_another_user_s_folder_is_reported_and_refused_if_all_may_write(folder, tmp_path, monkeypatch):
     put(tmp_path, GOOD)
     (tmp_path / folder).chmod(0o777)
@@ -224,7 +224,7 @@ def test_another_user_s_folder_is_reported_and_refused_if_all_may_write(folder, 
     monkeypatch.setattr("tvimdesign.base.user_cache.os.getuid", lambda: theirs + 1)
     monkeypatch.setattr("tvimdesign.base.user_cache.ROOT", -1)  # who runs this may be root
     refused = pytest.raises(CatalogError, match=r"belongs to another user, .*anybody may write to it; copy it")
-    with pytest.warns(FolderWarning) if folder == "peltiers" else nullcontext(), refused as result:
+    with pytest.warns(FolderWarning) if folder == "heaters" else nullcontext(), refused as result:
         Catalog(tmp_path)
     assert "\n" not in str(result.value)
     (tmp_path / folder).chmod(0o755)

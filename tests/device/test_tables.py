@@ -111,7 +111,7 @@ def test_every_feature_is_a_choice_that_has_the_word_for_none():
     assert not any(rule.exists_above is not None for row in TABLE.outputs if row.requires for rule in row.rules)
 
 
-WITHOUT = {"glass": {"pcl_grade": "pla"}, "rigid": {"peltier_module": "ma10_063_05_1", "floor_thickness": 8e-3}}
+WITHOUT = {"glass": {"pcl_grade": "pla"}, "rigid": {"heater_module": "ma10_063_05_1", "floor_thickness": 8e-3}}
 """Records that bring a word along which cannot be set alone."""
 
 

@@ -55,15 +55,15 @@ class AnotherStack:
         ledge, inner = v("window_ledge"), v("pcl_inner_radius")
         opening = v("arc_count") * (v("arc_span") - 2.0 * ledge / inner)
         self.window = 0.5 * opening * ((v("pcl_outer_radius") - ledge) ** 2 - (inner + ledge) ** 2)
-        share = self.area / v("peltier_area")
+        share = self.area / v("heater_area")
         self.seebeck, self.ohms, self.leak = (
-            share * v(f"peltier_{name}") for name in ("seebeck", "resistance", "conductance")
+            share * v(f"heater_{name}") for name in ("seebeck", "resistance", "conductance")
         )
         # A twelfth of the pads is either side, the legs between them ten.
         self.cold, self.middle, _ = (
             share
-            * v("peltier_unit_mass")
-            * v("peltier_specific_heat")
+            * v("heater_unit_mass")
+            * v("heater_specific_heat")
             * (np.array([1.0, 0.0, 1.0]) + 10.0 * SIMPSON)
             / 12.0
         )
@@ -110,7 +110,7 @@ class AnotherStack:
         self.to_beside = 1.0 / (ways + np.array([along / (k * height), 0.0, 0.0, 0.0]))
         self.uneven = k * height * self.edge / (way + height / np.pi)
         self.strips = np.append(near, 0.0)
-        pad, web = v("peltier_thickness"), v("floor_thickness") - v("peltier_thickness")
+        pad, web = v("heater_thickness"), v("floor_thickness") - v("heater_thickness")
         ledges = self.area - self.window
         volumes = np.concatenate([near * pad, near * web, [ledges * web, 0.5 * near[0] * pad]])
         volumes[UPPER[0]] *= 0.5
@@ -132,7 +132,7 @@ class AnotherStack:
     def _floor(self, wide: float, way: float, rotor: float) -> None:
         """Conductances among the floor's bodies, and from the pads into them [W/K]."""
         v, edge = self.value, self.edge
-        k, pad, web = v("structure_conductivity"), v("peltier_thickness"), v("floor_thickness") - v("peltier_thickness")
+        k, pad, web = v("structure_conductivity"), v("heater_thickness"), v("floor_thickness") - v("heater_thickness")
         among = self.among = np.zeros((9, 9))
 
         def join(a: int, b: int, conductance: float) -> None:
@@ -193,7 +193,7 @@ class AnotherStack:
         What is drawn there evenly and comes evenly is cosines over the half width, which legs and side pass along.
         """
         v = self.value
-        wide, pad, k = self.area / self.edge, v("peltier_thickness"), v("pad_conductivity")
+        wide, pad, k = self.area / self.edge, v("heater_thickness"), v("pad_conductivity")
         up, film = self.leak / self.area * pad, pad / 12.0
         waves = np.pi * np.arange(1, 9) / wide
         drawn = 2.0 * np.sin(waves * touched) / (waves * wide * touched)

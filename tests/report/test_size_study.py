@@ -114,7 +114,7 @@ def test_a_range_of_stiffness_and_the_supply_are_taken_as_written():
     limits = {(limit.output, limit.sense): limit.limit for limit in study.require}
     assert [limits["joint_stiffness@hot", sense] for sense in (">=", "<=")] == [1.0, 1.5]
     assert (limits["peak_voltage", "<="], limits["peak_current", "<="]) == (12.0, 2.0)
-    assert study.module["peltier_module"] == "polyimide_foil_12v"
+    assert study.module["heater_module"] == "polyimide_foil_12v"
 
 
 def test_a_supply_without_a_current_leaves_the_heater_s_rating():
@@ -181,7 +181,7 @@ def test_the_process_is_the_one_asked_for(hardware):
 def test_milled_parts_have_a_liner_a_cutter_and_a_heater_below_spreaders(hardware):
     task = JointTask.read(**WRIST, process="machine_6061")
     study = read_study_text(study_text(replace(task, diameter=diameters()[hardware]), hardware), "joint.yaml")
-    module = {"process": "machine_6061", "liner_material": "pei_1010", "peltier_module": "ma10_063_05_1"}
+    module = {"process": "machine_6061", "liner_material": "pei_1010", "heater_module": "ma10_063_05_1"}
     assert module.items() <= study.module.items()
     assert study.module["floor_thickness"] == pytest.approx(6.5e-3)
     assert {"liner_thickness", "spreader_thickness"} < set(study.vary)

@@ -69,7 +69,7 @@ def test_a_layer_that_freezes_where_it_melts_changes_times_alone():
 
 
 SINK = "cold_side: sink, cooling_current: 0.8 A"
-FOIL = "peltier_module: silicone_9ar_08_24v, current: 0.53 A, target_temperature: 80 degC"
+FOIL = "heater_module: silicone_9ar_08_24v, current: 0.53 A, target_temperature: 80 degC"
 
 
 @cache
@@ -96,7 +96,7 @@ def test_the_pads_unpowered_are_a_module_with_no_cooling_current():
 
 @pytest.mark.gate
 def test_a_foil_heater_heats_with_either_sign_of_its_current():
-    alone, heated = module(FOIL), module(f"{FOIL}, peltier_seebeck: 1e-9 V/K, cooling_current: 0.1 A")
+    alone, heated = module(FOIL), module(f"{FOIL}, heater_seebeck: 1e-9 V/K, cooling_current: 0.1 A")
     assert alone.design.values["cooling_current"] == 0.0
     assert (alone.cooling.able, alone.cooling.used, alone.cooling.unpowered) == (False, False, {})
     assert "by the air alone: this heater cannot cool" in stiff(alone)

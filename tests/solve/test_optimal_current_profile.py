@@ -35,8 +35,8 @@ def terminals(solution: Solution, phase: str) -> tuple[np.ndarray, np.ndarray, n
         np.asarray(temperatures(line.states[:, i], line.currents[i], solution.inputs)).ravel()[:2]
         for i in range(len(line.times))
     ])  # fmt: skip
-    share = solution.values["peltier_scale"]
-    seebeck, ohms = (share * solution.inputs[model.index[f"peltier_{name}"]] for name in ("seebeck", "resistance"))
+    share = solution.values["heater_scale"]
+    seebeck, ohms = (share * solution.inputs[model.index[f"heater_{name}"]] for name in ("seebeck", "resistance"))
     return np.abs(seebeck * (seen[:, 1] - seen[:, 0]) + ohms * line.currents), seen[:, 1], seen[:, 0]
 
 

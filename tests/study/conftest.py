@@ -33,7 +33,7 @@ def table() -> Table:
     return Table(
         (
             _choice("spring_material", default="music_wire", category="spring_materials"),
-            _choice("peltier", default="flexible_1600", category="peltiers"),
+            _choice("peltier", default="flexible_1600", category="heaters"),
             _choice("rate_model", default="bending", options=("bending", "smi")),
             _input("wire_diameter", "mm", 0.5e-3, 5e-3, default=2.413e-3),
             _input("coil_diameter", "mm", 5e-3, 60e-3, default=24e-3),
@@ -95,7 +95,7 @@ class SmallCatalog:
                 SmallRecord("stainless_302", {"youngs_modulus": 193e9}),
                 SmallRecord("mystery_steel"),
             ],
-            "peltiers": [SmallRecord("flexible_1600"), SmallRecord("qc_17")],
+            "heaters": [SmallRecord("flexible_1600"), SmallRecord("qc_17")],
             "wires": [SmallRecord("metric", sizes=wire), SmallRecord("quarter_coils", sizes=[{"coil_count": 3.25}])],
         }
 

@@ -100,7 +100,7 @@ def cooling(
     """Simulate the way back of a module once more, without current. Raises SimulationError."""
     current = model.index[STIFFENING.current_input]
     used = bool(inputs[current] > 0.0) or STIFFENING.name in current_profiles
-    able = bool(inputs[model.index["peltier_seebeck"]] > 0.0)
+    able = bool(inputs[model.index["heater_seebeck"]] > 0.0)
     if not (able and used and math.isfinite(values["response_time"])):
         return Cooling(able, used, {})
     left = inputs.copy()

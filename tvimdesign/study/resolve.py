@@ -225,14 +225,14 @@ def _refuse_incompatible(study: Study, values: Mapping[str, Any]) -> None:
     `values` are those of the study's start. A heater that the study chooses from several may be another one, and a
     current that may be zero will be.
     """
-    if values.get("peltier_seebeck") != 0.0 or {"peltier_module", "peltier_seebeck"} & study.vary.keys():
+    if values.get("heater_seebeck") != 0.0 or {"heater_module", "heater_seebeck"} & study.vary.keys():
         return
     least = _least(study, "cooling_current")
     if least > 0.0:
-        heater = values["peltier_module"]
+        heater = values["heater_module"]
         current = format_quantity(least, study.table.unit("cooling_current"))
         raise InputError(
-            f"cooling_current of {current} and peltier_module {heater.name} cannot stand together: {heater.title} "
+            f"cooling_current of {current} and heater_module {heater.name} cannot stand together: {heater.title} "
             "has no Peltier effect, so any current heats; leave cooling_current out, and the air cools, or choose a "
             "Peltier module"
         )
@@ -253,10 +253,10 @@ def record_checks(study: Study) -> list[str]:
     or names no limit."""
     values = given(study)
     records = [record for record in values.values() if isinstance(record, Record)]
-    messages = [contradiction(record) for record in records if record.category == "peltiers"]
-    if values["peltier_seebeck"] == 0.0 and values["cooling_current"] > 0.0:
+    messages = [contradiction(record) for record in records if record.category == "heaters"]
+    if values["heater_seebeck"] == 0.0 and values["cooling_current"] > 0.0:
         heats = format_quantity(values["cooling_current"], study.table.unit("cooling_current"))
-        title = values["peltier_module"].title
+        title = values["heater_module"].title
         messages.append(f"cooling_current of {heats} heats: {title} cannot cool; leave it out, and the air cools")
     messages += [warning for record in records for warning in inherited_law_warnings(record)]
     return [message for message in messages if message] + _pressed(study, values) + _unpriced(study, values)
@@ -307,7 +307,7 @@ def _pressed(study: Study, values: Mapping[str, Any]) -> list[str]:
     """Return a warning if blocks press on rigid modules whose record has no pressure limit."""
     limit = "heater_pressure_limit"
     pressed = limit in values and values["heater_form"] != CUT
-    module = values["peltier_module"]
+    module = values["heater_module"]
     if not pressed or limit in study.module or "max_pressure" in module.entries:
         return []
     bears = format_quantity(values[limit], study.table.unit(limit))

@@ -265,7 +265,7 @@ def _vary(task: JointTask, widen: float, entry: dict[str, str]) -> str:
     share, start_beyond, most_beyond = _PRELOAD
     most_beyond = parse_quantity(entry["preload"], "rad") if "preload" in entry else most_beyond
     # A current [A] that the heater bears in three of four plausible cases.
-    rating = Catalog().record("peltiers", _heater(task)).entry("max_current")
+    rating = Catalog().record("heaters", _heater(task)).entry("max_current")
     low, high = rating.low or rating.value, rating.high or rating.value
     strongest = min(task.current, low + 0.25 * (high - low))
     weakest = max(0.02 * strongest, rows["current"].lower)

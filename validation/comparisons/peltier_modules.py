@@ -16,7 +16,7 @@ Values = Mapping[str, Any]
 
 
 def _record(name: str) -> Record:
-    return Catalog().record("peltiers", name)
+    return Catalog().record("heaters", name)
 
 
 def _module(record: Record) -> peltier.PeltierModule:

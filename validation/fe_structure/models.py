@@ -18,12 +18,12 @@ NOT_KEPT = ("coil_stress", "tang_stress", "link", "link_in_play", "natural_frequ
 LENGTHS = (
     "core_radius", "link_bottom_level", "rotor_top_level", "rotor_thickness", "rotor_rim", "pcl_inner_radius",
     "pcl_outer_radius", "placement_radius", "floor_thickness", "mount_boss_radius", "mount_hole", "foot_height",
-    "arc_count", "arc_span", "floor_web", "pcl_thickness", "peltier_thickness", "window_ledge", "vane_count",
+    "arc_count", "arc_span", "floor_web", "pcl_thickness", "heater_thickness", "window_ledge", "vane_count",
     "vane_height", "vane_thickness", "block_height", "block_width", "slot_web", "housing_vane_thickness",
     "spreader_depth", "spreader_gap",
     "block_depth", "slot_count", "liner_thickness", "liner_depth",
     "adjuster_radius", "adjuster_thickness", "slip_clearance", "foot_fillet",
-    "tile_radius", "heater_count", "peltier_length", "peltier_width",
+    "tile_radius", "heater_count", "heater_length", "heater_width",
     "link_screw_hole", "link_screw_depth", "link_bolt_circle_radius",
     "link_dowel_count", "link_dowel_diameter", "link_dowel_depth", "link_dowel_circle_radius",
 )  # fmt: skip
@@ -95,13 +95,13 @@ def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], 
         "mode": inputs["mode"],
         "youngs_modulus": values["structure_youngs_modulus"] * 1e-9,
         "poissons_ratio": values["structure_poissons_ratio"],
-        "pad_shear_modulus": values["peltier_shear_modulus"] * 1e-9,
+        "pad_shear_modulus": values["heater_shear_modulus"] * 1e-9,
         "feet": round(mm["spring_count"]),
         "mm": {name: float(f"{mm[name]:.5g}") for name in LENGTHS if mm.get(name)},
         "found": results,
     }
-    if values.get("peltier_bulk_modulus"):
-        case["pad_bulk_modulus"] = values["peltier_bulk_modulus"] * 1e-9
+    if values.get("heater_bulk_modulus"):
+        case["pad_bulk_modulus"] = values["heater_bulk_modulus"] * 1e-9
     if mm.get("spreader_depth") and inputs["mode"] == "shear":
         case["spreader_shear_modulus"] = values["spreader_shear_modulus"] * 1e-9
         poisson = values["heater_adhesive_poissons_ratio"]

@@ -16,7 +16,7 @@ from plane import PAD_FILM, STEFAN_BOLTZMANN, Body, Border, Material, Plane, Pol
 from tvimdesign.device import Table
 
 WANTED = ("pcl_area", "block_width", "pcl_mean_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
-          "peltier_mass", "rotor_radius", "housing_inner_radius", "housing_mass", "slot_width", "slot_height",
+          "heater_mass", "rotor_radius", "housing_inner_radius", "housing_mass", "slot_width", "slot_height",
           "sink", "spreader_depth", "heated_area", "heater_strings")  # fmt: skip
 
 PAD_CONDUCTIVITY = 6.0
@@ -26,7 +26,7 @@ PAD_CONDUCTIVITY = 6.0
 def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
     """Draw the ring of a module from its inputs in SI; `fine` divides each cell along either side."""
     v = {**values, **table.evaluate(values, WANTED)}
-    gap, height, pad = v["running_clearance"], v["block_height"], v["peltier_thickness"]
+    gap, height, pad = v["running_clearance"], v["block_height"], v["heater_thickness"]
     vane, block = 0.5 * v["vane_thickness"], 0.5 * v["vane_thickness"] + v["block_depth"]
     hot, tile = block + v["spreader_depth"], gap + height * (v["heated_area"] / v["pcl_area"])
     film, end = PAD_FILM * pad, np.pi * v["pcl_mean_radius"] / v["vane_count"]
@@ -77,9 +77,9 @@ def _materials(v: Mapping[str, Any]) -> dict[str, Material]:
     solid = Material(v["structure_conductivity"], v["structure_conductivity"], capacity)
     whole = 1.0 - v["cold_area"] / v["heated_area"]
     wall = Material(whole * solid.along, whole * solid.up, whole * capacity)
-    pad_heat = v["peltier_mass"] * v["peltier_specific_heat"] / (v["heated_area"] * v["peltier_thickness"])
+    pad_heat = v["heater_mass"] * v["heater_specific_heat"] / (v["heated_area"] * v["heater_thickness"])
     pad = Material(100.0, PAD_CONDUCTIVITY, pad_heat)
-    through = v["peltier_conductance"] / v["peltier_area"] * (1.0 - 2.0 * PAD_FILM) * v["peltier_thickness"]
+    through = v["heater_conductance"] / v["heater_area"] * (1.0 - 2.0 * PAD_FILM) * v["heater_thickness"]
     legs = Material(through, PAD_CONDUCTIVITY, pad_heat)
     exchange = v["surface_emissivity"] / (2.0 - v["surface_emissivity"])
     air = Material(v["air_conductivity"], v["air_conductivity"], 0.0, v["running_clearance"] * exchange)
@@ -91,7 +91,7 @@ def _materials(v: Mapping[str, Any]) -> dict[str, Material]:
         materials["upper wall"] = solid
         # The gap behind a spreader lies along the ring; it radiates there as between the melt and what is cold.
         warm, cool = v["pcl_melting"].end, v["ambient_temperature"]
-        shine = v["peltier_thickness"] * exchange * STEFAN_BOLTZMANN * (warm**2 + cool**2) * (warm + cool)
+        shine = v["heater_thickness"] * exchange * STEFAN_BOLTZMANN * (warm**2 + cool**2) * (warm + cool)
         materials["beside tiles"] = Material(air.along + shine, air.up, 0.0)
     return materials
 
@@ -105,8 +105,8 @@ def _polymer(v: Mapping[str, Any]) -> Polymer:
 
 
 def _pump(v: Mapping[str, Any]) -> Pump:
-    whole = v["peltier_area"]
-    return Pump(v["peltier_seebeck"] / whole, v["peltier_resistance"] / whole, v["peltier_conductance"] / whole,
+    whole = v["heater_area"]
+    return Pump(v["heater_seebeck"] / whole, v["heater_resistance"] / whole, v["heater_conductance"] / whole,
                 v["current"] / v["heater_strings"])  # fmt: skip
 
 

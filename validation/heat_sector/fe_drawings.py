@@ -188,7 +188,7 @@ def ring(c: Mapping[str, float], fine: float) -> Drawing:
 
     x = 0 is the middle of the rotor's vane, y = 0 the floor's face.
     """
-    gap, height, pad = c["running_clearance"], c["block_height"], c["peltier_thickness"]
+    gap, height, pad = c["running_clearance"], c["block_height"], c["heater_thickness"]
     film, vane, spread = FILM * pad, 0.5 * c["vane_thickness"], c["spreader_depth"]
     block, more = vane + SHEET + c["block_depth"], spread + SHEET if spread else 0.0
     hot, end = block + SHEET + more, pi * c["pcl_mean_radius"] / c["vane_count"] + 2.0 * SHEET + more - spread
@@ -219,18 +219,18 @@ def ring(c: Mapping[str, float], fine: float) -> Drawing:
     y = graded([(-c["floor_thickness"], 0.3 * c["floor_thickness"]), (0.0, crowd), (low, crowd),
                 *(rows or [(0.5 * (low + high), 0.08 * height)]), (high, crowd), (plate, crowd),
                 (plate + c["rotor_thickness"], 0.3 * c["rotor_thickness"])], fine)  # fmt: skip
-    area = c["peltier_area"]
+    area = c["heater_area"]
     current = c["current"] / c["heater_strings"]
-    return Drawing(x, y, what, _ring_s_materials(c), current**2 * c["peltier_resistance"] / area,
-                   c["peltier_seebeck"] / area * current, film, pad - 2.0 * film, c["ambient"],
+    return Drawing(x, y, what, _ring_s_materials(c), current**2 * c["heater_resistance"] / area,
+                   c["heater_seebeck"] / area * current, film, pad - 2.0 * film, c["ambient"],
                    *_ring_s_exchanges(c))  # fmt: skip
 
 
 def _ring_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
     k, heat = c["structure_conductivity"], c["structure_density"] * c["structure_specific_heat"]
     whole = 1.0 - c["cold_area"] / c["heated_area"]
-    pad = c["peltier_mass"] * c["peltier_specific_heat"] / (c["heated_area"] * c["peltier_thickness"])
-    legs = c["peltier_conductance"] / c["peltier_area"] * (1.0 - 2.0 * FILM) * c["peltier_thickness"]
+    pad = c["heater_mass"] * c["heater_specific_heat"] / (c["heated_area"] * c["heater_thickness"])
+    legs = c["heater_conductance"] / c["heater_area"] * (1.0 - 2.0 * FILM) * c["heater_thickness"]
     air, shine = (
         c["air_conductivity"],
         c["running_clearance"] * c["surface_emissivity"] / (2.0 - c["surface_emissivity"]),
@@ -238,7 +238,7 @@ def _ring_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
     solid, side = Material(k, k, heat), Material(100.0, c["pad_conductivity"], pad)
     warm, cool = c["melting_end"] + KELVIN, c["ambient"] + KELVIN
     # The gap behind a spreader lies along the ring; it radiates there as between the melt and what is cold.
-    behind = c["peltier_thickness"] * shine / c["running_clearance"] * SIGMA * (warm**2 + cool**2) * (warm + cool)
+    behind = c["heater_thickness"] * shine / c["running_clearance"] * SIGMA * (warm**2 + cool**2) * (warm + cool)
     metal = c["spreader_conductivity"]
     return {
         "floor": solid, "plate": solid, "vane": solid, "wall": Material(whole * k, whole * k, whole * heat),
@@ -260,7 +260,7 @@ def _ring_s_exchanges(c: Mapping[str, float]) -> tuple[list[Exchange], list[Body
     inner, outer, rotor, core = c["pcl_inner_radius"], c["pcl_outer_radius"], c["rotor_radius"], c["core_radius"]
     middle = pi * inner**2
     rim = max(pi * rotor**2 - wide * length - middle, 1e-6)
-    vane = length - 0.5 * c["vane_thickness"] - c["block_depth"] - c["peltier_thickness"]
+    vane = length - 0.5 * c["vane_thickness"] - c["block_depth"] - c["heater_thickness"]
     vane -= c["spreader_depth"]
     whole = 1.0 - c["cold_area"] / c["heated_area"]
     low, height = c["running_clearance"], c["block_height"]

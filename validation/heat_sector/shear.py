@@ -108,7 +108,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
     """Return the strip of a shear module from its inputs in SI."""
     v = values
     wanted = ("pcl_area", "edge_length", "rotor_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
-              "housing_ring", "peltier_mass", "pcl_depth", "sink", "heated_area", "heater_strings",
+              "housing_ring", "heater_mass", "pcl_depth", "sink", "heated_area", "heater_strings",
               "spreader_depth", "melt_lip_height", "liner_depth")  # fmt: skip
     outputs = table.evaluate(v, wanted)
     area, edge, melting = outputs["pcl_area"], outputs["edge_length"], outputs["pcl_melting"]
@@ -140,7 +140,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         }  # fmt: skip
     return Case(
         half_width=area / edge, beside=(np.pi * outputs["rotor_radius"] ** 2 - area) / edge,
-        layer_depth=outputs["pcl_depth"], plate_depth=v["rotor_thickness"], pad_depth=v["peltier_thickness"],
+        layer_depth=outputs["pcl_depth"], plate_depth=v["rotor_thickness"], pad_depth=v["heater_thickness"],
         floor_depth=v["floor_thickness"], gap=v["pcl_thickness"], conductivity_solid=v["pcl_conductivity_solid"],
         conductivity_melt=v["pcl_conductivity_melt"], density=v["pcl_density"],
         specific_heat_solid=melting.specific_heat_solid, specific_heat_melt=melting.specific_heat_melt,
@@ -148,11 +148,11 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         structure_conductivity=v["structure_conductivity"],
         structure_heat_capacity=v["structure_density"] * v["structure_specific_heat"],
         pad_conductivity=v["pad_conductivity"], pad_edge_contact=v["pad_edge_contact"],
-        pad_heat_capacity=outputs["peltier_mass"] * v["peltier_specific_heat"] / outputs["heated_area"],
+        pad_heat_capacity=outputs["heater_mass"] * v["heater_specific_heat"] / outputs["heated_area"],
         hot_contact=v["hot_contact"], rotor_contact=v["rotor_contact"],
-        seebeck=v["peltier_seebeck"] / v["peltier_area"],
-        resistance=v["peltier_resistance"] / v["peltier_area"],
-        conductance=v["peltier_conductance"] / v["peltier_area"], tile_share=outputs["heated_area"] / area,
+        seebeck=v["heater_seebeck"] / v["heater_area"],
+        resistance=v["heater_resistance"] / v["heater_area"],
+        conductance=v["heater_conductance"] / v["heater_area"], tile_share=outputs["heated_area"] / area,
         window_share=outputs["cold_area"] / area, current=v["current"] / outputs["heater_strings"],
         ambient=v["ambient_temperature"] - 273.15, cold_coefficient=v["cold_side_coefficient"],
         rotor_coefficient=v["rotor_coefficient"], floor_coefficient=v["housing_coefficient"],

@@ -30,7 +30,7 @@ def mean_rise(v: Mapping[str, Any], tile_pitch: float, tile_radius: float) -> fl
     for tile in range(round(v["tiles_per_arc"])):
         turned = pp - tile_pitch * (tile - 0.5 * (v["tiles_per_arc"] - 1.0))
         deep, long = np.abs(rr * np.cos(turned) - tile_radius), np.abs(rr * np.sin(turned))
-        fed |= (deep < 0.5 * v["peltier_width"]) & (long < 0.5 * v["peltier_length"])
+        fed |= (deep < 0.5 * v["heater_width"]) & (long < 0.5 * v["heater_length"])
     number, area = np.arange(rr.size).reshape(rr.shape), (rr * dr * dp).ravel()
     outwards = np.broadcast_to((0.5 * (r[:-1] + r[1:]) * dp / dr)[:, None], (ACROSS - 1, around))
     sideways = np.broadcast_to((dr / (r * dp))[:, None], (ACROSS, around - 1))

@@ -112,7 +112,7 @@ def test_springs_seats_and_screws_are_ordered_by_number_and_fit():
     titles = _titles(design)
     assert titles["link_screw"] == "Button head screw ISO 7380-1 - M3 x 16 - A2-70"
     assert titles["link_dowel"] == "Dowel pin ISO 8734 - 2.5 m6 x 10 - A, hardened steel"
-    assert titles["peltier_module"] == Catalog().record("peltiers", str(design.choices["peltier_module"])).title
+    assert titles["heater_module"] == Catalog().record("heaters", str(design.choices["heater_module"])).title
     own = Record("screws", "own", "Screw from the drawer")
     assert _ordered_by(own, design_of("paper", {}), "link_screw") == "Screw from the drawer"
     for category in ("screws", "dowel_pins"):

@@ -58,7 +58,7 @@ def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes, mode):
 
 
 def test_cut_outs_and_beads_say_only_what_they_can():
-    bears = {"peltier_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}
+    bears = {"heater_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}
     cutout = listed(switched(bears, hottest=83.0))["thermal_cutout"]
     assert "5MA3SPF152019340: opens from 147 to 157 °C" in cutout  # of what opens below the heater's 160 the highest
     assert "opens above" not in cutout
@@ -88,7 +88,7 @@ def test_cut_outs_and_beads_say_only_what_they_can():
 
 @cases_of("heater_leads", "margins_of_a_cut_out")
 def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(parts, hottest, margin, holding):
-    changes = {"peltier_module": "silicone_9ar_08_24v", **parts}
+    changes = {"heater_module": "silicone_9ar_08_24v", **parts}
     module = ", ".join(f"{name}: {word}" for name, word in changes.items())
     study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n")
     peaks = {"peak_heater_temperature": hottest + ZERO_CELSIUS, "peak_cold_side_temperature": 330.0}
@@ -101,11 +101,11 @@ def test_the_list_of_parts_says_of_a_cut_out_what_its_margins_say(parts, hottest
 
 
 def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin():
-    design = switched({"peltier_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}, 83.0)
+    design = switched({"heater_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}, 83.0)
     for current, rated in ((15.9, True), (16.1, False)):
         design.values["peak_current"] = current
         peaks = {name: design.values[name] for name in ("peak_current", "stiffening_peak_current")}
-        study = read_study_text("mode: shear\nmodule: {peltier_module: silicone_9ar_08_24v}\n")
+        study = read_study_text("mode: shear\nmodule: {heater_module: silicone_9ar_08_24v}\n")
         margins = table_for("shear").evaluate(given(study) | peaks, ["cutout_current_margin"])
         assert margins["cutout_current_margin"] == pytest.approx(16.0 - current)
         assert ("None fits" in heater_leads.fuse_in_words(FUSE, design)) != rated
@@ -113,7 +113,7 @@ def test_a_cut_out_above_its_rated_current_fails_by_list_and_margin():
 
 def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out():
     # By hand: 10 kohm exp(3988 K (1/373.15 K - 1/298.15 K)) is 680 ohm, and 3.3 V x 680 / 10680 is 0.21 V.
-    foil = {"peltier_module": "polyimide_foil_24v", "process": "print_pc_bambu", "heater_fuse": "microtemp_g4a"}
+    foil = {"heater_module": "polyimide_foil_24v", "process": "print_pc_bambu", "heater_fuse": "microtemp_g4a"}
     design = switched({"process": "print_pei_1010"}, hottest=101.0)
     assert "was not switched" in heater_leads.set_points_in_words(design)
     design.values["sensed_temperature"] = 100.0 + ZERO_CELSIUS
@@ -143,17 +143,17 @@ def test_an_emergency_stop_is_between_a_soft_joint_and_the_cut_out():
 @cases_of("heater_leads", "thermistors")
 def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(bead, heater, number):
     sizes = {"thermistor_diameter": 1e-3 * bead[0], "thermistor_length": 1e-3 * bead[1]}
-    text = heater_leads.thermistor_in_words(switched({"peltier_module": heater, **sizes}))
+    text = heater_leads.thermistor_in_words(switched({"heater_module": heater, **sizes}))
     named = [thermistor.number for thermistor in heater_leads.thermistors() if thermistor.number in text]
     assert named == ([number] if number else [])
     assert "needs its own table in the controller" in text
 
 
 def test_foils_films_and_spreaders_are_ordered_by_their_measures():
-    design = switched({"peltier_module": "silicone_9ar_08_24v"})
+    design = switched({"heater_module": "silicone_9ar_08_24v"})
     (item,) = bill(design, _titles(design), {"heater_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
-    each = 45.0 * design.values["peltier_volume"] / (1.6e-3 * 1600e-6) / 4.0  # 45 ohm of 1600 mm2, four pads
-    amperes, area = 2.1, 1e4 * design.values["peltier_volume"] / 1.6e-3 / 4.0  # in series; cm2
+    each = 45.0 * design.values["heater_volume"] / (1.6e-3 * 1600e-6) / 4.0  # 45 ohm of 1600 mm2, four pads
+    amperes, area = 2.1, 1e4 * design.values["heater_volume"] / 1.6e-3 / 4.0  # in series; cm2
     works = f"{each * amperes:.3g} V and 2.1 A, {each * amperes**2 / area:.2g} W/cm²"
     power = f"rated for at least {each * amperes**2:.3g} W each, at {works}"
     # 2.1 A want AWG 22; the leads leave within the window, behind ledges of 2 mm.
@@ -165,7 +165,7 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures():
     ):
         assert words in item.title
     assert heater_leads.heater_order(switched({})) == []  # a Peltier module is bought by its number
-    assert len(heater_leads.heater_order(design_of("never switched", {"peltier_module": "polyimide_foil_24v"}))) == 3
+    assert len(heater_leads.heater_order(design_of("never switched", {"heater_module": "polyimide_foil_24v"}))) == 3
     assert "polyimide_film" in listed(switched({}))
     assert "polyimide_film" not in listed(switched({"heater_fuse": "none"}))
     design = switched({})
@@ -174,7 +174,7 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures():
     design = switched(TILES)
     (item,) = bill(design, _titles(design), {"spreader_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
     assert item.title.endswith(f", {1e3 * design.values['spreader_thickness']:.3g} mm thick")
-    area = 1e6 * design.values["heater_count"] * design.values["peltier_area"]
+    area = 1e6 * design.values["heater_count"] * design.values["heater_area"]
     assert f"over {area:.4g} mm² in all" in listed(design)["heat_conducting_adhesive"]
     design = design_of("lined", {"liner_material": "peek", "adhesive_density": 1040.0})
     (item,) = (bought for bought in beside(design, {}) if bought.kind == "liner_adhesive")
@@ -186,18 +186,18 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures():
 
 
 def test_a_small_foil_on_a_strong_supply_is_ordered_by_its_working_voltage():
-    design = switched({"peltier_module": "polyimide_foil_24v"})
+    design = switched({"heater_module": "polyimide_foil_24v"})
     large = "; ".join(heater_leads.heater_order(design))
     assert "which the driver" not in large
     assert "flat tail" not in large
     middle = 500.0 * (design.values["pcl_inner_radius"] + design.values["pcl_outer_radius"])
     assert f"off one face, 2 mm or more inside the outline, side by side across R{middle:.3g} at one end" in large
     design.study["require"] = [{"output": "peak_voltage", "limit": 24.0}]
-    for name in ("peltier_volume", "peltier_area"):
+    for name in ("heater_volume", "heater_area"):
         design.values[name] *= 0.2
     small = "; ".join(heater_leads.heater_order(design))
     assert " V and 2.1 A, which the driver makes from 24 V, " in small
-    each = 1e4 * design.values["peltier_volume"] / design.values["peltier_thickness"] / 4.0  # cm2
+    each = 1e4 * design.values["heater_volume"] / design.values["heater_thickness"] / 4.0  # cm2
     assert f"only {each:.2g} cm² each: ask whether such leads have room, or for a flat tail" in small
 
 

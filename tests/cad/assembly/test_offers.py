@@ -59,7 +59,7 @@ def test_what_must_bear_a_temperature_is_ordered_where_it_does():
     assert ordered[105].number == "8329TCM-6ML (MG Chemicals)"
     assert ordered[160] is None
     # In the holes of a floor of PETG, which bears 60 °C, below a foil that bears more.
-    design = design_of("foil", {"peltier_module": "polyimide_foil_24v", "thermistor_diameter": 2e-3})
+    design = design_of("foil", {"heater_module": "polyimide_foil_24v", "thermistor_diameter": 2e-3})
     (title,) = (item.title for item in beside(design, {}) if item.kind == "heat_conducting_adhesive")
     assert title.startswith("Heat-conducting adhesive for 60 °C")
 
@@ -173,7 +173,7 @@ def test_the_inputs_of_the_driver_are_those_of_its_sheet_or_of_any(volts, supply
 
 def test_only_peltiers_come_with_a_note_on_cooling():
     assert "cools" in " ".join(words(drawn(TILES)))
-    assert "cools" not in " ".join(words(drawn({"peltier_module": "polyimide_foil_24v"})))
+    assert "cools" not in " ".join(words(drawn({"heater_module": "polyimide_foil_24v"})))
 
 
 @pytest.mark.parametrize("wiring", ["series", "arcs_parallel", "all_parallel"])

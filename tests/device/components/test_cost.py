@@ -12,7 +12,7 @@ from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
 
-RIGID = {"peltier_module": "cp30138", "process": "print_peek", "bearing": "ball_6803"}
+RIGID = {"heater_module": "cp30138", "process": "print_peek", "bearing": "ball_6803"}
 
 
 def test_the_cost_is_that_of_all_pieces_and_of_the_material_by_its_mass():

@@ -105,7 +105,7 @@ def test_structure_and_strain_of_blocks_are_by_hand(joint):
 def test_a_slender_block_has_three_times_the_shear_modulus(squeezed):
     ideal = {
         **squeezed, "pcl_poissons_ratio": 0.5 - 1e-9, "block_height": 1e-6, "structure_youngs_modulus": 1e20,
-        "peltier_shear_modulus": 1e20, "preload_angle": 0.15,
+        "heater_shear_modulus": 1e20, "preload_angle": 0.15,
     }  # fmt: skip
     values = TABLE.evaluate(
         ideal, ["joint_stiffness@hot", "spring_stiffness", "storage_modulus@hot", "joint_damping@hot"]
@@ -171,8 +171,8 @@ def test_blocks_have_room_to_shrink_and_creep_at_their_sides():
 # Nothing but block and pads takes heat, and nothing loses it.
 ALONE: dict[str, Any] = {
     "structure_specific_heat": 1.0, "structure_conductivity": 1e-3, "rotor_coefficient": 1e-3,
-    "surface_emissivity": 0.0, "peltier_specific_heat": 1e-4, "hot_contact": 1e6, "rotor_contact": 1e5,
-    "peltier_conductance": 1e-4, "peltier_seebeck": 0.0, "cold_side_coefficient": 1e3, "horizon": 1e5,
+    "surface_emissivity": 0.0, "heater_specific_heat": 1e-4, "hot_contact": 1e6, "rotor_contact": 1e5,
+    "heater_conductance": 1e-4, "heater_seebeck": 0.0, "cold_side_coefficient": 1e3, "horizon": 1e5,
     "response_criterion": "far_face", "air_conductivity": 1e-6, "housing_coefficient": 1e-4,
 }  # fmt: skip
 
@@ -272,7 +272,7 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed):
 
 def test_floor_below_pads_gives_by_mean_and_cosine(squeezed):
     values = TABLE.evaluate(squeezed, ["stack", "wall_depth"])
-    deep, wall, pad, wide = squeezed["floor_thickness"], values["wall_depth"], squeezed["peltier_thickness"], 12 * 14e-3
+    deep, wall, pad, wide = squeezed["floor_thickness"], values["wall_depth"], squeezed["heater_thickness"], 12 * 14e-3
     links = {(link.first, link.second): link.conductance for link in values["stack"].links}
     upper, _, lower = (("around", place) for place in BELOW_PADS)
     # 0.029 of the vane's depth from its edge is what is next to the pads; 0.087 and 0.666 are shares of the depth.

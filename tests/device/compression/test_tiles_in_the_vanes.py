@@ -34,11 +34,11 @@ def test_a_module_without_room_breaks_its_rule(rule, rows, module):
 
 
 def test_they_cover_weigh_and_take_depth_as_the_sheet_says():
-    rows = "heater_count heater_coverage pcl_area peltier_mass peltier_scale pad_depth spreader_mass module_mass"
-    values, record = values_of(rows), Catalog().record("peltiers", "cp30138")
-    assert values["heater_count"] == values["peltier_scale"] == 8.0
+    rows = "heater_count heater_coverage pcl_area heater_mass heater_scale pad_depth spreader_mass module_mass"
+    values, record = values_of(rows), Catalog().record("heaters", "cp30138")
+    assert values["heater_count"] == values["heater_scale"] == 8.0
     assert values["heater_coverage"] * values["pcl_area"] == pytest.approx(8 * 15 * 15 * MM**2)
-    assert values["peltier_mass"] == pytest.approx(8 * record.value("mass"))
+    assert values["heater_mass"] == pytest.approx(8 * record.value("mass"))
     assert values["pad_depth"] == pytest.approx(4.8 * MM)
     assert values["spreader_mass"] == pytest.approx(2700.0 * 8 * 16 * 15.5 * 1.0 * MM**3)
     of_copper = values_of("spreader_mass module_mass", spreader_material="copper")
@@ -157,6 +157,6 @@ def test_a_pad_is_as_it_was():
     rows = "heater_count heater_coverage spreader_mass pad_depth pad_seat slot_width slot_web heater_holding_torque"
     values = TABLE.evaluate(flat, rows.split())
     # The corner's arc ends half a tenth of a millimetre beside the slot above, at the mean radius of 33 mm.
-    pad = flat["peltier_thickness"]
+    pad = flat["heater_thickness"]
     seat = pad - flat["corner_radius"] * (1.0 + pad / 33e-3) - 0.05e-3
     assert list(values.values()) == pytest.approx([12.0, 1.0, 0.0, pad, seat, 7e-3, 3.5e-3, 0.0])

@@ -74,9 +74,9 @@ def test_rigid_modules_are_drawn_as_large_as_they_are(study, length, within):
     plane, known = plane_of(model), inputs_of(model)
     sizes = model.table.evaluate(known, ["pcl_area", length, "spreader_volume", "heater_count"])
     drawn = {name: np.sum(plane.volume[plane.cells(name)]) for name in plane.materials}
-    tiles = sizes["heater_count"] * known["peltier_length"] * known["peltier_width"] * known["peltier_thickness"]
+    tiles = sizes["heater_count"] * known["heater_length"] * known["heater_width"] * known["heater_thickness"]
     assert drawn["hot"] + drawn["legs"] + drawn["cold"] == pytest.approx(tiles / sizes[length], rel=1e-9)
-    around = sizes["pcl_area"] * known["peltier_thickness"] - tiles
+    around = sizes["pcl_area"] * known["heater_thickness"] - tiles
     assert drawn["beside tiles"] == pytest.approx(around / sizes[length], rel=1e-9)
     assert drawn["spreader"] == pytest.approx(sizes["spreader_volume"] / sizes[length], rel=within)
 
@@ -108,7 +108,7 @@ def slab(up: float) -> floor_heat.ColdSide:
     pads = PeltierModule(seebeck=0.05, resistance=2.0, conductance=up * AREA / THICKNESS)
     return floor_heat.cold_side_slab(
         Module(
-            pads=pads, pad_conductivity=CONDUCTIVITY, peltier_thickness=THICKNESS, heated_area=AREA, edge_length=EDGES
+            pads=pads, pad_conductivity=CONDUCTIVITY, heater_thickness=THICKNESS, heated_area=AREA, edge_length=EDGES
         )
     )
 

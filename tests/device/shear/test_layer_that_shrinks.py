@@ -69,7 +69,7 @@ def test_a_held_layer_pulls_on_its_bond_and_one_that_is_followed_does_not():
 
 
 def test_a_layer_that_shrinks_pulls_until_it_yields_or_has_no_spring():
-    thick = {"rotor_thickness": "20 mm", "floor_thickness": "20 mm", "peltier_shear_modulus": "1 GPa"}
+    thick = {"rotor_thickness": "20 mm", "floor_thickness": "20 mm", "heater_shear_modulus": "1 GPa"}
     stiff = values_of("freezing_traction", process="machine_7075", **thick)
     assert stiff["freezing_traction"] == pytest.approx(16e6)
     rows = "preload_rate frozen_preload molten_preload stop_force_margin preload_spring_mass stop_play"

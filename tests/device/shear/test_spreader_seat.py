@@ -14,7 +14,7 @@ from tvimdesign.device import table_for
 MM = 1e-3
 TABLE = table_for("shear")
 TILES = {
-    "peltier_module": "ma10_063_05_1", "tiles_per_arc": 2.0, "arc_count": 3.0, "arc_span": 1.7,
+    "heater_module": "ma10_063_05_1", "tiles_per_arc": 2.0, "arc_count": 3.0, "arc_span": 1.7,
     "floor_thickness": 6.5 * MM,
 }  # fmt: skip
 
@@ -87,7 +87,7 @@ def test_webs_and_tiles_beside_a_thermistor():
     web = abs(middle @ np.array([-sin(next_end), cos(next_end)])) - 0.5 * seat["thermistor_seat_diameter"]
     assert seat["thermistor_arc_gap"] == pytest.approx(web - known["minimum_wall"] - 0.15 * MM, rel=1e-9)
     known = inputs_of(
-        peltier_module="ma10_063_05_1", arc_count=3.0, thermistor_diameter=1.8 * MM, floor_thickness=6.5 * MM
+        heater_module="ma10_063_05_1", arc_count=3.0, thermistor_diameter=1.8 * MM, floor_thickness=6.5 * MM
     )
     values = TABLE.evaluate(known, ["thermistor_count", "thermistor_seat_diameter", "thermistor_volume"])
     assert (values["thermistor_count"], values["thermistor_seat_diameter"]) == (3.0, 0.0)

@@ -30,7 +30,7 @@ def values_of(rows: str, **module: Any) -> dict[str, Any]:
 
 def corners(values: dict[str, Any], known: dict[str, Any], index: int) -> np.ndarray:
     """Corners of a tile of an arc in plan view [m], the arc's middle on the x axis; drawn without the table's rules."""
-    along, across = known["peltier_length"], known["peltier_width"]
+    along, across = known["heater_length"], known["heater_width"]
     turn = values["tile_pitch"] * (index - 0.5 * (known["tiles_per_arc"] - 1.0))
     points = [
         (values["tile_radius"] + 0.5 * x * across, 0.5 * y * along) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))
@@ -73,12 +73,12 @@ def test_a_module_without_room_breaks_its_rule(rule, module):
 
 
 def test_they_cover_weigh_and_cost_height_as_the_sheet_says():
-    rows = "heater_count heater_coverage pcl_area peltier_mass pad_depth spreader_mass spreader_volume peltier_scale"
+    rows = "heater_count heater_coverage pcl_area heater_mass pad_depth spreader_mass spreader_volume heater_scale"
     values = values_of(rows)
-    record = Catalog().record("peltiers", "ma10_063_05_1")
-    assert values["heater_count"] == values["peltier_scale"] == 6.0
+    record = Catalog().record("heaters", "ma10_063_05_1")
+    assert values["heater_count"] == values["heater_scale"] == 6.0
     assert values["heater_coverage"] * values["pcl_area"] == pytest.approx(6 * 20 * 10 * MM**2)
-    assert values["peltier_mass"] == pytest.approx(6 * record.value("mass"))
+    assert values["heater_mass"] == pytest.approx(6 * record.value("mass"))
     assert values["pad_depth"] == pytest.approx(4.2 * MM)
     assert values["spreader_mass"] == pytest.approx(2700.0 * values["spreader_volume"])
     assert values_of("module_mass", spreader_material="copper")["module_mass"] > values_of("module_mass")["module_mass"]
@@ -88,7 +88,7 @@ def test_they_cover_weigh_and_cost_height_as_the_sheet_says():
 def test_as_wired_they_are_six_modules_that_share_current_and_voltage(wiring, strings):
     # Heats, voltage and power of six modules one by one, against the one the stack is given.
     values = values_of("pads heater_strings", heater_wiring=wiring)
-    record = Catalog().record("peltiers", "ma10_063_05_1")
+    record = Catalog().record("heaters", "ma10_063_05_1")
     alone = peltier.PeltierModule(*(record.value(name) for name in ("seebeck", "resistance", "conductance")))
     current, hot, cold = 2.4, 370.0, 320.0
     assert values["heater_strings"] == strings
@@ -102,7 +102,7 @@ def test_as_wired_they_are_six_modules_that_share_current_and_voltage(wiring, st
 
 def test_the_stack_has_the_spreader_between_modules_and_layer():
     stack: heat.Stack = values_of("stack")["stack"]
-    values = values_of("pcl_area spreader_mass peltier_mass spreader_resistance")
+    values = values_of("pcl_area spreader_mass heater_mass spreader_resistance")
     # 1/h + t/k + 1/(f h_m) + the fin's, by hand
     covered = 6 * 200 * MM**2 / values["pcl_area"]
     expected = 1e-4 + 1e-3 / 167.0 + 1e-4 / covered + values["spreader_resistance"]
@@ -126,15 +126,15 @@ def test_spreading_below_random_arcs_is_that_of_a_thin_plate(study):
 
 def foil(resistance: float = 5.0) -> Record:
     """Return a foil heater of the shelf's form: a rigid module's record without Seebeck coefficient."""
-    known = Catalog().record("peltiers", "ma10_063_05_1")
+    known = Catalog().record("heaters", "ma10_063_05_1")
     entries = dict(known.entries)
     entries["seebeck"] = type(entries["seebeck"])(0.0, "V/K", "a test", "measured")
     entries["resistance"] = type(entries["resistance"])(resistance, "ohm", "a test", "measured")
-    return Record("peltiers", "foil", "A foil heater", entries, {}, known.words)
+    return Record("heaters", "foil", "A foil heater", entries, {}, known.words)
 
 
 def test_foils_and_shared_currents_go_through_the_same_equations():
-    known = {**inputs_of(**TILES), "peltier_module": foil(), "peltier_seebeck": 0.0, "peltier_resistance": 5.0}
+    known = {**inputs_of(**TILES), "heater_module": foil(), "heater_seebeck": 0.0, "heater_resistance": 5.0}
     pads = TABLE.evaluate(known, ["pads"])["pads"]
     both = [heat_of(pads, current, 350.0, 350.0) for current in (1.0, -1.0) for heat_of in (peltier.hot_side_heat,)]
     assert both == pytest.approx([15.0, 15.0])  # half of I^2 R to either side, whichever way the current flows
@@ -150,10 +150,10 @@ def test_modules_are_not_cut_and_sheets_are_as_they_were():
         values_of("module_mass", heater_form="flexible")
     # The cut pad has no spreader, no tiles and no holes, and its numbers are those of the area it has.
     rows = "heater_count heater_coverage spreader_mass spreader_depth tile_side_margin pad_depth"
-    assert list(of_default(rows).values()) == [4.0, 1.0, 0.0, 0.0, 0.0, inputs_of()["peltier_thickness"]]
+    assert list(of_default(rows).values()) == [4.0, 1.0, 0.0, 0.0, 0.0, inputs_of()["heater_thickness"]]
     # They lie in grease: neither stiffness nor strength of the joint depends on how they bear shear or tension.
     names = "holding_torque structure_stiffness layer_edge_rise freezing_traction"
-    soft, stiff = values_of(names, peltier_shear_modulus=1e5), values_of(names, peltier_shear_modulus=1e10)
+    soft, stiff = values_of(names, heater_shear_modulus=1e5), values_of(names, heater_shear_modulus=1e10)
     assert soft == stiff
 
 

@@ -19,7 +19,7 @@ from tvimdesign.simulation.working_cycle.symbols import ca
 from tvimdesign.study import read_study
 
 CATALOG = Catalog()
-RIGID = [name for name in CATALOG.names("peltiers") if CATALOG.record("peltiers", name).word("form") == "rigid"]
+RIGID = [name for name in CATALOG.names("heaters") if CATALOG.record("heaters", name).word("form") == "rigid"]
 READ = ("max_current", "max_voltage", "max_temperature_difference", "hot_side_temperature", "resistance", "thickness",
         "area")  # fmt: skip
 """What a maker's sheet says of each of its heaters; of a seller's table the temperature of the hot side is assumed."""
@@ -44,7 +44,7 @@ def largest_difference(module: peltier.PeltierModule, hot: float) -> float:
 def test_a_fifth_of_the_values_of_sheets_are_assumed():
     assert len(RIGID) >= 32
     without_sheet = {"qc_17", "flexible_1600", "polyimide_foil_12v", "polyimide_foil_24v", "comb_electrodes"}
-    with_sheet = [CATALOG.record("peltiers", n) for n in CATALOG.names("peltiers") if n not in without_sheet]
+    with_sheet = [CATALOG.record("heaters", n) for n in CATALOG.names("heaters") if n not in without_sheet]
     of_makers = [
         sheet
         for sheet in with_sheet
@@ -58,16 +58,16 @@ def test_a_fifth_of_the_values_of_sheets_are_assumed():
 
 
 def test_of_what_a_shipped_study_takes_at_most_a_fifth_is_assumed():
-    names = {str(read_study(path).module.get("peltier_module")) for path in STUDIES} & set(RIGID)
+    names = {str(read_study(path).module.get("heater_module")) for path in STUDIES} & set(RIGID)
     assert "ma10_063_05_1" in names
     for name in names:
-        statuses = [entry.status for entry in CATALOG.record("peltiers", name).entries.values()]
+        statuses = [entry.status for entry in CATALOG.record("heaters", name).entries.values()]
         assert statuses.count("assumed") <= 0.2 * len(statuses), name
 
 
 def test_constants_follow_from_the_ratings():
     def check(name: str) -> None:
-        record = CATALOG.record("peltiers", name)
+        record = CATALOG.record("heaters", name)
         expected = textbook.from_data_sheet(*(record.value(field) for field in RATINGS))
         assert tuple(module_of(record)) == pytest.approx(tuple(expected), rel=2e-3)
 
@@ -76,10 +76,10 @@ def test_constants_follow_from_the_ratings():
 
 def test_resistance_is_that_of_the_bridge_within_a_tenth():
     def check(name: str) -> None:
-        record = CATALOG.record("peltiers", name)
+        record = CATALOG.record("heaters", name)
         assert record.value("resistance") == pytest.approx(record.value("ac_resistance"), rel=0.1)
 
-    measured = [name for name in RIGID if "ac_resistance" in CATALOG.record("peltiers", name).entries]
+    measured = [name for name in RIGID if "ac_resistance" in CATALOG.record("heaters", name).entries]
     assert len(measured) >= 22
     of_every(measured, check)
 
@@ -93,7 +93,7 @@ CONTRADICT = {
 
 def test_cooling_power_is_that_of_the_sheet_within_a_tenth():
     def check(name: str) -> None:
-        record = CATALOG.record("peltiers", name)
+        record = CATALOG.record("heaters", name)
         power = peltier.max_cooling_power(module_of(record), record.value("hot_side_temperature"))
         sheet = record.entry("max_cooling_power")
         if name in CONTRADICT:
@@ -107,28 +107,28 @@ def test_cooling_power_is_that_of_the_sheet_within_a_tenth():
 
 @cases_of("rigid_modules_on_the_shelf", "warmer_hot_side")
 def test_a_warmer_hot_side_raises_the_difference_as_the_sheet_says(name, hot, difference):
-    module = module_of(CATALOG.record("peltiers", name))
+    module = module_of(CATALOG.record("heaters", name))
     assert largest_difference(module, hot) == pytest.approx(difference, abs=4.0)
 
 
 def test_the_second_rating_agrees_with_the_first():
     def check(name: str) -> None:
-        value = CATALOG.record("peltiers", name).value
-        module, warm = module_of(CATALOG.record("peltiers", name)), value("warm_side_temperature")
+        value = CATALOG.record("heaters", name).value
+        module, warm = module_of(CATALOG.record("heaters", name)), value("warm_side_temperature")
         assert largest_difference(module, warm) == pytest.approx(value("warm_temperature_difference"), rel=0.1)
         grown = peltier.max_cooling_power(module, warm) / peltier.max_cooling_power(
             module, value("hot_side_temperature")
         )
         assert grown == pytest.approx(value("warm_cooling_power") / value("max_cooling_power"), rel=0.1)
 
-    twice = [name for name in RIGID if "warm_cooling_power" in CATALOG.record("peltiers", name).entries]
+    twice = [name for name in RIGID if "warm_cooling_power" in CATALOG.record("heaters", name).entries]
     assert len(twice) >= 14
     of_every(twice, check)
 
 
 def test_a_plate_is_as_large_as_its_sides_say():
     def check(name: str) -> None:
-        value, entries = CATALOG.record("peltiers", name).value, CATALOG.record("peltiers", name).entries
+        value, entries = CATALOG.record("heaters", name).value, CATALOG.record("heaters", name).entries
         # A hot side with a porch for the wires is longer than the cold side; one record has its hot side's area.
         shorter = value("porch") if "porch" in entries and name != "ma10_063_05_1" else 0.0
         assert value("area") == pytest.approx((value("length") - shorter) * value("width"), rel=1e-9)

@@ -53,9 +53,9 @@ def module(name: str) -> dict[str, Any]:
     mm = {row: size * (1.0 if row.endswith(("_count", "_span")) else 1e-3) for row, size in case["mm"].items()}
     words = {"liner_material": "peek"} if "liner_shear_modulus" in case else {}
     if "spreader_gap" in case["mm"]:
-        words["peltier_module"] = "ma10_063_05_1"  # a rigid one, so that there is a spreader
+        words["heater_module"] = "ma10_063_05_1"  # a rigid one, so that there is a spreader
     elif "spreader_depth" in mm and name in BLOCKS:
-        words["peltier_module"] = "cp30138"
+        words["heater_module"] = "cp30138"
     moduli = ("frozen_shear_modulus", "spreader_shear_modulus", "liner_shear_modulus")
     held = {row: case[row] * 1e9 for row in moduli if row in case}
     no_holes = structure.Bores(0.0, 0.0, 0.0)
@@ -72,11 +72,11 @@ def module(name: str) -> dict[str, Any]:
     return {
         **inputs_of(case["mode"], **words), **dict.fromkeys(WITHOUT, 0.0), **mm, **held,
         "structure_youngs_modulus": case["youngs_modulus"] * 1e9, "structure_poissons_ratio": case["poissons_ratio"],
-        "peltier_shear_modulus": case.get("pad_shear_modulus", 0.1) * 1e9,
-        "peltier_bulk_modulus": case.get("pad_bulk_modulus", assumed_bulk(case)) * 1e9,
+        "heater_shear_modulus": case.get("pad_shear_modulus", 0.1) * 1e9,
+        "heater_bulk_modulus": case.get("pad_bulk_modulus", assumed_bulk(case)) * 1e9,
         "spring_count": case.get("feet", 4), "dowels_fitted": mm.get("link_dowel_count", 0.0),
         "backing_depth": mm["rotor_thickness"] - mm.get("liner_depth", 0.0),
-        "cold_plate_length": mm.get("peltier_length", 0.0),
+        "cold_plate_length": mm.get("heater_length", 0.0),
     }  # fmt: skip
 
 

@@ -324,12 +324,7 @@ def test_the_temperatures_of_a_switch_rise_along_their_line():
     line = next(fact.text for fact in more_facts(answered.result, {}, None) if fact.label == "Temperatures")
     celsius = [float(part.split()[-2]) for part in line.split(" < ")]
     assert celsius == sorted(celsius)
-    for name in (
-        "ambient_temperature",
-        "pcl_melting_start",
-        "peltier_max_temperature",
-        "structure_service_temperature",
-    ):
+    for name in ("ambient_temperature", "pcl_melting_start", "heater_max_temperature", "structure_service_temperature"):
         assert round(answered.result.design.values[name] - 273.15) in celsius
 
 
@@ -385,7 +380,8 @@ def test_a_share_asked_of_each_limit_is_compared_with_the_least():
         (fact,) = _model(uncertainty, {"robust": robust})
         share = max(75, round(100 * (robust or {}).get("plausible", 0)))
         assert (
-            fact.text == f"{meet} · others violate 1.1 of 3 limits on average · wall around the cover's screws met in 52 % "
+            fact.text
+            == f"{meet} · others violate 1.1 of 3 limits on average · wall around the cover's screws met in 52 % "
             f"· {more} limits in under {share} %"
         )
 

@@ -42,23 +42,23 @@ def ranges(study: tvim.Study) -> dict[str, UnmeasuredInput]:
 def test_a_record_says_value_interval_and_file(tmp_path):
     path = pad_file(tmp_path)
     written = tvim.fit(path).record("my_pad", catalog=tmp_path / "my_records")
-    assert written == tmp_path / "my_records/peltiers/my_pad.yaml"
+    assert written == tmp_path / "my_records/heaters/my_pad.yaml"
     catalog = Catalog(tmp_path / "my_records")
     assert check_records(catalog) == []
-    record = catalog.record("peltiers", "my_pad")
+    record = catalog.record("heaters", "my_pad")
     for name, value in (("seebeck", 21e-3), ("resistance", 3.4), ("conductance", 0.15)):
         entry = record.entry(name)
         assert entry.status == "measured"
         assert holds(entry, value)
         assert np.ptp([entry.low, entry.high]) < 0.1 * value
         assert f"pad.csv (sha256 {hashlib.sha256(path.read_bytes()).hexdigest()})" in entry.source
-    assert record.value("area") == Catalog().record("peltiers", "flexible_1600").value("area")
+    assert record.value("area") == Catalog().record("heaters", "flexible_1600").value("area")
 
 
 def test_a_measured_value_counts_with_its_own_interval(tmp_path):
     tvim.fit(pad_file(tmp_path)).record("my_pad", catalog=tmp_path / "my_records")
-    before, after = ranges(joint(tmp_path)), ranges(joint(tmp_path, peltier_module="my_pad"))
-    for name in ("peltier_seebeck", "peltier_resistance", "peltier_conductance"):
+    before, after = ranges(joint(tmp_path)), ranges(joint(tmp_path, heater_module="my_pad"))
+    for name in ("heater_seebeck", "heater_resistance", "heater_conductance"):
         assert after[name].status == "measured"
         assert after[name].high - after[name].low < 0.2 * (before[name].high - before[name].low)
     assert before["pcl_latent_heat"] == after["pcl_latent_heat"]
@@ -69,7 +69,7 @@ def test_the_interval_of_a_headline_shrinks(tmp_path):
     tvim.fit(pad_file(tmp_path)).record("my_pad", catalog=tmp_path / "my_records")
     width = {}
     for name in ("flexible_1600", "my_pad"):
-        table = joint(tmp_path, peltier_module=name).evaluate(progress=False).intervals()
+        table = joint(tmp_path, heater_module=name).evaluate(progress=False).intervals()
         low, high, value = (table.loc["softening_time", column] for column in ("low", "high", "value"))
         width[name] = (high - low) / value
     assert width["my_pad"] < 0.7 * width["flexible_1600"]

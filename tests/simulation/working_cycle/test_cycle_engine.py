@@ -179,7 +179,7 @@ def test_a_steady_state_that_changes_steeply_is_found(study):
 
 
 METAL, WAX, GLASS = "pcl_grade: fields_metal", "pcl_grade: paraffin_rt60", "pcl_grade: pla"
-COMB = "pcl_grade: conductive_pla, peltier_module: comb_electrodes, current: 0.6 A, target_temperature: 80 degC"
+COMB = "pcl_grade: conductive_pla, heater_module: comb_electrodes, current: 0.6 A, target_temperature: 80 degC"
 BLOCKS = "lead_hole_diameter: 1 mm, electrode_gap: 12 mm, corner_radius: 0.2 mm"
 CELLS = 10
 
@@ -253,7 +253,7 @@ def test_a_layer_that_heats_itself_is_evenly_warm_sooner_than_one_on_pads():
     """With the same power the far face waits for no heat to come through a plastic."""
     inside = cycle("shear", COMB).values
     watts = inside["peak_power"]
-    foil = "peltier_resistance: 20 ohm, peltier_module: polyimide_foil_24v"
+    foil = "heater_resistance: 20 ohm, heater_module: polyimide_foil_24v"
     built = model("shear", f"pcl_grade: conductive_pla, {foil}, current: 1 A, target_temperature: 80 degC")
     start = built.start.copy()
     start[built.index["current"]] = np.sqrt(watts / circuit(built)[1])

@@ -20,7 +20,7 @@ from tvimdesign.study import given, read_study
 
 Build = Callable[..., DeviceFunctions]
 WITHIN = 2e-3  # the accuracy that is asked for
-MOVING = ["current", "ambient_temperature", "peltier_seebeck", "peltier_resistance", "pcl_latent_heat"]
+MOVING = ["current", "ambient_temperature", "heater_seebeck", "heater_resistance", "pcl_latent_heat"]
 SOFTENING = ["near_face_time", "far_face_time", "softening_time", "response_time", "switch_energy", "peak_power"]
 AT_THE_END = ["response_time", "switch_energy", "peak_power"]
 """Wanted of most modules: it takes longer steps than what comes earlier."""

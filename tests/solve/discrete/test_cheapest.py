@@ -17,7 +17,7 @@ PRICE = 'values:\n  price: {{value: {price}, unit: USD, status: datasheet, sourc
 
 
 def _study(folder: Path, text: str = STUDY, **prices: float) -> Study:
-    records = folder / "records" / "peltiers"
+    records = folder / "records" / "heaters"
     records.mkdir(parents=True, exist_ok=True)
     for name, price in prices.items():
         words = HEATER.format(name=name) + (PRICE.format(price=price) if price else "")
@@ -32,7 +32,7 @@ def test_the_cheaper_of_two_equal_heaters_is_chosen(tmp_path):
     solution = optimize(study)
     assert solution.status == "optimal"
     cheap, dear = solution.choosing.best
-    assert (cheap.choices["peltier_module"], dear.choices["peltier_module"]) == ("cheap", "dear")
+    assert (cheap.choices["heater_module"], dear.choices["heater_module"]) == ("cheap", "dear")
     of_dear = float(solution.values["cost"]) + 10.0 * float(solution.values["heater_count"])
     assert dear.objective / cheap.objective == pytest.approx(of_dear / float(solution.values["cost"]), rel=1e-6)
 
@@ -42,7 +42,7 @@ def test_a_limit_on_the_cost_rules_out_the_dear_heater(tmp_path):
     text = STUDY.replace('rad"}', 'rad", cost: "<= 200 USD"}').replace("minimize: cost", "minimize: springs_mass")
     solution = optimize(_study(tmp_path, text, dear=25.0, cheap=15.0))
     assert solution.status == "optimal"
-    assert solution.choosing.best[0].choices["peltier_module"] == "cheap"
+    assert solution.choosing.best[0].choices["heater_module"] == "cheap"
     assert len(solution.choosing.best) == 1
 
 
@@ -57,7 +57,7 @@ def test_a_limit_below_every_cost_names_the_least_one(tmp_path):
 
 def test_no_price_is_no_bargain(tmp_path):
     study = _study(tmp_path, dear=25.0, cheap=0.0)
-    with pytest.raises(InputError, match=r"vary\.peltier_module: cost cannot compare .* without a price: cheap\."):
+    with pytest.raises(InputError, match=r"vary\.heater_module: cost cannot compare .* without a price: cheap\."):
         optimize(study)
     (warning,) = (line for line in record_checks(study) if "no price" in line)
     assert "no price: spring, thermal cutout, pcl; ask" in warning

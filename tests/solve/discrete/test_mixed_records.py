@@ -58,7 +58,7 @@ HEATER = sample_text("mixed_heater")
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_so_they_are_on_random_shelves(tmp_path, seed):
     draw = np.random.default_rng(seed)
-    folder = tmp_path / "records" / "peltiers"
+    folder = tmp_path / "records" / "heaters"
     folder.mkdir(parents=True)
     for place in range(3):
         text = HEATER.format(
@@ -81,7 +81,7 @@ def study() -> Study:
 
 def test_records_of_one_structure_are_one_family(study):
     (family,) = families_of(study)
-    assert [mixture.name for mixture in family.mixtures] == ["peltier_module", "process", "spring_material"]
+    assert [mixture.name for mixture in family.mixtures] == ["heater_module", "process", "spring_material"]
     assert family.count == len(discrete_records(study, study.table)) == 12
     # What is read of a steel beside its numbers is a table of strengths, which come to a number.
     assert set(family.mixtures[2].read_by) == {"spring_tensile_strength", "wire_range_margin"}
@@ -92,9 +92,9 @@ def test_records_of_another_structure_are_another_family():
     text = SHEAR.replace("[flexible_1600, silicone_9ar_08_24v, polyimide_foil_24v]",
                          "[flexible_1600, cp30138, tm_31_14_85, silicone_9ar_08_24v]")  # fmt: skip
     sheets, rigid = families_of(listed(text))
-    names = [record["peltier_module"] for record in sheets.mixtures[0].records]
+    names = [record["heater_module"] for record in sheets.mixtures[0].records]
     assert names == ["flexible_1600", "silicone_9ar_08_24v"]
-    assert [record["peltier_module"] for record in rigid.mixtures[0].records] == ["cp30138", "tm_31_14_85"]
+    assert [record["heater_module"] for record in rigid.mixtures[0].records] == ["cp30138", "tm_31_14_85"]
     assert sheets.count == rigid.count == 8
 
 
@@ -158,8 +158,8 @@ def solved(chosen: str, listed: str) -> Solution:
 
 @pytest.mark.slow
 def test_the_best_module_of_a_list_is_the_best_of_each_alone():
-    best = solved("", f"  peltier_module: {{choose: [{', '.join(MODULES)}]}}\n")
-    alone = {name: solved(f"peltier_module: {name}", "") for name in MODULES}
+    best = solved("", f"  heater_module: {{choose: [{', '.join(MODULES)}]}}\n")
+    alone = {name: solved(f"heater_module: {name}", "") for name in MODULES}
     masses = {name: solution.values["module_mass"] for name, solution in alone.items() if solution.feasible}
     assert len(masses) == 3
     lightest = min(masses, key=masses.__getitem__)

@@ -192,15 +192,15 @@ def test_a_value_that_the_study_sets_or_that_is_measured_is_not_moved():
     names = {assumed.name for assumed in unmeasured_inputs(resolve_study(own))}
     assert "hot_contact" in {assumed.name for assumed in unmeasured_inputs(module())}
     assert "hot_contact" not in names
-    record = module().values["peltier_module"]
+    record = module().values["heater_module"]
     ends = {"exactly": (None, None), "to its interval": (0.020, 0.022)}
     for known, (low, high) in ends.items():
         entry = replace(record.entries["seebeck"], value=0.021, status="measured", low=low, high=high)
         changed = replace(record, entries={**record.entries, "seebeck": entry})
-        values = {**module().values, "peltier_module": changed, "peltier_seebeck": 0.021}
+        values = {**module().values, "heater_module": changed, "heater_seebeck": 0.021}
         moved = {assumed.name: assumed for assumed in unmeasured_inputs(replace(module(), values=values))}
-        assert ("peltier_seebeck" in moved) == (known == "to its interval")
-    assert (moved["peltier_seebeck"].low, moved["peltier_seebeck"].high) == (0.020, 0.022)
+        assert ("heater_seebeck" in moved) == (known == "to its interval")
+    assert (moved["heater_seebeck"].low, moved["heater_seebeck"].high) == (0.020, 0.022)
 
 
 def test_what_varies_and_what_is_not_known_are_never_one_yield():

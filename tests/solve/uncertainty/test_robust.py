@@ -217,7 +217,7 @@ def _inputs(optimizer: Optimizer, front: Front) -> list[NDArray[np.float64]]:
 @pytest.mark.gate
 def test_the_yield_is_of_limits_that_the_module_has():
     study = read_study_text(
-        "mode: compression\nmodule: {peltier_module: silicone_9ar_08_12v}\nvary: {core_radius: [9 mm, 12 mm]}\n"
+        "mode: compression\nmodule: {heater_module: silicone_9ar_08_12v}\nvary: {core_radius: [9 mm, 12 mm]}\n"
         "require: {holding_torque: '>= 4 N.m'}\nminimize: module_mass\n"
         "tolerances: {standard: true}\nrobust: {yield: 95 %}\n"
     )

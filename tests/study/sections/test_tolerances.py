@@ -21,9 +21,9 @@ def _read(text: str) -> Study:
 
 
 def test_a_tolerance_is_a_quantity_a_share_or_all_that_can_be_stated():
-    result = _read("tolerances: {wire_diameter: 0.025 mm, peltier_seebeck: 10 %, temperature@hot: 2 K}").tolerances
+    result = _read("tolerances: {wire_diameter: 0.025 mm, heater_seebeck: 10 %, temperature@hot: 2 K}").tolerances
     assert result["wire_diameter"].plus_minus == pytest.approx(25e-6)
-    assert (result["peltier_seebeck"].share, result["peltier_seebeck"].plus_minus) == (pytest.approx(0.1), None)
+    assert (result["heater_seebeck"].share, result["heater_seebeck"].plus_minus) == (pytest.approx(0.1), None)
     assert result["temperature@hot"].plus_minus == 2.0
     assert {item.status for item in result.values()} == {"stated"}
     text = "{plus_minus: 5 deg, distribution: uniform, sigma: 2, adjustable: true, adjusted_to: 1 deg}"

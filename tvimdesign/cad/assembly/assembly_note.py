@@ -388,7 +388,7 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "and_base": lambda _, dims: _AND_BASE if dims.base_height else "",
     "housing_on_bed": _housing_on_bed,
     "heated_parts": lambda _, dims: "spreaders" if dims.spreader_depth else "heaters",
-    "hot_side": lambda design, _: ", hot side to the PCL" if design.values.get("peltier_seebeck") else "",
+    "hot_side": lambda design, _: ", hot side to the PCL" if design.values.get("heater_seebeck") else "",
     "ledge_pull": _ledge_pull,
     "greased_bore": partial(_greased, "bore"),
     "greased_pins": partial(_greased, "pins"),

@@ -325,10 +325,10 @@ def _heat_conducting_adhesive(design: Design) -> list[Item]:
     if design.choices.get("heater_form", "flexible") == "flexible":
         if design.values.get("thermistor_diameter", 0.0) <= 0.0:
             return []
-        bears = min("peltier_max_temperature", "structure_service_temperature", key=design.value)
+        bears = min("heater_max_temperature", "structure_service_temperature", key=design.value)
         words = f"Heat-conducting adhesive for {rating(design, bears)}, to fill the thermistors' holes"
         return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
-    area = 1e6 * design.value("peltier_area") * design.value("heater_count")
+    area = 1e6 * design.value("heater_area") * design.value("heater_count")
     words = f"Adhesive of modules and spreaders, for {rating(design)}, a thin film over {area:.4g} mm² in all"
     return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
 

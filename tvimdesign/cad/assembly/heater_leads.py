@@ -16,7 +16,7 @@ _HOTTEST = ("peak_heater_temperature", "peak_cold_side_temperature")
 _STRONGEST = ("peak_current", "stiffening_peak_current")
 _LINER = "liner_service_temperature"
 _BEARS = {
-    "the heater": "peltier_max_temperature",
+    "the heater": "heater_max_temperature",
     "the PCL": "pcl_decomposition_temperature",
     "the structure": "structure_service_temperature",
     "the liner": _LINER,
@@ -38,7 +38,7 @@ def up(value: float) -> str:
     return f"{math.ceil(10.0 * value - _ROUNDING) / 10.0:g}"
 
 
-def rating(design: Design, name: str = "peltier_max_temperature") -> str:
+def rating(design: Design, name: str = "heater_max_temperature") -> str:
     """Return a temperature that a bought part must bear, by default the heater's rating, in words."""
     return f"{up(design.value(name) - ZERO_CELSIUS)} °C"
 
@@ -148,7 +148,7 @@ def thermistor_in_words(design: Design) -> str:
 
 def set_points_in_words(design: Design) -> str:
     """Return what the thermistor reads as the joint is soft, and where the controller stops before a cut-out opens."""
-    peaks = _HOTTEST[:1] if design.values.get("peltier_seebeck") else _HOTTEST  # a Peltier cools its outer side
+    peaks = _HOTTEST[:1] if design.values.get("heater_seebeck") else _HOTTEST  # a Peltier cools its outer side
     soft, hottest = (largest(design, names) for names in (("sensed_temperature",), peaks))
     if soft is None or hottest is None:
         return "Take the controller's set-points from a run of the study: it was not switched"
@@ -202,7 +202,7 @@ def _bead(design: Design) -> "Bead | None":
 
 def _thermistor(design: Design) -> "Thermistor | None":
     """Return the first thermistor that fits; None where none does."""
-    bead, rated = _bead(design), design.value("peltier_max_temperature")
+    bead, rated = _bead(design), design.value("heater_max_temperature")
     return next((thermistor for thermistor in thermistors() if thermistor.fits(bead, rated)), None)
 
 
@@ -296,11 +296,11 @@ def heater_order(design: Design) -> list[str]:
 
     Nothing for Peltier modules, which are bought by their number.
     """
-    if design.values.get("peltier_seebeck") != 0.0:
+    if design.values.get("heater_seebeck") != 0.0:
         return []
     count = pad_count(design)
-    area = design.value("peltier_volume") / design.value("peltier_thickness")
-    ohms = design.value("peltier_resistance") * area / design.value("peltier_area") / count
+    area = design.value("heater_volume") / design.value("heater_thickness")
+    ohms = design.value("heater_resistance") * area / design.value("heater_area") / count
     order, leads = [f"resistance {ohms:.3g} ohm each, ± 10 % (assumed)"], "two leads"
     if (current := largest(design, _STRONGEST)) and design.choices.get("heat_source") != "layer":
         amperes = current / design.values.get("heater_strings", 1.0)

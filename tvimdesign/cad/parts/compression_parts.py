@@ -64,7 +64,7 @@ def heater(dims: Dimensions) -> cq.Shape:
     if dims.spreader_depth:
         return heater_parts.vane_tile(dims)
     along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
-    return block(along, dims.peltier_thickness, dims.running_clearance, dims.vane_height)
+    return block(along, dims.heater_thickness, dims.running_clearance, dims.vane_height)
 
 
 DRAWN = {
@@ -118,11 +118,11 @@ def _heaters(
 ) -> dict[str, cq.Shape]:
     """Draw what stands in one face of a housing vane, faces counted around the axis: a pad, or spreader and tiles."""
     if not dims.spreader_depth:
-        at, beside = _behind_face(dims, side, dims.peltier_thickness)
+        at, beside = _behind_face(dims, side, dims.heater_thickness)
         return {f"heater_{face + 1}": turned(drawn["heater"], azimuth + at, beside)}
     at, beside = _behind_face(dims, side, dims.spreader_depth)
     placed = {f"spreader_{face + 1}": turned(drawn["spreader"], azimuth + at, beside)}
-    at, beside = _behind_face(dims, side, dims.peltier_thickness, dims.spreader_depth)
+    at, beside = _behind_face(dims, side, dims.heater_thickness, dims.spreader_depth)
     places = heater_parts.tile_row(dims)
     for index, along in enumerate(places):
         tile = drawn["heater"].moved(cq.Location(cq.Vector(along, 0.0, 0.0)))

@@ -31,19 +31,19 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
 
 def arc_tile(dims: Dimensions) -> cq.Shape:
     """Draw one tile on the x axis, its length across that: two plates, the lower one without the porch of the leads."""
-    half, middle = 0.5 * dims.peltier_width, dims.lead_level
+    half, middle = 0.5 * dims.heater_width, dims.lead_level
     along_x = (dims.tile_radius - half, dims.tile_radius + half)
-    if not dims.peltier_porch:
-        return block(along_x, dims.peltier_length, -dims.pad_depth, -dims.spreader_depth)
-    upper = block(along_x, dims.peltier_length, middle, -dims.spreader_depth)
-    lower = turned(block(along_x, dims.cold_plate_length, -dims.pad_depth, middle), 0.0, 0.5 * dims.peltier_porch)
+    if not dims.heater_porch:
+        return block(along_x, dims.heater_length, -dims.pad_depth, -dims.spreader_depth)
+    upper = block(along_x, dims.heater_length, middle, -dims.spreader_depth)
+    lower = turned(block(along_x, dims.cold_plate_length, -dims.pad_depth, middle), 0.0, 0.5 * dims.heater_porch)
     return join(upper, [lower])
 
 
 def heater_lead(dims: Dimensions) -> cq.Shape:
     """Draw one lead of a tile on the x axis from the tile's end to the ground, in the middle of its slot."""
     radius, angle, level = dims.lead_bend_radius, dims.lead_bend_angle, dims.lead_level
-    x, end = dims.lead_slot_radius, -0.5 * dims.peltier_length
+    x, end = dims.lead_slot_radius, -0.5 * dims.heater_length
     run, drop = 2.0 * radius * sin(angle), dims.lead_drop
     down = ((x, end, level), (x, end, level - radius), (1.0, 0.0, 0.0), angle)
     ground = (x, end - run, level - drop + radius)
@@ -75,12 +75,12 @@ def tile_openings(dims: Dimensions) -> list[cq.Shape]:
     """Draw what goes through the floor below the pocket of one arc: a window and a slot for leads at each tile, and a
     hole for a thermistor."""
     top, bottom = -dims.pad_depth, -dims.floor_thickness
-    window = _opening(dims, dims.tile_radius, dims.peltier_width - 2.0 * dims.window_ledge, dims.window_width)
-    middle = -0.5 * (dims.peltier_length + dims.lead_slot_length)
+    window = _opening(dims, dims.tile_radius, dims.heater_width - 2.0 * dims.window_ledge, dims.window_width)
+    middle = -0.5 * (dims.heater_length + dims.lead_slot_length)
     slot = _opening(dims, dims.lead_slot_radius, dims.lead_slot_width, dims.lead_slot_length)
     at = polar(dims.tile_radius, 0.5 * (dims.arc_span - dims.lead_angle))
     hole = cylinder(0.5 * dims.lead_hole_diameter, bottom, top, at)
-    openings = [turned(window, 0.0, 0.5 * dims.peltier_porch), turned(slot, 0.0, middle)]
+    openings = [turned(window, 0.0, 0.5 * dims.heater_porch), turned(slot, 0.0, middle)]
     return [*(turned(opening, azimuth) for azimuth in tile_azimuths(dims) for opening in openings), hole]
 
 
@@ -92,8 +92,8 @@ def _opening(dims: Dimensions, radius: float, across: float, along: float) -> cq
 
 def vane_tile(dims: Dimensions) -> cq.Shape:
     """Draw one tile, upright, its middle on the axis and its length along x."""
-    half, bottom = 0.5 * dims.peltier_length, dims.running_clearance
-    return block((-half, half), dims.peltier_thickness, bottom, bottom + dims.peltier_width)
+    half, bottom = 0.5 * dims.heater_length, dims.running_clearance
+    return block((-half, half), dims.heater_thickness, bottom, bottom + dims.heater_width)
 
 
 def vane_spreader(dims: Dimensions) -> cq.Shape:

@@ -32,7 +32,7 @@ _FITTINGS = (
     ("bearing", "bearing", WITH_BEARINGS),
     ("preload_spring", "axial_preload", WITH_PRELOAD),
     ("spring", "stock_spring", ()),
-    ("heater", "peltier_module", ()),
+    ("heater", "heater_module", ()),
     ("spreader", "spreader_material", WITH_TILES),
     ("thermal_cutout", "heater_fuse", WITH_CUTOUT),
 )

@@ -81,9 +81,9 @@ def block_against_rotor(m: Module) -> tuple[Scalar, Scalar]:
     blocks = m.frozen_shear_modulus * m.pcl_moment / m.block_depth
     pressed = structure.series(blocks / (m.vane_count * m.pcl_mean_radius**2), m.pad_press_stiffness)
     halves = 0.5 * m.slot_width, m.slot_height  # a slot is open below
-    free = [1.0 - shear_lag.held_over_window(m.peltier_thickness, half) for half in halves]
+    free = [1.0 - shear_lag.held_over_window(m.heater_thickness, half) for half in halves]
     held = m.block_area - free[0] * free[1] * m.slot_width * m.slot_height
-    pad = m.peltier_shear_modulus * held / m.peltier_thickness
+    pad = m.heater_shear_modulus * held / m.heater_thickness
     return pressed, structure.series(m.frozen_shear_modulus * m.block_area / m.block_depth, pad)
 
 
@@ -245,8 +245,8 @@ def vane_webs(m: Module) -> Scalar:
 def block_between(m: Module) -> vane.BlockBetween:
     """A frozen block and the pad, or the modules and the spreader, that it presses on."""
     return vane.BlockBetween(
-        (m.frozen_shear_modulus, m.peltier_shear_modulus),
-        (m.block_depth, m.peltier_thickness, m.spreader_depth),
+        (m.frozen_shear_modulus, m.heater_shear_modulus),
+        (m.block_depth, m.heater_thickness, m.spreader_depth),
         (m.block_width, m.block_height),
         m.running_clearance,
         m.pad_press_stiffness,

@@ -277,7 +277,7 @@ def slope_share(m: Module) -> Scalar:
 @quantities.helper()
 def pad_height(m: Module) -> Scalar:
     """Height of what heats a block [m]: its pad, or tiles that stand at its lower edge."""
-    return m.block_height if m.heater_form == CUT else m.peltier_width
+    return m.block_height if m.heater_form == CUT else m.heater_width
 
 
 @quantities.helper()
@@ -306,7 +306,7 @@ def stack_links(m: Module) -> tuple[Link, ...]:
     }
     links = []
     above = m.running_clearance + m.block_height - m.pad_height
-    of_pads = (LEGS, m.pad_rows * m.peltier_thickness, pads, (m.running_clearance, above))
+    of_pads = (LEGS, m.pad_rows * m.heater_thickness, pads, (m.running_clearance, above))
     for place, depth, faced, gaps in ((("layer", 0), m.block_depth, blocks, (m.running_clearance,) * 2), of_pads):
         area = m.ring_width * depth
         for face, deep, wide in zip(faced, (m.floor_thickness, m.rotor_thickness), gaps, strict=True):
@@ -322,7 +322,7 @@ def stack_links(m: Module) -> tuple[Link, ...]:
     lost = sum(
         lumps.link_conductance(link, m.pcl_melting.end, m.ambient_temperature) for link in links if link.first == LEGS
     )
-    along = m.air_conductivity * 2.0 / 3.0 * m.running_clearance * m.ring_width / m.peltier_thickness
+    along = m.air_conductivity * 2.0 / 3.0 * m.running_clearance * m.ring_width / m.heater_thickness
     return (*m.plate_links, *m.vane_links, *links, Link(("hot", 0), ("cold", 0), lost / 12.0 + along))
 
 
@@ -343,7 +343,7 @@ def side_links(m: Module) -> tuple[Link, ...]:
 
     Tiles heat a vane over their own height.
     """
-    housing, pads = ("around", HOUSING), m.pad_height / m.block_height * m.peltier_thickness * m.open_sides
+    housing, pads = ("around", HOUSING), m.pad_height / m.block_height * m.heater_thickness * m.open_sides
     onto = WAYS[0] * m.wall_depth + shape_factors.constriction(m.pad_height / m.block_height) * m.pad_height
     into_walls = m.structure_conductivity * (m.heated_area - m.cold_area) / onto
     return (

@@ -82,7 +82,7 @@ def _slot_reach_below(m: Module) -> Scalar:
     """
     if m.heater_form == CUT:
         return m.corner_radius * (1.0 + m.pad_depth / m.pcl_mean_radius) + m.slot_corner_offset
-    return np.fmax(m.corner_radius, 0.5 * (m.peltier_thickness + m.lead_hole_diameter))
+    return np.fmax(m.corner_radius, 0.5 * (m.heater_thickness + m.lead_hole_diameter))
 
 
 @quantities.gap("the slots are too narrow for their depth: the cutter cannot reach their ends")

@@ -160,7 +160,7 @@ def spreader_resistance(m: Module) -> Scalar:
 
     The tiles stand at the spreader's lower edge.
     """
-    area, tile = m.block_width * m.block_height, (m.peltier_length, m.peltier_width)
+    area, tile = m.block_width * m.block_height, (m.heater_length, m.heater_width)
     return peltier.row_spreading_resistance(
         area, m.block_height, m.tiles_per_block, tile, 1, m.spreader_conductivity, m.spreader_thickness
     )
@@ -180,6 +180,6 @@ def spreader_links(m: Module) -> tuple[Link, ...]:
         for face in (floor, above)
     ]
     backs = lumps.air_gap(
-        m.pcl_area - m.heated_area, m.peltier_thickness, m.air_conductivity, m.surface_emissivity, plate, walls
+        m.pcl_area - m.heated_area, m.heater_thickness, m.air_conductivity, m.surface_emissivity, plate, walls
     )
     return (*edges, backs, Link(plate, housing, m.open_sides * m.spreader_depth))

@@ -100,7 +100,7 @@ def slot_outer_radius(m: Module) -> Scalar:
 @places.output("mm")
 def slot_height(m: Module) -> Scalar:
     """Height over which the pads' cold sides are open to the slots."""
-    return (m.block_height if m.heater_form == CUT else m.peltier_width) - m.window_ledge
+    return (m.block_height if m.heater_form == CUT else m.heater_width) - m.window_ledge
 
 
 @places.helper()
@@ -131,10 +131,10 @@ def pcl_volume(m: Module) -> Scalar:
 
 
 @weights.output("mm^3")
-def peltier_volume(m: Module) -> Scalar:
+def heater_volume(m: Module) -> Scalar:
     """Volume of all heaters together: pads with the faces of the blocks, or rectangular tiles."""
-    area = m.pcl_area if m.heater_form == CUT else m.heater_count * m.peltier_length * m.peltier_width
-    return area * m.peltier_thickness
+    area = m.pcl_area if m.heater_form == CUT else m.heater_count * m.heater_length * m.heater_width
+    return area * m.heater_thickness
 
 
 @weights.output("mm^3", requires=WITH_TILES)

@@ -61,7 +61,7 @@ def tile_spacing(m: Module) -> Scalar:
 @tile_places.output("mm")
 def tile_window(m: Module) -> Scalar:
     """Width of a tile that its slot leaves open."""
-    return m.slot_share * m.peltier_length
+    return m.slot_share * m.heater_length
 
 
 @tile_places.output("mm")
@@ -80,25 +80,25 @@ def tile_slot_pitch(m: Module) -> Scalar:
 @tile_places.output("mm^2")
 def tile_seat_area(m: Module) -> Scalar:
     """Area with which one tile bears on its vane: all of it but the slot's."""
-    return m.peltier_length * m.peltier_width - m.tile_window * m.slot_height
+    return m.heater_length * m.heater_width - m.tile_window * m.slot_height
 
 
 @tile_rules.gap("the heaters are too long for the block's width: fewer, or a wider block")
 def tile_side_margin(m: Module) -> Scalar:
     """Gap between neighbouring tiles of a row beyond the least; of one, to both ends of its block."""
-    return m.tile_spacing - m.peltier_length - m.tile_clearance
+    return m.tile_spacing - m.heater_length - m.tile_clearance
 
 
 @tile_rules.gap("the heaters are taller than the block: a smaller one, or a taller block")
 def tile_height_margin(m: Module) -> Scalar:
     """Height of the block beyond that of the tiles."""
-    return m.block_height - m.peltier_width
+    return m.block_height - m.heater_width
 
 
 @tile_rules.gap("a heater reaches beyond the outer end of its vane: a wider block")
 def tile_end_margin(m: Module) -> Scalar:
     """Vane beyond the back corner of its outermost tiles, which bear on it up to there."""
-    end = m.pcl_outer_radius - 0.5 * (m.tile_spacing - m.peltier_length)
+    end = m.pcl_outer_radius - 0.5 * (m.tile_spacing - m.heater_length)
     return m.pcl_outer_radius - np.sqrt(end**2 + m.pad_depth**2)
 
 
@@ -130,16 +130,16 @@ between stiff plates."""
 def pad_press_stiffness(m: Module) -> Scalar:
     """Stiffness of what a block presses on before its vane [N/m]: the pad, or its tiles behind the spreader."""
     if m.heater_form == CUT:
-        moduli, sides = (m.peltier_shear_modulus, m.peltier_bulk_modulus), (m.block_width, m.block_height)
-        return block.pad_stiffness(moduli, sides, m.peltier_thickness, (m.slot_width, m.slot_height))
-    tiles = SHEET * m.peltier_shear_modulus * m.tiles_per_block * m.peltier_area / m.peltier_thickness
+        moduli, sides = (m.heater_shear_modulus, m.heater_bulk_modulus), (m.block_width, m.block_height)
+        return block.pad_stiffness(moduli, sides, m.heater_thickness, (m.slot_width, m.slot_height))
+    tiles = SHEET * m.heater_shear_modulus * m.tiles_per_block * m.heater_area / m.heater_thickness
     return structure.series(tiles, m.spreader_youngs_modulus * m.block_area / m.spreader_thickness)
 
 
 @loads.helper(requires=WITH_TILES)
 def tile_edge_rise(m: Module) -> Scalar:
     """Pressure at a tile's upper edge over its mean [1], 1 + 6 e/w: the block's middle is e above the tile's."""
-    return 1.0 + 3.0 * (m.block_height - m.peltier_width) / m.peltier_width
+    return 1.0 + 3.0 * (m.block_height - m.heater_width) / m.heater_width
 
 
 @loads.output("N*m", requires=WITH_TILES)
@@ -214,7 +214,7 @@ def thermistor_height_gap(m: Module) -> Scalar:
 @rules.gap("the thermistor does not reach the pad's end: a smaller bead")
 def thermistor_end_gap(m: Module) -> Scalar:
     """Thickness of the pad, or the spreader, beyond half of the bead's, which touches it there."""
-    return (m.peltier_thickness if m.heater_form == CUT else m.spreader_depth) - 0.5 * m.thermistor_diameter
+    return (m.heater_thickness if m.heater_form == CUT else m.spreader_depth) - 0.5 * m.thermistor_diameter
 
 
 @rules.gap("the thermistor stands out beyond the rotor plate: a wider rotor_rim, or a smaller bead")

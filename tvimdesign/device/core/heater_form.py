@@ -45,8 +45,8 @@ def heater_count(m: Module) -> Scalar:
     """Heaters of the module: one pad at each arc or block, or all its tiles."""
     if m.heater_form != CUT:
         return m.pocket_count * m.tiles_per_pocket
-    if m.peltier_module.word("form") != CUT:
-        raise InputError(f"heater_form: {CUT} needs a module that can be cut; {m.peltier_module.name} is rigid")
+    if m.heater_module.word("form") != CUT:
+        raise InputError(f"heater_form: {CUT} needs a module that can be cut; {m.heater_module.name} is rigid")
     return m.pocket_count
 
 
@@ -59,7 +59,7 @@ def spreader_depth(m: Module) -> Scalar:
 @places.output("mm", requires=())
 def pad_depth(m: Module) -> Scalar:
     """Depth of the pockets for the heaters and the spreader on them."""
-    return m.peltier_thickness + m.spreader_depth
+    return m.heater_thickness + m.spreader_depth
 
 
 weights.from_template("spreader", "all spreaders together; zero without", template_mass, "g")
@@ -71,7 +71,7 @@ weights.from_template(
 @flows.output("mm^2")
 def heated_area(m: Module) -> Scalar:
     """Area of all heaters towards the layer."""
-    return m.pcl_area if m.heater_form == CUT else m.heater_count * m.peltier_area
+    return m.pcl_area if m.heater_form == CUT else m.heater_count * m.heater_area
 
 
 @flows.output("%")
@@ -139,7 +139,7 @@ layer_kinds.choices("layer_heater")
 def layer_resistance(m: Module) -> Scalar:
     """Resistance of the whole layer between its combs, wired as the heaters are."""
     if m.heater_form != CUT:
-        raise InputError(f"heat_source: layer needs a heater that lies on the layer; {m.peltier_module.name} is rigid")
+        raise InputError(f"heat_source: layer needs a heater that lies on the layer; {m.heater_module.name} is rigid")
     whole = shape_factors.comb_resistance(
         m.pcl_resistivity, m.pcl_depth, m.pcl_area, m.electrode_gap, m.electrode_width
     )
@@ -241,7 +241,7 @@ def _borne(m: Module) -> Scalar:
     """Return the temperature that heater, PCL, structure and liner bear."""
     lined = np.where(m.liner_depth > 0.0, m.liner_service_temperature, m.structure_service_temperature)
     structure = np.fmin(m.structure_service_temperature, lined)
-    return np.fmin(np.fmin(m.peltier_max_temperature, m.pcl_decomposition_temperature), structure)
+    return np.fmin(np.fmin(m.heater_max_temperature, m.pcl_decomposition_temperature), structure)
 
 
 def _peak(m: Module) -> Scalar:

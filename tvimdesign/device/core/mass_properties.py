@@ -199,12 +199,12 @@ quantities.from_template("pcl", "all PCL together", template_mass, "g")
 
 
 @quantities.output("kg/m^3")
-def peltier_density(m: Module) -> Scalar:
+def heater_density(m: Module) -> Scalar:
     """Mass of the heater over its volume."""
-    return m.peltier_scale * m.peltier_unit_mass / m.peltier_volume
+    return m.heater_scale * m.heater_unit_mass / m.heater_volume
 
 
-quantities.from_template("peltier", "all heaters together", template_mass, "g")
+quantities.from_template("heater", "all heaters together", template_mass, "g")
 
 
 @quantities.output("g", headline=True)
@@ -212,7 +212,7 @@ def module_mass(m: Module) -> Scalar:
     """Mass of the module with its motor, without wires beyond its floor and the screws that fix it."""
     made = m.housing_mass + m.rotor_mass + m.link_mass + m.retainer_mass + m.cover_mass + m.pcl_mass + m.base_mass
     fasteners = m.screws_mass + m.inserts_mass + m.dowels_mass
-    heater = m.peltier_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
+    heater = m.heater_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
     bought = m.springs_mass + heater + m.liner_mass + fasteners + m.bearings_mass + m.preload_spring_mass
     return made + bought + m.adjusters_mass + m.drive_mass
 

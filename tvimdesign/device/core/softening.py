@@ -142,7 +142,7 @@ def peak_current(m: Module) -> Scalar:
 @quantities.output("A", ratings=(at_least(0.0, "above the heater's rated current"),))
 def current_margin(m: Module) -> Scalar:
     """Rated current of the heater less the highest one of them takes in the switch."""
-    return m.peltier_max_current - m.peak_current / m.heater_strings
+    return m.heater_max_current - m.peak_current / m.heater_strings
 
 
 @quantities.path(SOFTENING, "degC", "maximum")
@@ -166,7 +166,7 @@ def peak_rotor_temperature(m: Module) -> Scalar:
 @quantities.output("K", ratings=(at_least(0.0, "the heater is above the temperature it is rated for"),))
 def heater_temperature_margin(m: Module) -> Scalar:
     """Rated temperature of the heater less the highest it sees."""
-    return m.peltier_max_temperature - m.peak_heater_temperature
+    return m.heater_max_temperature - m.peak_heater_temperature
 
 
 @quantities.output("K", ratings=(at_least(0.0, "the PCL decomposes"),))
@@ -308,13 +308,13 @@ def stiffening_peak_current(m: Module) -> Scalar:
 @stiffenings.output("A", ratings=(at_least(0.0, "cooling is above the heater's rated current"),))
 def cooling_current_margin(m: Module) -> Scalar:
     """Rated current of the heater less the highest one of them takes while the joint stiffens."""
-    return m.peltier_max_current - m.stiffening_peak_current / m.heater_strings
+    return m.heater_max_current - m.stiffening_peak_current / m.heater_strings
 
 
 @stiffenings.output("K", ratings=(at_least(0.0, "the pads' outer side is above the temperature it is rated for"),))
 def cold_side_temperature_margin(m: Module) -> Scalar:
     """Rated temperature of the heater less the highest of its outer side."""
-    return m.peltier_max_temperature - m.peak_cold_side_temperature
+    return m.heater_max_temperature - m.peak_cold_side_temperature
 
 
 @stiffenings.output("K", ratings=(at_least(0.0, "the structure is above its service temperature while it stiffens"),))

@@ -31,16 +31,16 @@ quantities.choices("thermal_stack")
 
 
 @quantities.output("1")
-def peltier_scale(m: Module) -> Scalar:
+def heater_scale(m: Module) -> Scalar:
     """Area of the pads over the area of the catalogue module they are cut from, or the count of modules."""
-    return m.heated_area / m.peltier_area
+    return m.heated_area / m.heater_area
 
 
 @quantities.helper()
 def pads(m: Module) -> peltier.PeltierModule:
     """All pads as one module: S, R and K grow with the count of couples, strings in parallel share the current."""
-    pad = peltier.PeltierModule(m.peltier_seebeck, m.peltier_resistance, m.peltier_conductance)
-    return peltier.wired(pad, m.peltier_scale, m.heater_strings)
+    pad = peltier.PeltierModule(m.heater_seebeck, m.heater_resistance, m.heater_conductance)
+    return peltier.wired(pad, m.heater_scale, m.heater_strings)
 
 
 @quantities.helper()
@@ -87,7 +87,7 @@ def sink(m: Module) -> lumps.Lump | None:
 @quantities.helper()
 def stack(m: Module) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
-    side, legs = peltier.shared_capacity(m.peltier_mass * m.peltier_specific_heat)
+    side, legs = peltier.shared_capacity(m.heater_mass * m.heater_specific_heat)
     return heat.Stack(
         area=m.pcl_area,
         thickness=m.pcl_depth,

@@ -208,7 +208,7 @@ def driven_inertia(m: Module) -> Scalar:
     counted, nor the outer rings of the module's bearings, near the axis.
     """
     at_pcl = 0.5 * (m.pcl_inner_radius**2 + m.pcl_outer_radius**2)
-    on_arcs = m.pcl_mass + m.peltier_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
+    on_arcs = m.pcl_mass + m.heater_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
     carried = m.springs_inertia + on_arcs * at_pcl
     cover = m.cover_section.polar * m.cover_height * m.structure_density
     base = m.base_moments.polar * m.structure_density

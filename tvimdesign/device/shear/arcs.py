@@ -55,19 +55,19 @@ def pad_section(m: Module) -> Section:
 
 
 @weights.output("mm^3")
-def peltier_volume(m: Module) -> Scalar:
+def heater_volume(m: Module) -> Scalar:
     """Volume of all heaters together: cut to the pockets' outline, or rectangular tiles."""
     if m.heater_form == CUT:
-        return m.pad_section.area * m.peltier_thickness
-    return m.heater_count * m.peltier_width * (m.peltier_length - 0.5 * m.peltier_porch) * m.peltier_thickness
+        return m.pad_section.area * m.heater_thickness
+    return m.heater_count * m.heater_width * (m.heater_length - 0.5 * m.heater_porch) * m.heater_thickness
 
 
 @weights.helper()
 def window_section(m: Module) -> Section:
     """Plan view of the windows below the heaters: arcs or tiles, less a ledge on every side, rounded."""
     if m.heater_form != CUT:
-        sides = (m.peltier_width - 2.0 * m.window_ledge, m.cold_plate_length - 2.0 * m.window_ledge)
-        away = np.sqrt(m.tile_radius**2 + (0.5 * m.peltier_porch) ** 2)
+        sides = (m.heater_width - 2.0 * m.window_ledge, m.cold_plate_length - 2.0 * m.window_ledge)
+        away = np.sqrt(m.tile_radius**2 + (0.5 * m.heater_porch) ** 2)
         return rectangle_at(*sides, away, m.corner_radius).times(m.heater_count)
     inner, outer = m.pcl_inner_radius + m.window_ledge, m.pcl_outer_radius - m.window_ledge
     return _rounded_sector(m.window_span, inner, outer, m.corner_radius).times(m.arc_count)
@@ -141,7 +141,7 @@ def arc_width(m: Module) -> Scalar:
 @places.output("mm", at_least(0.0, "a heater needs a window behind its ledges for its cold side", 0.0))
 def window_depth(m: Module) -> Scalar:
     """Radial width of the windows below the heaters."""
-    return (m.arc_width if m.heater_form == CUT else m.peltier_width) - 2.0 * m.window_ledge
+    return (m.arc_width if m.heater_form == CUT else m.heater_width) - 2.0 * m.window_ledge
 
 
 @rules.output("mm", at_least(0.0, "there must be a floor below a heater", 0.0))
@@ -253,7 +253,7 @@ def liner_areal_compliance(m: Module) -> Scalar:
 def lap_of_arcs(m: Module) -> tuple[Scalar, Scalar, Scalar]:
     """Frozen layer and pads per area [Pa/m], and the sheets on both sides, plate and floor [1/(Pa*m)]."""
     layer = m.pcl_thickness / m.frozen_shear_modulus + m.liner_areal_compliance
-    per_area = 1.0 / (layer + m.peltier_thickness / m.peltier_shear_modulus)
+    per_area = 1.0 / (layer + m.heater_thickness / m.heater_shear_modulus)
     sheet = (
         np.sqrt(m.driven_share) / m.structure_shear_modulus
     )  # of the circle the arcs take up a share: as in the plate

@@ -200,7 +200,7 @@ def heater_strings(m: Module) -> Scalar:
 @quantities.output("K*mm^2/W", requires=WITH_TILES)
 def spreader_resistance(m: Module) -> Scalar:
     """Resistance of the way along the spreader to what its modules do not cover, times the layer's area."""
-    width, tile = m.pcl_outer_radius - m.pcl_inner_radius, (m.peltier_length, m.peltier_width)
+    width, tile = m.pcl_outer_radius - m.pcl_inner_radius, (m.heater_length, m.heater_width)
     inwards = 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius) - m.tile_radius
     return peltier.row_spreading_resistance(
         m.pcl_area, width, m.heater_count, tile, 2, m.spreader_conductivity, m.spreader_thickness, inwards
@@ -211,7 +211,7 @@ def spreader_resistance(m: Module) -> Scalar:
 def pad_compliance(m: Module) -> Scalar:
     """Compliance in shear about the axis [rad/(N*m)] of pads, or of spreaders and the adhesive of their seats."""
     if m.heater_form == CUT:
-        return m.peltier_thickness / (m.peltier_shear_modulus * m.held_pads)
+        return m.heater_thickness / (m.heater_shear_modulus * m.held_pads)
     return m.seat_path.adhesive + m.spreader_depth / (m.spreader_shear_modulus * m.held_pads)
 
 
@@ -223,7 +223,7 @@ def pad_foundation(m: Module) -> Scalar:
     the mean deflection q w^4/(120 D) (Young and Budynas, Roark's Formulas, table 8.1).
     """
     if m.heater_form == CUT:
-        return INCOMPRESSIBLE * m.peltier_shear_modulus / m.peltier_thickness
+        return INCOMPRESSIBLE * m.heater_shear_modulus / m.heater_thickness
     poisson = 0.5 * m.spreader_youngs_modulus / m.spreader_shear_modulus - 1.0
     rigidity = m.spreader_youngs_modulus * m.spreader_depth**3 / (12.0 * (1.0 - poisson**2))
     return 120.0 * rigidity / m.arc_width**4
@@ -243,13 +243,13 @@ def tile_links(m: Module) -> tuple[Link, ...]:
     if m.heater_form == CUT:
         return ()
     down = lumps.air_gap(
-        m.pcl_area - m.heated_area, m.peltier_thickness, m.air_conductivity, m.surface_emissivity, SPREADER, BELOW_PADS
+        m.pcl_area - m.heated_area, m.heater_thickness, m.air_conductivity, m.surface_emissivity, SPREADER, BELOW_PADS
     )
-    across = lumps.air_gap(1.0, m.peltier_thickness, m.air_conductivity, m.surface_emissivity, SPREADER, BELOW_PADS)
-    up = m.peltier_thickness * lumps.link_conductance(across, m.pcl_melting.end, m.ambient_temperature)
+    across = lumps.air_gap(1.0, m.heater_thickness, m.air_conductivity, m.surface_emissivity, SPREADER, BELOW_PADS)
+    up = m.heater_thickness * lumps.link_conductance(across, m.pcl_melting.end, m.ambient_temperature)
     evenly, slot = np.sqrt(m.air_conductivity * up), m.air_conductivity / m.pad_edge_contact
-    width = ((m.pcl_area - m.heated_area) / m.edge_length + slot) / m.peltier_thickness * up / evenly
-    beside = room(width, evenly / (m.pad_edge_contact * m.peltier_thickness))
+    width = ((m.pcl_area - m.heated_area) / m.edge_length + slot) / m.heater_thickness * up / evenly
+    beside = room(width, evenly / (m.pad_edge_contact * m.heater_thickness))
     through = evenly * m.edge_length
     corner = m.structure_conductivity * m.edge_length * shape_factors.corner_shape(beside.ceiling)
     to_wall = lumps.in_series((beside.ceiling + beside.floor) * through, corner)
@@ -277,10 +277,10 @@ class ColdSide(NamedTuple):
 def cold_side_slab(m: Module) -> ColdSide:
     """Legs and cold side, by the pads' conductance up and their conductivity along."""
     width = m.heated_area / m.edge_length
-    up = m.pads.conductance / m.heated_area * m.peltier_thickness
+    up = m.pads.conductance / m.heated_area * m.heater_thickness
     mean = np.sqrt(m.pad_conductivity * up)
-    sheet = SIDE_SHARE * m.peltier_thickness * m.pad_conductivity / (mean * width)
-    depth = (1.0 - 2.0 * SIDE_SHARE) * m.peltier_thickness * np.sqrt(m.pad_conductivity / up) / width
+    sheet = SIDE_SHARE * m.heater_thickness * m.pad_conductivity / (mean * width)
+    depth = (1.0 - 2.0 * SIDE_SHARE) * m.heater_thickness * np.sqrt(m.pad_conductivity / up) / width
     return ColdSide(mean * m.edge_length, sheet, depth)
 
 

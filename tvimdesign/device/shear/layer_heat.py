@@ -124,7 +124,7 @@ def heater_along(m: Module) -> Scalar:
     """Conductance [W/K] along half of the pads' thickness, or the spreader, from its mean temperature to its edge."""
     if m.heater_form != CUT:
         return m.spreader_conductivity * m.spreader_depth * m.to_edge
-    return m.pad_conductivity * 0.5 * m.peltier_thickness * m.to_edge
+    return m.pad_conductivity * 0.5 * m.heater_thickness * m.to_edge
 
 
 @quantities.helper()
@@ -134,7 +134,7 @@ def pad_edge(m: Module) -> Scalar:
     Tiles stand in air there; the spreader on them meets the wall through its seat, and at its ends a slot.
     """
     if m.heater_form == CUT:
-        return lumps.in_series(m.heater_along, m.pad_edge_contact * 0.5 * m.peltier_thickness * m.edge_length)
+        return lumps.in_series(m.heater_along, m.pad_edge_contact * 0.5 * m.heater_thickness * m.edge_length)
     seat = m.heater_adhesive_conductivity / m.spreader_gap * m.seat_length
     ends = m.pad_edge_contact * (m.edge_length - m.seat_length)
     return lumps.in_series(m.heater_along, (seat + ends) * m.spreader_depth)

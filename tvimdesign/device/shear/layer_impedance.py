@@ -55,9 +55,9 @@ def held_pads(m: Module) -> Scalar:
     """
     if m.heater_form != CUT:
         return m.layer_polar_moment
-    fringe = shear_lag.end_fringe(m.peltier_shear_modulus, m.peltier_bulk_modulus)
-    across = shear_lag.held_over_window(m.peltier_thickness, 0.5 * m.window_depth)
-    along = shear_lag.held_over_window(m.peltier_thickness, 0.5 * m.window_span * m.pcl_mean_radius, fringe)
+    fringe = shear_lag.end_fringe(m.heater_shear_modulus, m.heater_bulk_modulus)
+    across = shear_lag.held_over_window(m.heater_thickness, 0.5 * m.window_depth)
+    along = shear_lag.held_over_window(m.heater_thickness, 0.5 * m.window_span * m.pcl_mean_radius, fringe)
     return m.layer_polar_moment - (1.0 - across) * (1.0 - along) * m.window_section.polar
 
 
@@ -71,8 +71,8 @@ def held_polar_moment(m: Module) -> Scalar:
     """
     if m.heater_form != CUT:
         return m.layer_polar_moment
-    per_area = 1.0 / (m.pcl_thickness / m.frozen_shear_modulus + m.peltier_thickness / (3.0 * m.peltier_shear_modulus))
-    sheet = 1.0 / (m.peltier_shear_modulus * m.peltier_thickness)
+    per_area = 1.0 / (m.pcl_thickness / m.frozen_shear_modulus + m.heater_thickness / (3.0 * m.heater_shear_modulus))
+    sheet = 1.0 / (m.heater_shear_modulus * m.heater_thickness)
     borne = shear_lag.borne_over_window(per_area, sheet, 0.5 * m.window_depth)
     return np.fmax(m.layer_polar_moment - (1.0 - borne) * m.window_section.polar, m.held_pads)
 
@@ -109,7 +109,7 @@ def layer_against_leaning(m: Module) -> Scalar:
     Half of that about the axis, as often as a pad is stiffer drawn than sheared: a strip on its ledge, 4 (1 + S^2) with
     half the ledge over the pad's thickness as S. Adhesive around spreaders is sheared either way.
     """
-    strip = 4.0 * (1.0 + (0.5 * m.window_ledge / m.peltier_thickness) ** 2) if m.heater_form == CUT else 1.0
+    strip = 4.0 * (1.0 + (0.5 * m.window_ledge / m.heater_thickness) ** 2) if m.heater_form == CUT else 1.0
     return 0.5 * strip * m.frozen_layer_stiffness
 
 

@@ -29,7 +29,7 @@ def lead_bend_radius(m: Module) -> Scalar:
 @places.output("mm", hidden=True)
 def lead_level(m: Module) -> Scalar:
     """Level at which the leads leave a heater: half its height."""
-    return -m.spreader_depth - 0.5 * m.peltier_thickness
+    return -m.spreader_depth - 0.5 * m.heater_thickness
 
 
 @places.output("mm", hidden=True)
@@ -63,7 +63,7 @@ def lead_slot_width(m: Module) -> Scalar:
 
 def _slot_end(m: Module) -> Scalar:
     """Return how far from the middle of its module a slot ends, along the module [m]."""
-    return 0.5 * m.peltier_length + m.lead_slot_length
+    return 0.5 * m.heater_length + m.lead_slot_length
 
 
 @places.output("mm")
@@ -77,7 +77,7 @@ def lead_slot_radius(m: Module) -> Scalar:
 @weights.helper(default=NOTHING)
 def lead_hole_section(m: Module) -> Section:
     """Plan view of the slots for leads, one beside each module, and of the thermistors' holes, one below each arc."""
-    along = 0.5 * m.peltier_length + 0.5 * m.lead_slot_length
+    along = 0.5 * m.heater_length + 0.5 * m.lead_slot_length
     away = np.sqrt(m.lead_slot_radius**2 + along**2)
     slots = rectangle_at(m.lead_slot_width, m.lead_slot_length, away, m.corner_radius).times(m.heater_count)
     return slots.plus(disc_at(0.5 * m.lead_hole_diameter, m.tile_radius).times(m.arc_count))
@@ -93,7 +93,7 @@ def lead_volume(m: Module) -> Scalar:
 @rules.gap("the leads would have to bend sideways as well: a wider or longer arc")
 def lead_exit_margin(m: Module) -> Scalar:
     """Width by which the slot for the leads lies behind the end of their heater."""
-    return m.lead_slot_radius - 0.5 * m.lead_slot_width - m.tile_radius + 0.5 * m.peltier_width
+    return m.lead_slot_radius - 0.5 * m.lead_slot_width - m.tile_radius + 0.5 * m.heater_width
 
 
 @rules.gap("the slot for the leads reaches beyond the arc's end: a longer arc")
@@ -107,7 +107,7 @@ def lead_slot_end_margin(m: Module) -> Scalar:
 def lead_tile_margin(m: Module) -> Scalar:
     """Gap of that slot to the next heater of its arc beyond the least; zero for one module an arc."""
     inner, pitch = m.lead_slot_radius - 0.5 * m.lead_slot_width, m.tile_pitch
-    beyond = inner * np.sin(pitch) - _slot_end(m) * np.cos(pitch) - 0.5 * m.peltier_length
+    beyond = inner * np.sin(pitch) - _slot_end(m) * np.cos(pitch) - 0.5 * m.heater_length
     return np.fmin(m.tiles_per_arc - 1.0, 1.0) * (beyond - m.tile_clearance)
 
 

@@ -40,7 +40,7 @@ tile_places.same("tiles_per_pocket", "tiles_per_arc", "Rectangular heaters in ea
 def tile_reach(m: Module) -> Scalar:
     """Distance from the axis at which the outer corners of a tile would touch the pocket's outer wall [m]."""
     least = 0.1 * m.pcl_outer_radius
-    return np.sqrt(np.fmax(m.pcl_outer_radius**2 - 0.25 * m.peltier_length**2, least**2))
+    return np.sqrt(np.fmax(m.pcl_outer_radius**2 - 0.25 * m.heater_length**2, least**2))
 
 
 @tile_places.output("mm")
@@ -64,7 +64,7 @@ def tile_pitch(m: Module) -> Scalar:
 @tile_places.output("mm")
 def cold_plate_length(m: Module) -> Scalar:
     """Length of a tile's colder plate, which lies on the ledges of its window: a porch shorter than the other one."""
-    return m.peltier_length - m.peltier_porch
+    return m.heater_length - m.heater_porch
 
 
 @tile_weights.output("mm^3")
@@ -76,14 +76,14 @@ def spreader_volume(m: Module) -> Scalar:
 @tile_rules.gap("a heater is too wide for its arc: choose a smaller one, or a wider arc")
 def tile_radial_margin(m: Module) -> Scalar:
     """Gap of a tile's inner edge and outer corners to the walls of its pocket, beyond the least."""
-    return 0.5 * (m.tile_reach - m.pcl_inner_radius - m.peltier_width) - m.tile_clearance
+    return 0.5 * (m.tile_reach - m.pcl_inner_radius - m.heater_width) - m.tile_clearance
 
 
 @tile_rules.gap("the heaters of an arc overlap: choose fewer, or a longer arc")
 def tile_side_margin(m: Module) -> Scalar:
     """Gap between the inner corners of neighbouring tiles beyond the least; at an arc's end, between tile and hole."""
-    inner = m.tile_radius - 0.5 * m.peltier_width
-    return 2.0 * inner * np.sin(0.5 * m.tile_pitch) - m.peltier_length * np.cos(0.5 * m.tile_pitch) - m.tile_clearance
+    inner = m.tile_radius - 0.5 * m.heater_width
+    return 2.0 * inner * np.sin(0.5 * m.tile_pitch) - m.heater_length * np.cos(0.5 * m.tile_pitch) - m.tile_clearance
 
 
 places = QuantityGroup("Layout")

@@ -160,7 +160,7 @@ def conditions(cases: Mapping[str, Case]) -> list[str]:
     lower, upper = getattr(current, "lower", None), getattr(current, "upper", None)
     ends = [values["current"]] if lower is None else [lower, upper]
     clauses = [f"at {' to '.join(format_quantity(end, 'A') for end in ends)}"]
-    clauses += [f"{values['peltier_module'].name} pads", values["structure_material"].name, values["pcl_grade"].name]
+    clauses += [f"{values['heater_module'].name} pads", values["structure_material"].name, values["pcl_grade"].name]
     clauses.append(f"ambient {format_quantity(values['ambient_temperature'], 'degC')}, cold side {values['cold_side']}")
     clauses.append(f"response_time by {values['response_criterion']}")
     return [*required, *points, *clauses]

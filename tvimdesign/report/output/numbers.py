@@ -15,7 +15,7 @@ from typing import Any
 from tvimdesign.base.record import own_data
 from tvimdesign.base.units import from_si, pretty, si_unit
 
-_CAPITALS = {"pcl": "PCL", "peltier": "heater", "peltiers": "heaters"}
+_CAPITALS = {"pcl": "PCL"}
 _NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^[a-z]+(?= [<>]=)")
 
 

@@ -17,12 +17,12 @@ from tvimdesign.simulation.measurement.measure_files import Measured
 BASED_ON = {
     "spring_materials": "music_wire",
     "polymers": "pcl_80k",
-    "peltiers": "flexible_1600",
+    "heaters": "flexible_1600",
     "heat_paths": "handbook",
 }
 """Default record to base a new one on: all that was not measured is that one's. A joint's is based on none."""
 CHOICES = {
-    "spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module",
+    "spring_materials": "spring_material", "polymers": "pcl_grade", "heaters": "heater_module",
     "heat_paths": "heat_paths", "joints": "joint",
 }  # fmt: skip
 """What a study names a record of each category by."""

@@ -16,7 +16,7 @@ from tvimdesign.physics.layers import layer
 from tvimdesign.study import given, read_study_text
 from tvimdesign.study.study import Study
 
-COMB = "pcl_grade: conductive_pla, peltier_module: comb_electrodes"
+COMB = "pcl_grade: conductive_pla, heater_module: comb_electrodes"
 WANTED = ["pcl_area", "pcl_depth", "layer_resistance", "electrode_gap_margin"]
 
 
@@ -39,7 +39,7 @@ def test_resistance_of_layers_in_series(mode, count):
 def test_what_cannot_heat_or_be_held_is_named():
     cold_start = table_for("shear").evaluate(given(study("shear", "")), WANTED)
     assert (cold_start["layer_resistance"], cold_start["electrode_gap_margin"]) == (0.0, 0.0)
-    module = "heat_source: layer, peltier_module: qc_17, pcl_resistivity: 0.1 ohm.m, electrode_gap: 2 mm, "
+    module = "heat_source: layer, heater_module: qc_17, pcl_resistivity: 0.1 ohm.m, electrode_gap: 2 mm, "
     values = given(study("shear", f"{module} electrode_width: 1 mm"))
     with pytest.raises(InputError, match="heat_source: layer needs a heater that lies on the layer; qc_17 is rigid"):
         table_for("shear").evaluate(values, ["layer_resistance"])

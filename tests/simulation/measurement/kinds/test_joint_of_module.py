@@ -76,25 +76,25 @@ def test_a_melt_that_thins_over_a_wide_motion_is_known_by_its_amplitude(module):
 
 def test_a_frozen_joint_tells_its_pads_and_a_run_counts_them_as_measured(tmp_path, module):
     names = ["joint_stiffness@cold", "joint_damping@cold"]
-    softer = {**module.values, "peltier_shear_modulus": 3e6, "clamped_loss_factor": 0.04, "frequency@cold": 1.0}
+    softer = {**module.values, "heater_shear_modulus": 3e6, "clamped_loss_factor": 0.04, "frequency@cold": 1.0}
     stiffness, damping = map(float, module.table.evaluate(softer, names).values())
     paths = joints(tmp_path, stiffness, damping, 0.0, (1.0, 8.0))
     result = measured(paths, "sine", study=str(STUDY), state="frozen")
     written = write_records(result, tmp_path / "mine", "bench")
-    assert list(written) == ["joint", "peltier_module"]
+    assert list(written) == ["joint", "heater_module"]
     study = STUDY.read_text().replace(
-        "\nmodule:", "\ncatalog: mine\nmodule:\n  joint: bench\n  peltier_module: bench", 1
+        "\nmodule:", "\ncatalog: mine\nmodule:\n  joint: bench\n  heater_module: bench", 1
     )
     (tmp_path / "study.yaml").write_text(study)
     inputs = {
         assumed.name: assumed for assumed in unmeasured_inputs(resolve_study(read_study(tmp_path / "study.yaml")))
     }
-    pads, loss = inputs["peltier_shear_modulus"], inputs["clamped_loss_factor"]
+    pads, loss = inputs["heater_shear_modulus"], inputs["clamped_loss_factor"]
     assert (pads.status, loss.status) == ("measured", "measured")
     assert pads.low < 3e6 < pads.high
     assert loss.low < 0.04 < loss.high
     assert loss.before == (0.002, 0.06)
-    earlier = Catalog().record("peltiers", "flexible_1600").entry("shear_modulus")
+    earlier = Catalog().record("heaters", "flexible_1600").entry("shear_modulus")
     assert pads.before == (earlier.low, earlier.high)
 
 
@@ -119,8 +119,8 @@ def test_a_release_with_a_known_inertia_writes_records_too(tmp_path, module):
     angle = 0.002 * np.exp(-decay * time) * (np.cos(ringing * time) + decay / ringing * np.sin(ringing * time))
     path = csv(tmp_path / "r.csv", time__s=time, angle__rad=angle + np.random.default_rng(1).normal(0.0, 2e-6, 200))
     result = fit_files(path, "release", inertia="4.3e-4 kg.m^2", study=str(STUDY), state="frozen")
-    assert result.fit.value("peltier_shear_modulus") == pytest.approx(module.values["peltier_shear_modulus"], rel=0.05)
-    assert [record.choice for record in result.more_records] == ["peltier_module"]
+    assert result.fit.value("heater_shear_modulus") == pytest.approx(module.values["heater_shear_modulus"], rel=0.05)
+    assert [record.choice for record in result.more_records] == ["heater_module"]
 
 
 def test_no_record_of_several_stays_where_one_cannot(tmp_path, module):
@@ -128,8 +128,8 @@ def test_no_record_of_several_stays_where_one_cannot(tmp_path, module):
     stiffness, damping = (float(module.quantity(name)) for name in names)
     result = measured(joints(tmp_path, stiffness, damping, 0.0, (1.0, 8.0)), "sine", study=str(STUDY), state="frozen")
     folder = tmp_path / "mine"
-    (folder / "peltiers").mkdir(parents=True)
-    (folder / "peltiers" / "flexible_1600.yaml").write_text("title: broken\n")
+    (folder / "heaters").mkdir(parents=True)
+    (folder / "heaters" / "flexible_1600.yaml").write_text("title: broken\n")
     with pytest.raises(CatalogError):
         write_records(result, folder, "bench")
     assert not (folder / "joints" / "bench.yaml").exists()

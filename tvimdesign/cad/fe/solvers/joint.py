@@ -33,7 +33,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     """Return the stiffness of the joint at the core's top and of each part [N*m/rad]; stresses at 1 N*m [MPa]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
-    keeps_volume = values.get("peltier_bulk_modulus", 0.0) > RUBBER * values["peltier_shear_modulus"]
+    keeps_volume = values.get("heater_bulk_modulus", 0.0) > RUBBER * values["heater_shear_modulus"]
     is_rubber = keeps_volume and mm.get("vane_count", 0.0) > 0.0
     pressed = joint_solids.RUBBER if is_rubber else joint_solids.PRESSED
     whole = Glue(joint_solids.parts(folder, mm, coarser, pressed))
@@ -74,9 +74,9 @@ def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
     """Return shear modulus and Lame's first constant of each material [N/mm^2]."""
     own = values["structure_poissons_ratio"]
     structure = values["structure_youngs_modulus"] * 1e-6 / 2 / (1 + own)
-    shear = {"pcl": values["storage_modulus@cold"] * 1e-6, "pad": values["peltier_shear_modulus"] * 1e-6}
+    shear = {"pcl": values["storage_modulus@cold"] * 1e-6, "pad": values["heater_shear_modulus"] * 1e-6}
     poisson = {"pcl": values["pcl_poissons_ratio"], "pad": BETWEEN_PLATES, "rotor": own, "housing": own}
-    bulk = values.get("peltier_bulk_modulus", 0.0) * 1e-6
+    bulk = values.get("heater_bulk_modulus", 0.0) * 1e-6
     if bulk:
         poisson["pad"] = (3 * bulk - 2 * shear["pad"]) / (6 * bulk + 2 * shear["pad"])
     if "spreader_youngs_modulus" in values:
@@ -229,7 +229,7 @@ def turning_frequency(
 def _density(mesh: Any, values: dict[str, float]) -> Any:
     """Return of every material [kg/mm^3]."""
     structure = values["structure_density"]
-    kinds = {"rotor": structure, "housing": structure, "pcl": values["pcl_density"], "pad": values["peltier_density"]}
+    kinds = {"rotor": structure, "housing": structure, "pcl": values["pcl_density"], "pad": values["heater_density"]}
     kinds |= {name: values.get(f"{name}_density", 0.0) for name in ("spreader", "liner")}
     return mesh.MaterialCF({name: density * 1e-9 for name, density in kinds.items()})
 

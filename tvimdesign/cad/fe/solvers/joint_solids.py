@@ -88,7 +88,7 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
         spreaders = [(plate, "spreader", SIZES["layer"]) for plate in sectors(mm, -mm["spreader_depth"], 0.0)]
         solids += [*spreaders, *((adhesive, "seat", SEAT) for adhesive in _seats(mm))]
     elif not blocks:
-        solids += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["peltier_thickness"], 0.0)]
+        solids += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["heater_thickness"], 0.0)]
     for shape, label, size in solids:
         for solid in shape.solids:
             solid.name, solid.maxh = label, size * coarser
@@ -102,7 +102,7 @@ def _pressed(folder: Path, mm: dict[str, float], pressed: float) -> list[tuple[s
     Blocks are counted around the axis from a rotor's vane, heaters from a housing's: each has two of them.
     """
     row = round(mm["tiles_per_block"]) if mm["spreader_depth"] else 1
-    thin = pressed * mm["peltier_thickness"]
+    thin = pressed * mm["heater_thickness"]
     kinds = {"pcl_block": ("pcl", SIZES["layer"], 1, 1), "heater": ("pad", thin, 0, row)}
     if mm["spreader_depth"]:
         kinds |= {"spreader": ("spreader", SIZES["layer"], 0, 1)}
@@ -184,7 +184,7 @@ def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
     wall = tube(mm["housing_inner_radius"] + WALL_GAP, mm["housing_outer_radius"], 0.0, mm["rim_level"])
     housing = (whole - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
     # Filled before it is cut, else the rounded openings' edges stay in its faces. Holes of leads are filled too.
-    deep = mm["floor_thickness"] if mm["spreader_depth"] else mm["peltier_thickness"] + 0.2
+    deep = mm["floor_thickness"] if mm["spreader_depth"] else mm["heater_thickness"] + 0.2
     for filling in sectors(mm, -deep, 0.0, wider=mm["slip_clearance"] + 0.1, rims=mm["heater_gap"] + 0.1):
         housing += filling
     for opening in openings:
@@ -194,7 +194,7 @@ def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
 
 def _pad_pockets(mm: dict[str, float]) -> list[Any]:
     """Return pockets of pads cut to the PCL, and the windows below them."""
-    pads, floor = -mm["peltier_thickness"], -mm["floor_thickness"]
+    pads, floor = -mm["heater_thickness"], -mm["floor_thickness"]
     pockets = sectors(mm, pads, 1.0, wider=PAD_GAP)
     return [*pockets, *sectors(mm, floor - 1.0, pads, ledge=mm["window_ledge"])]
 
@@ -202,8 +202,8 @@ def _pad_pockets(mm: dict[str, float]) -> list[Any]:
 def _tile_pockets(mm: dict[str, float]) -> list[Any]:
     """Return pockets of rigid modules with the spreader on them, and the window below each module."""
     low, top = -mm["floor_thickness"] - 1.0, -mm["pad_depth"]
-    deep, long = (0.5 * mm[size] - mm["window_ledge"] for size in ("peltier_width", "cold_plate_length"))
-    porch = 0.5 * mm["peltier_porch"]
+    deep, long = (0.5 * mm[size] - mm["window_ledge"] for size in ("heater_width", "cold_plate_length"))
+    porch = 0.5 * mm["heater_porch"]
     count, pockets = round(mm["tiles_per_arc"]), sectors(mm, top, 1.0, wider=PAD_GAP, rims=mm["spreader_gap"])
     for arc in range(round(mm["arc_count"])):
         middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
@@ -223,7 +223,7 @@ def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:
     top, low, high = mm["rotor_top_level"], -0.01, mm.get("pcl_thickness", -1.0) + 0.01
     fillet = mm.get("foot_fillet", 0.0)
     foot = mm["core_radius"] + fillet
-    pads = -mm["peltier_thickness"] if "pcl_thickness" in mm and not mm["spreader_depth"] else -np.inf
+    pads = -mm["heater_thickness"] if "pcl_thickness" in mm and not mm["spreader_depth"] else -np.inf
     for edge in whole.edges:
         box = edge.bounding_box
         flat = box[1].z - box[0].z < 1e-4
@@ -233,7 +233,7 @@ def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:
             if np.hypot(centre.x, centre.y) < foot + 0.01 and wide > 0.5 * mm["core_radius"]:
                 edge.maxh = FOOT * coarser
         elif flat and abs(box[0].z - pads) < 1e-3 and _beside_window(edge, mm):
-            edge.maxh = max(WINDOW[0] * mm["peltier_thickness"], WINDOW[1]) * coarser
+            edge.maxh = max(WINDOW[0] * mm["heater_thickness"], WINDOW[1]) * coarser
         elif flat and low < box[0].z < high and np.hypot(centre.x, centre.y) > mm["core_radius"] + 0.5:
             edge.maxh = EDGE * coarser
 

@@ -27,7 +27,7 @@ MOLTEN, FROZEN = "molten", "frozen"
 _POINTS = {MOLTEN: "hot", FROZEN: "cold"}
 _EXPLAINS = {
     MOLTEN: ("spring_youngs_modulus", "pcl_zero_shear_viscosity"),
-    FROZEN: ("peltier_shear_modulus", "clamped_loss_factor"),
+    FROZEN: ("heater_shear_modulus", "clamped_loss_factor"),
 }
 """The inputs that stiffness and damping determine, in this order: those whose ranges move them most."""
 _JOINT = "joint"  # The choice of the records that this kind itself writes
