@@ -31,6 +31,7 @@ def _files() -> dict[str, tuple[ModuleType, ...]]:
         preload_adjuster,
         process,
         screws,
+        spigot,
         tang,
     )
     from tvimdesign.device.compression import (
@@ -78,8 +79,8 @@ def _files() -> dict[str, tuple[ModuleType, ...]]:
     shared = (
         materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
         warm_structure, large_motion, thermal_stack, softening, mass_properties, clearances, axial_preload,
-        process, heater_form, screws, tang, dowels, hard_stops, liner_and_adhesive, bearing, preload_adjuster, cover,
-        housing_base, motor_choice, motor_layout, motor_mass_properties, task, motor_load, cost,
+        process, heater_form, screws, tang, dowels, spigot, hard_stops, liner_and_adhesive, bearing, preload_adjuster,
+        cover, housing_base, motor_choice, motor_layout, motor_mass_properties, task, motor_load, cost,
     )  # fmt: skip
     of_mode = {
         "shear": (

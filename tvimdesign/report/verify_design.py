@@ -141,6 +141,8 @@ def refuse_other_parts(module: ResolvedModule) -> None:
     """Raise InputError for parts that the solvers do not draw."""
     if module.study.mode == "lock":
         raise InputError("verify: FE compares springs as well, and a lock has none")
+    if module.values["link_fit"] == "spigot":
+        raise InputError("verify: FE draws a flat link on dowel pins or screws, and this one has a spigot")
     form = module.values.get("heater_form", "flexible")
     if form != "flexible" and module.study.mode == "compression":
         raise InputError(

@@ -265,7 +265,7 @@ def test_a_note_is_that_of_the_snapshot(name):
     assert text == path.read_text(encoding="utf-8")
 
 
-def test_steps_that_open_bring_no_part_and_each_says_who_holds_what():
+def test_steps_that_open_bring_no_part_and_each_says_who_holds_what(dims):
     opening = [
         step
         for step in all_steps()
@@ -284,7 +284,7 @@ def test_steps_that_open_bring_no_part_and_each_says_who_holds_what():
             assert needs["hands"] == 2
     # The cut-out and the thermistor have one step in each kind of module.
     for kinds in ({"heater", "pcl_arc"}, {"heater", "pcl_block"}, {"heater", "pcl_arc", "spreader"}):
-        texts = [step["text"] for step in steps_of({*kinds, "thermal_cutout"})]
+        texts = [step["text"] for step in steps_of({*kinds, "thermal_cutout"}, dims)]
         assert sum("thermal cut-out" in text for text in texts) == 1, kinds
     assert preload_tolerance(made("milled")) == pytest.approx(radians(1.0))
 

@@ -383,7 +383,7 @@ def test_pins_fill_their_holes_have_their_size_and_go_in_last(design, placed, di
         below = cq.Vector(*placed[name].Center().toTuple()[:2], box.zmin - 0.25)
         assert not placed["rotor"].isInside(below)
         assert placed["rotor"].isInside(below - cq.Vector(0, 0, 0.5))
-    order = [part.name for part in sequence(list(placed))]
+    order = [part.name for part in sequence(list(placed), dims)]
     assert sorted(order) == sorted(placed)
     assert order.index("link") < order.index("link_screw_1") < order.index("link_dowel_1")
 

@@ -188,7 +188,7 @@ def test_parts_stand_frozen_with_room_to_rise_and_come_in_once(sprung):
     else:
         assert dims.hub_bottom_level - parts["retainer"].BoundingBox().zmax == pytest.approx(growth, abs=1e-6)
     names = list(sprung.parts)
-    order = [part.name for part in sequence(names)]
+    order = [part.name for part in sequence(names, sprung.dims)]
     assert sorted(order) == sorted(names)
     seat, above = ("bearing_outer_1", "bearing_inner_1") if sprung.case == "sprung bearings" else ("rotor", "retainer")
     assert order.index("preload_spring") < order.index(seat) < order.index(above)

@@ -14,6 +14,7 @@ from tvimdesign.cad.assembly.heater_leads import set_points_in_words
 from tvimdesign.cad.export.print_files import LINE, walls
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
+from tvimdesign.cad.parts.common_parts import link_screws
 from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.catalog.offers import between
 from tvimdesign.device import Input, Output, table_for
@@ -158,7 +159,7 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     treated = [item for item in items if item.treatment]
     counts |= {"treatment": treated[0].treatment if treated else "", "treated_parts": _listed(treated)}
     known = Figures(design, dims, counts)
-    wanted = [step for step in steps_of({item.kind for item in items}) if _is_for(step, design, dims)]
+    wanted = [step for step in steps_of({item.kind for item in items}, dims) if _is_chosen(step, design)]
     steps = [
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
@@ -199,19 +200,19 @@ def _needs(needs: Mapping[str, Any]) -> str:
     )
 
 
-def _is_for(step: Mapping[str, Any], design: Design, dims: Dimensions) -> bool:
-    """Return whether a step is for a module with these dimensions and choices, beside its kinds of part."""
-    wanted = [getattr(dims, row) > 0.0 for row in step.get("where", ())]
-    unwanted = [getattr(dims, row) > 0.0 for row in step.get("unless", ())]
-    chosen = all(design.choices.get(row) == word for row, word in step.get("chosen", {}).items())
-    return chosen and all(wanted) and not any(unwanted)
+def _is_chosen(step: Mapping[str, Any], design: Design) -> bool:
+    """Return whether a step is for a module with these choices, beside its parts and dimensions."""
+    return all(design.choices.get(row) == word for row, word in step.get("chosen", {}).items())
 
 
-def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
-    """Return steps of a module of these kinds of part, in order, as the data file has them."""
+def steps_of(kinds: set[str], dims: Dimensions) -> list[dict[str, Any]]:
+    """Return steps of a module of these kinds of part and dimensions, in order, as the data file has them."""
     return [
-        step for step in all_steps() if kinds.issuperset(step["kinds"]) and kinds.isdisjoint(step.get("without", ()))
-    ]
+        step for step in all_steps()
+        if kinds.issuperset(step["kinds"]) and kinds.isdisjoint(step.get("without", ()))
+        and all(getattr(dims, row) > 0.0 for row in step.get("where", ()))
+        and not any(getattr(dims, row) > 0.0 for row in step.get("unless", ()))
+    ]  # fmt: skip
 
 
 all_steps = partial(own_data, __file__, "assembly_steps.yaml")
@@ -381,6 +382,10 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "gap_spread": _gap_spread,
     "link_width": lambda _, dims: f"{2.0 * dims.link_half_width:.3g}",
     "play": _play,
+    "link_screws": lambda _, dims: (
+        "link's screw" if dims.spigot_depth else f"{len(link_screws(dims))} link screws crosswise"
+    ),
+    "widest_gap": lambda _, dims: f"{2.0 * dims.spigot_room:.2g}",
     "link_dowel_drill": lambda _, dims: f"{dims.link_dowel_diameter - _TO_REAM:.3g}",
     "leg_pin_height": lambda _, dims: f"{dims.leg_pin_length - dims.leg_pin_depth:.3g}",
     "set_points": lambda design, _: set_points_in_words(design),

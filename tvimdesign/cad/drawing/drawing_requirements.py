@@ -239,18 +239,22 @@ def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[st
     sizes = _remarked_sizes(dims) if written else {}
     return [
         remark["text"].format_map(sizes) for remark in written
-        if all(choices.get(name) == word for name, word in remark.get("choices", {}).items())
+        if _is_there(remark, dims)
+        and all(choices.get(name) == word for name, word in remark.get("choices", {}).items())
     ]  # fmt: skip
 
 
 def _remarked_sizes(dims: Dimensions) -> dict[str, str]:
     """Return the sizes that remarks name, as figures [mm]."""
     sizes = {"slip": dims.slip_clearance}
+    if dims.spigot_depth:
+        sizes |= {"wide": dims.spigot_width, "mouth": dims.spigot_width - dims.slip_clearance}
+        sizes |= {"deep": dims.spigot_depth, "long": 2.0 * dims.spigot_reach, "angle": degrees(dims.spigot_angle)}
     if dims.spring_count:
         sizes["tang_hole"] = dims.wire_diameter + 2.0 * dims.tang_clearance
         sizes["leg_radius"] = dims.stop_contact_radius
         sizes["leg_width"] = dims.stop_contact_radius * dims.stop_angle - dims.slip_clearance
-    return {name: figure(size) for name, size in sizes.items()}
+    return {name: figure(size) for name, size in sizes.items()} | {"off": f"{0.5 * dims.slip_clearance:.2g}"}
 
 
 def _is_there(reported: Mapping[str, Any], dims: Dimensions) -> bool:

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.record import Record, own_data
 from tvimdesign.cad.fe.run_solvers import Solved
-from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.contacts import tightened_force
 from tvimdesign.physics.solids import fasteners, plates, structure, wedge
@@ -205,13 +204,13 @@ class _Tightened(NamedTuple):
 
 def screw_rows(module: ResolvedModule, carried: Carried) -> dict[str, float]:
     """Return stresses [MPa] by row; none of missing pins, or of pins that friction relieves."""
-    names = ("holding_torque", "link_bolt_circle_radius", "link_dowel_circle_radius")
+    names = ("holding_torque", "link_bolt_circle_radius", "link_dowel_circle_radius", "link_screw_count")
     values = {name: float(value) for name, value in module.table.evaluate(module.values, names).items()}
     friction = float(module.values["link_friction"])
     left = max(values["holding_torque"] - carried.slip, 0.0)
     pins = 0.0 if isinstance(module.values["link_fit"], str) and module.values["link_fit"] == "clearance" else left
     link = _tightened(module, "link_screw")
-    sheared = (left - pins) / (LINK_SCREWS * values["link_bolt_circle_radius"])
+    sheared = (left - pins) / (values["link_screw_count"] * values["link_bolt_circle_radius"])
     rows = {"link_screw_stress": link.stress(0.0, sheared)}
     if pins:
         diameter, count = (float(module.values[name]) for name in ("link_dowel_diameter", "link_dowel_count"))

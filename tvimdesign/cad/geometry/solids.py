@@ -72,6 +72,18 @@ def block(along_x: Point, width: float, bottom: float, top: float) -> cq.Solid:
     return _KERNEL.get().block(along_x, width, bottom, top)
 
 
+def tapered_bar(reach: float, width: float, angle: float, levels: Point) -> cq.Shape:
+    """Draw bar along the x axis, of a width at its upper level, its flanks leaning inwards below by an angle."""
+    bottom, top = levels
+    _require(width_of_a_tapered_bar=width - 2.0 * (top - bottom) * tan(angle))
+    beside = block((-reach, reach), 2.0 * width, 2.0 * (bottom - top), top - bottom)
+    flanks = []
+    for side in (1.0, -1.0):
+        pivot = cq.Location(cq.Vector(0, 0.5 * side * width, top), cq.Vector(1, 0, 0), -side * angle * 180.0 / pi)
+        flanks.append(beside.moved(cq.Location(cq.Vector(0, side * width, 0))).moved(pivot))
+    return block((-reach, reach), width, bottom, top).cut(*flanks)
+
+
 def ring(inner: float, outer: float, bottom: float, top: float) -> cq.Solid:
     """Draw upright ring about the axis between two levels."""
     _require(inner_radius=inner, width_of_a_ring=outer - inner, height=top - bottom)

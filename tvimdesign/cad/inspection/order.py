@@ -59,11 +59,11 @@ class Standing:
         return min(self._parts, key=lambda name: away(self._parts[name]))
 
 
-def sequence(names: Sequence[str]) -> list[PlacedPart]:
+def sequence(names: Sequence[str], dims: Dimensions) -> list[PlacedPart]:
     """Return every part in the order in which it comes into its place, by the steps of the assembly note."""
     kinds = {kind_of(name) for name in names}
     order: list[PlacedPart] = []
-    for step in steps_of(kinds):
+    for step in steps_of(kinds, dims):
         order += coming(step.get("place", ()), names)
     return order
 
@@ -72,7 +72,7 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[S
     """Put part after part in its place and compare its way in with those that are there; then look at the screws."""
     meshes = {name: in_module(instance) for name, instance in placed.items()}
     shapes = {name: Triangles(mesh) for name, mesh in meshes.items()}
-    order = sequence(list(meshes))
+    order = sequence(list(meshes), dims)
     left = sorted(set(meshes) - {part.name for part in order})
     text = "every part has its step" if not left else f"no step puts these in their places: {', '.join(left)}"
     yield finding("module", "steps", len(left), 0.0, "", at_most(len(left), 0.0), text)

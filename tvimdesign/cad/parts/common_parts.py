@@ -19,6 +19,7 @@ from tvimdesign.cad.geometry.solids import (
     sector,
     slot,
     spoked_disc,
+    tapered_bar,
     toothed_disc,
     turned,
 )
@@ -181,7 +182,7 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
     plate = toothed_disc(radii, dims.corner_radius, dims.stop_tooth_span, stop_azimuths(dims), levels)
     core = [
         cylinder(dims.journal_radius, core_bottom, dims.rotor_top_level),
-        cylinder(dims.core_radius, dims.rotor_bottom_level, dims.link_bottom_level),
+        cylinder(dims.core_radius, dims.rotor_bottom_level, dims.core_top_level),
     ]
     if dims.rotor_bottom_level > dims.hub_top_level:
         core.append(cylinder(dims.collar_radius, dims.hub_top_level, dims.rotor_top_level))
@@ -190,13 +191,13 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
     pins = [cylinder(radius, top, pin_foot_level(dims), at) for at in places]
     feet = [(dims.core_radius, (0.0, 0.0)), *((radius, at) for at in places)]
     pins += [foot(radius, dims.foot_fillet, top, at) for radius, at in feet]
-    holes = [*_screw_holes(dims), *_dowel_holes_in_rotor(dims)]
+    holes = [*_spigot_slot(dims), *_screw_holes(dims), *_dowel_holes_in_rotor(dims)]
     return join(plate, [*core, *pins, *added]).cut(*holes, *openings)
 
 
 def _screw_holes(dims: Dimensions) -> list[cq.Shape]:
     """Draw the core's holes for the screws of retainer and link."""
-    top, bottom, point = dims.link_bottom_level, dims.core_bottom_level, dims.drill_point_ratio
+    top, bottom, point = dims.link_screw_mouth_level, dims.core_bottom_level, dims.drill_point_ratio
     holes = blind_hole(dims.retainer_screw_hole, bottom, bottom + dims.retainer_screw_depth, point)
     for at in link_screws(dims):
         holes += blind_hole(dims.link_screw_hole, top, top - dims.link_screw_depth, point, at)
@@ -204,13 +205,25 @@ def _screw_holes(dims: Dimensions) -> list[cq.Shape]:
 
 
 def link(dims: Dimensions) -> cq.Shape:
-    """Draw output link: an obround from the core to the housing's edge, with its holes for screws, dowel pins and a
-    tool."""
+    """Draw output link: an obround from the core to the housing's edge, with its spigot, and its holes for screws,
+    dowel pins and a tool."""
     bottom, top = dims.link_bottom_level, dims.link_bottom_level + dims.link_thickness
-    holes = [cylinder(0.5 * dims.link_screw_clearance, bottom, top, at) for at in link_screws(dims)]
+    lowest = bottom - dims.spigot_depth
+    holes = [cylinder(0.5 * dims.link_screw_clearance, lowest, top, at) for at in link_screws(dims)]
     holes += [cylinder(0.5 * dims.link_dowel_diameter, bottom, top, at) for at in link_dowels(dims)]
     tool_hole = cylinder(0.5 * dims.link_tool_hole, bottom, top, (dims.link_length, 0.0))
-    return slot(dims.link_half_width, dims.link_length, bottom, top).cut(tool_hole, *holes)
+    plate = slot(dims.link_half_width, dims.link_length, bottom, top)
+    if dims.spigot_depth:
+        plate = join(plate, [tapered_bar(dims.spigot_reach, dims.spigot_width, dims.spigot_angle, (lowest, bottom))])
+    return plate.cut(tool_hole, *holes)
+
+
+def _spigot_slot(dims: Dimensions) -> list[cq.Shape]:
+    """Draw what is cut from the core's end for the link's spigot; nothing without."""
+    if not dims.spigot_depth:
+        return []
+    levels = dims.link_screw_mouth_level, dims.core_top_level
+    return [tapered_bar(dims.core_radius + 1.0, dims.spigot_width - dims.slip_clearance, dims.spigot_angle, levels)]
 
 
 def retainer(dims: Dimensions) -> cq.Shape:
@@ -220,8 +233,9 @@ def retainer(dims: Dimensions) -> cq.Shape:
 
 
 def link_screws(dims: Dimensions) -> list[tuple[float, float]]:
-    """Return the axes of the four screws that hold the link on the core."""
-    return [polar(dims.link_bolt_circle_radius, azimuth) for azimuth in _LINK_SCREW_AZIMUTHS]
+    """Return the axes of the screws that hold the link on the core: four, or one on the axis."""
+    circle = dims.link_bolt_circle_radius
+    return [polar(circle, azimuth) for azimuth in _LINK_SCREW_AZIMUTHS] if circle else [(0.0, 0.0)]
 
 
 def link_dowels(dims: Dimensions) -> list[tuple[float, float]]:

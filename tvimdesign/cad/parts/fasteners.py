@@ -26,7 +26,7 @@ _SEATS: Mapping[str, Callable[[Dimensions], tuple[float, int]]] = {
 }
 """Level that the heads of a joint's screws lie on, and the way in: 1 upwards, -1 downwards."""
 _MOUTHS: Mapping[str, Callable[[Dimensions], float]] = {
-    "link": lambda dims: dims.link_bottom_level - insert_length(dims, "link"),
+    "link": lambda dims: dims.link_screw_mouth_level - insert_length(dims, "link"),
     "retainer": lambda dims: dims.core_bottom_level,
     "adjuster": lambda dims: -dims.adjuster_thickness,
     "cover": lambda dims: dims.rim_level - insert_length(dims, "cover"),

@@ -7,7 +7,7 @@ from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_l
 from tvimdesign.physics.spring import leg_direction, pin_distance
 
 quantities = QuantityGroup("Gaps")
-
+_FOUR = (Feature("link_fit", "spigot"),)  # Link screws: a spigot has one
 
 MM = 1e-3
 POCKET_WIDTH = 2.1
@@ -98,9 +98,9 @@ def link_screw_wall(m: Module) -> Scalar:
     return np.fmin(m.core_radius, m.journal_radius) - m.link_bolt_circle_radius - 0.5 * m.link_screw_hole
 
 
-@quantities.output("mm", at_least(0.3 * MM, "the heads of the link screws must clear each other"))
+@quantities.output("mm", at_least(0.3 * MM, "the heads of the link screws must clear each other"), requires=_FOUR)
 def link_screw_gap(m: Module) -> Scalar:
-    """Room between the heads of neighbouring link screws."""
+    """Room between the heads of neighbouring link screws; zero of a single one."""
     return np.sqrt(2.0) * m.link_bolt_circle_radius - m.link_screw_head
 
 
@@ -108,7 +108,7 @@ def link_screw_gap(m: Module) -> Scalar:
 def core_web(m: Module) -> Scalar:
     """Core between the holes of the link screws and that of the retainer's screw, a drill's points included."""
     points = m.drill_point_ratio * (m.link_screw_hole + m.retainer_screw_hole)
-    return m.link_bottom_level - m.core_bottom_level - m.link_screw_depth - m.retainer_screw_depth - points
+    return m.link_screw_mouth_level - m.core_bottom_level - m.link_screw_depth - m.retainer_screw_depth - points
 
 
 @quantities.gap("feet and skirt leave a slot between them that closes: thinner feet")

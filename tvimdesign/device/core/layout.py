@@ -91,8 +91,8 @@ def link_length(m: Module) -> Scalar:
 
 @quantities.output("mm")
 def link_bolt_circle_radius(m: Module) -> Scalar:
-    """Radius of the circle of the four link screws."""
-    return m.link_bolt_ratio * m.core_radius
+    """Radius of the circle of the link screws; zero of a single one."""
+    return m.link_bolt_ratio * m.core_radius if m.link_screw_count > 1 else 0.0
 
 
 @quantities.output("mm", sprung=True)

@@ -7,7 +7,6 @@ from tvimdesign.physics.solids import shapes
 from tvimdesign.physics.solids.shapes import Section
 
 quantities = QuantityGroup("Size and weight")
-LINK_SCREWS = 4
 
 
 def template_volume(m: Module) -> Scalar:
@@ -100,18 +99,20 @@ def bare_housing_moments(m: Module) -> Section:
 @quantities.helper()
 def bare_rotor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of plate, core and pins less screw and dowel holes."""
+    screws = shapes.disc_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius)
     return shapes.stacked(
         (shapes.ring(m.core_radius, m.rotor_radius).plus(m.stop_teeth_section), m.rotor_thickness),
-        (shapes.ring(0.0, m.core_radius), m.link_bottom_level - m.rotor_bottom_level),
+        (shapes.ring(0.0, m.core_radius), m.core_top_level - m.rotor_bottom_level),
         (shapes.ring(0.0, m.collar_radius), m.rotor_bottom_level - m.hub_top_level),
         (shapes.ring(0.0, m.journal_radius), m.hub_top_level - m.core_bottom_level),
         (m.pins_section, m.pin_foot_height),
         (m.leg_pin_section, -m.leg_pin_depth),
-        (shapes.disc_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS), -m.link_screw_depth),
+        (screws.times(m.link_screw_count), -m.link_screw_depth),
         (shapes.ring(0.0, 0.5 * m.retainer_screw_hole), -m.retainer_screw_depth),
         (m.link_dowel_section, -m.link_dowel_depth),
         (shapes.fillet_at_foot(m.core_radius, m.foot_fillet).plus(m.pin_fillets), 1.0),
         (_core_drill_points(m), -1.0),
+        (m.spigot_slot_moments, -1.0),
     )
 
 
@@ -138,7 +139,7 @@ def _core_drill_points(m: Module) -> Section:
     """Return the volume and its polar moment about the axis, of the points of the rotor's blind holes; nothing where
     printed."""
     drilled = (
-        (m.link_screw_hole, m.link_bolt_circle_radius, LINK_SCREWS),
+        (m.link_screw_hole, m.link_bolt_circle_radius, m.link_screw_count),
         (m.retainer_screw_hole, 0.0, 1.0),
         (m.link_dowel_diameter, m.link_dowel_circle_radius, m.dowels_fitted),
         (m.pin_diameter, m.pin_radius, m.leg_pins_fitted),
@@ -150,7 +151,7 @@ def _core_drill_points(m: Module) -> Section:
 @quantities.helper()
 def link_section(m: Module) -> Section:
     """Plan view of the output link: an obround from the core to the housing's edge, less its holes."""
-    screws = shapes.disc_at(0.5 * m.link_screw_clearance, m.link_bolt_circle_radius).times(LINK_SCREWS)
+    screws = shapes.disc_at(0.5 * m.link_screw_clearance, m.link_bolt_circle_radius).times(m.link_screw_count)
     tool = shapes.disc_at(0.5 * m.link_tool_hole, m.link_length)
     return shapes.slot(m.link_half_width, m.link_length) - screws - tool - m.link_dowel_section
 
@@ -174,7 +175,7 @@ quantities.from_template("rotor", "the rotor with its core and pins", template_v
 @quantities.output("mm^3")
 def link_volume(m: Module) -> Scalar:
     """Volume of the output link."""
-    return m.link_section.area * m.link_thickness
+    return m.link_section.area * m.link_thickness + m.spigot_moments.area
 
 
 @quantities.output("mm^3")
@@ -223,7 +224,7 @@ quantities.from_template("rotor", "the rotor about the axis", template_made_iner
 @quantities.output("kg*mm^2")
 def link_inertia(m: Module) -> Scalar:
     """Moment of inertia of the output link about the axis."""
-    return m.link_section.polar * m.link_thickness * m.structure_density
+    return (m.link_section.polar * m.link_thickness + m.spigot_moments.polar) * m.structure_density
 
 
 @quantities.output("kg*mm^2", headline=True)

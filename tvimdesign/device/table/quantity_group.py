@@ -77,7 +77,7 @@ class QuantityGroup:
                     per_point=entry.get("per_point", False), range_of=_words(entry, "range_of"),
                     stock_record=_words(entry, "stock_record"), mode=entry.get("mode"),
                     stock=tuple(entry["stock"]) if "stock" in entry else None,
-                    requires=(Feature(*entry["feature"]),) if "feature" in entry else (),
+                    requires=tuple(Feature(of, word) for of, *words in [entry.get("feature", [""])] for word in words),
                     read_by=entry.get("read_by", ""), **numbers,
                 )
             )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -165,6 +166,17 @@ def _half_strip(half_width: Any, radius: Any) -> Section:
     b = half_width
     reach, angle = np.sqrt(radius**2 - b**2), np.arcsin(b / radius)
     return Section(radius**2 * angle + b * reach, 0.5 * radius**4 * angle + 0.5 * (b**3 * reach + b * reach**3 / 3.0))
+
+
+def strip_across(half_width: Any, radius: Any) -> Section:
+    """Return what a straight slot through the middle of a disc has in it."""
+    return _half_strip(half_width, radius).times(2.0)
+
+
+def tapered(section: Callable[[Any], Section], width: Any, end_width: Any) -> Section:
+    """Return the mean section of a body whose width changes evenly along the axis (Simpson's rule)."""
+    first, middle, last = (section(wide) for wide in (width, 0.5 * (width + end_width), end_width))
+    return first.plus(middle.times(4.0), last).times(1.0 / 6.0)
 
 
 def spoke(half_width: Any, disc_radius: Any, length: Any) -> Section:

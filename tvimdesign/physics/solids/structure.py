@@ -41,8 +41,9 @@ def hole_weakening(hole_radius: Any, circle_radius: Any, count: Any, shaft_radiu
     b^2/R^4.
 
     A hole in even shear costs twice the energy of what was bored out [T]; holes far from one another and from the rim.
+    One on the axis costs its own moment, r^4/R^4.
     """
-    return 4.0 * count * hole_radius**2 * circle_radius**2 / shaft_radius**4
+    return np.fmax(4.0 * count * hole_radius**2 * circle_radius**2, count * hole_radius**4) / shaft_radius**4
 
 
 def stub_stress(force: Any, lever: Any, width: Any, depth: Any) -> Any:
@@ -52,6 +53,39 @@ def stub_stress(force: Any, lever: Any, width: Any, depth: Any) -> Any:
     `force` [N] acts along the width w at the lever l; b is the depth across it. Corners at the root are left out.
     """
     return np.sqrt((6.0 * force * lever / (depth * width**2)) ** 2 + 3.0 * (force / (depth * width)) ** 2)
+
+
+class Root(NamedTuple):
+    """Root of a short beam that a force bends at a lever."""
+
+    lever: Any  # [m]
+    area: Any  # [m^2]
+    inertia: Any  # Second moment of area [m^4]
+    edge: Any  # Distance of the edge that is stretched from the centroid [m]
+
+
+def half_segment(radius: Any, offset: Any) -> tuple[Any, Any, Any]:
+    """Return area [m^2], second moment [m^4] and distance of the chord from the centroid [m] of half the segment
+    beyond a chord at an `offset` c, bent off the chord.
+
+    A = R^2 (t - sin t cos t)/2, x = R^3 sin^3 t/(3 A), I = R^2 (A + R^2 sin^3 t cos t)/4 - A x^2, cos t = c/R (plane
+    geometry).
+    """
+    cosine = offset / radius
+    sine = np.sqrt(1.0 - cosine**2)
+    area = 0.5 * radius**2 * (np.arccos(cosine) - sine * cosine)
+    middle = (radius * sine) ** 3 / (3.0 * area)
+    return area, 0.25 * radius**2 * (area + radius**2 * sine**3 * cosine) - area * middle**2, middle - offset
+
+
+def root_stress(root: Root) -> Any:
+    """Return the von Mises stress [Pa] under one newton, as of a stub: bending l e/I, and mean shear."""
+    return np.sqrt((root.lever * root.edge / root.inertia) ** 2 + 3.0 / root.area**2)
+
+
+def root_compliance(moduli: tuple[Any, Any], root: Root) -> Any:
+    """Return the way of a force over it [m/N], l^3/(3 E I) + 1.2 l/(G A), `moduli` E and G [B]."""
+    return root.lever**3 / (3.0 * moduli[0] * root.inertia) + 1.2 * root.lever / (moduli[1] * root.area)
 
 
 SHAFT_ENTRY = 0.10

@@ -7,7 +7,6 @@ that at the hub, and `joint_stiffness_at_link` that at the link's tool hole.
 import numpy as np
 
 from tvimdesign.base.record import own_data
-from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_most
 from tvimdesign.physics.layers.layer import series_stiffness
 from tvimdesign.physics.polymers import plastics
@@ -25,8 +24,9 @@ def frozen_shear_modulus(m: Module) -> Scalar:
 @quantities.helper()
 def core_screw_bores(m: Module) -> structure.Bores:
     """Holes of the link screws in the core."""
-    share = structure.hole_weakening(0.5 * m.link_screw_hole, m.link_bolt_circle_radius, LINK_SCREWS, m.core_radius)
-    return structure.Bores(share, m.link_screw_depth, m.link_bolt_circle_radius)
+    hole, circle = 0.5 * m.link_screw_hole, m.link_bolt_circle_radius
+    share = structure.hole_weakening(hole, circle, m.link_screw_count, m.core_radius)
+    return structure.Bores(share, m.link_screw_depth + (m.link_bottom_level - m.link_screw_mouth_level), circle)
 
 
 @quantities.helper()
@@ -42,7 +42,7 @@ def core_dowel_bores(m: Module) -> structure.Bores:
 def core_stiffness(m: Module) -> Scalar:
     """Torsional stiffness of the core between rotor plate and output link."""
     length = m.link_bottom_level - m.rotor_top_level
-    shorter = structure.shorter_by_fillet(m.core_radius, m.rotor_thickness, m.foot_fillet)
+    shorter = structure.shorter_by_fillet(m.core_radius, m.rotor_thickness, m.foot_fillet) - m.spigot_longer
     return structure.bored_shaft_stiffness(
         m.structure_shear_modulus, m.core_radius, length, m.core_screw_bores, m.core_dowel_bores, shorter
     )

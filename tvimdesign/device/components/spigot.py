@@ -1,0 +1,180 @@
+"""Spigot of the link: a bar across the core's end with two tapered flanks, drawn into a slot by one screw on the axis.
+
+It stands on the link's lower face and runs along the link, so that the core is whole below the slot, and the torque
+acts as far out as the core goes. A square in the link's eye has a third of the core's section, and at the eye's corners
+3 to 10 times the pressure of its flanks (plane FE).
+
+A flank may lie half of `slip_clearance` to either side of where it is drawn. By as much over the tangent of its angle,
+`spigot_room`, the link sits higher or lower: it is drawn that far above the core, its spigot above the slot's bottom.
+Torques count with the flanks that touch when it sits highest.
+"""
+
+import numpy as np
+
+from tvimdesign.device.components.dowels import CLEARANCE, DOWELS
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least
+from tvimdesign.physics.motions.contacts import tightened_force
+from tvimdesign.physics.solids import fasteners, shapes, structure
+from tvimdesign.physics.solids.shapes import NOTHING, Section
+
+WITH_SPIGOT = (Feature("link_fit", DOWELS), Feature("link_fit", CLEARANCE))
+places = QuantityGroup("Layout", WITH_SPIGOT)
+weights = QuantityGroup("Size and weight", WITH_SPIGOT)
+strengths = QuantityGroup("Impedance", WITH_SPIGOT)
+rules = QuantityGroup("Gaps", WITH_SPIGOT)
+
+
+@places.output("mm", hidden=True)
+def spigot_depth(m: Module) -> Scalar:
+    """Height of the spigot; zero without."""
+    return m.spigot_height
+
+
+@places.output("mm", hidden=True)
+def spigot_room(m: Module) -> Scalar:
+    """Gap between link and core, and below the spigot, so that the flanks bear first; zero without."""
+    return 0.5 * m.slip_clearance / np.tan(m.spigot_angle)
+
+
+@places.output("mm", hidden=True, requires=())
+def core_top_level(m: Module) -> Scalar:
+    """Upper end of the core."""
+    return m.link_bottom_level - m.spigot_room
+
+
+@places.output("mm", hidden=True, requires=())
+def link_screw_mouth_level(m: Module) -> Scalar:
+    """Level at which the holes of the link screws begin in the core: its upper end, or the bottom of a slot."""
+    return m.core_top_level - m.spigot_depth
+
+
+@places.output("mm")
+def spigot_width(m: Module) -> Scalar:
+    """Width of the spigot at the link; zero without. The slot is narrower by `slip_clearance`."""
+    return m.spigot_ratio * m.core_radius
+
+
+@places.output("mm", hidden=True)
+def spigot_end_width(m: Module) -> Scalar:
+    """Width of the spigot at its end; zero without."""
+    return m.spigot_width - 2.0 * m.spigot_height * np.tan(m.spigot_angle)
+
+
+@places.output("mm", hidden=True)
+def spigot_reach(m: Module) -> Scalar:
+    """Distance of the spigot's ends from the axis, its corners on the core's rim; zero without."""
+    return np.sqrt(m.core_radius**2 - 0.25 * m.spigot_width**2)
+
+
+@weights.helper(default=NOTHING)
+def spigot_moments(m: Module) -> Section:
+    """Volume of the spigot, less its screw's hole, and its polar moment about the axis."""
+    bar = shapes.tapered(
+        lambda w: shapes.rectangle_at(2.0 * m.spigot_reach, w, 0.0), m.spigot_width, m.spigot_end_width
+    )
+    return (bar - shapes.ring(0.0, 0.5 * m.link_screw_clearance)).times(m.spigot_height)
+
+
+@weights.helper(default=NOTHING)
+def spigot_slot_moments(m: Module) -> Section:
+    """Volume of the slot in the core and its polar moment about the axis."""
+    widths = (width - m.slip_clearance for width in (m.spigot_width, m.spigot_end_width))
+    return shapes.tapered(lambda width: shapes.strip_across(0.5 * width, m.core_radius), *widths).times(m.spigot_height)
+
+
+@strengths.helper()
+def spigot_roots(m: Module) -> tuple[structure.Root, structure.Root]:
+    """Roots of half of the spigot, and of half of the core on one side of its slot, as the link sits highest."""
+    lever = 2.0 * m.spigot_room + 0.5 * m.spigot_engagement
+    area, edge = m.spigot_reach * m.spigot_width, 0.5 * m.spigot_width
+    beside = structure.half_segment(m.core_radius, 0.5 * (m.spigot_end_width - m.slip_clearance))
+    return structure.Root(lever, area, area * edge**2 / 3.0, edge), structure.Root(lever, *beside)
+
+
+@strengths.helper()
+def wedge_stress(m: Module) -> Scalar:
+    """Stress of the core beside the slot under the tightened screw, which presses both halves of either flank [Pa]."""
+    force = tightened_force(m.link_clamp_stress, m.link_screw_diameter)
+    force /= 4.0 * (np.sin(m.spigot_angle) + m.link_friction * np.cos(m.spigot_angle))
+    return force * structure.root_stress(m.spigot_roots[1])
+
+
+strengths.after("core_holding_torque")
+
+
+@strengths.output("N*m")
+def spigot_flank_holding_torque(m: Module) -> Scalar:
+    """Torque that the joint hands on by `holding_safety` below the one at which the flanks' ends press in."""
+    force = 0.5 * m.cold_strength * m.spigot_engagement * m.spigot_reach
+    return fasteners.half_flank_torque(force, m.spigot_reach) / m.holding_safety
+
+
+@strengths.output("N*m")
+def spigot_root_holding_torque(m: Module) -> Scalar:
+    """Torque that the joint hands on by `holding_safety` below the one at which the spigot yields at the link."""
+    force = m.cold_layer_strength / structure.root_stress(m.spigot_roots[0])
+    return fasteners.half_flank_torque(force, m.spigot_reach) / m.holding_safety
+
+
+@strengths.output("N*m")
+def spigot_slot_holding_torque(m: Module) -> Scalar:
+    """Torque that the joint hands on by `holding_safety` below the one at which the core yields beside the slot."""
+    force = (m.cold_layer_strength - m.wedge_stress) / structure.root_stress(m.spigot_roots[1])
+    return fasteners.half_flank_torque(force, m.spigot_reach) / m.holding_safety
+
+
+@strengths.helper()
+def spigot_torque(m: Module) -> Scalar:
+    """Torque at which the spigot or the core beside it yields [N*m]; zero without."""
+    roots = np.fmin(m.spigot_root_holding_torque, m.spigot_slot_holding_torque)
+    return m.holding_safety * np.fmin(m.spigot_flank_holding_torque, roots)
+
+
+@strengths.helper()
+def spigot_longer(m: Module) -> Scalar:
+    """Length of core that gives as much as spigot and core beside the slot, as they bend [m]; zero without."""
+    moduli, reach = (m.structure_youngs_modulus, m.structure_shear_modulus), m.spigot_reach
+    bent = sum(structure.root_compliance(moduli, root) for root in m.spigot_roots)
+    turned = 1.5 * bent / reach / fasteners.half_flank_torque(1.0, reach)
+    return turned * structure.shaft_stiffness(moduli[1], m.core_radius, 1.0)
+
+
+@rules.gap("the spigot's flanks would not meet: a larger spigot_height or spigot_angle")
+def spigot_engagement(m: Module) -> Scalar:
+    """Height of the flanks that touch when the link sits highest; zero without."""
+    return m.spigot_height - 2.0 * m.spigot_room
+
+
+@rules.output(
+    "1", at_least(1.0, "the screw would split the core beside the slot: a smaller spigot_ratio, or thinner screw")
+)
+def spigot_wedge_safety(m: Module) -> Scalar:
+    """Strength of the core beside the slot, across layers, over its stress as the screw is tightened; zero without."""
+    return m.cold_layer_strength / m.wedge_stress
+
+
+@rules.output("1", at_least(1.0, "the spigot would work loose: a smaller spigot_angle"))
+def spigot_grip(m: Module) -> Scalar:
+    """Friction of link and core over the tangent of the flanks' angle; zero without."""
+    return m.link_friction / np.tan(m.spigot_angle)
+
+
+@rules.gap("walls beside the spigot's screw or slot are too thin, or no cutter reaches in: another spigot_ratio")
+def spigot_wall_margin(m: Module) -> Scalar:
+    """Least wall of spigot and core beyond what is made, and a cutter's reach into the slot; zero without."""
+    end = m.spigot_end_width - m.slip_clearance
+    of_core = m.core_radius - 0.5 * m.spigot_width - m.minimum_wall
+    of_spigot = 0.5 * (end - np.fmax(m.link_screw_clearance, m.link_screw_hole)) - m.hole_wall
+    return np.fmin(np.fmin(of_core, of_spigot), m.pocket_depth_ratio * end - m.spigot_height)
+
+
+@rules.gap("the spigot's slot would reach into the core's foot: a smaller spigot_height")
+def spigot_foot_gap(m: Module) -> Scalar:
+    """Core between the slot's bottom and the fillet at its foot; zero without."""
+    return m.link_screw_mouth_level - m.rotor_top_level - m.foot_fillet
+
+
+@rules.gap("the link screw would not hold where the link sits highest: choose a longer one")
+def spigot_thread_margin(m: Module) -> Scalar:
+    """Thread of the link screw beyond what holds, as the link sits highest; zero without."""
+    return m.link_thread_margin - 2.0 * m.spigot_room
