@@ -1,8 +1,7 @@
 """Spigot of the link: a bar across the core's end with two tapered flanks, drawn into a slot by one screw on the axis.
 
-It stands on the link's lower face and runs along the link, so that the core is whole below the slot, and the torque
-acts as far out as the core goes. A square in the link's eye has a third of the core's section, and at the eye's corners
-3 to 10 times the pressure of its flanks (plane FE).
+The core is whole below its slot, and the torque acts as far out as it goes. A square in the link's eye has a third of
+the core's section, and its corners bear 3 to 10 times the pressure on its flanks (plane FE).
 
 A flank may lie half of `slip_clearance` to either side of where it is drawn. By as much over the tangent of its angle,
 `spigot_room`, the link sits higher or lower: it is drawn that far above the core, its spigot above the slot's bottom.
@@ -68,18 +67,17 @@ def spigot_reach(m: Module) -> Scalar:
 
 @weights.helper(default=NOTHING)
 def spigot_moments(m: Module) -> Section:
-    """Volume of the spigot, less its screw's hole, and its polar moment about the axis."""
-    bar = shapes.tapered(
-        lambda w: shapes.rectangle_at(2.0 * m.spigot_reach, w, 0.0), m.spigot_width, m.spigot_end_width
-    )
+    """Volume of the spigot, by its mean width, less its screw's hole, and its polar moment about the axis."""
+    bar = shapes.rectangle_at(2.0 * m.spigot_reach, 0.5 * (m.spigot_width + m.spigot_end_width), 0.0)
     return (bar - shapes.ring(0.0, 0.5 * m.link_screw_clearance)).times(m.spigot_height)
 
 
 @weights.helper(default=NOTHING)
 def spigot_slot_moments(m: Module) -> Section:
-    """Volume of the slot in the core and its polar moment about the axis."""
-    widths = (width - m.slip_clearance for width in (m.spigot_width, m.spigot_end_width))
-    return shapes.tapered(lambda width: shapes.strip_across(0.5 * width, m.core_radius), *widths).times(m.spigot_height)
+    """Volume of the slot in the core, by Simpson's rule, and its polar moment about the axis."""
+    widths = (m.spigot_width, 0.5 * (m.spigot_width + m.spigot_end_width), m.spigot_end_width)
+    first, middle, last = (shapes.bar_across(0.5 * (width - m.slip_clearance), m.core_radius) for width in widths)
+    return first.plus(middle.times(4.0), last).times(m.spigot_height / 6.0)
 
 
 @strengths.helper()
@@ -87,8 +85,8 @@ def spigot_roots(m: Module) -> tuple[structure.Root, structure.Root]:
     """Roots of half of the spigot, and of half of the core on one side of its slot, as the link sits highest."""
     lever = 2.0 * m.spigot_room + 0.5 * m.spigot_engagement
     area, edge = m.spigot_reach * m.spigot_width, 0.5 * m.spigot_width
-    beside = structure.half_segment(m.core_radius, 0.5 * (m.spigot_end_width - m.slip_clearance))
-    return structure.Root(lever, area, area * edge**2 / 3.0, edge), structure.Root(lever, *beside)
+    beside = structure.half_segment(lever, m.core_radius, 0.5 * (m.spigot_end_width - m.slip_clearance))
+    return structure.Root(lever, area, area * edge**2 / 3.0, edge), beside
 
 
 @strengths.helper()
@@ -96,7 +94,7 @@ def wedge_stress(m: Module) -> Scalar:
     """Stress of the core beside the slot under the tightened screw, which presses both halves of either flank [Pa]."""
     force = tightened_force(m.link_clamp_stress, m.link_screw_diameter)
     force /= 4.0 * (np.sin(m.spigot_angle) + m.link_friction * np.cos(m.spigot_angle))
-    return force * structure.root_stress(m.spigot_roots[1])
+    return force * m.spigot_roots[1].stress
 
 
 strengths.after("core_holding_torque")
@@ -112,14 +110,14 @@ def spigot_flank_holding_torque(m: Module) -> Scalar:
 @strengths.output("N*m")
 def spigot_root_holding_torque(m: Module) -> Scalar:
     """Torque that the joint hands on by `holding_safety` below the one at which the spigot yields at the link."""
-    force = m.cold_layer_strength / structure.root_stress(m.spigot_roots[0])
+    force = m.cold_layer_strength / m.spigot_roots[0].stress
     return fasteners.half_flank_torque(force, m.spigot_reach) / m.holding_safety
 
 
 @strengths.output("N*m")
 def spigot_slot_holding_torque(m: Module) -> Scalar:
     """Torque that the joint hands on by `holding_safety` below the one at which the core yields beside the slot."""
-    force = (m.cold_layer_strength - m.wedge_stress) / structure.root_stress(m.spigot_roots[1])
+    force = (m.cold_layer_strength - m.wedge_stress) / m.spigot_roots[1].stress
     return fasteners.half_flank_torque(force, m.spigot_reach) / m.holding_safety
 
 
@@ -134,7 +132,7 @@ def spigot_torque(m: Module) -> Scalar:
 def spigot_longer(m: Module) -> Scalar:
     """Length of core that gives as much as spigot and core beside the slot, as they bend [m]; zero without."""
     moduli, reach = (m.structure_youngs_modulus, m.structure_shear_modulus), m.spigot_reach
-    bent = sum(structure.root_compliance(moduli, root) for root in m.spigot_roots)
+    bent = sum(root.compliance(*moduli) for root in m.spigot_roots)
     turned = 1.5 * bent / reach / fasteners.half_flank_torque(1.0, reach)
     return turned * structure.shaft_stiffness(moduli[1], m.core_radius, 1.0)
 
@@ -153,25 +151,13 @@ def spigot_wedge_safety(m: Module) -> Scalar:
     return m.cold_layer_strength / m.wedge_stress
 
 
-@rules.output("1", at_least(1.0, "the spigot would work loose: a smaller spigot_angle"))
-def spigot_grip(m: Module) -> Scalar:
-    """Friction of link and core over the tangent of the flanks' angle; zero without."""
-    return m.link_friction / np.tan(m.spigot_angle)
-
-
-@rules.gap("walls beside the spigot's screw or slot are too thin, or no cutter reaches in: another spigot_ratio")
+@rules.gap("walls beside the spigot's screw or slot, or below it, are too thin, or no cutter reaches in")
 def spigot_wall_margin(m: Module) -> Scalar:
-    """Least wall of spigot and core beyond what is made, and a cutter's reach into the slot; zero without."""
-    end = m.spigot_end_width - m.slip_clearance
-    of_core = m.core_radius - 0.5 * m.spigot_width - m.minimum_wall
+    """Least wall of spigot and core beyond what is made, a cutter's reach, and core above its fillet; zero without."""
+    end, below = m.spigot_end_width - m.slip_clearance, m.link_screw_mouth_level - m.rotor_top_level - m.foot_fillet
+    of_core = np.fmin(m.core_radius - 0.5 * m.spigot_width - m.minimum_wall, below)
     of_spigot = 0.5 * (end - np.fmax(m.link_screw_clearance, m.link_screw_hole)) - m.hole_wall
     return np.fmin(np.fmin(of_core, of_spigot), m.pocket_depth_ratio * end - m.spigot_height)
-
-
-@rules.gap("the spigot's slot would reach into the core's foot: a smaller spigot_height")
-def spigot_foot_gap(m: Module) -> Scalar:
-    """Core between the slot's bottom and the fillet at its foot; zero without."""
-    return m.link_screw_mouth_level - m.rotor_top_level - m.foot_fillet
 
 
 @rules.gap("the link screw would not hold where the link sits highest: choose a longer one")

@@ -91,8 +91,6 @@ def peg_twist_torque(shear_strength: Any, diameter: Any, depth: Any) -> Any:
 def half_flank_torque(force: Any, reach: Any) -> Any:
     """Return the torque [N*m] of a bar across a shaft that bears `force` [N] on one half of each flank: T = 4 F l/3.
 
-    A stiff bar presses with what rises evenly from the axis to its ends, l [m] off (statics): T = 2 p h l^2/3 for the
-    pressure p there and flanks of the height h. By the same law a square of the width a, with four such halves, bears
-    p h a^2/3.
+    A stiff bar presses with what rises evenly from the axis to its ends, l [m] off (statics).
     """
     return 4.0 / 3.0 * force * reach

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -168,15 +167,9 @@ def _half_strip(half_width: Any, radius: Any) -> Section:
     return Section(radius**2 * angle + b * reach, 0.5 * radius**4 * angle + 0.5 * (b**3 * reach + b * reach**3 / 3.0))
 
 
-def strip_across(half_width: Any, radius: Any) -> Section:
+def bar_across(half_width: Any, radius: Any) -> Section:
     """Return what a straight slot through the middle of a disc has in it."""
     return _half_strip(half_width, radius).times(2.0)
-
-
-def tapered(section: Callable[[Any], Section], width: Any, end_width: Any) -> Section:
-    """Return the mean section of a body whose width changes evenly along the axis (Simpson's rule)."""
-    first, middle, last = (section(wide) for wide in (width, 0.5 * (width + end_width), end_width))
-    return first.plus(middle.times(4.0), last).times(1.0 / 6.0)
 
 
 def spoke(half_width: Any, disc_radius: Any, length: Any) -> Section:
@@ -318,8 +311,3 @@ def corners_beyond(fillet_radius: Any, inner_radius: Any, outer_radius: Any, off
 def _under_arc(distance: Any, radius: Any) -> Any:
     """Return the integral of sqrt(r^2 - y^2) from zero to a distance [m^2]."""
     return 0.5 * (distance * np.sqrt(radius**2 - distance**2) + radius**2 * np.arcsin(distance / radius))
-
-
-def bar_across(half_width: Any, radius: Any) -> Any:
-    """Return the area [m^2] that a straight slot through the middle of a disc has in it."""
-    return 2.0 * (half_width * np.sqrt(radius**2 - half_width**2) + radius**2 * np.arcsin(half_width / radius))

@@ -63,10 +63,18 @@ class Root(NamedTuple):
     inertia: Any  # Second moment of area [m^4]
     edge: Any  # Distance of the edge that is stretched from the centroid [m]
 
+    @property
+    def stress(self) -> Any:
+        """Von Mises stress [Pa] under one newton, as of a stub: bending l e/I, and mean shear."""
+        return np.sqrt((self.lever * self.edge / self.inertia) ** 2 + 3.0 / self.area**2)
 
-def half_segment(radius: Any, offset: Any) -> tuple[Any, Any, Any]:
-    """Return area [m^2], second moment [m^4] and distance of the chord from the centroid [m] of half the segment
-    beyond a chord at an `offset` c, bent off the chord.
+    def compliance(self, youngs_modulus: Any, shear_modulus: Any) -> Any:
+        """Return the way of a force over it [m/N], l^3/(3 E I) + 1.2 l/(G A) [B]."""
+        return self.lever**3 / (3.0 * youngs_modulus * self.inertia) + 1.2 * self.lever / (shear_modulus * self.area)
+
+
+def half_segment(lever: Any, radius: Any, offset: Any) -> Root:
+    """Return the root of half a circular segment beyond a chord at an `offset` c, pushed off the chord.
 
     A = R^2 (t - sin t cos t)/2, x = R^3 sin^3 t/(3 A), I = R^2 (A + R^2 sin^3 t cos t)/4 - A x^2, cos t = c/R (plane
     geometry).
@@ -75,17 +83,8 @@ def half_segment(radius: Any, offset: Any) -> tuple[Any, Any, Any]:
     sine = np.sqrt(1.0 - cosine**2)
     area = 0.5 * radius**2 * (np.arccos(cosine) - sine * cosine)
     middle = (radius * sine) ** 3 / (3.0 * area)
-    return area, 0.25 * radius**2 * (area + radius**2 * sine**3 * cosine) - area * middle**2, middle - offset
-
-
-def root_stress(root: Root) -> Any:
-    """Return the von Mises stress [Pa] under one newton, as of a stub: bending l e/I, and mean shear."""
-    return np.sqrt((root.lever * root.edge / root.inertia) ** 2 + 3.0 / root.area**2)
-
-
-def root_compliance(moduli: tuple[Any, Any], root: Root) -> Any:
-    """Return the way of a force over it [m/N], l^3/(3 E I) + 1.2 l/(G A), `moduli` E and G [B]."""
-    return root.lever**3 / (3.0 * moduli[0] * root.inertia) + 1.2 * root.lever / (moduli[1] * root.area)
+    inertia = 0.25 * radius**2 * (area + radius**2 * sine**3 * cosine) - area * middle**2
+    return Root(lever, area, inertia, middle - offset)
 
 
 SHAFT_ENTRY = 0.10

@@ -192,7 +192,8 @@ def _refuse_idle(study: Study, table: Table, start: Mapping[str, Any]) -> None:
         source = choice.record[0] if choice.record else choice.name
         if not idle or {choice.name, source} & study.vary.keys():
             continue
-        others = [word for word in choice.options if word != lacking.without]
+        without = {feature.without for row in stated if row.name in idle for feature in row.requires}
+        others = [word for word in choice.options if word not in without]
         way = "name one of its records" if choice.category else f"add `{choice.name}: {others[0]}`"
         raise InputError(f"{', '.join(idle)}: no effect, as {choice.name} is {lacking.without}; {way} under `module`")
 
