@@ -53,7 +53,7 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any]) -> lis
 
     `chosen` are records and options by name, so that rules of what the module lacks are left out.
     """
-    options = {row.name: chosen.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    options = {row.name: chosen.get(row.name, row.default) for row in table.choices}
     stated = {(r.output, r.sense) for r in study.require}
     required = [
         replace(
