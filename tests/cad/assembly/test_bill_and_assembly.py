@@ -265,7 +265,8 @@ def test_a_note_is_that_of_the_snapshot(name):
     assert text == path.read_text(encoding="utf-8")
 
 
-def test_steps_that_open_bring_no_part_and_each_says_who_holds_what(dims):
+def test_steps_that_open_bring_no_part_and_each_says_who_holds_what():
+    dims = dimensions(made("printed"))
     opening = [
         step
         for step in all_steps()

@@ -10,7 +10,6 @@ from device_values import values_of
 from placed_solids import build
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.inspection.inspect import part_checks
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
@@ -18,41 +17,37 @@ from tvimdesign.physics.solids import fasteners, structure
 from tvimdesign.solve.nlp.constraints import refuse_contradictory
 from tvimdesign.study import given, read_study_text
 
-MM = 1e-3
 SPIGOT = {
-    "process": "machine_6061", "link_fit": "spigot", "core_radius": 9.0 * MM, "spigot_ratio": 0.9,
-    "spigot_height": 3.0 * MM, "link_screw_length": 12.0 * MM, "retainer_screw_length": 8.0 * MM, "retainer_screw": "iso_7380_m3",
+    "process": "machine_6061", "link_fit": "spigot", "core_radius": 9e-3, "spigot_ratio": 0.9, "spigot_height": 3e-3,
+    "link_screw_length": 12e-3, "retainer_screw_length": 8e-3, "retainer_screw": "iso_7380_m3",
 }  # fmt: skip
 
 
-def test_flanks_bear_what_their_pressure_adds_up_to():
-    reach, height, width, radius = 8.0, 3.0, 9.0, 10.0
-    places = np.linspace(0.0, reach, 20001)
-    halves, torque = (height * np.trapezoid(places**power / reach, places) for power in (1, 2))
-    assert fasteners.half_flank_torque(halves, reach) == pytest.approx(2.0 * torque)
-    # Half of what is beyond the chord y = c of a circle, by strips, and a rectangle, as a gear's tooth.
-    strips = np.linspace(0.5 * width, radius, 200001)
-    half = np.sqrt(np.maximum(radius**2 - strips**2, 0.0))
+def test_flanks_and_roots_bear_what_their_stress_adds_up_to():
+    places = np.linspace(0.0, 8.0, 20001)
+    force, torque = (np.trapezoid(places**power / 8.0, places) for power in (1, 2))
+    assert fasteners.half_flank_torque(force, 8.0) == pytest.approx(2.0 * torque)
+    strips = np.linspace(4.5, 10.0, 200001)  # of half of what lies beyond the chord y = 4.5 of a circle
+    half = np.sqrt(np.maximum(100.0 - strips**2, 0.0))
     area = np.trapezoid(half, strips)
     middle = np.trapezoid(half * strips, strips) / area
-    inertia = np.trapezoid(half * (strips - middle) ** 2, strips)
-    root = structure.half_segment(2.0, radius, 0.5 * width)
-    assert root == pytest.approx((2.0, area, inertia, middle - 0.5 * width), rel=1e-5)
-    stub = structure.Root(2.0, 12.0, 16.0, 2.0)
-    assert stub.stress == pytest.approx(structure.stub_stress(1.0, 2.0, 4.0, 3.0))
+    root = structure.half_segment(2.0, 10.0, 4.5)
+    assert root == pytest.approx(
+        (2.0, area, np.trapezoid(half * (strips - middle) ** 2, strips), middle - 4.5), rel=1e-5
+    )
+    assert structure.Root(2.0, 12.0, 16.0, 2.0).stress == pytest.approx(structure.stub_stress(1.0, 2.0, 4.0, 3.0))
 
 
 def test_one_screw_holds_without_play_by_the_least_of_three():
-    names = "link_play link_screw_count fastener_count dowels_mass link_holding_torque spigot_flank_holding_torque "
-    names += "spigot_root_holding_torque spigot_slot_holding_torque link_friction_torque core_stiffness"
-    taper, pinned = (values_of(names, **{**SPIGOT, **more}) for more in ({}, {"link_fit": "dowels"}))
-    assert (taper["link_play"], taper["link_friction_torque"], taper["dowels_mass"]) == (0.0, 0.0, 0.0)
+    parts = [f"spigot_{part}_holding_torque" for part in ("flank", "root", "slot")]
+    names = [*parts, "link_play", "fastener_count", "dowels_mass", "link_holding_torque", "core_stiffness"]
+    taper, pinned, high = (
+        values_of(names, **SPIGOT | more) for more in ({}, {"link_fit": "dowels"}, {"spigot_height": 5e-3})
+    )
+    assert (taper["link_play"], taper["dowels_mass"], pinned[parts[0]]) == (0.0, 0.0, 0.0)
     assert pinned["fastener_count"] - taper["fastener_count"] == 3.0 + 4.0
-    least = min(taper[f"spigot_{part}_holding_torque"] for part in ("flank", "root", "slot"))
-    assert taper["link_holding_torque"] == pytest.approx(least, rel=1e-12)
-    higher = values_of(names, **{**SPIGOT, "spigot_height": 5.0 * MM})
-    assert higher["spigot_flank_holding_torque"] > taper["spigot_flank_holding_torque"]
-    assert higher["spigot_root_holding_torque"] < taper["spigot_root_holding_torque"]
+    assert taper["link_holding_torque"] == pytest.approx(min(taper[part] for part in parts), rel=1e-12)
+    assert [high[part] > taper[part] for part in parts] == [True, False, False]
     assert 0.3 * pinned["core_stiffness"] < taper["core_stiffness"] < pinned["core_stiffness"]
 
 
@@ -61,22 +56,18 @@ def test_link_and_core_touch_at_the_flanks_alone():
     assert broken_rules(design) == []
     dims, parts = dimensions(design), build(design)
     turning = {name: parts[name] for name in ("rotor", "link", "link_screw")}
-    assert [check.text for check in interference_checks(turning, "here") if not check.ok] == []
-    for check in size_checks(design, parts):
-        assert not check.name.startswith(("rotor", "link")) or abs(check.value) < 1e-6, check.text
-    down = cq.Vector(0.0, 0.0, -0.01)
-    overlap = parts["link"].translate(down).intersect(parts["rotor"])
+    assert all(check.ok for check in interference_checks(turning, "here"))
+    checks = [check for check in size_checks(design, parts) if check.name.startswith(("rotor", "link"))]
+    assert max(abs(check.value) for check in checks) < 1e-6
+    overlap = parts["link"].translate(cq.Vector(0.0, 0.0, -0.01)).intersect(parts["rotor"]).Volume()
     wedged = 2.0 * (dims.spigot_depth - dims.spigot_room) * 2.0 * dims.spigot_reach * 0.01 * tan(dims.spigot_angle)
-    assert overlap.Volume() == pytest.approx(wedged, rel=0.02)
+    assert overlap == pytest.approx(wedged, rel=0.02)
     for kind in ("rotor", "link"):
-        checks = part_checks(design, dims, kind, drawn_part(dims, kind))
-        assert [check.text for check in checks if check.level == "failure"] == []
+        assert all(check.level != "failure" for check in part_checks(design, dims, kind, parts[kind]))
 
 
-def test_what_belongs_to_the_other_fit_is_refused_with_the_word_it_is_of():
-    for other, row in (("spigot", "link_dowel_count: 2"), ("dowels", "spigot_height: 4 mm")):
-        text = f"mode: shear\nmodule: {{link_fit: {other}, {row}}}\nrequire: {{holding_torque: '>= 1 N.m'}}\n"
-        study = read_study_text(text, "a test")
-        word = "dowels" if other == "spigot" else "spigot"
-        with pytest.raises(InputError, match=f"no effect, as link_fit is {other}; add `link_fit: {word}`"):
+def test_what_belongs_to_the_other_fit_is_refused_by_its_word():
+    for fit, other, row in (("spigot", "dowels", "link_dowel_count: 2"), ("dowels", "spigot", "spigot_height: 4 mm")):
+        study = read_study_text(f"mode: shear\nmodule: {{link_fit: {fit}, {row}}}\n", "a test")
+        with pytest.raises(InputError, match=f"no effect, as link_fit is {fit}; add `link_fit: {other}`"):
             refuse_contradictory(study, given(study))

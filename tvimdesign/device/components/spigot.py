@@ -144,18 +144,18 @@ def spigot_engagement(m: Module) -> Scalar:
 
 
 @rules.output(
-    "1", at_least(1.0, "the screw would split the core beside the slot: a smaller spigot_ratio, or thinner screw")
+    "1", at_least(1.0, "the screw would split the core: a smaller spigot_ratio, or thinner screw"), default=1.0
 )
 def spigot_wedge_safety(m: Module) -> Scalar:
-    """Strength of the core beside the slot, across layers, over its stress as the screw is tightened; zero without."""
+    """Strength of the core beside the slot, across layers, over its stress as the screw is tightened; one without."""
     return m.cold_layer_strength / m.wedge_stress
 
 
 @rules.gap("walls beside the spigot's screw or slot, or below it, are too thin, or no cutter reaches in")
 def spigot_wall_margin(m: Module) -> Scalar:
-    """Least wall of spigot and core beyond what is made, a cutter's reach, and core above its fillet; zero without."""
+    """Least wall of spigot and core beyond what is made, core above its fillet, and a cutter's reach; zero without."""
     end, below = m.spigot_end_width - m.slip_clearance, m.link_screw_mouth_level - m.rotor_top_level - m.foot_fillet
-    of_core = np.fmin(m.core_radius - 0.5 * m.spigot_width - m.minimum_wall, below)
+    of_core = np.fmin(np.fmin(m.core_radius - 0.5 * m.spigot_width, m.core_web) - m.minimum_wall, below)
     of_spigot = 0.5 * (end - np.fmax(m.link_screw_clearance, m.link_screw_hole)) - m.hole_wall
     return np.fmin(np.fmin(of_core, of_spigot), m.pocket_depth_ratio * end - m.spigot_height)
 
