@@ -53,7 +53,8 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any]) -> lis
 
     `chosen` are records and options by name, so that rules of what the module lacks are left out.
     """
-    options = {row.name: chosen.get(row.name, row.default) for row in table.choices}
+    known = [row for row in table.choices if row.name in chosen or row.name not in study.vary]
+    options = {row.name: chosen.get(row.name, row.default) for row in known}
     stated = {(r.output, r.sense) for r in study.require}
     required = [
         replace(
