@@ -15,7 +15,7 @@ import numpy as np
 
 from tvimdesign.device.components.hard_stops import SLIVER, STOPS
 from tvimdesign.device.core.layout import LEAST_FILLET, evened_least
-from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions.contacts import journal_torque
 from tvimdesign.physics.polymers.viscoelasticity import zero_shear_viscosity
@@ -66,13 +66,7 @@ def stop_post_span(m: Module) -> Scalar:
 rules = QuantityGroup("Gaps")
 
 
-@rules.gap(
-    "a cutter does not come down between feet and skirt: more radial_clearance",
-    requires=(Feature("housing_base", "separate"),),
-)
-def foot_pocket_margin(m: Module) -> Scalar:
-    """Depth the place between feet and skirt may have for its width beyond the one it has; zero with a base."""
-    return m.pocket_depth_ratio * m.radial_clearance - m.foot_height
+rules.margins("lock")
 
 
 holds = QuantityGroup("Hold")

@@ -74,7 +74,7 @@ def test_only_the_module_is_a_parameter(function):
 
 @pytest.mark.parametrize("mode", MODES)
 def test_source_says_the_same_as_the_bytecode(mode):
-    for row in table_for(mode).outputs:
+    for row in (row for row in table_for(mode).outputs if row.function.__name__ != "<lambda>"):  # of margins.yaml
         (m,) = inspect.signature(row.function).parameters
         called = {row.function}
         read: set[str] = set()

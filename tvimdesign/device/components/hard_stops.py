@@ -152,19 +152,7 @@ def stop_torque(m: Module) -> Scalar:
     return m.holding_torque * np.fmin(np.fmin(m.stop_face_safety, m.stop_post_safety), m.stop_tooth_safety)
 
 
-@rules.gap("parts as made could meet their stops within the stroke: more stop_margin")
-def stop_fit_margin(m: Module) -> Scalar:
-    """Way of a tooth from the end of the stroke to its stop, beyond what the process's least gap may take of it."""
-    return m.stop_margin * m.stop_contact_radius - m.slip_clearance
-
-
-_NO_ROOM = "there is no room for the stops: a larger placement_radius, or smaller mount_boss_radius or rotor_rim"
-
-
-@rules.gap(_NO_ROOM)
-def stop_width_margin(m: Module) -> Scalar:
-    """Radial width of the stops beyond the process's least wall."""
-    return m.stop_width - m.minimum_wall
+rules.margins("hard_stops")
 
 
 @rules.gap("the springs leave no room for the stops: fewer springs, or less stop_tooth_width")

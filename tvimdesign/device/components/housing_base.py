@@ -47,10 +47,7 @@ weights.field("base_volume", "base_moments", "area", "Volume of the base; zero i
 weights.from_template("base", "the base; zero in one piece", template_made_mass, "g", name="base_mass")
 
 
-@rules.gap("the hub reaches below the floor, which would not lie flat: `housing_base: one_piece`, or no hub_depth")
-def base_hub_gap(m: Module) -> Scalar:
-    """Height of the hub's lower end above the floor's lower face; zero in one piece."""
-    return m.hub_bottom_level + m.floor_thickness
+rules.margins("housing_base")
 
 
 @rules.gap("the corners beside the base's webs would reach past the feet: a larger radial_clearance, or a lower foot")

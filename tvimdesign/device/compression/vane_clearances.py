@@ -11,10 +11,7 @@ from tvimdesign.physics.solids.shapes import between_planes
 quantities, places = QuantityGroup("Gaps"), QuantityGroup("Layout")
 
 
-@quantities.gap("blocks and vanes must clear the hub")
-def hub_block_gap(m: Module) -> Scalar:
-    """Room between the hub and the blocks and vanes beyond the radial clearance."""
-    return m.pcl_inner_radius - m.hub_radius - m.radial_clearance
+quantities.margins("vane_clearances")
 
 
 @quantities.output("mm", at_least(3.0 * MM, "blocks and pads need a width", 0.0))
@@ -43,22 +40,10 @@ def slot_web(m: Module) -> Scalar:
     return 0.5 * ((m.block_width if m.heater_form == CUT else m.tile_slot_pitch) - m.slot_width)
 
 
-@quantities.gap("what carries the pads beside the slots is thinner than the process can make it")
-def slot_web_margin(m: Module) -> Scalar:
-    """Housing vane on either side of its slot beyond the process's least wall."""
-    return m.slot_web - m.minimum_wall
-
-
 @quantities.output("mm")
 def vane_root(m: Module) -> Scalar:
     """Thickness of the rotor's vanes at their inner end, where they are thinnest."""
     return m.rotor_vane_angle * m.pcl_inner_radius
-
-
-@quantities.gap("the rotor's vanes are thinner at their inner end than the process can make them")
-def vane_root_margin(m: Module) -> Scalar:
-    """Rotor vanes at their inner end beyond the process's least wall."""
-    return m.vane_root - m.minimum_wall
 
 
 @places.output("mm", requires=WITH_CUTOUT)
@@ -83,18 +68,6 @@ def _slot_reach_below(m: Module) -> Scalar:
     if m.heater_form == CUT:
         return m.corner_radius * (1.0 + m.pad_depth / m.pcl_mean_radius) + m.slot_corner_offset
     return np.fmax(m.corner_radius, 0.5 * (m.heater_thickness + m.lead_hole_diameter))
-
-
-@quantities.gap("the slots are too narrow for their depth: the cutter cannot reach their ends")
-def slot_pocket_margin(m: Module) -> Scalar:
-    """Depth the slots, milled from below, may have for their width beyond the one they have."""
-    return m.pocket_depth_ratio * m.slot_opening - (m.floor_thickness + m.slot_top_level)
-
-
-@quantities.gap("the slots are too deep, the cutter cannot reach into their corners so far")
-def slot_corner_margin(m: Module) -> Scalar:
-    """Depth the corners of the slots, milled from below, may have beyond the one they have."""
-    return m.corner_depth_ratio * m.corner_radius - (m.floor_thickness + m.slot_top_level)
 
 
 @quantities.gap("the slots' roofs are too long a bridge to print: a smaller slot_share")
@@ -130,12 +103,6 @@ def squeezed_block_gap(m: Module) -> Scalar:
     return m.placement_radius - m.spring_reach - squeezed - m.radial_clearance
 
 
-@quantities.gap("the feet must clear the slots")
-def mount_slot_gap(m: Module) -> Scalar:
-    """Room between the mounting feet and the slots in the floor beyond the radial clearance."""
-    return m.placement_radius - m.mount_boss_radius - m.slot_outer_radius - m.radial_clearance
-
-
 _FALLS = "slots are wider below the pads, by the radius of their corners, and leave these nothing to stand on"
 
 
@@ -143,18 +110,3 @@ _FALLS = "slots are wider below the pads, by the radius of their corners, and le
 def pad_seat(m: Module) -> Scalar:
     """Width of what a pad, or a spreader with its tiles, stands on beside its slot."""
     return m.pad_depth - _slot_reach_below(m)
-
-
-_SEAT = "pads stand on too thin a wall beside their slots: a smaller slot_corner_offset or lead_hole_diameter"
-
-
-@quantities.gap(_SEAT)
-def pad_seat_margin(m: Module) -> Scalar:
-    """Width of what a pad stands on beside its slot beyond the process's least wall."""
-    return m.pad_seat - m.minimum_wall
-
-
-@quantities.gap("the slot's corners leave sharp edges beside the pads: a larger slot_corner_offset")
-def slot_edge_margin(m: Module) -> Scalar:
-    """Offset of the slots' corners beyond the one at which the edges they leave beside the pads have 60 degrees."""
-    return m.slot_corner_offset + 0.5 * m.corner_radius

@@ -83,16 +83,7 @@ def tile_seat_area(m: Module) -> Scalar:
     return m.heater_length * m.heater_width - m.tile_window * m.slot_height
 
 
-@tile_rules.gap("the heaters are too long for the block's width: fewer, or a wider block")
-def tile_side_margin(m: Module) -> Scalar:
-    """Gap between neighbouring tiles of a row beyond the least; of one, to both ends of its block."""
-    return m.tile_spacing - m.heater_length - m.tile_clearance
-
-
-@tile_rules.gap("the heaters are taller than the block: a smaller one, or a taller block")
-def tile_height_margin(m: Module) -> Scalar:
-    """Height of the block beyond that of the tiles."""
-    return m.block_height - m.heater_width
+tile_rules.margins("vane_tiles.tile_rules")
 
 
 @tile_rules.gap("a heater reaches beyond the outer end of its vane: a wider block")
@@ -100,24 +91,6 @@ def tile_end_margin(m: Module) -> Scalar:
     """Vane beyond the back corner of its outermost tiles, which bear on it up to there."""
     end = m.pcl_outer_radius - 0.5 * (m.tile_spacing - m.heater_length)
     return m.pcl_outer_radius - np.sqrt(end**2 + m.pad_depth**2)
-
-
-@tile_rules.gap("the slot behind a heater is too narrow for its leads")
-def lead_slot_margin(m: Module) -> Scalar:
-    """Width of the slots beyond what the leads of a tile need."""
-    return m.slot_width - m.lead_hole_diameter
-
-
-@tile_rules.gap("a slot breaks through the inner end of its vane: choose a smaller slot_share")
-def inner_web_margin(m: Module) -> Scalar:
-    """Housing vane within its innermost slot beyond the process's least wall."""
-    return m.slot_inner_radius - m.pcl_inner_radius - m.minimum_wall
-
-
-@tile_rules.gap("a slot breaks through the outer end of its vane: choose a smaller slot_share")
-def outer_web_margin(m: Module) -> Scalar:
-    """Housing vane without the corners of its outermost slot beyond the process's least wall."""
-    return m.pcl_outer_radius - m.slot_outer_radius - m.minimum_wall
 
 
 loads = QuantityGroup("Impedance")
@@ -217,10 +190,7 @@ def thermistor_end_gap(m: Module) -> Scalar:
     return (m.heater_thickness if m.heater_form == CUT else m.spreader_depth) - 0.5 * m.thermistor_diameter
 
 
-@rules.gap("the thermistor stands out beyond the rotor plate: a wider rotor_rim, or a smaller bead")
-def thermistor_rim_gap(m: Module) -> Scalar:
-    """Rim of the rotor plate beyond the blocks, under which the bead stands, less the bead."""
-    return m.rotor_rim - m.thermistor_diameter
+rules.margins("vane_tiles.rules")
 
 
 def _thermistor_azimuth(m: Module) -> Scalar:

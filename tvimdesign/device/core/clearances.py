@@ -15,16 +15,7 @@ POCKET_WIDTH = 2.1
 has no way to go to its size, and two round corners that meet leave no edge between them to draw."""
 
 
-@quantities.gap("the springs must clear the rotor plate", sprung=True)
-def rotor_spring_gap(m: Module) -> Scalar:
-    """Room between the rotor plate and the springs beyond the radial clearance."""
-    return m.placement_radius - m.spring_reach - m.rotor_radius - m.radial_clearance
-
-
-@quantities.gap("the rotor-side legs must pass above the rotor plate", sprung=True)
-def leg_rotor_gap(m: Module) -> Scalar:
-    """Room between the rotor-side legs and the rotor plate below them beyond the axial clearance."""
-    return m.coil_end_level - 0.5 * m.wire_diameter - m.rotor_top_level - m.axial_clearance
+quantities.margins("clearances")
 
 
 @quantities.gap("the pins must stand on the rotor plate", sprung=True)
@@ -84,14 +75,6 @@ def spring_spring_gap(m: Module) -> Scalar:
     return 2.0 * m.placement_radius * np.sin(np.pi / m.spring_count) - 2.0 * m.spring_reach - m.radial_clearance
 
 
-@quantities.gap("the retainer must stand above the ground")
-def retainer_gap(m: Module) -> Scalar:
-    """Room between the ground and the retainer with its screw's head."""
-    return (
-        m.foot_height + m.floor_thickness + m.retainer_top_level - m.retainer_thickness - m.retainer_screw_head_height
-    )
-
-
 @quantities.output("mm")
 def link_screw_wall(m: Module) -> Scalar:
     """Wall outside the link screws' holes of the core, and of its journal, into which they may reach."""
@@ -109,9 +92,3 @@ def core_web(m: Module) -> Scalar:
     """Core between the holes of the link screws and that of the retainer's screw, a drill's points included."""
     points = m.drill_point_ratio * (m.link_screw_hole + m.retainer_screw_hole)
     return m.link_screw_mouth_level - m.core_bottom_level - m.link_screw_depth - m.retainer_screw_depth - points
-
-
-@quantities.gap("feet and skirt leave a slot between them that closes: thinner feet")
-def mount_wall_gap(m: Module) -> Scalar:
-    """Room between the mounting feet and the skirt beyond the process's least gap; webs of a base lie in it."""
-    return m.housing_inner_radius - m.placement_radius - m.mount_boss_radius - m.minimum_running_clearance

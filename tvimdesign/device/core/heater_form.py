@@ -101,10 +101,7 @@ def spreader(m: Module) -> lumps.Lump | None:
 gaps = QuantityGroup("Gaps", WITH_TILES)
 
 
-@gaps.gap("the leads of the heaters do not go through: a larger lead_hole_diameter")
-def lead_hole_margin(m: Module) -> Scalar:
-    """Room for a lead of a rectangular heater beyond its diameter and the clearance with which it goes in."""
-    return m.lead_hole_diameter - m.lead_diameter - m.slip_clearance
+gaps.margins("heater_form.gaps")
 
 
 RATINGS_ALIKE = 0.1
@@ -146,10 +143,7 @@ def layer_resistance(m: Module) -> Scalar:
     return whole * (m.heater_count / m.heater_strings) ** 2
 
 
-@layer_flows.gap("the current stays near the combs, and does not heat the layer's far side", requires=LAYER_HEATED)
-def electrode_gap_margin(m: Module) -> Scalar:
-    """Gap between the fingers of the combs less the layer's depth."""
-    return m.electrode_gap - m.pcl_depth
+layer_flows.margins("heater_form.layer_flows")
 
 
 @layer_flows.helper(instant=True)
@@ -188,16 +182,7 @@ def cutout_volume(m: Module) -> Scalar:
 cutout_weights.from_template("cutout", "the thermal cut-out; zero without one", template_mass, "g")
 
 
-@cutout_rules.gap("the thermal cut-out stands out below the feet: more foot_height")
-def cutout_ground_gap(m: Module) -> Scalar:
-    """Room between the ground and the thermal cut-out below the floor."""
-    return m.foot_height - m.cutout_diameter
-
-
-@cutout_rules.gap("the thermal cut-out meets the retainer: a smaller one, or heater_fuse: none")
-def cutout_retainer_gap(m: Module) -> Scalar:
-    """Room between the thermal cut-out below the floor and what is within it."""
-    return m.cutout_radius - 0.5 * m.cutout_diameter - m.retainer_radius
+cutout_rules.margins("heater_form.cutout_rules")
 
 
 _LATE = "the thermal cut-out opens above what it saves: a cooler heater, another heater_fuse, or a better structure"

@@ -206,16 +206,7 @@ def motor_base_hole_depth(m: Module) -> Scalar:
 clearances = QuantityGroup("Gaps", WITH_MOTOR)
 
 
-@clearances.gap("the module's retainer would rub on the motor's hub: more foot_height")
-def motor_retainer_gap(m: Module) -> Scalar:
-    """Room between the module's retainer and the motor's hub beyond the running clearance; zero without a motor."""
-    return m.retainer_gap - m.running_clearance
-
-
-@clearances.gap("the motor's hub is wider than the circle of the housing's feet: a smaller motor")
-def motor_foot_gap(m: Module) -> Scalar:
-    """Length of the motor hub's spokes from their corners at its disc to the feet's middle; zero without a motor."""
-    return m.placement_radius - m.motor_disc_radius - m.motor_corner_radius
+clearances.margins("motor_layout")
 
 
 @clearances.gap("the spokes of the motor's hub would meet outside its disc: a larger motor")
@@ -225,64 +216,10 @@ def motor_spoke_gap(m: Module) -> Scalar:
     return centres - m.mount_boss_radius - m.motor_corner_radius
 
 
-@clearances.gap("the motor hub's spokes would split around their screws")
-def motor_spoke_wall_margin(m: Module) -> Scalar:
-    """Wall of the spokes around their screws beyond the process's least; zero without a motor."""
-    return m.mount_boss_radius - 0.5 * m.mount_screw_pilot - m.hole_wall
-
-
-@clearances.gap("the screws in the housing's feet are too short to hold in the motor's hub")
-def mount_thread_margin(m: Module) -> Scalar:
-    """Thread of those screws in the hub beyond what the process wants; zero without a motor."""
-    return m.mount_screw_length - m.floor_thickness - m.foot_height - m.thread_engagement * m.mount_screw_diameter
-
-
-@clearances.gap("the screws in the housing's feet would reach through the motor hub's spokes")
-def mount_tip_margin(m: Module) -> Scalar:
-    """Spoke beyond the ends of those screws; zero without a motor."""
-    return m.motor_plate_thickness + m.floor_thickness + m.foot_height - m.mount_screw_length
-
-
-@clearances.gap("the motor's bearings do not fit inside its rotor: smaller ones, or thinner walls")
-def motor_tube_gap(m: Module) -> Scalar:
-    """Room between the bearings' tube and the hub's barrel beyond the running clearance; zero without a motor."""
-    return m.motor_barrel_radius - m.motor_tube_radius - m.running_clearance
-
-
-@clearances.gap("the motor hub's barrel is thinner than the process can make it")
-def motor_hub_wall_margin(m: Module) -> Scalar:
-    """Wall of that barrel beyond the process's least; zero without a motor."""
-    return m.motor_hub_wall - m.minimum_wall
-
-
-@clearances.gap("the motor housing's walls are thinner than the process can make them")
-def motor_wall_margin(m: Module) -> Scalar:
-    """Walls of the motor's housing beyond the process's least; zero without a motor."""
-    return m.motor_wall - m.minimum_wall
-
-
-@clearances.gap("the motor's barrel would rub on the base: its rotor is longer than its stator")
-def motor_barrel_gap(m: Module) -> Scalar:
-    """Room between the hub's barrel and the base beyond the running clearance; zero without a motor."""
-    return m.motor_rotor_bottom_level - m.stator_bottom_level - m.running_clearance
-
-
 @clearances.gap("the motor is too low for two bearings and a lip between them")
 def motor_lip_margin(m: Module) -> Scalar:
     """Lip between the motor's bearings beyond the process's least wall; zero without a motor."""
     return m.stator_top_level - m.motor_retainer_level - BEARINGS * m.drive_motor.bearing_width - m.minimum_wall
-
-
-@clearances.gap("the motor's journal would split around its screw: a larger bearing, a smaller screw")
-def motor_journal_wall_margin(m: Module) -> Scalar:
-    """Wall of that journal around its screw beyond the process's least; zero without a motor."""
-    return m.motor_journal_radius - 0.5 * m.motor_screw_pilot - m.hole_wall
-
-
-@clearances.gap("the screw of the motor's retainer is too short to hold in the journal")
-def motor_thread_margin(m: Module) -> Scalar:
-    """Thread of that screw beyond what the process wants; zero without a motor."""
-    return m.motor_screw_depth - m.motor_screw_runout - m.thread_engagement * m.motor_screw_diameter
 
 
 @clearances.gap("the screw of the motor's retainer would come out of the hub's disc")
@@ -290,18 +227,6 @@ def motor_disc_margin(m: Module) -> Scalar:
     """Hub above the point of that screw's hole beyond the process's least wall; zero without a motor."""
     deep = m.motor_screw_depth + m.drill_point_ratio * m.motor_screw_pilot
     return m.motor_plate_level + m.motor_plate_thickness - m.motor_journal_level - deep - m.minimum_wall
-
-
-@clearances.gap("the motor's retainer would split around its screw's head, or the magnet")
-def motor_retainer_wall_margin(m: Module) -> Scalar:
-    """Wall of that retainer around its counterbore beyond the process's least; zero without a motor."""
-    return m.motor_collar_radius - m.motor_sink_radius - m.minimum_wall
-
-
-@clearances.gap("the motor housing's base is too thin for the screws that fix it")
-def motor_base_thread_margin(m: Module) -> Scalar:
-    """Thread in the base beyond what the process wants; zero without a motor."""
-    return m.motor_base_hole_depth - m.mount_screw_runout - m.thread_engagement * m.mount_screw_diameter
 
 
 @clearances.gap("the holes of the motor housing's base would meet its bore or the encoder's recess")

@@ -120,10 +120,7 @@ rules, places = QuantityGroup("Gaps"), QuantityGroup("Layout")
 rules.after("leg_reach_gap")
 
 
-@rules.gap("the PCL arcs must clear the hub")
-def hub_arc_gap(m: Module) -> Scalar:
-    """Room between hub and PCL arcs beyond the radial clearance."""
-    return m.pcl_inner_radius - m.hub_radius - m.radial_clearance
+rules.margins("arcs")
 
 
 @rules.output("mm", at_least(3.0 * MM, "the floor needs a web between two heaters", 0.0))
@@ -150,12 +147,6 @@ def floor_web(m: Module) -> Scalar:
     return m.floor_thickness - m.pad_depth
 
 
-@rules.gap("the floor below a heater is thinner than the process can make it")
-def floor_web_margin(m: Module) -> Scalar:
-    """Floor below the heaters beyond the process's least wall."""
-    return m.floor_web - m.minimum_wall
-
-
 rules.after("retainer_gap")
 
 
@@ -166,12 +157,6 @@ def window_width(m: Module) -> Scalar:
 
 
 rules.after("mount_wall_gap")
-
-
-@rules.gap("the feet must clear the heaters")
-def mount_pad_gap(m: Module) -> Scalar:
-    """Room between the mounting feet and the heaters beyond the radial clearance."""
-    return m.placement_radius - m.mount_boss_radius - m.pcl_outer_radius - m.radial_clearance
 
 
 @places.output("mm", requires=WITH_CUTOUT)
@@ -192,27 +177,6 @@ def keys_in_liner(m: Module) -> Scalar:
     return m.key_count
 
 
-_CORNER = "the cutter cannot reach into its corners so deep: choose a larger corner_radius"
-
-
-@rules.gap(f"a pad's pocket is too deep, {_CORNER}")
-def pad_pocket_margin(m: Module) -> Scalar:
-    """Depth the corners of the pads' pockets may have beyond the one they have."""
-    return m.corner_depth_ratio * m.corner_radius - m.pad_depth
-
-
-@rules.gap(f"the floor below a pad is too thick, {_CORNER}")
-def window_corner_margin(m: Module) -> Scalar:
-    """Depth the corners of the windows may have beyond the one they have."""
-    return m.corner_depth_ratio * m.corner_radius - m.floor_web
-
-
-@rules.gap(f"a liner's recess is too deep, {_CORNER}", requires=WITH_LINER)
-def liner_recess_margin(m: Module) -> Scalar:
-    """Depth the corners of the liners' recesses may have beyond the one they have; zero without."""
-    return m.corner_depth_ratio * m.corner_radius - m.liner_depth
-
-
 _NARROW = "a window must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
 
 
@@ -226,12 +190,6 @@ def window_width_margin(m: Module) -> Scalar:
 def window_depth_margin(m: Module) -> Scalar:
     """Radial width of the windows beyond what their corners need."""
     return m.window_depth - POCKET_WIDTH * m.corner_radius
-
-
-@rules.gap("the windows are too narrow for the cutter to go through the floor")
-def window_pocket_margin(m: Module) -> Scalar:
-    """Depth the windows may have for their radial width beyond the one they have."""
-    return m.pocket_depth_ratio * m.window_depth - m.floor_web
 
 
 quantities = QuantityGroup("Impedance")

@@ -69,22 +69,7 @@ def key_play(m: Module) -> Scalar:
 rules.after("arc_width")
 
 
-@rules.gap("the keys are thinner than the process can make them")
-def key_margin(m: Module) -> Scalar:
-    """Diameter of the keys beyond the process's least pin."""
-    return m.key_diameter - m.has_keys * m.minimum_feature
-
-
-@rules.gap("the rotor plate is too thin for keys: a thicker plate, or key_count 0")
-def key_depth_margin(m: Module) -> Scalar:
-    """Rotor plate beyond the least wall and keys a quarter of their diameter deep."""
-    return m.rotor_thickness - m.has_keys * (m.minimum_wall + 0.25 * m.key_diameter)
-
-
-@rules.gap("the arcs are too narrow for their keys: thinner ones, or key_count 0")
-def key_width_margin(m: Module) -> Scalar:
-    """Radial width of the arcs beyond a key with half of the least wall on either side."""
-    return m.arc_width - m.has_keys * (m.key_diameter + m.minimum_wall)
+rules.margins("keys")
 
 
 @rules.gap("the keys stand too close in their arcs: fewer or thinner ones")

@@ -90,10 +90,7 @@ def lead_volume(m: Module) -> Scalar:
     return LEADS * m.heater_count * section * 2.0 * m.lead_bend_radius * m.lead_bend_angle
 
 
-@rules.gap("the leads would have to bend sideways as well: a wider or longer arc")
-def lead_exit_margin(m: Module) -> Scalar:
-    """Width by which the slot for the leads lies behind the end of their heater."""
-    return m.lead_slot_radius - 0.5 * m.lead_slot_width - m.tile_radius + 0.5 * m.heater_width
+rules.margins("leads")
 
 
 @rules.gap("the slot for the leads reaches beyond the arc's end: a longer arc")
@@ -109,9 +106,3 @@ def lead_tile_margin(m: Module) -> Scalar:
     inner, pitch = m.lead_slot_radius - 0.5 * m.lead_slot_width, m.tile_pitch
     beyond = inner * np.sin(pitch) - _slot_end(m) * np.cos(pitch) - 0.5 * m.heater_length
     return np.fmin(m.tiles_per_arc - 1.0, 1.0) * (beyond - m.tile_clearance)
-
-
-@rules.gap("the leads do not go through below the floor: more foot_height")
-def lead_ground_gap(m: Module) -> Scalar:
-    """Room between floor and ground, or a base's sill, beyond the leads."""
-    return m.foot_height - m.base_sill - m.lead_diameter

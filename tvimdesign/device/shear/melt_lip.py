@@ -70,16 +70,7 @@ def melt_lip_margin(m: Module) -> Scalar:
     return m.melt_lip_height - LEAST_LIP
 
 
-@rules.gap("the lips are thinner than the process can make them: more rotor_rim")
-def melt_lip_wall_margin(m: Module) -> Scalar:
-    """Width of the lips beyond the process's least wall."""
-    return m.rotor_rim - m.minimum_wall
-
-
-@rules.gap("the inner lip must clear the hub: less rotor_rim, or a larger pcl_inner_radius")
-def melt_lip_hub_gap(m: Module) -> Scalar:
-    """Room between inner lip and hub beyond the running clearance."""
-    return m.melt_lip_inner_radius - m.hub_radius - m.running_clearance
+rules.margins("melt_lip")
 
 
 retention = QuantityGroup("Axial play")

@@ -73,10 +73,7 @@ def spreader_volume(m: Module) -> Scalar:
     return m.pad_section.area * m.spreader_depth
 
 
-@tile_rules.gap("a heater is too wide for its arc: choose a smaller one, or a wider arc")
-def tile_radial_margin(m: Module) -> Scalar:
-    """Gap of a tile's inner edge and outer corners to the walls of its pocket, beyond the least."""
-    return 0.5 * (m.tile_reach - m.pcl_inner_radius - m.heater_width) - m.tile_clearance
+tile_rules.margins("pad_layout")
 
 
 @tile_rules.gap("the heaters of an arc overlap: choose fewer, or a longer arc")

@@ -113,16 +113,7 @@ def seat_pull_safety(m: Module) -> Scalar:
     return m.seat_strength * m.seat_length * m.spreader_depth / pull
 
 
-@rules.gap("the adhesive around the spreaders does not fill so wide a gap: a smaller spreader_gap")
-def spreader_gap_margin(m: Module) -> Scalar:
-    """Gap that the heaters' adhesive fills beyond the one around the spreaders."""
-    return m.heater_adhesive_gap_fill - m.spreader_gap
-
-
-@rules.gap("a spreader would not go into its pocket: a larger spreader_gap")
-def spreader_fit_margin(m: Module) -> Scalar:
-    """Gap around the spreaders beyond what slips into a pocket."""
-    return m.spreader_gap - m.slip_clearance
+rules.margins("spreader_seat")
 
 
 _HOT = "the heaters' adhesive is above its continuous service temperature: choose another `heater_adhesive`"

@@ -1,5 +1,6 @@
 """Collection of a file's quantities: a function's name is the quantity's name, its docstring the description."""
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, partial
@@ -20,6 +21,7 @@ from tvimdesign.device.table.quantity import (
     Phase,
     Quantity,
     Rule,
+    Scalar,
     Simulated,
     Steady,
     at_least,
@@ -88,7 +90,7 @@ class QuantityGroup:
             add = self.option if "options" in entry else self.record if "category" in entry else self.property
             fields: dict[str, Any] = {word: tuple(of) if isinstance(of, list) else of for word, of in entry.items()}
             if "requires" in entry:
-                fields["requires"] = tuple(Feature(*pair) for pair in entry["requires"])
+                fields["requires"] = _features(entry)
             add(name, **fields)
 
     def property(self, name: str, unit: str, record: tuple[str, str], description: str, **fields: Any) -> None:
@@ -151,6 +153,18 @@ class QuantityGroup:
     def gap(self, reason: str, **fields: Any) -> Callable[[F], F]:
         """Add a gap or margin: a length that must not be negative, for a reason; `fields` as an output has them."""
         return self.output("mm", at_least(0.0, reason), **fields)
+
+    def margins(self, key: str) -> None:
+        """Add the gaps and margins that `margins.yaml` lists under a key: sums of other quantities."""
+        for name, entry in _all_margins()[key].items():
+            fields: dict[str, Any] = {"sprung": entry.get("sprung", False)}
+            if "requires" in entry:
+                fields["requires"] = _features(entry)
+            quantity = Output(
+                name=name, unit="mm", description=entry["about"], group=self.group, function=_formula(entry["is"]),
+                rules=(at_least(0.0, entry["reason"]),), better=directions().get(name), **self._featured(fields),
+            )  # fmt: skip
+            self.quantities.append(quantity)
 
     def from_template(
         self, of: str, words: str, function: Callable[[Module], Any], unit: str = "", *rules: Rule, name: str = "",
@@ -301,6 +315,17 @@ def _words(entry: Mapping[str, Any], key: str) -> tuple[str, str] | None:
     return (str(entry[key][0]), str(entry[key][1])) if key in entry else None
 
 
+def _features(entry: Mapping[str, Any]) -> tuple[Feature, ...]:
+    """Return the features that an entry of a data file requires."""
+    return tuple(Feature(*pair) for pair in entry["requires"])
+
+
+def _formula(text: str) -> Callable[[Module], Scalar]:
+    """Return the function of the module that a formula in names of quantities is."""
+    function: Callable[[Module], Scalar] = eval("lambda m: " + re.sub(r"[a-z]\w*", r"m.\g<0>", text))
+    return function
+
+
 def _summary(function: Callable[..., Any]) -> str:
     """Return the first paragraph of the docstring, on one line."""
     text = function.__doc__ or ""
@@ -316,3 +341,4 @@ def directions() -> dict[str, Literal["less", "more"]]:
 
 _all_inputs = partial(own_data, __file__, "inputs.yaml")  # The inputs by group and name
 _all_choices = partial(own_data, __file__, "choices.yaml")  # The choices and numbers of records by key and name
+_all_margins = partial(own_data, __file__, "margins.yaml")  # The margins that are sums by key and name
