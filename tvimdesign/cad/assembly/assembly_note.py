@@ -159,7 +159,10 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     treated = [item for item in items if item.treatment]
     counts |= {"treatment": treated[0].treatment if treated else "", "treated_parts": _listed(treated)}
     known = Figures(design, dims, counts)
-    wanted = [step for step in steps_of({item.kind for item in items}, dims) if _is_chosen(step, design)]
+    wanted = [
+        step for step in steps_of({item.kind for item in items}, dims)
+        if step.get("chosen", {}).items() <= design.choices.items()
+    ]  # fmt: skip
     steps = [
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
@@ -198,11 +201,6 @@ def _needs(needs: Mapping[str, Any]) -> str:
         f"{people} · held by: {needs['fixture']} · tools: {needs['tools']} · access: {needs['access']} · "
         f"checked: {needs['checked']}"
     )
-
-
-def _is_chosen(step: Mapping[str, Any], design: Design) -> bool:
-    """Return whether a step is for a module with these choices, beside its parts and dimensions."""
-    return all(design.choices.get(row) == word for row, word in step.get("chosen", {}).items())
 
 
 def steps_of(kinds: set[str], dims: Dimensions) -> list[dict[str, Any]]:

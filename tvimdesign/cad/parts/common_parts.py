@@ -191,17 +191,20 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
     pins = [cylinder(radius, top, pin_foot_level(dims), at) for at in places]
     feet = [(dims.core_radius, (0.0, 0.0)), *((radius, at) for at in places)]
     pins += [foot(radius, dims.foot_fillet, top, at) for radius, at in feet]
-    holes = [*_spigot_slot(dims), *_screw_holes(dims), *_dowel_holes_in_rotor(dims)]
+    holes = [*_screw_holes(dims), *_dowel_holes_in_rotor(dims)]
     return join(plate, [*core, *pins, *added]).cut(*holes, *openings)
 
 
 def _screw_holes(dims: Dimensions) -> list[cq.Shape]:
-    """Draw the core's holes for the screws of retainer and link."""
+    """Draw the core's holes for the screws of retainer and link, and the slot for the link's spigot."""
     top, bottom, point = dims.link_screw_mouth_level, dims.core_bottom_level, dims.drill_point_ratio
     holes = blind_hole(dims.retainer_screw_hole, bottom, bottom + dims.retainer_screw_depth, point)
     for at in link_screws(dims):
         holes += blind_hole(dims.link_screw_hole, top, top - dims.link_screw_depth, point, at)
-    return holes
+    if not dims.spigot_depth:
+        return holes
+    width, levels = dims.spigot_width - dims.slip_clearance, (top, dims.core_top_level)
+    return [*holes, tapered_bar(dims.core_radius + 1.0, width, dims.spigot_angle, levels)]
 
 
 def link(dims: Dimensions) -> cq.Shape:
@@ -216,14 +219,6 @@ def link(dims: Dimensions) -> cq.Shape:
     if dims.spigot_depth:
         plate = join(plate, [tapered_bar(dims.spigot_reach, dims.spigot_width, dims.spigot_angle, (lowest, bottom))])
     return plate.cut(tool_hole, *holes)
-
-
-def _spigot_slot(dims: Dimensions) -> list[cq.Shape]:
-    """Draw what is cut from the core's end for the link's spigot; nothing without."""
-    if not dims.spigot_depth:
-        return []
-    levels = dims.link_screw_mouth_level, dims.core_top_level
-    return [tapered_bar(dims.core_radius + 1.0, dims.spigot_width - dims.slip_clearance, dims.spigot_angle, levels)]
 
 
 def retainer(dims: Dimensions) -> cq.Shape:

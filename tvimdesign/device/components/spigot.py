@@ -13,7 +13,7 @@ import numpy as np
 from tvimdesign.device.components.dowels import CLEARANCE, DOWELS
 from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.motions.contacts import tightened_force
-from tvimdesign.physics.solids import fasteners, shapes, structure
+from tvimdesign.physics.solids import shapes, structure
 from tvimdesign.physics.solids.shapes import NOTHING, Section
 
 WITH_SPIGOT = (Feature("link_fit", DOWELS), Feature("link_fit", CLEARANCE))
@@ -81,12 +81,12 @@ def spigot_slot_moments(m: Module) -> Section:
 
 
 @strengths.helper()
-def spigot_roots(m: Module) -> tuple[structure.Root, structure.Root]:
-    """Roots of half of the spigot, and of half of the core on one side of its slot, as the link sits highest."""
+def spigot_stubs(m: Module) -> tuple[tuple[Scalar, ...], tuple[Scalar, ...]]:
+    """Lever, width, depth of half the spigot, and of half the core to one side of its slot, by its mean width [m]."""
     lever = 2.0 * m.spigot_room + 0.5 * m.spigot_engagement
-    area, edge = m.spigot_reach * m.spigot_width, 0.5 * m.spigot_width
-    beside = structure.half_segment(lever, m.core_radius, 0.5 * (m.spigot_end_width - m.slip_clearance))
-    return structure.Root(lever, area, area * edge**2 / 3.0, edge), beside
+    slot = shapes.bar_across(0.5 * (m.spigot_end_width - m.slip_clearance), m.core_radius)
+    beside = (np.pi * m.core_radius**2 - slot.area) / (4.0 * m.spigot_reach)
+    return (lever, m.spigot_width, m.spigot_reach), (lever, beside, m.spigot_reach)
 
 
 @strengths.helper()
@@ -94,47 +94,38 @@ def wedge_stress(m: Module) -> Scalar:
     """Stress of the core beside the slot under the tightened screw, which presses both halves of either flank [Pa]."""
     force = tightened_force(m.link_clamp_stress, m.link_screw_diameter)
     force /= 4.0 * (np.sin(m.spigot_angle) + m.link_friction * np.cos(m.spigot_angle))
-    return force * m.spigot_roots[1].stress
+    return structure.stub_stress(force, *m.spigot_stubs[1])
 
 
 strengths.after("core_holding_torque")
+ARM = 4.0 / 3.0  # Torque over force on half of each flank and reach: a stiff bar's pressure rises evenly to its ends
 
 
 @strengths.output("N*m")
 def spigot_flank_holding_torque(m: Module) -> Scalar:
     """Torque that the joint hands on by `holding_safety` below the one at which the flanks' ends press in."""
-    force = 0.5 * m.cold_strength * m.spigot_engagement * m.spigot_reach
-    return fasteners.half_flank_torque(force, m.spigot_reach) / m.holding_safety
+    return 0.5 * ARM * m.cold_strength * m.spigot_engagement * m.spigot_reach**2 / m.holding_safety
 
 
 @strengths.output("N*m")
 def spigot_root_holding_torque(m: Module) -> Scalar:
     """Torque that the joint hands on by `holding_safety` below the one at which the spigot yields at the link."""
-    force = m.cold_layer_strength / m.spigot_roots[0].stress
-    return fasteners.half_flank_torque(force, m.spigot_reach) / m.holding_safety
+    return ARM * m.spigot_reach * m.cold_layer_strength / structure.stub_stress(m.holding_safety, *m.spigot_stubs[0])
 
 
 @strengths.output("N*m")
 def spigot_slot_holding_torque(m: Module) -> Scalar:
     """Torque that the joint hands on by `holding_safety` below the one at which the core yields beside the slot."""
-    force = (m.cold_layer_strength - m.wedge_stress) / m.spigot_roots[1].stress
-    return fasteners.half_flank_torque(force, m.spigot_reach) / m.holding_safety
-
-
-@strengths.helper()
-def spigot_torque(m: Module) -> Scalar:
-    """Torque at which the spigot or the core beside it yields [N*m]; zero without."""
-    roots = np.fmin(m.spigot_root_holding_torque, m.spigot_slot_holding_torque)
-    return m.holding_safety * np.fmin(m.spigot_flank_holding_torque, roots)
+    left = m.cold_layer_strength - m.wedge_stress
+    return ARM * m.spigot_reach * left / structure.stub_stress(m.holding_safety, *m.spigot_stubs[1])
 
 
 @strengths.helper()
 def spigot_longer(m: Module) -> Scalar:
     """Length of core that gives as much as spigot and core beside the slot, as they bend [m]; zero without."""
-    moduli, reach = (m.structure_youngs_modulus, m.structure_shear_modulus), m.spigot_reach
-    bent = sum(root.compliance(*moduli) for root in m.spigot_roots)
-    turned = 1.5 * bent / reach / fasteners.half_flank_torque(1.0, reach)
-    return turned * structure.shaft_stiffness(moduli[1], m.core_radius, 1.0)
+    moduli = m.structure_youngs_modulus, m.structure_shear_modulus
+    bent = sum(structure.stub_compliance(*moduli, *stub) for stub in m.spigot_stubs)
+    return 2.0 * bent / (ARM * m.spigot_reach) ** 2 * structure.shaft_stiffness(moduli[1], m.core_radius, 1.0)
 
 
 @rules.gap("the spigot's flanks would not meet: a larger spigot_height or spigot_angle")
@@ -143,9 +134,7 @@ def spigot_engagement(m: Module) -> Scalar:
     return m.spigot_height - 2.0 * m.spigot_room
 
 
-@rules.output(
-    "1", at_least(1.0, "the screw would split the core: a smaller spigot_ratio, or thinner screw"), default=1.0
-)
+@rules.output("1", at_least(1.0, "the screw would split the core: lower spigot_ratio, thinner screw"), default=1.0)
 def spigot_wedge_safety(m: Module) -> Scalar:
     """Strength of the core beside the slot, across layers, over its stress as the screw is tightened; one without."""
     return m.cold_layer_strength / m.wedge_stress

@@ -86,11 +86,3 @@ def peg_twist_torque(shear_strength: Any, diameter: Any, depth: Any) -> Any:
     Shear stress [Pa] evenly over the peg's surface (textbook; as a shaft's bonded sleeve in Shigley, section 9-9).
     """
     return shear_strength * 0.5 * np.pi * diameter**2 * depth
-
-
-def half_flank_torque(force: Any, reach: Any) -> Any:
-    """Return the torque [N*m] of a bar across a shaft that bears `force` [N] on one half of each flank: T = 4 F l/3.
-
-    A stiff bar presses with what rises evenly from the axis to its ends, l [m] off (statics).
-    """
-    return 4.0 / 3.0 * force * reach

@@ -55,36 +55,9 @@ def stub_stress(force: Any, lever: Any, width: Any, depth: Any) -> Any:
     return np.sqrt((6.0 * force * lever / (depth * width**2)) ** 2 + 3.0 * (force / (depth * width)) ** 2)
 
 
-class Root(NamedTuple):
-    """Root of a short beam that a force bends at a lever."""
-
-    lever: Any  # [m]
-    area: Any  # [m^2]
-    inertia: Any  # Second moment of area [m^4]
-    edge: Any  # Distance of the edge that is stretched from the centroid [m]
-
-    @property
-    def stress(self) -> Any:
-        """Von Mises stress [Pa] under one newton, as of a stub: bending l e/I, and mean shear."""
-        return np.sqrt((self.lever * self.edge / self.inertia) ** 2 + 3.0 / self.area**2)
-
-    def compliance(self, youngs_modulus: Any, shear_modulus: Any) -> Any:
-        """Return the way of a force over it [m/N], l^3/(3 E I) + 1.2 l/(G A) [B]."""
-        return self.lever**3 / (3.0 * youngs_modulus * self.inertia) + 1.2 * self.lever / (shear_modulus * self.area)
-
-
-def half_segment(lever: Any, radius: Any, offset: Any) -> Root:
-    """Return the root of half a circular segment beyond a chord at an `offset` c, pushed off the chord.
-
-    A = R^2 (t - sin t cos t)/2, x = R^3 sin^3 t/(3 A), I = R^2 (A + R^2 sin^3 t cos t)/4 - A x^2, cos t = c/R (plane
-    geometry).
-    """
-    cosine = offset / radius
-    sine = np.sqrt(1.0 - cosine**2)
-    area = 0.5 * radius**2 * (np.arccos(cosine) - sine * cosine)
-    middle = (radius * sine) ** 3 / (3.0 * area)
-    inertia = 0.25 * radius**2 * (area + radius**2 * sine**3 * cosine) - area * middle**2
-    return Root(lever, area, inertia, middle - offset)
+def stub_compliance(youngs_modulus: Any, shear_modulus: Any, lever: Any, width: Any, depth: Any) -> Any:
+    """Return the way of a force on such a beam over it [m/N], 4 l^3/(E b w^3) + 1.2 l/(G b w) [B]."""
+    return 4.0 * lever**3 / (youngs_modulus * depth * width**3) + 1.2 * lever / (shear_modulus * depth * width)
 
 
 SHAFT_ENTRY = 0.10
