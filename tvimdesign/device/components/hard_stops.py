@@ -9,7 +9,7 @@ when it softens. Two opposite posts share it, as the rotor moves aside in its hu
 import numpy as np
 
 from tvimdesign.device.core.layout import evened_least
-from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.solids.shapes import Section, sector, tooth
 
@@ -124,26 +124,10 @@ def stop_tooth_stress(m: Module) -> Scalar:
     return structure.stub_stress(m.stop_force, lever, m.stop_tooth_width, m.rotor_thickness)
 
 
-_YIELDS = "the stops would yield under the torque that the frozen joint holds"
 PARTS = ("stop_face_safety", "stop_post_safety", "stop_tooth_safety")
 
 
-@strengths.output("1", at_least(1.0, f"{_YIELDS}: more stop_depth, or a thicker rotor"))
-def stop_face_safety(m: Module) -> Scalar:
-    """Cold strength of the structure over `holding_safety` times the pressure between tooth and post."""
-    return m.cold_strength / (m.holding_safety * m.stop_contact_stress)
-
-
-@strengths.output("1", at_least(1.0, f"{_YIELDS}: more stop_length or stop_depth"))
-def stop_post_safety(m: Module) -> Scalar:
-    """Cold strength across the layers of a print over `holding_safety` times the stress at the foot of a post."""
-    return m.cold_layer_strength / (m.holding_safety * m.stop_post_stress)
-
-
-@strengths.output("1", at_least(1.0, f"{_YIELDS}: more stop_tooth_width"))
-def stop_tooth_safety(m: Module) -> Scalar:
-    """Cold strength of the structure over `holding_safety` times the stress at the root of a tooth."""
-    return m.cold_strength / (m.holding_safety * m.stop_tooth_stress)
+strengths.margins("hard_stops.strengths")
 
 
 @strengths.output("N*m", headline=True)

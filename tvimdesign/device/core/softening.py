@@ -61,10 +61,7 @@ def response_time(m: Module) -> Scalar:
     return near_face_time(m) if m.response_criterion == "near_face" else far_face_time(m)
 
 
-@quantities.output("s", advice=(at_least(0.0, "the joint is not yet soft when the switch ends"),))
-def softening_margin(m: Module) -> Scalar:
-    """Time from the joint being soft to the end of the switch."""
-    return m.response_time - m.softening_time
+quantities.margins("softening.quantities")
 
 
 @quantities.path(SOFTENING, "N*m/rad", "end", headline=True)
@@ -103,18 +100,6 @@ def sensed_temperature(m: Module) -> Scalar:
     return np.where(m.thermistor_diameter > 0.0, m.stack_profile.near, m.stack_profile.cold)
 
 
-@quantities.output(
-    "K",
-    advice=(
-        at_least(0.0, "the layer never is at the hot point's temperature during the cycle, so the "
-             "joint is not as soft as its values at `hot` say; see softened_stiffness and softened_impedance"),
-    ),
-)  # fmt: skip
-def hot_point_margin(m: Module) -> Scalar:
-    """Temperature of the layer's coldest face when the switch ends less that of the hot point."""
-    return m.softened_temperature - m.temperature_at_hot
-
-
 @quantities.path(SOFTENING, "J", "integral", headline=True)
 def switch_energy(m: Module) -> Scalar:
     """Electrical energy of one switch."""
@@ -139,12 +124,6 @@ def peak_current(m: Module) -> Scalar:
     return m.drive_current
 
 
-@quantities.output("A", ratings=(at_least(0.0, "above the heater's rated current"),))
-def current_margin(m: Module) -> Scalar:
-    """Rated current of the heater less the highest one of them takes in the switch."""
-    return m.heater_max_current - m.peak_current / m.heater_strings
-
-
 @quantities.path(SOFTENING, "degC", "maximum")
 def peak_pcl_temperature(m: Module) -> Scalar:
     """Highest temperature in the PCL during the switch, at its face to the pads unless it heats itself."""
@@ -161,24 +140,6 @@ def peak_heater_temperature(m: Module) -> Scalar:
 def peak_rotor_temperature(m: Module) -> Scalar:
     """Highest temperature of the rotor plate during the switch, at its face to the layer."""
     return m.stack_profile.plate_face
-
-
-@quantities.output("K", ratings=(at_least(0.0, "the heater is above the temperature it is rated for"),))
-def heater_temperature_margin(m: Module) -> Scalar:
-    """Rated temperature of the heater less the highest it sees."""
-    return m.heater_max_temperature - m.peak_heater_temperature
-
-
-@quantities.output("K", ratings=(at_least(0.0, "the PCL decomposes"),))
-def pcl_temperature_margin(m: Module) -> Scalar:
-    """Temperature at which the PCL starts to decompose less the highest it sees."""
-    return m.pcl_decomposition_temperature - m.peak_pcl_temperature
-
-
-@quantities.output("K", ratings=(at_least(0.0, "the structure is above its continuous service temperature"),))
-def structure_temperature_margin(m: Module) -> Scalar:
-    """Service temperature of the structure less the highest temperature of the pads that touch it."""
-    return m.structure_service_temperature - m.peak_heater_temperature
 
 
 @quantities.steady(SOFTENING, "A")
@@ -245,16 +206,7 @@ def return_time(m: Module) -> Scalar:
     return frozen_time(m) if m.stiffening_criterion == "frozen" else stiffening_time(m)
 
 
-@stiffenings.output(
-    "1",
-    advice=(
-        at_least(1.0, "the joint counts as stiff while a slice of its layer is mostly liquid: "
-             "it resists at its frequency, and creeps under a lasting load"),
-    ),
-)  # fmt: skip
-def stiffening_over_freezing(m: Module) -> Scalar:
-    """Time until the joint counts as stiff over the time until every slice of its layer is half frozen."""
-    return m.stiffening_time / m.frozen_time
+stiffenings.margins("softening.stiffenings")
 
 
 @stiffenings.output(
@@ -303,24 +255,6 @@ def peak_cold_side_temperature(m: Module) -> Scalar:
 def stiffening_peak_current(m: Module) -> Scalar:
     """Highest current, in size, while the joint stiffens."""
     return -m.drive_current
-
-
-@stiffenings.output("A", ratings=(at_least(0.0, "cooling is above the heater's rated current"),))
-def cooling_current_margin(m: Module) -> Scalar:
-    """Rated current of the heater less the highest one of them takes while the joint stiffens."""
-    return m.heater_max_current - m.stiffening_peak_current / m.heater_strings
-
-
-@stiffenings.output("K", ratings=(at_least(0.0, "the pads' outer side is above the temperature it is rated for"),))
-def cold_side_temperature_margin(m: Module) -> Scalar:
-    """Rated temperature of the heater less the highest of its outer side."""
-    return m.heater_max_temperature - m.peak_cold_side_temperature
-
-
-@stiffenings.output("K", ratings=(at_least(0.0, "the structure is above its service temperature while it stiffens"),))
-def stiffening_structure_margin(m: Module) -> Scalar:
-    """Service temperature of the structure less the highest of the pads' outer side, which touches it."""
-    return m.structure_service_temperature - m.peak_cold_side_temperature
 
 
 @stiffenings.output("s", headline=True)

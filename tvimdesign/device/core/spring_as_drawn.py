@@ -202,7 +202,4 @@ def preload_loss(m: Module) -> Scalar:
     return m.preload_angle * (at_once - plastics.winding_left(m.spring_rate, *_spring_holds(m)))
 
 
-@quantities.output("rad", advice=(at_least(0.0, "a spring lifts off at full stroke once pins and floor have crept"),))
-def crept_preload_margin(m: Module) -> Scalar:
-    """Preload that is left at the end of the stroke, less what creep takes of it; adjusters can set it anew."""
-    return m.preload_margin - m.preload_loss
+quantities.margins("spring_as_drawn")

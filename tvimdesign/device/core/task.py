@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar
 from tvimdesign.physics.layers import driven, lasting_load
 from tvimdesign.physics.motions.motion import Joint
 
@@ -223,36 +223,10 @@ def impact_deflection(m: Module) -> Scalar:
     return driven.largest(m.caught.angles)
 
 
-_STOPPED = "the soft joint meets its stops in the impact, which then takes more torque than impact_torque@hot"
-
-
-@quantities.output("rad", advice=(at_least(0.0, _STOPPED),))
-def impact_stop_margin(m: Module) -> Scalar:
-    """Angle from the soft joint's largest deflection in the impact to its stops."""
-    return m.stop_angle - m.impact_deflection_at_hot
-
-
-_BREAKS = "the frozen joint holds less than the impact's largest torque"
-
-
-@quantities.output("N*m", advice=(at_least(0.0, _BREAKS),), rises_with="holding_torque")
-def impact_torque_margin(m: Module) -> Scalar:
-    """Torque that the frozen joint holds beyond that of the impact."""
-    return m.holding_torque - m.impact_torque_at_cold
+quantities.margins("task")
 
 
 @quantities.output("N*m", per_point=True, headline=True)
 def task_torque(m: Module) -> Scalar:
     """Largest torque in the joint by pose, sine and trajectory; an impact has `impact_torque`."""
     return np.fmax(m.pose_torque + m.sine_torque, m.trajectory_torque)
-
-
-_WEAK = "the frozen joint holds less than `load_safety` times the torque of its task"
-
-
-@quantities.output(
-    "N*m", at_least(0.0, f"{_WEAK}: less payload, or a module that holds more"), rises_with="holding_torque"
-)
-def task_torque_margin(m: Module) -> Scalar:
-    """Torque that the frozen joint holds beyond `load_safety` times that of its task."""
-    return m.holding_torque - m.load_safety * m.task_torque_at_cold

@@ -147,10 +147,7 @@ def spring_unwinding(m: Module) -> Scalar:
     return -m.windings[3]
 
 
-@quantities.output("rad", at_least(0.0, "a spring without preload lifts off, and half of them act"))
-def preload_margin(m: Module) -> Scalar:
-    """Preload that is left at the stops of the opposing springs, less what a loose tang's play takes."""
-    return m.preload_angle - m.spring_unwinding - m.spring_play
+quantities.margins("torsion_springs")
 
 
 @quantities.output("MPa")
@@ -209,18 +206,6 @@ def free_angle_tolerance(m: Module) -> Scalar:
 def fitted_angle_tolerance(m: Module) -> Scalar:
     """Deviation of the free angle of springs that go in, to either side, as sorted; none with adjusters."""
     return np.fmax(np.fmin(m.free_angle_tolerance, m.free_angle_sorting) - 0.5 * m.preload_adjustment, 0.0)
-
-
-_LIFTS = (
-    "springs lift off before the rotor meets its stops, as their free angles spread: more preload_angle, a finer "
-    "free_angle_sorting, or preload_adjuster: rotary"
-)
-
-
-@quantities.output("deg", at_least(0.0, _LIFTS))
-def free_angle_margin(m: Module) -> Scalar:
-    """Preload that is left at the stops, less what the free angle of the springs that go in may take."""
-    return m.preload_margin - m.fitted_angle_tolerance
 
 
 @quantities.output("1", advice=(at_least(0.2, "four of five springs as bought stay out"),))

@@ -151,10 +151,4 @@ def motor_voltage(m: Module) -> Scalar:
     return back_emf + np.sqrt(1.5) * m.drive_motor.winding_resistance * current
 
 
-_VOLTAGE = "the supply of the motor's driver is too low for the task's speed and torque"
-
-
-@drivers.output("V", advice=(at_least(0.0, _VOLTAGE),))
-def motor_driver_voltage_margin(m: Module) -> Scalar:
-    """Voltage that the driver makes of its supply beyond what the motor wants in the task."""
-    return m.motor_driver_modulation * m.motor_supply_voltage - m.motor_voltage
+drivers.margins("motor_load")

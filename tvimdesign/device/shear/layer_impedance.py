@@ -16,7 +16,7 @@ from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.shear.spreader_seat import PAD_PARTS, TILE_PARTS
-from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least, at_most
+from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_most
 from tvimdesign.physics.layers import lasting_load, layer, shear_lag
 from tvimdesign.physics.polymers import melt, polymer, transitions
 from tvimdesign.physics.solids import structure
@@ -153,10 +153,7 @@ def layer_strain(m: Module) -> Scalar:
     return layer.shear_strain(m.pcl_outer_radius, m.stroke, m.pcl_thickness)
 
 
-@quantities.output("1", at_least(1.0, "the molten layer would tear or slip"))
-def layer_strain_safety(m: Module) -> Scalar:
-    """Strain the molten layer bears over the strain it sees."""
-    return m.pcl_melt_strain_limit / m.layer_strain
+quantities.margins("layer_impedance.quantities")
 
 
 @quantities.helper()
@@ -221,14 +218,6 @@ def layer_edge_traction(m: Module) -> Scalar:
     return m.layer_edge_rise * layer.traction(m.holding_torque, m.layer_polar_moment, m.pcl_outer_radius)
 
 
-@quantities.output(
-    "1", advice=(at_least(1.0, "the bond may fail along the arcs' edges below the torque that the joint must hold"),)
-)
-def layer_edge_safety(m: Module) -> Scalar:
-    """Strength of the bond over the traction along the edge of an arc under the torque the joint holds."""
-    return m.bond_strength / m.layer_edge_traction
-
-
 @quantities.output("1", headline=True)
 def parting_share(_: Module) -> Scalar:
     """Share of the PCL that can part from what presses on it: none, the layer is bonded to both its faces.
@@ -291,13 +280,7 @@ def freezing_traction(m: Module) -> Scalar:
     )
 
 
-_MAY_PART = "the freezing layer shrinks, the rotor cannot follow, and the bond may part at its inner edge"
-
-
-@plays.output("1", advice=(at_least(1.0, _MAY_PART),))
-def freezing_safety(m: Module) -> Scalar:
-    """Strength of the bond over the tension that the freezing layer puts on it."""
-    return m.bond_strength / m.freezing_traction
+plays.margins("layer_impedance.plays")
 
 
 _FLOATS = "the rotor can rise by that share of the layer's thickness, and nothing holds it down (assumed, 5 to 20 %)"

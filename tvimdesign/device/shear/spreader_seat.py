@@ -116,11 +116,7 @@ def seat_pull_safety(m: Module) -> Scalar:
 rules.margins("spreader_seat")
 
 
-_HOT = "the heaters' adhesive is above its continuous service temperature: choose another `heater_adhesive`"
 ratings = QuantityGroup("Switch")
 
 
-@ratings.output("K", ratings=(at_least(0.0, _HOT),), requires=WITH_TILES)
-def heater_adhesive_margin(m: Module) -> Scalar:
-    """Rating of the adhesive around the spreaders less the highest temperature of the modules; zero without."""
-    return m.heater_adhesive_rating - m.peak_heater_temperature
+ratings.margins("spreader_seat.ratings")

@@ -155,14 +155,16 @@ class QuantityGroup:
         return self.output("mm", at_least(0.0, reason), **fields)
 
     def margins(self, key: str) -> None:
-        """Add the gaps and margins that `margins.yaml` lists under a key: sums of other quantities."""
+        """Add the margins and safeties that `margins.yaml` lists under a key, formulas of other quantities."""
         for name, entry in _all_margins()[key].items():
-            fields: dict[str, Any] = {"sprung": entry.get("sprung", False)}
+            fields: dict[str, Any] = {word: entry[word] for word in ("sprung", "rises_with") if word in entry}
             if "requires" in entry:
                 fields["requires"] = _features(entry)
+            why = next(word for word in _LIMITED if word in entry)
+            fields[_LIMITED[why]] = (at_least(entry.get("at_least", 0.0), entry[why]),)
             quantity = Output(
-                name=name, unit="mm", description=entry["about"], group=self.group, function=_formula(entry["is"]),
-                rules=(at_least(0.0, entry["reason"]),), better=directions().get(name), **self._featured(fields),
+                name=name, unit=entry.get("unit", "mm"), description=entry["about"], group=self.group,
+                function=_formula(entry["is"]), better=directions().get(name), **self._featured(fields),
             )  # fmt: skip
             self.quantities.append(quantity)
 
@@ -310,6 +312,10 @@ _NUMBERS = {"default": "value", "lower": "from", "upper": "to", "period": "perio
 """Keys of `inputs.yaml` that hold numbers, by the field of `Input`."""
 
 
+_LIMITED = {"reason": "rules", "advice": "advice", "rating": "ratings"}
+"""Keys of `margins.yaml` that say what it means to be below the limit, by the field of `Output` that has the limit."""
+
+
 def _words(entry: Mapping[str, Any], key: str) -> tuple[str, str] | None:
     """Return a pair of words of an entry of `inputs.yaml`, if it has it."""
     return (str(entry[key][0]), str(entry[key][1])) if key in entry else None
@@ -341,4 +347,4 @@ def directions() -> dict[str, Literal["less", "more"]]:
 
 _all_inputs = partial(own_data, __file__, "inputs.yaml")  # The inputs by group and name
 _all_choices = partial(own_data, __file__, "choices.yaml")  # The choices and numbers of records by key and name
-_all_margins = partial(own_data, __file__, "margins.yaml")  # The margins that are sums by key and name
+_all_margins = partial(own_data, __file__, "margins.yaml")  # The margins by key and name

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tvimdesign.device.core.materials import CRYSTALLIZING
-from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
+from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import contacts
 from tvimdesign.physics.polymers import melt
@@ -112,12 +112,7 @@ def melt_stress(m: Module) -> Scalar:
     return melt.shear_stress(m.largest_melt_strain, m.storage_modulus_at_hot, m.loss_modulus_at_hot)
 
 
-@quantities.output(
-    "1", at_least(1.0, "the melt breaks, or slips on its faces, at the hot point's frequency"), requires=CRYSTALLIZING
-)
-def melt_stress_safety(m: Module) -> Scalar:
-    """Shear stress at which the flowing melt breaks over the largest it sees."""
-    return m.pcl_melt_fracture_stress / m.melt_stress
+quantities.margins("large_motion")
 
 
 @quantities.output("mrad", requires=CRYSTALLIZING)
