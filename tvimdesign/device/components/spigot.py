@@ -82,11 +82,11 @@ def spigot_slot_moments(m: Module) -> Section:
 
 @strengths.helper()
 def spigot_stubs(m: Module) -> tuple[tuple[Scalar, ...], tuple[Scalar, ...]]:
-    """Lever, width, depth of half the spigot, and of half the core to one side of its slot, by its mean width [m]."""
+    """Lever, width, depth of half the spigot, less its hole, and half the core to a side of the mean slot [m]."""
     lever = 2.0 * m.spigot_room + 0.5 * m.spigot_engagement
     slot = shapes.bar_across(0.5 * (m.spigot_end_width - m.slip_clearance), m.core_radius)
     beside = (np.pi * m.core_radius**2 - slot.area) / (4.0 * m.spigot_reach)
-    return (lever, m.spigot_width, m.spigot_reach), (lever, beside, m.spigot_reach)
+    return (lever, m.spigot_width, m.spigot_reach - 0.5 * m.link_screw_clearance), (lever, beside, m.spigot_reach)
 
 
 @strengths.helper()
