@@ -133,8 +133,8 @@ def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str
 
 
 def _going_with(name: str) -> str:
-    """Return the kind of part that a part is put in with: leads hang on their heater."""
-    return "heater" if kind_of(name) == "heater_lead" else kind_of(name)
+    """Return the kind of part that a part is put in with: leads hang on their heater, pressed pins are in the rotor."""
+    return {"heater_lead": "heater", "leg_pin": "rotor", "link_insert": "rotor"}.get(kind_of(name), kind_of(name))
 
 
 _SECTION_SIZE = (1500, 750)

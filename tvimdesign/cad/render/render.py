@@ -196,6 +196,9 @@ def renderer_on_white() -> vtkRenderer:
     return renderer
 
 
+_LABEL_ROOM = 0.03  # Least distance of two numbers in a picture, over the height of all parts
+
+
 def write_view(
     path: Path, renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, size: tuple[int, int],
     named: Iterable[str] = (), items: Mapping[str, int] | None = None,
@@ -206,11 +209,22 @@ def write_view(
     """
     kinds = list(items or dict.fromkeys(kind_of(name) for name in named or placed))
     below = legend_height(kinds, size)
+    sight = np.array(from_here) / np.linalg.norm(from_here)
+    right = np.cross((0.0, 0.0, 1.0), sight)
+    upward = np.cross(sight, right) / np.linalg.norm(right)
+    heights = np.vstack([instance.points() for instance in placed.values()]) @ upward
+    room, taken = _LABEL_ROOM * float(np.ptp(heights)), list[np.ndarray]()
     for kind, number in (items or {}).items():
         points = np.vstack([instance.points() for name, instance in placed.items() if kind_of(name) == kind])
+        at = points[np.argmax(points @ right)]
+        while any(
+            np.linalg.norm(np.cross(at - other, from_here)) < room * np.linalg.norm(from_here) for other in taken
+        ):
+            at = at - 0.5 * room * upward
+        taken.append(at)
         beside = _text(f" {number}", 0, 0, None)
         beside.GetPositionCoordinate().SetCoordinateSystemToWorld()
-        beside.GetPositionCoordinate().SetValue(*points[np.argmax(points @ np.cross((0.0, 0.0, 1.0), from_here))])
+        beside.GetPositionCoordinate().SetValue(*at)
         renderer.AddViewProp(beside)
     renderer.SetViewport(0.0, below, 1.0, 1.0)
     look(renderer, placed, from_here, size[1] * (1.0 - below) / size[0])

@@ -2,8 +2,8 @@
 
 They stand opposite each other, midway between springs, inside the screws that fix the housing. Posts and teeth are
 sectors about the axis, so that their faces meet flat. They take the room there is, up to `stop_depth` and
-`stop_length`. The stops bear the torque that the frozen joint holds: a load that the joint bears frozen drives it there
-when it softens. Two opposite posts share it, as the rotor moves aside in its hub until both bear.
+`stop_length`. The stops bear the torque that the frozen joint holds, up to `load_torque`: a load that the joint bears
+frozen drives it there when it softens. Two opposite posts share it: the rotor moves in its hub until both bear.
 """
 
 import numpy as np
@@ -98,15 +98,21 @@ def stop_teeth_section(m: Module) -> Section:
     return tooth(m.stop_tooth_span, m.rotor_radius, m.stop_outer_radius, m.corner_radius).times(STOPS)
 
 
+@strengths.helper()
+def borne_torque(m: Module) -> Scalar:
+    """Torque that stops, feet and the arcs' edges bear [N*m]: what the joint holds, `load_torque` at most."""
+    return np.fmin(m.holding_torque, m.load_torque)
+
+
 @strengths.output("N")
 def stop_force(m: Module) -> Scalar:
-    """Force on each of two opposite posts under the torque that the frozen joint holds."""
-    return m.holding_torque / (STOPS * m.stop_contact_radius)
+    """Force on each of two opposite posts under the torque that the frozen joint bears."""
+    return m.borne_torque / (STOPS * m.stop_contact_radius)
 
 
 @strengths.output("MPa")
 def stop_contact_stress(m: Module) -> Scalar:
-    """Pressure between a tooth and its post under the torque that the frozen joint holds."""
+    """Pressure between a tooth and its post under the torque that the frozen joint bears."""
     return m.stop_force / (m.stop_width * m.rotor_thickness)
 
 
@@ -133,7 +139,7 @@ strengths.margins("hard_stops.strengths")
 @strengths.output("N*m", headline=True)
 def stop_torque(m: Module) -> Scalar:
     """Torque that the stops bear to either side, by `holding_safety` below the one at which a post or tooth yields."""
-    return m.holding_torque * np.fmin(np.fmin(m.stop_face_safety, m.stop_post_safety), m.stop_tooth_safety)
+    return m.borne_torque * np.fmin(np.fmin(m.stop_face_safety, m.stop_post_safety), m.stop_tooth_safety)
 
 
 rules.margins("hard_stops")

@@ -214,8 +214,8 @@ def holding_torque(m: Module) -> Scalar:
 
 @quantities.output("MPa")
 def layer_edge_traction(m: Module) -> Scalar:
-    """Traction along the edge of an arc under the torque the joint holds, a mean over one thickness of the layer."""
-    return m.layer_edge_rise * layer.traction(m.holding_torque, m.layer_polar_moment, m.pcl_outer_radius)
+    """Traction along the edge of an arc under the torque the joint bears, a mean over one thickness of the layer."""
+    return m.layer_edge_rise * layer.traction(m.borne_torque, m.layer_polar_moment, m.pcl_outer_radius)
 
 
 @quantities.output("1", headline=True)

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Input, table_for
+from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Tone
 from tvimdesign.report.output.numbers import in_labels, label, percent
 from tvimdesign.report.output.tables import margin_text
@@ -35,6 +35,8 @@ from tvimdesign.solve.uncertainty.design_uncertainty import share_in_doubt
 TARGET = 0.95  # Yield below which a design without margins is only a nominal one
 DOUBT = 0.25  # Share of the plausible cases in which the limit most in doubt must be met
 
+TESTED = ("minimum_wall", "minimum_feature", "slip_clearance", "running_clearance", "bridge_span", "hole_compensation")
+"""Inputs that the test pieces show."""
 _MOST_NAMED = 2  # Unmeasured inputs that a verdict names, and one more rather than count it
 
 
@@ -230,13 +232,8 @@ def least_shares(uncertainty: Mapping[str, Any]) -> dict[str, float]:
 def _to_measure(names: Sequence[str], answer: StudyResult) -> str:
     """Say what to measure: all inputs, or the first and how many more there are; a printer's by its test pieces."""
     design, inputs, most = answer.design, [f"the {label(name)}" for name in names], _MOST_NAMED
-    words, row = "measure", table_for(design.mode).by_name[names[0]]
-    if (
-        isinstance(row, Input)
-        and row.record
-        and row.record[0] == "process"
-        and design.choices["making_method"] != "milled"
-    ):
+    words = "measure"
+    if names[0] in TESTED and design.choices["making_method"] != "milled":
         words, most = "print the test pieces and measure", 1
     if len(inputs) <= most + 1:
         return f"{words} {' and '.join(filter(None, [', '.join(inputs[:-1]), inputs[-1]]))}"
