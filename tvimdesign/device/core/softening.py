@@ -62,24 +62,7 @@ def response_time(m: Module) -> Scalar:
 
 
 quantities.margins("softening.quantities")
-
-
-@quantities.path(SOFTENING, "N*m/rad", "end", headline=True)
-def softened_stiffness(m: Module) -> Scalar:
-    """Stiffness of the joint for small motions about rest when heating stops, at the hot point's frequency."""
-    return m.stiffness_now
-
-
-@quantities.path(SOFTENING, "N*m*s/rad", "end", headline=True)
-def softened_damping(m: Module) -> Scalar:
-    """Damping of the joint when the switch ends, at the hot point's frequency."""
-    return m.damping_now
-
-
-@quantities.path(SOFTENING, "N*m/rad", "end")
-def softened_impedance(m: Module) -> Scalar:
-    """Magnitude of the joint's dynamic stiffness when the switch ends, at the hot point's frequency."""
-    return m.impedance_now
+quantities.phase_values("softening.quantities")
 
 
 @quantities.output("1", headline=True)
@@ -88,70 +71,10 @@ def softened_range(m: Module) -> Scalar:
     return m.joint_stiffness_at_cold / m.softened_stiffness
 
 
-@quantities.path(SOFTENING, "degC", "end", headline=True)
-def softened_temperature(m: Module) -> Scalar:
-    """Temperature of the layer's coldest face, at the rotor, when the switch ends."""
-    return m.stack_profile.far
-
-
 @quantities.path(SOFTENING, "degC", "end")
 def sensed_temperature(m: Module) -> Scalar:
     """Temperature at the thermistor when the switch ends: the layer's face, or the pads' outer side without a bead."""
     return np.where(m.thermistor_diameter > 0.0, m.stack_profile.near, m.stack_profile.cold)
-
-
-@quantities.path(SOFTENING, "J", "integral", headline=True)
-def switch_energy(m: Module) -> Scalar:
-    """Electrical energy of one switch."""
-    return m.electrical_power
-
-
-@quantities.path(SOFTENING, "W", "maximum", headline=True)
-def peak_power(m: Module) -> Scalar:
-    """Highest electrical power during the switch."""
-    return m.electrical_power
-
-
-@quantities.path(SOFTENING, "V", "maximum")
-def peak_voltage(m: Module) -> Scalar:
-    """Highest voltage over all pads, as they are wired, during the switch."""
-    return m.supply_voltage
-
-
-@quantities.path(SOFTENING, "A", "maximum")
-def peak_current(m: Module) -> Scalar:
-    """Highest current during the switch."""
-    return m.drive_current
-
-
-@quantities.path(SOFTENING, "degC", "maximum")
-def peak_pcl_temperature(m: Module) -> Scalar:
-    """Highest temperature in the PCL during the switch, at its face to the pads unless it heats itself."""
-    return m.hottest_pcl
-
-
-@quantities.path(SOFTENING, "degC", "maximum")
-def peak_heater_temperature(m: Module) -> Scalar:
-    """Highest temperature of the heaters' inner side, towards the PCL, during the switch."""
-    return m.stack_profile.hot
-
-
-@quantities.path(SOFTENING, "degC", "maximum")
-def peak_rotor_temperature(m: Module) -> Scalar:
-    """Highest temperature of the rotor plate during the switch, at its face to the layer."""
-    return m.stack_profile.plate_face
-
-
-@quantities.steady(SOFTENING, "A")
-def hold_current(m: Module) -> Scalar:
-    """Current that keeps the layer for good where the switch ended."""
-    return m.drive_current
-
-
-@quantities.steady(SOFTENING, "W", headline=True)
-def hold_power(m: Module) -> Scalar:
-    """Electrical power that keeps the layer for good where the switch ended."""
-    return m.electrical_power
 
 
 stiffenings = QuantityGroup("Stiffening")
@@ -227,34 +150,7 @@ def far_face_cooling_time(m: Module) -> Scalar:
     return (m.temperature_at_cold - m.stack_profile.far) / heat.TEMPERATURE_SCALE
 
 
-@stiffenings.path(STIFFENING, "J", "integral", headline=True)
-def stiffening_energy(m: Module) -> Scalar:
-    """Electrical energy of cooling the joint stiff."""
-    return m.electrical_power
-
-
-@stiffenings.path(STIFFENING, "W", "maximum")
-def stiffening_peak_power(m: Module) -> Scalar:
-    """Highest electrical power while the joint stiffens."""
-    return m.electrical_power
-
-
-@stiffenings.path(STIFFENING, "V", "maximum")
-def stiffening_peak_voltage(m: Module) -> Scalar:
-    """Highest voltage over all pads, as they are wired, while the joint stiffens."""
-    return m.supply_voltage
-
-
-@stiffenings.path(STIFFENING, "degC", "maximum")
-def peak_cold_side_temperature(m: Module) -> Scalar:
-    """Highest temperature of the pads' outer side, which heats up while the joint stiffens."""
-    return m.stack_profile.cold
-
-
-@stiffenings.path(STIFFENING, "A", "maximum")
-def stiffening_peak_current(m: Module) -> Scalar:
-    """Highest current, in size, while the joint stiffens."""
-    return -m.drive_current
+stiffenings.phase_values("softening.stiffenings")
 
 
 @stiffenings.output("s", headline=True)

@@ -162,11 +162,16 @@ class QuantityGroup:
                 fields["requires"] = _features(entry)
             why = next(word for word in _LIMITED if word in entry)
             fields[_LIMITED[why]] = (at_least(entry.get("at_least", 0.0), entry[why]),)
-            quantity = Output(
-                name=name, unit=entry.get("unit", "mm"), description=entry["about"], group=self.group,
-                function=_formula(entry["is"]), better=directions().get(name), **self._featured(fields),
-            )  # fmt: skip
-            self.quantities.append(quantity)
+            self._add_formula(Output, name, entry, **self._featured(fields))
+
+    def phase_values(self, key: str) -> None:
+        """Add what `phase_values.yaml` lists under a key, read off a phase of the working cycle."""
+        for name, entry in _all_phase_values()[key].items():
+            fields = {"phase": entry["phase"], "headline": entry.get("headline", False)}
+            if entry["take"] == "steady":
+                self._add_formula(Steady, name, entry, **fields)
+            else:
+                self._add_formula(Path, name, entry, reduce=entry["take"], **fields)
 
     def from_template(
         self, of: str, words: str, function: Callable[[Module], Any], unit: str = "", *rules: Rule, name: str = "",
@@ -217,10 +222,6 @@ class QuantityGroup:
         """Add the integral or the largest value of a function over a phase, or its value at the end."""
         return self._add(Path, unit, phase=phase.name, reduce=reduce, headline=headline)
 
-    def steady(self, phase: Phase, unit: str, *, headline: bool = False) -> Callable[[F], F]:
-        """Add the value of a function when everything stays where a phase ends."""
-        return self._add(Steady, unit, phase=phase.name, headline=headline)
-
     def first_oscillation(self, unit: str, *, headline: bool = True) -> Callable[[F], F]:
         """Add the mean of a function over the first swing of a released link, at each operating point."""
         return self._add(FirstOscillation, unit, per_point=True, headline=headline)
@@ -230,6 +231,14 @@ class QuantityGroup:
         quantity = Simulated(
             name=name, unit=unit, description=description, group=self.group, function=_nowhere, state=state,
             better=directions().get(name),
+        )  # fmt: skip
+        self.quantities.append(quantity)
+
+    def _add_formula(self, kind: type[Output], name: str, entry: Mapping[str, Any], **fields: Any) -> None:
+        """Add an output that a data file lists with its formula."""
+        quantity = kind(
+            name=name, unit=entry.get("unit", "mm"), description=entry["about"], group=self.group,
+            function=_formula(entry["is"]), better=directions().get(name), **fields,
         )  # fmt: skip
         self.quantities.append(quantity)
 
@@ -328,7 +337,7 @@ def _features(entry: Mapping[str, Any]) -> tuple[Feature, ...]:
 
 def _formula(text: str) -> Callable[[Module], Scalar]:
     """Return the function of the module that a formula in names of quantities is."""
-    function: Callable[[Module], Scalar] = eval("lambda m: " + re.sub(r"[a-z]\w*", r"m.\g<0>", text))
+    function: Callable[[Module], Scalar] = eval("lambda m: " + re.sub(r"(?<![.\w])[a-z]\w*", r"m.\g<0>", text))
     return function
 
 
@@ -348,3 +357,4 @@ def directions() -> dict[str, Literal["less", "more"]]:
 _all_inputs = partial(own_data, __file__, "inputs.yaml")  # The inputs by group and name
 _all_choices = partial(own_data, __file__, "choices.yaml")  # The choices and numbers of records by key and name
 _all_margins = partial(own_data, __file__, "margins.yaml")  # The margins by key and name
+_all_phase_values = partial(own_data, __file__, "phase_values.yaml")  # What is read off phases by key and name
