@@ -208,8 +208,8 @@ class ControlledModule:
         )
         return moments[SOFT].time if SOFT in moments else np.inf
 
-    def switch(self, constants: Controller, lags: Lags, seconds: float, impedance: float = 0.0) -> Controlled:
-        """Simulate so many seconds with an impedance asked for, soft unless given. Raises SimulationError."""
+    def switch(self, constants: Controller, lags: Lags, seconds: float) -> Controlled:
+        """Simulate so many seconds with no impedance asked for: soft. Raises SimulationError."""
         size, period = self.engine.size, constants.period
         before = Instant(0.0, _NONE, self.start, np.zeros((len(self.start), 0)), 0.0, _NONE)
         run, start, _, _ = self.engine._begin(self.inputs, np.zeros((len(self.inputs), 0)), before)
@@ -224,7 +224,7 @@ class ControlledModule:
         thermistor, current, controller = near, 0.0, RunningController(constants, near)
         rows = []
         for k in range(int(np.ceil(seconds / period))):
-            requested = controller.step(thermistor, impedance)
+            requested = controller.step(thermistor, 0.0)
             left = period
             decay = exp(-period / lags.driver)
             mean = requested + (current - requested) * lags.driver / period * (1.0 - decay)

@@ -1,14 +1,18 @@
 """One study's problem, built once, asked again and again: the design that is best in one thing within some bounds."""
 
+import json
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
-from typing import Any, Protocol
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from tvimdesign.base.errors import SimulationError, TimeOverError
+from tvimdesign import __version__
+from tvimdesign.base.errors import InputError, SimulationError, TimeOverError
+from tvimdesign.base.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.base.units import format_quantity
 from tvimdesign.simulation.working_cycle.current_profile import Array, CurrentProfile
 from tvimdesign.solve.nlp.constraints import in_words, make_constraint
@@ -17,7 +21,7 @@ from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Progress, Run, Trace, meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, is_met
-from tvimdesign.study import Options, Study
+from tvimdesign.study import Options, SolverOptions, Study
 
 OUT_OF_TIME = "the time limit of the search was over: raise `solver.time_limit`"
 ONE_POINT = 2e-3  # Share by which two designs must differ to be two: the simulation's tolerance
@@ -52,14 +56,53 @@ class Failure:
     infeasible: bool = False  # True if the search ended at limits that cannot all be met nearby
 
 
-class Memory(Protocol):
-    """Store of a trade-off's answers, so that a killed run can resume."""
+class FolderMemory:
+    """The answers of a trade-off as files, one for each design that was sought, in their order."""
+
+    def __init__(self, folder: ResultsFolder, study: Study) -> None:
+        """Use what the folder holds; raises InputError where that is of another study or another version."""
+        self._folder = folder
+        solver = study.solver.model_copy(update={"time_limit": SolverOptions().time_limit})  # it changes no design
+        asked_for = study.model_copy(update={"solver": solver})
+        request = {"tvimdesign": __version__, "study": asked_for.model_dump(mode="json")}
+        known = _read(folder.path / PROGRESS / "asked.json")
+        if known is not None and known != request:
+            raise InputError(f"{folder.out}: holds the front of another study or version; --overwrite to begin anew")
+        folder.write_json(f"{PROGRESS}/asked.json", request)
 
     def recall(self, number: int, objective: Objective) -> Point | Failure | None:
-        """Return the answer to a question, counted from 0; None if it is unknown."""
+        """Return the answer to a question; None where it is not there, or was of another objective."""
+        known = _read(self._folder.path / PROGRESS / f"{number:04d}.json")
+        if known is None or known["goal"] != _plain_objective(objective):
+            return None
+        if "reason" in known:
+            return Failure(known["where"], known["reason"])
+        trace = Trace(*(np.array(known["trace"][name]) for name in Trace._fields))
+        entries = {name: known[name] for name in ("where", "values", "current_profiles", "cost", "root")}
+        return Point(**entries, trace=trace, objective=objective)
 
-    def keep(self, number: int, objective: Objective, answer: Point | Failure) -> None:
-        """Note an answer."""
+    def keep(self, number: int, objective: Objective, outcome: Point | Failure) -> None:
+        """Write an answer, every digit of it."""
+        reported: dict[str, Any] = {"goal": _plain_objective(objective), "where": outcome.where}
+        if isinstance(outcome, Failure):
+            reported["reason"] = outcome.reason
+        else:
+            assert outcome.trace is not None  # whatever was sought has one
+            reported |= {name: getattr(outcome, name) for name in ("values", "current_profiles", "cost", "root")}
+            reported["trace"] = {name: getattr(outcome.trace, name).tolist() for name in Trace._fields}
+        self._folder.write(f"{PROGRESS}/{number:04d}.json", json.dumps(reported))
+
+
+def _plain_objective(objective: Objective) -> dict[str, Any]:
+    return {"weights": dict(objective.weights), "bounds": [asdict(bound) for bound in objective.bounds]}
+
+
+def _read(path: Path) -> dict[str, Any] | None:
+    try:
+        content: dict[str, Any] = json.loads(path.read_bytes())
+    except (FileNotFoundError, ValueError):
+        return None
+    return content
 
 
 class Tradeoff:
@@ -67,7 +110,7 @@ class Tradeoff:
 
     def __init__(
         self, study: Study, solution: Solution, optimizer: Optimizer, runs: Sequence[Run],
-        progress: Progress = lambda _: None, memory: Memory | None = None,
+        progress: Progress = lambda _: None, memory: FolderMemory | None = None,
     ) -> None:  # fmt: skip
         """Begin from what found a study's optimum: `optimize` hands it to `keep`."""
         self.optimizer, self.progress, self._memory = optimizer, progress, memory
