@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import os
+import subprocess
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -12,8 +13,8 @@ from cad_designs import design_of, whole
 
 from tvimdesign.base.atomic_files import UNFINISHED
 from tvimdesign.base.errors import SimulationError
+from tvimdesign.cad import make
 from tvimdesign.report import verify_design
-from tvimdesign.report.run import parts_of_design
 from tvimdesign.study.design import read_design, write_design
 
 
@@ -26,33 +27,14 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-class NoProcess:
-    """Stands in for the process that makes the parts: notes what it is asked for."""
-
-    process = os.getpid()
-    design: Path
-
-    def __init__(self, **_: object) -> None:
-        pass
-
-    def __enter__(self) -> NoProcess:
-        return self
-
-    def __exit__(self, *raised: object) -> None:
-        pass
-
-    def begin(self, design: Path, _: Path) -> None:
-        NoProcess.design = design
-
-
 def test_the_design_of_parts_under_way_is_no_temporary_folder(tmp_path, temporary, monkeypatch):
-    monkeypatch.setattr("tvimdesign.cad.make.PartsProcess", NoProcess)
-    monkeypatch.setattr(parts_of_design, "set_low_priority", lambda *_: None)
+    idle = [sys.executable, "-c", "import time; time.sleep(600)"]
+    monkeypatch.setattr(make, "start_child", lambda _job, _arguments, **options: subprocess.Popen(idle, **options))
     out = tmp_path / "out/cad"
-    with parts_of_design.BackgroundPartsJob() as parts:
-        parts.begin(whole(design_of("paper", {})), out)
-        assert list(out.iterdir()) == [NoProcess.design]
-        assert read_design(NoProcess.design).mode == "shear"
+    with make.BackgroundPartsJob() as parts:
+        parts.begin_with(whole(design_of("paper", {})), out)
+        (design,) = out.iterdir()
+        assert read_design(design).mode == "shear"
         assert list(temporary.iterdir()) == []
     assert list(out.iterdir()) == []
 

@@ -262,14 +262,14 @@ class Result(Generic[StudyT]):
 
         This takes a minute or so, in processes of its own.
         """
-        from tvimdesign.report.run.parts_of_design import make_parts_of, plain_report, refuse_failed
+        from tvimdesign.cad.make import make_parts_of
 
         with ResultsFolder(Path(folder), overwrite) as written, shown_progress(progress) as say:
             report = make_parts_of(write_design(self.design, written.path / "design.json"), written.path, say)
-            refuse_failed(report)
+            report.refuse_failed()
             written.finish(self.status, {}, self.design.study)
         files = tuple(sorted(written.path / name for name in report.files))
-        return Parts(written.path, files, tuple(plain_report(report)["checks"]))
+        return Parts(written.path, files, tuple(report.plain()["checks"]))
 
     def robot(
         self, folder: str | os.PathLike[str], *, timestep: str | None = None, overwrite: bool = False,

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
+from tvimdesign.base.errors import GeometryError
+
 Level = Literal["pass", "warning", "failure"]
 
 
@@ -55,6 +57,27 @@ class CadReport:
     def failed(self) -> tuple[SolidCheck, ...]:
         """The checks that did not hold: the parts are there to be looked at, not to be made."""
         return tuple(check for check in self.checks if not check.ok)
+
+    def plain(self) -> dict[str, Any]:
+        """Return checks, files and notes as plain data."""
+        return {
+            "checks": [check.plain() for check in self.checks], "files": list(self.files), "notes": list(self.notes)
+        }  # fmt: skip
+
+    def refuse_failed(self) -> None:
+        """Raise GeometryError where a check on the solids fails; the files are there."""
+        if not self.failed:
+            return
+        worst = sorted(self.failed, key=lambda check: -abs(check.value))[:3]
+        lines = [
+            f"  {check.text}: {check.value:.4g}{check.unit and ' '}{check.unit}, limit {check.limit:.4g}"
+            for check in worst
+        ]
+        raise GeometryError(
+            f"the parts are written, but {len(self.failed)} of {len(self.checks)} checks fail, the worst:\n"
+            + "\n".join(lines)
+            + "\nSee checks.json beside the parts, and which rules the design violates."
+        )
 
 
 def at_least(value: float, limit: float, failing: float | None = None) -> Level:

@@ -12,23 +12,34 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from tvimdesign.base.atomic_files import make_folder
+from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import GeometryError, InputError
-from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError, end_process_tree, last_line, wait_for
+from tvimdesign.base.processes import (
+    Niceness,
+    ProcessorLimit,
+    ProcessorTimeError,
+    end_process_tree,
+    last_line,
+    set_low_priority,
+    wait_for,
+)
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
+from tvimdesign.study.design import Design, write_design
 
 LIMIT = 3600.0  # Seconds of processor time, of all processes together, without a report of progress
 HALF_MADE = ".parts.{}."  # Prefix of the folder in which a process makes parts, where none are kept between runs
 JOB = "tvimdesign.cad.jobs.main"
+_DESIGN_COPY = ".design.json.part"
+"""The design as the parts are asked for, beside them: it is removed once they are made."""
 WAITING = "--wait"
 """First argument of a child that reads from standard input what to make: a line of JSON with design and folder. The
 second is the mode of the design that will come, or empty."""
 
 
 def make_cad(
-    design_path: Path, out: Path, progress: Callable[[str], None] | None = None, *, job: str = JOB
+    design_path: Path, out: Path, progress: Callable[[str], None] = lambda _: None, *, job: str = JOB
 ) -> CadReport:
     """Build, check and write the parts of the design file into the folder `out`.
 
@@ -79,6 +90,7 @@ class PartsProcess:
                 self._process.stdin.close()
         self._stack.close()
         if self._out:
+            (self._out / _DESIGN_COPY).unlink(missing_ok=True)
             for half_made in self._out.glob(f"{HALF_MADE.format(self._process.pid)}*"):
                 shutil.rmtree(half_made, ignore_errors=True)
 
@@ -91,7 +103,7 @@ class PartsProcess:
             self._process.stdin.write(json.dumps([str(design_path.resolve()), str(out.resolve())]) + "\n")
             self._process.stdin.flush()
 
-    def finish(self, progress: Callable[[str], None] | None = None) -> CadReport:
+    def finish(self, progress: Callable[[str], None] = lambda _: None) -> CadReport:
         """Wait for what came of it; `progress` gets each step. Raises as `make_cad` does."""
         assert self._out is not None
         state: dict[str, Any] = {"progress": "starting"}
@@ -99,13 +111,53 @@ class PartsProcess:
         try:
             for message in _messages(self._lines, watch):
                 state |= message
-                if progress and "progress" in message:
+                if "progress" in message:
                     progress(message["progress"])
             code = wait_for(watch, lambda seconds: self._process.wait(timeout=seconds))
             why = f"the CAD process ended with code {code}"
         except ProcessorTimeError as error:
             why = f"the CAD process failed: {error}"
         return _report(self._out, state, why, last_line(self._tail))
+
+
+class BackgroundPartsJob(PartsProcess):
+    """Parts made while a run goes on: the CAD kernel is loaded as the solver works, and begins with the answer."""
+
+    def __init__(self, mode: str = "", *, gives_way: bool = True) -> None:
+        """Start the process that loads the kernel, and reads the table of the mode that is known to come.
+
+        By default its priority is lower than the solver's; its parts but the first have a still lower one.
+        """
+        super().__init__(mode=mode)
+        if gives_way:
+            set_low_priority(self.process, Niceness.LOW)
+
+    def stop(self) -> None:
+        """End the process if it has not ended: nothing more is written into the folder."""
+        self.__exit__(None, None, None)
+
+    def begin_with(self, design: Design, out: Path) -> None:
+        """Let the parts of a design be made into a folder; comes back at once."""
+        make_folder(out)
+        self.begin(write_design(design, out / _DESIGN_COPY), out)
+
+    def finish(self, progress: Callable[[str], None] = lambda _: None) -> CadReport:
+        """Wait for the parts, and write their checks.json. Raises GeometryError where they cannot be made."""
+        progress("parts: starting the CAD kernel")
+        try:
+            report = super().finish(lambda text: progress(f"parts, {text}"))
+        finally:
+            self.stop()
+        atomic_write(report.folder / "checks.json", (json.dumps(report.plain(), indent=2) + "\n").encode())
+        progress("")
+        return report
+
+
+def make_parts_of(design: Path, out: Path, progress: Callable[[str], None]) -> CadReport:
+    """Make the parts of a design.json beside their checks.json. Raises GeometryError where they cannot be made."""
+    with BackgroundPartsJob() as parts:
+        parts.begin(design, out)
+        return parts.finish(progress)
 
 
 def _messages(lines: queue.Queue[str | None], watch: ProcessorLimit) -> Iterator[dict[str, Any]]:

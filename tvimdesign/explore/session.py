@@ -13,13 +13,14 @@ from tvimdesign.base.atomic_files import atomic_write, digest_of, is_as_written,
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import pretty
+from tvimdesign.cad.make import make_parts_of
 from tvimdesign.explore import messages, state
 from tvimdesign.explore.engine import Stage, value_names
 from tvimdesign.explore.messages import Change, Message
 from tvimdesign.explore.source import Source, open_source
 from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
 from tvimdesign.report.output.numbers import label
-from tvimdesign.report.run.parts_of_design import in_short, make_parts_of
+from tvimdesign.report.run.parts_of_design import in_short
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.sizing import SIZED_MODE, JointTask
 

@@ -10,7 +10,6 @@ from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import curves_csv, head, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import Progress
-from tvimdesign.report.run.parts_of_design import refuse_failed
 from tvimdesign.robot.fmu_file import WrittenFmu, controller_files, write_fmu
 from tvimdesign.robot.joint_model import JointModel, joint_model, make_bodies, refuse_step
 from tvimdesign.robot.model_files import mjcf, ros2_control, sdf, urdf
@@ -85,7 +84,7 @@ def write_models(
     resolved = resolve_design(design)
     written = write_design(design, folder.path / "design.json")
     base, moving, report = make_bodies(written, folder.path, lambda text: progress(f"bodies: {text}"))
-    refuse_failed(report)
+    report.refuse_failed()
     progress("writing the robot models")
     model = joint_model(resolved, base, moving, step)
     for state in model.states:

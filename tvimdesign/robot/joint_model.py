@@ -99,7 +99,7 @@ class RigidBody:
 
 
 def make_bodies(
-    design: Path, folder: Path, progress: Callable[[str], None] | None = None
+    design: Path, folder: Path, progress: Callable[[str], None] = lambda _: None
 ) -> tuple[RigidBody, RigidBody, CadReport]:
     """Make what stands and what turns of a design.json, with their meshes in the folder. Raises GeometryError."""
     report = make_cad(design, folder, progress, job="tvimdesign.cad.jobs.rigid_bodies")

@@ -18,6 +18,7 @@ from support import ROOT, Command, wait_until
 
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.results_folder import ResultsFolder
+from tvimdesign.cad.make import BackgroundPartsJob
 from tvimdesign.device import table_for
 from tvimdesign.report.output.plot_process import PlotProcess
 from tvimdesign.report.output.tables import results_schema
@@ -25,7 +26,6 @@ from tvimdesign.report.run import answered_study
 from tvimdesign.report.run import run_study as module
 from tvimdesign.report.run.blocks.sections import front_section
 from tvimdesign.report.run.front_report import figure_data, front_csv, in_words, plain
-from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
 from tvimdesign.report.run.run_study import check_study
 from tvimdesign.solve.pareto.front import Front
 from tvimdesign.solve.pareto.tradeoff import Failure, Point

@@ -21,10 +21,11 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.environment import how_to_install
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import format_quantity
+from tvimdesign.cad.make import BackgroundPartsJob
 from tvimdesign.page.blocks import Section, Words
 from tvimdesign.report.output.command import Command, done_in_part, noting
 from tvimdesign.report.output.terminal import Progress, print_lines, progress_output, wide_console
-from tvimdesign.report.run.parts_of_design import BackgroundPartsJob, in_short, plain_report, refuse_failed
+from tvimdesign.report.run.parts_of_design import in_short
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.search import SearchInterrupted
 from tvimdesign.study import Study, read_tree
@@ -76,7 +77,9 @@ def run_study(
                 folder=folder,
                 search=partial(optimize, deadline=deadline, checked=True, eases=not gives_up),
                 early=best.note,
-                designed=(lambda design, _: making.begin(design, folder.path / "cad")) if making else lambda *_: None,
+                designed=(lambda design, _: making.begin_with(design, folder.path / "cad"))
+                if making
+                else lambda *_: None,
                 deadline=deadline,
             )
         result, command.failures = answered.result, answered.failures
@@ -153,8 +156,8 @@ def _add_parts(making: BackgroundPartsJob, answered: AnsweredStudy, command: Com
     checked = ""
     with noting(command.failures):
         report = making.finish(command.progress)
-        answered.reported["cad"], checked = plain_report(report), in_short(report.checks)
-        refuse_failed(report)
+        answered.reported["cad"], checked = report.plain(), in_short(report.checks)
+        report.refuse_failed()
     return checked
 
 
@@ -189,11 +192,11 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     with Command(out, overwrite=overwrite, as_json=as_json) as command:
         written = write_design(design, command.folder.path / DESIGN)
         with noting(command.failures), BackgroundPartsJob(design.mode, gives_way=False) as making:
-            making.begin_with(written, command.folder.path)
+            making.begin(written, command.folder.path)
             report = making.finish(command.progress)
-            data = plain_report(report)
+            data = report.plain()
             command.shown = [Section("parts", "", [Words([f"Parts: {in_short(report.checks)}"])])]
-            refuse_failed(report)
+            report.refuse_failed()
         status = "parts failed" if command.failures else design.status
         command.folder.finish(status, {"design": source}, design.study)
     command.report(data, "Parts are")
