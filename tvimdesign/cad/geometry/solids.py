@@ -72,9 +72,8 @@ def block(along_x: Point, width: float, bottom: float, top: float) -> cq.Solid:
     return _KERNEL.get().block(along_x, width, bottom, top)
 
 
-def tapered_bar(reach: float, width: float, angle: float, levels: Point) -> cq.Shape:
+def tapered_bar(reach: float, width: float, angle: float, bottom: float, top: float) -> cq.Shape:
     """Draw bar along the x axis, of a width at its upper level, its flanks leaning inwards below by an angle."""
-    bottom, top = levels
     _require(width_of_a_tapered_bar=width - 2.0 * (top - bottom) * tan(angle))
     beside = block((-reach, reach), 2.0 * width, 2.0 * (bottom - top), top - bottom)
     flanks = []

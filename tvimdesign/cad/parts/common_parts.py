@@ -203,8 +203,8 @@ def _screw_holes(dims: Dimensions) -> list[cq.Shape]:
         holes += blind_hole(dims.link_screw_hole, top, top - dims.link_screw_depth, point, at)
     if not dims.spigot_depth:
         return holes
-    width, levels = dims.spigot_width - dims.slip_clearance, (top, dims.core_top_level)
-    return [*holes, tapered_bar(dims.core_radius + 1.0, width, dims.spigot_angle, levels)]
+    width = dims.spigot_width - dims.slip_clearance
+    return [*holes, tapered_bar(dims.core_radius + 1.0, width, dims.spigot_angle, top, dims.core_top_level)]
 
 
 def link(dims: Dimensions) -> cq.Shape:
@@ -217,7 +217,7 @@ def link(dims: Dimensions) -> cq.Shape:
     tool_hole = cylinder(0.5 * dims.link_tool_hole, bottom, top, (dims.link_length, 0.0))
     plate = slot(dims.link_half_width, dims.link_length, bottom, top)
     if dims.spigot_depth:
-        plate = join(plate, [tapered_bar(dims.spigot_reach, dims.spigot_width, dims.spigot_angle, (lowest, bottom))])
+        plate = join(plate, [tapered_bar(dims.spigot_reach, dims.spigot_width, dims.spigot_angle, lowest, bottom)])
     return plate.cut(tool_hole, *holes)
 
 

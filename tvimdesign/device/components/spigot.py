@@ -1,11 +1,9 @@
 """Spigot of the link: a bar across the core's end with two tapered flanks, drawn into a slot by one screw on the axis.
 
 The core is whole below its slot, and the torque acts as far out as it goes. A square in the link's eye has a third of
-the core's section, and its corners bear 3 to 10 times the pressure on its flanks (plane FE).
-
-A flank may lie half of `slip_clearance` to either side of where it is drawn. By as much over the tangent of its angle,
-`spigot_room`, the link sits higher or lower: it is drawn that far above the core, its spigot above the slot's bottom.
-Torques count with the flanks that touch when it sits highest.
+the core's section, and its corners bear 3 to 10 times the pressure on its flanks (plane FE). A flank may lie half of
+`slip_clearance` to either side of its place. By as much over the tangent of its angle, `spigot_room`, the link sits
+higher or lower: so far above core and slot it is drawn. Torques count with what of the flanks touches at its highest.
 """
 
 import numpy as np
