@@ -14,12 +14,12 @@ from support import ROOT, cases_of, environment, study_path
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
-from tvimdesign.report.sweep_study import joined
+from tvimdesign.base.results_folder import joined
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import Cell, plan_of
 from tvimdesign.sweep.pool import Pool
 from tvimdesign.sweep.run_sweep import Executor, run_sweep
-from tvimdesign.sweep.shards import Shards
+from tvimdesign.sweep.shards import SHARDS, Shards
 
 
 def rows(out: Path) -> list[dict[str, str]]:
@@ -70,7 +70,7 @@ def test_two_workers_and_a_resumed_sweep_give_the_same_bytes(study_file, one_pro
 @pytest.mark.gate
 def test_a_sweep_whose_workers_were_killed_in_a_line_is_resumed(study_file, one_process, tmp_path):
     out = tmp_path / "out"
-    with joined(out) as folder:
+    with joined(out, SHARDS) as folder:
         run_sweep(plan_of(tree_of_file(study_file)), folder, Executor(2), lambda _: None)
     for path in (folder / "shards").iterdir():
         path.write_bytes(path.read_bytes()[:-10])

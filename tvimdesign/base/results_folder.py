@@ -6,6 +6,8 @@ import shutil
 import subprocess
 import sys
 import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from functools import cached_property
 from importlib import metadata
@@ -15,8 +17,8 @@ from typing import Any, Self
 
 from tvimdesign import __version__
 from tvimdesign.base import atomic_files, manifest
-from tvimdesign.base.claim import FORMAT, RUNNING, Claim, is_run
-from tvimdesign.base.errors import InputError, OutputError
+from tvimdesign.base.claim import FORMAT, IN_PARTS, RUNNING, Claim, is_run
+from tvimdesign.base.errors import FolderInUseError, InputError, OutputError
 from tvimdesign.base.interrupts import raise_pending
 
 PROGRESS = "front/progress"  # Folder of what a run can go on from where it was killed
@@ -247,6 +249,40 @@ def publish(out: Path, new: Path, results: manifest.Manifest, earlier: manifest.
 def say(text: str) -> None:
     """Print a word about files that somebody changed."""
     sys.stderr.write(f"{text}\n")
+
+
+@contextmanager
+def joined(out: Path, progress: str, *, overwrite: bool = False) -> Iterator[Path]:
+    """Write into a folder together with other jobs; yields where. Raises InputError where it is not theirs.
+
+    Earlier results in the folder `progress` are used again.
+    """
+    if overwrite:
+        raise InputError("--overwrite and --shard: the parts share a folder; name another one with --out")
+    try:
+        prepare(out)
+        with suppress(FolderInUseError):  # another job prepares it, or has
+            _prepare_jobs(out, progress)
+        claim = Claim(out, shared=True)
+    except OSError as error:
+        raise InputError(f"{out}: cannot be used as a results folder: {error.strerror or error}") from error
+    try:
+        yield claim.folder
+    finally:
+        claim.release(remove=False)
+
+
+def _prepare_jobs(out: Path, progress: str) -> None:
+    """Make the folder that jobs write into, with earlier results. Raises FolderInUseError, OSError."""
+    claim = Claim(out)
+    try:
+        earlier = recovered(out, claim)
+        if not atomic_files.files_in(claim.folder):
+            own = {name: digest for name, digest in earlier.files.items() if PurePosixPath(name).parts[0] == progress}
+            manifest.seed(out, claim.folder, own, say)
+        claim.write(IN_PARTS, "")
+    finally:
+        claim.release(remove=False)
 
 
 def _version(name: str) -> str | None:

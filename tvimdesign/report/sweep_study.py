@@ -3,20 +3,17 @@
 import json
 import os
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import asdict
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 
-from tvimdesign.base.atomic_files import files_in
-from tvimdesign.base.claim import IN_PARTS, Claim
-from tvimdesign.base.errors import FolderInUseError, InputError
-from tvimdesign.base.manifest import seed
-from tvimdesign.base.results_folder import prepare, recovered, say
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.results_folder import joined
 from tvimdesign.base.units import pretty
 from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Page, Section, Tone
 from tvimdesign.page.page_file import FILE
@@ -177,7 +174,7 @@ def _part(
 ) -> dict[str, Any] | None:
     """Compute the cells of one job of an array; gather all cells if none is missing then, else return None."""
     began = time.perf_counter()
-    with joined(command.out, overwrite=overwrite) as shared, progress_output() as progress:
+    with joined(command.out, SHARDS, overwrite=overwrite) as shared, progress_output() as progress:
         done = run_sweep(plan, shared, executor, progress)
     with ExitStack() as stack:
         try:
@@ -229,40 +226,6 @@ def _in_short(run: Mapping[str, Any]) -> str:
     if run["computed"]:
         clauses.append(f"{1e3 * run['cells_s'] / max(run['cells'], 1):.0f} ms of the processor a cell")
     return ", ".join([*clauses, *([f"{run['died']} workers died and were replaced"] if run["died"] else [])])
-
-
-@contextmanager
-def joined(out: Path, *, overwrite: bool = False) -> Iterator[Path]:
-    """Write into a folder together with other jobs; yields where. Raises InputError where it is not theirs.
-
-    Cells of earlier results are used again.
-    """
-    if overwrite:
-        raise InputError("--overwrite and --shard: the parts share a folder; name another one with --out")
-    try:
-        prepare(out)
-        with suppress(FolderInUseError):  # another job prepares it, or has
-            _prepare_jobs(out)
-        claim = Claim(out, shared=True)
-    except OSError as error:
-        raise InputError(f"{out}: cannot be used as a results folder: {error.strerror or error}") from error
-    try:
-        yield claim.folder
-    finally:
-        claim.release(remove=False)
-
-
-def _prepare_jobs(out: Path) -> None:
-    """Make the folder that jobs write into, with the cells of earlier results. Raises FolderInUseError, OSError."""
-    claim = Claim(out)
-    try:
-        earlier = recovered(out, claim)
-        if not files_in(claim.folder):
-            own = {name: digest for name, digest in earlier.files.items() if PurePosixPath(name).parts[0] == SHARDS}
-            seed(out, claim.folder, own, say)
-        claim.write(IN_PARTS, "")
-    finally:
-        claim.release(remove=False)
 
 
 def say_part(done: SweepDone, executor: Executor, out: Path, console: Console, *, as_json: bool) -> None:

@@ -22,10 +22,9 @@ from support import wait_until
 from tvimdesign.base.atomic_files import RUN, UNFINISHED, atomic_write
 from tvimdesign.base.claim import FORMAT
 from tvimdesign.base.errors import FolderInUseError, InputError
-from tvimdesign.base.results_folder import ResultsFolder
+from tvimdesign.base.results_folder import ResultsFolder, joined
 from tvimdesign.report.output import terminal
 from tvimdesign.report.output.terminal import OwnMarkupConsole, RemainingTime, clock, duration
-from tvimdesign.report.sweep_study import joined
 from tvimdesign.sweep.shards import SHARDS
 
 
@@ -96,7 +95,7 @@ def test_of_two_processes_one_claims_a_folder(tmp_path):
 
 
 def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path):
-    with joined(tmp_path) as first, joined(tmp_path) as second:
+    with joined(tmp_path, SHARDS) as first, joined(tmp_path, SHARDS) as second:
         assert first == second
         (first / "shards").mkdir()
         atomic_write(first / "shards/00001.jsonl", b"cells")
@@ -107,7 +106,7 @@ def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path):
     with ResultsFolder(tmp_path, resume=True, progress=SHARDS) as folder:
         folder.finish("swept", {}, {})
     assert texts(tmp_path) == {"shards/00001.jsonl": "cells"}
-    with joined(tmp_path) as again:  # cells that are there are used again
+    with joined(tmp_path, SHARDS) as again:  # cells that are there are used again
         assert (again / "shards/00001.jsonl").read_text() == "cells"
     with ResultsFolder(tmp_path, resume=True, progress=SHARDS) as folder:
         folder.finish("swept", {}, {})
