@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
+from support import refused
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.report.output.numbers import label
@@ -203,20 +204,7 @@ def test_a_refusal_names_the_options_of_size():
     assert in_options(others, label) == others
 
 
-@pytest.mark.parametrize(
-    ("numbers", "message"),
-    [
-        ({"torque": "8"}, "torque: .* write for instance '8 N.m'"),
-        ({"torque": "8 N.mm"}, "torque: 8 N.mm is below the 0.1.* check the units"),
-        ({"torque": "-8 N.m"}, "torque: -8 N.m is not above zero"),
-        ({"diameter": "300 mm"}, "diameter: 300 mm is not from 20 mm to 200 mm"),
-        ({"stroke": "50 deg"}, "stroke: 50 deg to either side of rest is beyond 28.6"),
-        ({"stiff_time": "5"}, "stiff_time: .* write for instance '300 s'"),
-        ({"process": "print_pa6"}, "process: no print_pa6 in the catalogue; .*machine_6061.*print_pa6_cf"),
-        ({"supply": "24 V, 3"}, "supply: .* write for instance '24 V, 3 A'"),
-        ({"stiffness": "2 to 1 N.m/rad"}, "stiffness: .* is upside down"),
-    ],
-)
+@pytest.mark.parametrize(("numbers", "message"), refused("sizes"))
 def test_a_number_that_is_none_is_named(numbers, message):
     with pytest.raises(InputError, match=message):
         JointTask.read(**WRIST | numbers)

@@ -1,12 +1,14 @@
 """The verdict and the facts of a result: each rule on a result that it decides."""
 
-import math
+from collections import ChainMap
 from dataclasses import replace
+from itertools import starmap
 from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
 import pytest
+from support import cases_of
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import margin_text
@@ -30,6 +32,7 @@ BOTH = {
     },
 }  # fmt: skip
 THREE = BOTH | {"held": BOTH["held"] | {"pin_wear <=": 0.7}}
+CERTAIN = {"held": {"retainer_thread_margin >=": 0.8}}
 FEW = {"ranges_hold": {"share": 5 / 512}, "draws": 512}
 FOUR = {
     "held": THREE["held"] | {"foot_margin >=": 0.7},
@@ -70,79 +73,21 @@ def answer(
     )
 
 
-def evaluated(optimized: StudyResult) -> StudyResult:
-    return cast("StudyResult", SimpleNamespace(**{**vars(optimized), "solution": None}))
+def named(parts: list[Any]) -> list[Any]:
+    """Return what a row of cases names of this file, and the rest as it is."""
+    return [globals()[part] if isinstance(part, str) and part.isupper() else part for part in parts]
 
 
-def sides(*texts: str) -> ConflictSet:
-    return ConflictSet((), tuple(Side(text, "require", 0.1) for text in texts), ())
-
-
-@pytest.mark.parametrize(
-    ("result", "uncertainty", "warnings", "text"),
-    [
-        (answer(feasible=False, conflict_set=sides("holding_torque >= 9 N·m", "envelope_diameter <= 30 mm")), {}, [],
-         "Infeasible because torque held when frozen >= 9 N·m and diameter <= 30 mm cannot hold together"),
-        (answer(feasible=False, out_of_time=5.0), {}, [], "No design found in time: raise solver.time_limit"),
-        (answer(feasible=False, checks=(check("peak_power <= 15 W", -0.031),)), {}, [],
-         "No design found: the nearest violates peak power <= 15 W, by 3.1 %"),
-        (answer({"response_time": math.inf}), SURE, [], "Do not build it: it never gets soft within `horizon`"),
-        (answer(checks=(check("peak_power <= 15 W", -0.031), check("spring_index >= 4", 0.2))), SURE, [],
-         "Do not build it: 1 of 2 limits are violated, most peak power <= 15 W, by 3.1 %"),
-        (evaluated(answer(checks=(check("peak_power <= 15 W", -0.031),))), SURE, [],
-         "Do not build it: 1 of 1 limits are violated, most peak power <= 15 W, by 3.1 %; "
-         "a study with `vary` seeks a cure"),
-        (answer(above=("structure_temperature_margin",)), SURE, [], "Above a rating: structure heat margin below 0"),
-        (answer(status="below_yield"), SURE, [], "Margins not reached: the time limit ended the search"),
-        (answer(COOL, (HOT,)), SURE, [],
-         "Not at the temperature you asked for: 67 of 100 °C, for joint stiffness at rest"),
-        (answer(COOL, ({"output": "impedance_range", "sense": ">=", "limit": 60.0},)), SURE, [],
-         "Not at the temperature you asked for: 67 of 100 °C, for stiffness cold over hot"),
-        (answer(COOL | {"temperature@warm": 350.15}, (HOT | {"output": "pcl_stiffness@warm"},)), SURE, [],
-         "Not at the temperature you asked for: 67 of 77 °C, for PCL stiffness"),
-        (answer(), SURE | {"parts_yield": {"share": 0.005}}, [GRAVE], "Nominal optimum: add margins (yield 0.5 %)"),
-        (answer(), SURE, [GRAVE], "Not yet: pin fillet safety is 0.93"),
-        (answer(), SURE, [RUBS], "Not yet: it does not return by its springs (friction over spring torque is 13.7)"),
-        (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.2}}, [],
-         "Measure the structure layer strength first: it decides on the retainer thread"),
-        (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
-         "Build it"),
-        (answer(), SURE, [],
-         "Build it, one module first: measure the structure layer strength"),
-        (answer(), SURE, [RunWarning("cutout margin is -8 K", but="no listed cut-out fits")],
-         "Build it, one module first: measure the structure layer strength; "
-         "no listed cut-out fits"),
-        (answer(), SURE, [RunWarning("-8 K", but="no cut-out fits"), RunWarning("14.1", but="friction holds it")],
-         "Build it, one module first: measure the structure layer strength; "
-         "no cut-out fits and friction holds it"),
-        (answer(), SURE | {"intervals": {}}, [],
-         "Build it, one module first: check the retainer thread"),
-        (answer(), SURE | BOTH, [],
-         "Build it, one module first: measure the structure layer strength and the pin friction"),
-        (answer(), SURE | THREE, [],
-         "Build it, one module first: measure the structure layer strength, the pin friction and the bond strength"),
-        (answer(), SURE | FOUR, [],
-         "Build it, one module first: measure the structure layer strength, the pin friction and 2 others "
-         "(summary.txt)"),
-        (answer(robust={"plausible": 0.5}), SURE, [],
-         "Build it, one module first: measure the structure layer strength; 50 % of plausible cases are asked "
-         "of each limit alone"),
-        (answer(robust={"plausible": 0.8}), SURE | {"held": {"retainer_thread_margin >=": 0.8}}, [],
-         "Build it; 80 % of plausible cases are asked of each limit alone"),
-        (answer(), SURE | FEW, [],
-         "Build it, one module first, as 5 of 512 plausible cases meet every limit: measure the structure layer "
-         "strength"),
-        (answer(), SURE | FEW | {"held": {"retainer_thread_margin >=": 0.8}}, [RunWarning("a spring may rattle")],
-         "Build it, one module first, as 5 of 512 plausible cases meet every limit: measure the structure layer "
-         "strength"),
-        (answer(), SURE | WALL, [],
-         "Build it, one module first: print the test pieces and measure the thinnest sound wall and 4 others "
-         "(summary.txt)"),
-        (answer(), {}, [], "Optimum found"),
-    ],
-)  # fmt: skip
-def test_each_rule_decides(result, uncertainty, warnings, text):
-    assert verdict(result, uncertainty, warnings).text == text
+@cases_of("verdict", "each_rule_decides")
+def test_each_rule_decides(answered, uncertainty, warnings, text):
+    given = answered | {"checks": tuple(starmap(check, answered.get("checks", {}).items()))}
+    sides = tuple(Side(limit, "require", 0.1) for limit in given.pop("conflict", ()))
+    searched = given.pop("searched", True)
+    given |= {"values": ChainMap({}, *named(given.get("values", []))[::-1]), "require": named(given.get("require", []))}
+    result = answer(**given, conflict_set=ConflictSet((), sides, ()) if sides else None)
+    result.solution = result.solution if searched else None
+    of = [part if isinstance(part, RunWarning) else RunWarning(**part) for part in named(warnings)]
+    assert verdict(result, dict(ChainMap({}, *named(uncertainty)[::-1])), of).text == text
 
 
 @pytest.mark.parametrize(
