@@ -11,7 +11,7 @@ import same
 from oracle import fits, frozen_files, messages, optima, study_outputs
 from oracle.compare import Renames, Value, differences, relative_difference
 from oracle.frozen_files import read_frozen, write_frozen
-from support import study_path
+from support import cases_of, study_path
 
 import tvimdesign
 
@@ -93,17 +93,7 @@ def test_frozen_numbers_keep_every_bit(tmp_path):
         read_frozen(tmp_path / "y.json")
 
 
-@pytest.mark.parametrize(
-    ("change", "quantities"),
-    [
-        ({}, []),
-        ({"objective": 1.0 + 5e-7}, []),
-        ({"objective": 1.0 + 2e-6}, ["optimum:objective"]),
-        ({"objective": 0.9}, []),
-        ({"status": "below_yield"}, ["optimum:status"]),
-        ({"reference": {"mass": 0.21}}, ["reference:mass"]),
-    ],
-)
+@cases_of("same", "optimum")
 def test_an_optimum(change, quantities):
     changes = optima.optimum_differences("study", OPTIMUM, OPTIMUM | change)
     assert [difference.quantity for difference in changes] == quantities

@@ -130,20 +130,9 @@ def modulus(material: str, celsius: float, at_23: float) -> float:
     return at_23 * float(plastics.modulus_share(celsius + 273.15, warm_law(material)))
 
 
-# A bar that bends by its standard strain under its standard stress has a modulus of stress over strain: ISO 75,
-# 0.45 and 1.80 MPa at 0.2 %; ASTM D648, 0.455 and 1.82 MPa at 0.1875 % (0.25 mm on 100 mm, 12.7 mm deep).
-@pytest.mark.parametrize(
-    ("material", "celsius", "at_23", "sheet", "within"),
-    [
-        ("petg", 76.2, 2100.0, 225.0, 0.25),  # Ultimaker PETG, ISO 75 B
-        ("abs", 98.9, 2350.0, 1.82 / 0.001875, 0.25),  # Terluran GP-22, annealed
-        ("abs", 103.9, 2350.0, 0.455 / 0.001875, 0.25),
-        ("polycarbonate", 125.0, 2400.0, 900.0, 0.25),  # Makrolon 2805
-        ("polycarbonate", 137.0, 2400.0, 225.0, 0.25),
-    ],
-)
-def test_plastics_are_as_stiff_as_their_deflection_temperatures_say(material, celsius, at_23, sheet, within):
-    assert modulus(material, celsius, at_23) == pytest.approx(sheet, rel=within)
+@cases_of("creep_of_plastics", "deflection_temperatures")
+def test_plastics_are_as_stiff_as_their_deflection_temperatures_say(material, celsius, at_23, stress, strain):
+    assert modulus(material, celsius, at_23) == pytest.approx(stress / strain, rel=0.25)
 
 
 def test_aluminium_is_as_stiff_as_eurocode_9_says():

@@ -8,7 +8,7 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
-from support import ROOT, sample_text
+from support import ROOT, cases_of, sample_text
 
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import si_unit, to_si
@@ -137,23 +137,12 @@ def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path):
     assert not other.read_bytes().startswith(b"\xef\xbb\xbf")
 
 
-STATED = "impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance: 300 N.m/rad"
-
-
 @pytest.mark.gate
-@pytest.mark.parametrize(
-    ("module", "soft", "stiff"),
-    [
-        (STATED, "dynamic stiffness <= 80 N·m/rad at 1 Hz, twice soft_impedance",
-         "dynamic stiffness >= 150 N·m/rad at 1 Hz, half of stiff_impedance"),
-        (f"{STATED}, softening_band: 1.5, stiffening_band: 4",
-         "dynamic stiffness <= 60 N·m/rad at 1 Hz, 1.5 times soft_impedance",
-         "dynamic stiffness >= 75 N·m/rad at 1 Hz, 1/4 of stiff_impedance"),
-    ],
-)  # fmt: skip
-def test_soft_and_stiff_are_shown_as_impedances(module, soft, stiff):
+@cases_of("results_format", "stated_impedances")
+def test_soft_and_stiff_are_shown_as_impedances(bands, soft, stiff):
     """By hand: band times 40, and 300 over the band."""
-    study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test")
+    stated = f"impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance: 300 N.m/rad{bands}"
+    study = read_study_text(f"mode: shear\nmodule: {{{stated}}}\n", "a test")
     answered = answer(study)
     assert soft_in_words(answered.design, TABLE) == soft
     assert stiff_in_words(answered.design, TABLE) == stiff
