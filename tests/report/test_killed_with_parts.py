@@ -14,6 +14,7 @@ from cad_designs import design_of, whole
 from tvimdesign.base.atomic_files import UNFINISHED
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.cad import make
+from tvimdesign.cad.fe import model_comparison
 from tvimdesign.report import verify_design
 from tvimdesign.study.design import read_design, write_design
 
@@ -49,8 +50,9 @@ def test_what_is_verified_stands_beside_the_results_while_it_is_solved(tmp_path,
         raise SimulationError("the mesh has no end")
 
     monkeypatch.setattr(verify_design, "require_fe", lambda _: None)
-    monkeypatch.setattr(verify_design, "_export", lambda *_: None)
-    monkeypatch.setattr(verify_design, "run_solvers", solve)
+    monkeypatch.setattr("tvimdesign.cad.jobs.main.load_kernel", lambda: None)
+    monkeypatch.setattr(model_comparison, "export_parts", lambda *_: None)
+    monkeypatch.setattr(model_comparison, "run_solvers", solve)
     out = tmp_path / "out"
     design = write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     with pytest.raises(SimulationError, match="the mesh has no end"):

@@ -8,17 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
-from tvimdesign.cad.fe.model_comparison import SOLVERS, Compared, compared
-from tvimdesign.cad.fe.run_solvers import Solved, export_parts, require_fe, run_solvers
+from tvimdesign.cad.fe.model_comparison import Compared, compare_with_fe, refuse_other_parts
+from tvimdesign.cad.fe.run_solvers import Solved, require_fe
 from tvimdesign.page.blocks import Block, Grid, Page, Picture, Points, Section, Words
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import csv_text, finite, head, number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.terminal import Progress
-from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
-from tvimdesign.study.design import Design, read_design
+from tvimdesign.simulation.working_cycle.device_functions import resolve_design
+from tvimdesign.study.design import read_design
 
 DATA = "verify.json"
 FAR = 0.10  # Share by which model and FE may differ before the row is marked
@@ -112,6 +110,8 @@ TITLES = {
 
 def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_json: bool) -> None:
     """Solve the parts of a design and write the folder. Raises InputError, SimulationError, OutputError."""
+    from tvimdesign.cad.jobs.main import load_kernel
+
     source = design_file(path)
     design = read_design(source)
     python = fe_python or sys.executable
@@ -120,7 +120,8 @@ def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_
     refuse_other_parts(module)
     with Command(out, overwrite=overwrite, as_json=as_json) as command:
         with TemporaryDirectory(dir=command.folder.path, prefix=_WORK) as work:
-            rows, solved = _solved(design, module, Path(work).resolve(), python, command.progress)
+            load_kernel()
+            rows, solved = compare_with_fe(design, module, Path(work).resolve(), python, command.progress)
             data = verified(rows, solved)
             _write(command, data, rows, solved, Path(work))
         page = verify_page(command, design.name, data, rows)
@@ -135,36 +136,6 @@ def verify_page(command: Command, name: str, data: dict[str, Any], rows: list[Co
     sections = verify_sections(command.folder.path, data)
     first: list[Block] = [Points([data["summary"]])]
     return command.page(name, "verification", status, first, sections, tone="warn" if beyond else "good", files=FILES)
-
-
-def refuse_other_parts(module: ResolvedModule) -> None:
-    """Raise InputError for parts that the solvers do not draw."""
-    if module.study.mode == "lock":
-        raise InputError("verify: FE compares springs as well, and a lock has none")
-    if module.values["link_fit"] == "spigot":
-        raise InputError("verify: FE draws a flat link on dowel pins or screws, and this one has a spigot")
-    form = module.values.get("heater_form", "flexible")
-    if form != "flexible" and module.study.mode == "compression":
-        raise InputError(
-            f"verify: heater_form is {form}; FE draws rigid modules below an arc, in a vane only pads cut to the PCL"
-        )
-
-
-def _solved(
-    design: Design, module: ResolvedModule, work: Path, python: str, progress: Progress
-) -> tuple[list[Compared], dict[str, Solved]]:
-    """Export the parts and solve in a folder of work; return the rows and what each solver found."""
-    progress("verify: drawing the parts")
-    _export(design, work / "parts")
-    solved = run_solvers(SOLVERS, work / "parts", work, python, lambda text: progress(f"verify: {text}"))
-    return compared(module, solved), solved
-
-
-def _export(design: Design, folder: Path) -> None:
-    from tvimdesign.cad.jobs.main import load_kernel
-
-    load_kernel()
-    export_parts(design, folder)
 
 
 def _write(command: Command, data: dict[str, Any], rows: list[Compared], solved: dict[str, Solved], work: Path) -> None:

@@ -13,7 +13,6 @@ from tvimdesign.cad.fe import model_comparison as comparison
 from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.page_file import page_html
-from tvimdesign.report import verify_design
 from tvimdesign.report import verify_design as verify_report
 from tvimdesign.report.output.command import Command as OutputCommand
 from tvimdesign.report.verify_design import far, verified, verify_page
@@ -118,10 +117,10 @@ def test_the_worst_comes_first(tmp_path):
 
 def test_rigid_modules_in_a_vane_are_refused_by_name():
     for name in ("elbow_printed", "elbow_machined"):  # with a liner
-        verify_design.refuse_other_parts(resolve_study(read_study(study_path(name))))
+        comparison.refuse_other_parts(resolve_study(read_study(study_path(name))))
     vanes = ROOT / "validation/fe_structure/studies/rigid_modules_compression.yaml"
     with pytest.raises(InputError, match="heater_form is rigid"):
-        verify_design.refuse_other_parts(resolve_study(read_study(vanes)))
+        comparison.refuse_other_parts(resolve_study(read_study(vanes)))
 
 
 PIXEL = bytes.fromhex(

@@ -6,16 +6,19 @@ where there are any and its screws where there are none. Equivalent stress by VD
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, NamedTuple
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record, own_data
-from tvimdesign.cad.fe.run_solvers import Solved
+from tvimdesign.cad.fe.run_solvers import Solved, export_parts, run_solvers
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.contacts import tightened_force
 from tvimdesign.physics.solids import fasteners, plates, structure, wedge
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
+from tvimdesign.study.design import Design
 
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}  # Idealizations that the drawn parts do not have
 SOLVERS = ("joint", "spring", "screws", "link")
@@ -41,6 +44,29 @@ class Compared:
     def mesh_change(self) -> float:
         """Share by which the finer mesh differs from the coarser."""
         return self.fe / self.coarse - 1.0
+
+
+def refuse_other_parts(module: ResolvedModule) -> None:
+    """Raise InputError for parts that the solvers do not draw."""
+    if module.study.mode == "lock":
+        raise InputError("verify: FE compares springs as well, and a lock has none")
+    if module.values["link_fit"] == "spigot":
+        raise InputError("verify: FE draws a flat link on dowel pins or screws, and this one has a spigot")
+    form = module.values.get("heater_form", "flexible")
+    if form != "flexible" and module.study.mode == "compression":
+        raise InputError(
+            f"verify: heater_form is {form}; FE draws rigid modules below an arc, in a vane only pads cut to the PCL"
+        )
+
+
+def compare_with_fe(
+    design: Design, module: ResolvedModule, work: Path, python: str, progress: Callable[[str], None]
+) -> tuple[list[Compared], dict[str, Solved]]:
+    """Export the parts and solve in a folder of work; return the rows and what each solver found."""
+    progress("verify: drawing the parts")
+    export_parts(design, work / "parts")
+    solved = run_solvers(SOLVERS, work / "parts", work, python, lambda text: progress(f"verify: {text}"))
+    return compared(module, solved), solved
 
 
 def compared(module: ResolvedModule, solved: Mapping[str, Solved]) -> list[Compared]:
