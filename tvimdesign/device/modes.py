@@ -47,7 +47,6 @@ def _files() -> dict[str, tuple[ModuleType, ...]]:
         heater_form,
         layout,
         mass_properties,
-        materials,
         motor_choice,
         softening,
         spring_as_drawn,
@@ -77,7 +76,7 @@ def _files() -> dict[str, tuple[ModuleType, ...]]:
     )
 
     shared = (
-        materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
+        layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
         warm_structure, large_motion, thermal_stack, softening, mass_properties, clearances, axial_preload,
         process, heater_form, screws, tang, dowels, spigot, hard_stops, liner_and_adhesive, bearing, preload_adjuster,
         cover, housing_base, motor_choice, motor_layout, motor_mass_properties, task, motor_load, cost,

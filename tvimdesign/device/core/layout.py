@@ -8,8 +8,10 @@ import numpy as np
 
 from tvimdesign.device.table import Module, QuantityGroup, Scalar
 
+materials = QuantityGroup("Materials")
 quantities = QuantityGroup("Layout")
 
+materials.choices("materials")
 quantities.inputs()
 
 

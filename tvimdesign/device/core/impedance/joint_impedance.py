@@ -15,13 +15,14 @@ impedance, however much of its stress has relaxed. The springs turn such a joint
 import numpy as np
 
 from tvimdesign.base.record import Record
-from tvimdesign.device.core.materials import CRYSTALLIZING, GLASS
-from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
+from tvimdesign.device.table import Feature, Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.layers import block, lasting_load, layer
 from tvimdesign.physics.motions import motion, one_sided
 from tvimdesign.physics.polymers import plastics, polymer, transitions, viscoelasticity
 from tvimdesign.physics.solids import structure
 
+CRYSTALLIZING = (Feature("pcl_freezing", "equilibrium"),)
+GLASS = (Feature("pcl_softening", "melting"),)
 quantities = QuantityGroup("Impedance")
 
 quantities.inputs()

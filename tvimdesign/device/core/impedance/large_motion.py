@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tvimdesign.device.core.materials import CRYSTALLIZING
+from tvimdesign.device.core.impedance.joint_impedance import CRYSTALLIZING
 from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import contacts
