@@ -33,7 +33,7 @@ BOTH = {
 }  # fmt: skip
 THREE = BOTH | {"held": BOTH["held"] | {"pin_wear <=": 0.7}}
 CERTAIN = {"held": {"retainer_thread_margin >=": 0.8}}
-FEW = {"ranges_hold": {"share": 5 / 512}, "draws": 512}
+FEW, SOME = ({"ranges_hold": {"share": count / 512}, "draws": 512} for count in (5, 50))
 FOUR = {
     "held": THREE["held"] | {"foot_margin >=": 0.7},
     "intervals": BOTH["intervals"] | {"foot_margin": {"shares": {"layer_height": 0.6}}},

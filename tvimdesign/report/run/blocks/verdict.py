@@ -11,7 +11,7 @@
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
    ranges: *Measure X first*.
 9. A limit is met in less than `share_in_doubt` of the cases: *Build it, one module first: measure X and Y*. If less
-   than `DOUBT` of the cases meet all limits together, too, with their number.
+   than `DOUBT` of the cases meet all limits together, too, with their number; if less than `SELDOM`: *First measure X*.
 10. *Build it*; here and in 9 with a bought part that is not to be had, and the share of cases if the study asks one.
    Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
 """
@@ -34,6 +34,7 @@ from tvimdesign.solve.uncertainty.design_uncertainty import share_in_doubt
 
 TARGET = 0.95  # Yield below which a design without margins is only a nominal one
 DOUBT = 0.25  # Share of the plausible cases in which the limit most in doubt must be met
+SELDOM = 0.05  # Share of the plausible cases that must meet all limits together
 
 TESTED = ("minimum_wall", "minimum_feature", "slip_clearance", "running_clearance", "bridge_span", "hole_compensation")
 """Inputs that the test pieces show."""
@@ -201,6 +202,8 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     first = [name for name in decided if name]
     what = _to_measure(first, answer) if first else f"check the {label(most_in_doubt(uncertainty)[0])}"
     more = f"{f'; {what_else}' if what_else else ''}{'' if few else made_for}"
+    if few and together["share"] < SELDOM:
+        return Verdict("measure", f"First {what}: {meet_every_limit(uncertainty)}{more}")
     return Verdict("build_one", f"Build it, one module first{few}: {what}{more}")
 
 
