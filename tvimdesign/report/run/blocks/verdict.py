@@ -194,15 +194,15 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     made_for = f"; {percent(plausible)} of plausible cases are asked of each limit alone" if plausible else ""
     if not uncertainty:
         return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
-    together = uncertainty.get("ranges_hold")
-    few = f", as {meet_every_limit(uncertainty)}" if together and together["share"] < DOUBT else ""
+    together = (uncertainty.get("ranges_hold") or {}).get("share", 1.0)
+    few = f", as {meet_every_limit(uncertainty)}" if together < DOUBT else ""
     decided = limits_in_doubt(uncertainty, share_in_doubt(plausible)) or limits_in_doubt(uncertainty, 1.0 if few else 0)
     if not decided:
         return Verdict("build", f"Build it{but}{made_for}")
     first = [name for name in decided if name]
     what = _to_measure(first, answer) if first else f"check the {label(most_in_doubt(uncertainty)[0])}"
     more = f"{f'; {what_else}' if what_else else ''}{'' if few else made_for}"
-    if few and together["share"] < SELDOM:
+    if together < SELDOM:
         return Verdict("measure", f"First {what}: {meet_every_limit(uncertainty)}{more}")
     return Verdict("build_one", f"Build it, one module first{few}: {what}{more}")
 
