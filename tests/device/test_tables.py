@@ -3,13 +3,14 @@
 import numpy as np
 import pint
 import pytest
+import yaml
 from cad_designs import TILES, VANE_TILE_ROWS
 from device_values import inputs_of
 from every import of_every
 from hypothesis import given as drawn
 from hypothesis import settings
 from hypothesis import strategies as st
-from support import digits
+from support import ROOT, digits
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import to_si
@@ -302,3 +303,10 @@ def test_rules_and_headlines_are_those_of_the_table(mode):
     of_records = {name for name, number in numbers.items() if number.record is not None and not number.falls_back}
     assert not free & of_records
     assert not free & {"stroke", "ambient_temperature", "temperature", "frequency", "pcl_density", "target_temperature"}
+
+
+@pytest.mark.parametrize("file", ["margins.yaml", "phase_values.yaml"])
+def test_every_formula_of_a_data_file_is_in_a_table(file):
+    groups = yaml.safe_load((ROOT / "tvimdesign/device/table" / file).read_text("utf-8"))
+    listed = {name for group in groups.values() for name in group}
+    assert listed <= {quantity.name for mode in MODES for quantity in table_for(mode).quantities}

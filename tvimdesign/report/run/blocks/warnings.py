@@ -114,7 +114,10 @@ def _of_frozen_turn(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarn
     }  # fmt: skip
     remedy = remedies.of("joint_stiffness_in_play", [filled(hint["mend"], places)])
     say, but = (filled(hint.get(key, ""), places) for key in ("say", "but"))
-    yield RunWarning(say, _cure(answer, remedy), hint.get("level", ""), but)
+    cure = _cure(answer, remedy) if answer.solution is not None else ""
+    if cure in ("", remedy.words):  # sizes alone do not cure
+        cure = "; ".join(filter(None, [cure, hint["else"]]))
+    yield RunWarning(say, cure, hint.get("level", ""), but)
 
 
 def _cure(answer: StudyResult, remedy: Remedy) -> str:
