@@ -178,11 +178,11 @@ def test_requirements_without_a_line_are_counted_or_named():
     lines = requirement_lines([tight, unsure, *loose], 100, 4)
     assert lines[2].split() == ["mass", "<=", "70", "mm", "70", "70", "%", "of", "cases", "at", "the", "limit"]
     (first, *_) = requirement_lines([tight, unsure, *loose], 100, 3)  # more than a row has a place without a table
-    assert first.startswith("6 requirements are met, and of plausible cases: mass 70 (<= 70 mm) in 70 %")
+    assert first.startswith("6 requirements are met; over plausible cases: mass 70 (<= 70 mm) in 70 %")
     unsure = replace(loose[3], met_in=0.8)
     table = [replace(row, met_in=0.7) for row in (tight, loose[0])]
     assert requirement_lines([unsure, *table, loose[1]], 100, 4)[-1] == (
-        "2 others are met, and of plausible cases: loose 3 70 (<= 70 mm) in 80 % · 1 more"
+        "2 others are met; over plausible cases: loose 3 70 (<= 70 mm) in 80 % · 1 more"
     )
 
 
@@ -285,7 +285,7 @@ def test_the_frozen_link_leans_until_the_bearing_holds_its_core():
 
 
 @pytest.mark.parametrize(
-    ("cold", "text"), [(386.0, "stiff 182 s later, full load after 386 s"), (90.0, "stiff 182 s later")]
+    ("cold", "text"), [(386.0, "then stiff in 182 s, full load in 386 s"), (90.0, "then stiff in 182 s")]
 )
 def test_the_times_name_when_the_joint_may_be_loaded_fully(cold, text):
     design = case("paper_compression alone").result.design

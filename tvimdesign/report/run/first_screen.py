@@ -109,7 +109,7 @@ def _others(rows: Sequence[Requirement], what: str, met: str, width: int, most: 
         tightest = ", the tightest" if len(rows) > 1 else ""
         return terminal.wrapped(f"{count}{tightest}: {title} {got}, asked {limit}", width, indent="  ")
     listed = [f"{row.cells[0]} {row.got} ({row.requested}) in {_in_share(row)}" for row in rows]
-    lines = _listing(f"{count}, and of plausible cases", listed, width, most)
+    lines = _listing(f"{count}; over plausible cases", listed, width, most)
     if what == "others" or len(lines) <= most:
         return lines
     return terminal.wrapped(

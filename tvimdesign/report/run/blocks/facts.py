@@ -114,8 +114,8 @@ def _times(value: Values) -> Iterator[str]:
     by_criterion = "" if soft == heated else f"{value('response_time')}, by impedance "
     yield "never soft" if math.isinf(soft) else f"softening time {by_criterion}{value('softening_time')}"
     if math.isfinite(stiff):
-        loaded = f", full load after {with_unit(cold, 's', DIGITS)}" if stiff < cold < math.inf else ""
-        yield f"stiff {value('stiffening_time')} later{loaded}"
+        loaded = f", full load in {with_unit(cold, 's', DIGITS)}" if stiff < cold < math.inf else ""
+        yield f"then stiff in {value('stiffening_time')}{loaded}"
     elif math.isfinite(soft):
         yield "never stiff again"
 

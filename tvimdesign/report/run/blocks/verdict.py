@@ -195,7 +195,7 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     if not uncertainty:
         return Verdict("unassessed", f"{'Every limit is met' if answer.solution is None else 'Optimum found'}{but}")
     together = (uncertainty.get("ranges_hold") or {}).get("share", 1.0)
-    few = f", as {meet_every_limit(uncertainty)}" if together < DOUBT else ""
+    few = f"{meet_every_limit(uncertainty)}; " if together < DOUBT else ""
     decided = limits_in_doubt(uncertainty, share_in_doubt(plausible)) or limits_in_doubt(uncertainty, 1.0 if few else 0)
     if not decided:
         return Verdict("build", f"Build it{but}{made_for}")
@@ -204,7 +204,7 @@ def _fit(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence
     more = f"{f'; {what_else}' if what_else else ''}{'' if few else made_for}"
     if together < SELDOM:
         return Verdict("measure", f"First {what}: {meet_every_limit(uncertainty)}{more}")
-    return Verdict("build_one", f"Build it, one module first{few}: {what}{more}")
+    return Verdict("build_one", f"Build it, one module first: {few}{what}{more}")
 
 
 def meet_every_limit(uncertainty: Mapping[str, Any]) -> str:
@@ -234,13 +234,13 @@ def least_shares(uncertainty: Mapping[str, Any]) -> dict[str, float]:
 
 def _to_measure(names: Sequence[str], answer: StudyResult) -> str:
     """Say what to measure: all inputs, or the first and how many more there are; a printer's by its test pieces."""
-    design, inputs, most = answer.design, [f"the {label(name)}" for name in names], _MOST_NAMED
-    words = "measure"
-    if names[0] in TESTED and design.choices["making_method"] != "milled":
-        words, most = "print the test pieces and measure", 1
-    if len(inputs) <= most + 1:
-        return f"{words} {' and '.join(filter(None, [', '.join(inputs[:-1]), inputs[-1]]))}"
-    return f"{words} {', '.join(inputs[:most])} and {len(inputs) - most} others (summary.txt)"
+    inputs = [f"the {label(name)}" for name in names]
+    if names[0] in TESTED and answer.design.choices["making_method"] != "milled":
+        others = f", and measure {len(inputs) - 1} others (summary.txt)" if len(inputs) > 2 else ""
+        return f"print the test pieces for {inputs[0]}{others or ', and measure '.join(['', *inputs[1:]])}"
+    if len(inputs) <= _MOST_NAMED + 1:
+        return f"measure {' and '.join(filter(None, [', '.join(inputs[:-1]), inputs[-1]]))}"
+    return f"measure {', '.join(inputs[:_MOST_NAMED])} and {len(inputs) - _MOST_NAMED} others (summary.txt)"
 
 
 def starts_in_words(answer: StudyResult) -> list[str]:
