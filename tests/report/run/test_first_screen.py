@@ -182,7 +182,7 @@ def test_requirements_without_a_line_are_counted_or_named():
     unsure = replace(loose[3], met_in=0.8)
     table = [replace(row, met_in=0.7) for row in (tight, loose[0])]
     assert requirement_lines([unsure, *table, loose[1]], 100, 4)[-1] == (
-        "2 others are met; over plausible cases: loose 3 70 (<= 70 mm) in 80 % · 1 more"
+        "2 others are met; over plausible cases: loose 3 70 (<= 70 mm) in 80 % · loose 1 70 (<= 70 mm) in all"
     )
 
 
