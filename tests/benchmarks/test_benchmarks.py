@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 import switch
+import yaml
 from as_plain_python import by_hand, hand_module
 from contenders import Once, by_tvimdesign, lsoda
 from front import ManyDesigns
 from optimum import exact
 from reference_problem import Reference, study
+from support import ROOT
 
 from tvimdesign.device.components.hard_stops import SLIVER
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -67,7 +69,10 @@ def others(reference: Reference) -> list[np.ndarray]:
 
 @pytest.mark.gate
 def test_the_arithmetic_written_by_hand_is_the_tables(reference):
-    compared_rows = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in (*CONSTANT, *SEAT)]
+    names = yaml.safe_load((ROOT / "tests/cases/hand_rows.yaml").read_text("utf-8"))
+    place = {f"{limit.output} {limit.sense}": i for i, limit in enumerate(reference.limits, start=1)}
+    assert {name.split()[0] for name in place.keys() - set(names)} <= {*CONSTANT, *SEAT}
+    compared_rows = [place[name] for name in names]
     by_width = np.array([reference.limits[i - 1].output in BY_STOP_WIDTH for i in compared_rows])
     sizes = reference.model.outputs(["envelope_volume", "module_mass", "stop_width"])
     for design in [reference.begin, *reference.random_starts(3)]:
