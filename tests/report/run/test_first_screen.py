@@ -382,7 +382,7 @@ def test_a_share_asked_of_each_limit_is_compared_with_the_least():
         assert (
             fact.text
             == f"{meet} · others violate 1.1 of 3 limits on average · wall around the cover's screws met in 52 % "
-            f"· {more} limits in under {share} %"
+            f"· {more} limits are each met in under {share} %"
         )
 
 

@@ -272,7 +272,7 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
     needs = f"it needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
     least = share_in_doubt((study.get("robust") or {}).get("plausible"))
     count = sum(1.0 - share < least for share in missed)
-    more = f"{count} limits in under {percent(least)}" if count else ""
+    more = f"{count} limits are each met in under {percent(least)}" if count else ""
     worst = f"{label(name)} met in {percent(share, 2)}"
     return [Fact("Model", [meet_every_limit(uncertainty)], DOT.join(filter(None, [needs, others, worst, more])))]
 
