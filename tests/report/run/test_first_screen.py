@@ -137,7 +137,7 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name, width):
     assert all(row.doubt <= hidden[0].doubt for row in shown if hidden)
     if hidden:
         missed = sum(row.stands.startswith(("violated", "open")) for row in hidden)
-        which = r", (the tightest|and of plausible cases)"
+        which = r"(, the tightest|; over plausible cases)"
         others = "others" if shown else "requirements"
         met = "1 other is met" if len(hidden) == 1 else f"{len(hidden)} {others} are met"
         tightest = f"{met}{which}: {re.escape(hidden[0].cells[0])} {re.escape(hidden[0].got)}"
