@@ -116,7 +116,7 @@ def _of_frozen_turn(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarn
     say, but = (filled(hint.get(key, ""), places) for key in ("say", "but"))
     cure = _cure(answer, remedy) if answer.solution is not None else ""
     if cure in ("", remedy.words):  # sizes alone do not cure
-        cure = "; ".join([*([f"at the link, {cure}"] if cure else []), hint["else"]])
+        cure = "; ".join(filter(None, [cure, hint["else"]]))
     yield RunWarning(say, cure, hint.get("level", ""), but)
 
 
