@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 from support import cases_of
 
+from tvimdesign.cad.parts.jigs import TRIED
 from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import margin_text
 from tvimdesign.report.run.blocks.facts import heater_voltage
 from tvimdesign.report.run.blocks.more_facts import chosen_fact, stalling_in_words, time_over_rise
-from tvimdesign.report.run.blocks.verdict import TARGET, starts_in_words, verdict
+from tvimdesign.report.run.blocks.verdict import TARGET, TESTED, starts_in_words, verdict
 from tvimdesign.report.run.blocks.warnings import RunWarning, advice_text
 from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Side, Solution, SolverEffort, Standard, Start
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
@@ -222,3 +223,7 @@ def test_a_heater_that_needs_far_less_than_the_supply_is_stepped_down(volts, wor
     assert heater_voltage(answered, {"intervals": {"peak_voltage": entry(volts, (7.0, 8.0), None)}}) == words
     design.study["require"] = []
     assert heater_voltage(answered, {}) == f"{volts:.3g} V"
+
+
+def test_the_verdict_knows_what_the_test_pieces_try():
+    assert {name for name, _ in TRIED.values()} <= set(TESTED)
