@@ -89,7 +89,7 @@ def test_an_input_is_named_with_the_outputs_it_moves(answered):
     assert moves("wire_diameter", intervals) == []  # a hundredth is nothing to report
     unmeasured = [{"name": name, "value": 9.0, "low": 8.0, "high": 10.0, "unit": "mm", "status": "assumed"}
                   for name in ("wire_diameter", "core_radius")]  # fmt: skip
-    uncertainty = {"intervals": intervals, "unmeasured": unmeasured, "held": {"core_web >=": 0.5}}
+    uncertainty = {"intervals": intervals, "unmeasured": unmeasured, "held": {"core_web >=": 0.5}, "draws": 512}
     folded = assumptions_section(replace(answered, uncertainty=uncertainty)).blocks[-1]
     assert isinstance(folded, Folded)
     (grid,) = folded.blocks
@@ -104,7 +104,7 @@ def test_a_page_tells_how_sure_it_is_and_what_a_measurement_bought(answered):
     assert all("Manufacturing" not in str(block) for block in glance(answered))
     interval = {"value": 100.0, "low": 90.0, "high": 120.0, "unit": "s", "before": {"low": 40.0, "high": 240.0},
            "one_at_a_time": {"low": 95.0, "high": 110.0}, "shares": {}, "to_halve": []}  # fmt: skip
-    uncertainty = {"intervals": {"stiffening_rate": interval}, "unmeasured": [], "held": {}}
+    uncertainty = {"intervals": {"stiffening_rate": interval}, "unmeasured": [], "held": {}, "draws": 512}
     table = assumptions_section(replace(answered, uncertainty=uncertainty)).blocks[0]
     assert isinstance(table, Grid)
     shown = dict(zip((head.text for head in table.heads), (cell.text for cell in table.rows[0]), strict=True))

@@ -133,7 +133,7 @@ def test_a_violation_below_rounding_is_not_shown_as_none():
     ("feasible", "converged", "optima", "words"),
     [
         (True, [False], 0, "no start converged, a later search did"),
-        (True, [True], 1, "from 1 start"),
+        (True, [True], 1, "1 start tried"),
         (False, [False], 0, "1 start, no design"),
         (False, [True, False], 1, "1 of 2 starts converged"),
     ],

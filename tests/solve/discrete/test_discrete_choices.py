@@ -137,7 +137,7 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(solution,
     # Margins may lead to another combination.
     second = choosing.best[1]
     share = second.objective / choosing.between.objective - 1.0
-    assert f"objective {share:+.1%} (both before margins)." in price_in_words(choosing, TABLE, second.choices)
+    assert f"objective {share:+.1%} (both without margins)." in price_in_words(choosing, TABLE, second.choices)
 
 
 @pytest.mark.gate

@@ -145,7 +145,7 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance():
     assert "no design found with a yield of 95 %" in message
     # d^4 with 0.05 mm at 2 mm against D with the coil's 2 to 3 %: the wire carries most of it.
     assert "spring_stiffness" in message
-    assert "its spread is of wire_diameter" in message
+    assert "spread by wire_diameter" in message
     assert re.search("At these sizes (no tolerance alone gives 95 %: )?(wire|coil) diameter with", message)
     data = {"parts_yield": {"share": yield_of(result).together}, "tolerances": "study"}
     (fact,) = _manufacturing(result, data)

@@ -67,13 +67,13 @@ quantities.phase_values("softening.quantities")
 
 @quantities.output("1", headline=True)
 def softened_range(m: Module) -> Scalar:
-    """Stiffness of the joint cold over that when the switch ends."""
+    """Stiffness of the joint cold over that when heating stops."""
     return m.joint_stiffness_at_cold / m.softened_stiffness
 
 
 @quantities.path(SOFTENING, "degC", "end")
 def sensed_temperature(m: Module) -> Scalar:
-    """Temperature at the thermistor when the switch ends: the layer's face, or the pads' outer side without a bead."""
+    """Temperature at the thermistor when heating stops: the layer's face, or the pads' outer side without a bead."""
     return np.where(m.thermistor_diameter > 0.0, m.stack_profile.near, m.stack_profile.cold)
 
 
@@ -100,7 +100,7 @@ def stiff_reach(m: Module) -> Scalar:
 
 @stiffenings.event(STIFFENING)
 def stiffening_time(m: Module) -> Scalar:
-    """Time from the end of the switch until the joint's impedance is within the stiffening band of its target.
+    """Time from when heating stops until the joint's impedance is within the stiffening band of its target.
 
     The target is the joint's impedance at the cold point unless it is stated.
     """
@@ -109,13 +109,13 @@ def stiffening_time(m: Module) -> Scalar:
 
 @stiffenings.event(EQUILIBRIUM_STIFFENING)
 def equilibrium_stiffening_time(m: Module) -> Scalar:
-    """Stiffening time if the layer froze where it melts: a claim, not a prediction."""
+    """Stiffening time if the layer froze where it melts, without supercooling; for comparison only."""
     return stiffening_time(m)
 
 
 @stiffenings.event(STIFFENING)
 def frozen_time(m: Module) -> Scalar:
-    """Time from the end of the switch until every slice of the layer is half frozen.
+    """Time from when heating stops until every slice of the layer is half frozen.
 
     The slices are in series: under a lasting load the joint creeps as its least frozen slice flows. The least is
     taken smoothly, by the mean of exp(-80 X), which is at most 0.03 of X below it.
@@ -146,7 +146,7 @@ def thresholds_apart(m: Module) -> Scalar:
 
 @stiffenings.event(STIFFENING)
 def far_face_cooling_time(m: Module) -> Scalar:
-    """Time from the end of the switch until the face at the rotor is down to the cold point's temperature."""
+    """Time from when heating stops until the face at the rotor is down to the cold point's temperature."""
     return (m.temperature_at_cold - m.stack_profile.far) / heat.TEMPERATURE_SCALE
 
 

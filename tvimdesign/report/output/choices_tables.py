@@ -21,13 +21,13 @@ def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | flo
     """
     if choosing.between is None or not choosing.best:
         return ""
-    between, margins = choosing.between, "" if own is None else " (both before margins)"
+    between, margins = choosing.between, "" if own is None else " (both without margins)"
     best = _own(choosing, own)
     if best is None:
         chosen = ", ".join(
             f"{name} {choice_text(name, own[name], table)}" for name in between.choices if own and name in own
         )
-        return f"The price of going standard is not known of {chosen}, which margins led to: it is not among the best."
+        return f"The price of listed sizes is not known of {chosen}, which margins led to: it is not among the best."
     moved = []
     for name, free in between.choices.items():
         value = best.choices[name]
@@ -37,10 +37,10 @@ def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | flo
             shown = f"{from_si(free, table.unit(name)):.4g}"
             moved.append(f"{name} {choice_text(name, value, table)} instead of {shown}")
     if not moved:
-        return "Going standard costs nothing: the best design has listed sizes anyway."
+        return "Listed sizes cost nothing: the best design has listed sizes anyway."
     cost = ", ".join(f"{name} {share:+.1%}" for name, share in shares(best, between).items())
     whole = best.objective / between.objective - 1.0
-    return f"The price of going standard: {', '.join(moved)}: {cost}; objective {whole:+.1%}{margins}."
+    return f"The price of listed sizes: {', '.join(moved)}: {cost}; objective {whole:+.1%}{margins}."
 
 
 def _own(choosing: Choosing, own: Mapping[str, str | float] | None) -> Standard | None:
@@ -83,7 +83,7 @@ def tally_in_words(choosing: Choosing) -> str:
     if not runs:
         return tally
     if not choosing.proven:
-        trust = "That none left out is better is as sure as the bounds; `--prove` solves every combination."
+        trust = "By their bounds the others are no better; `--prove` solves every combination."
     elif choosing.improved > _BETTER:
         trust = (
             f"Every combination was then solved, and one is {choosing.improved:.2%} better than branch and bound "

@@ -42,9 +42,9 @@ def in_labels(text: str) -> str:
 _NO_MARGIN = re.compile(r" >= 0( [^\s]+)?$")
 
 
-def at_its_least(text: str) -> str:
-    """Return a limit in labels: `wall of the posts at its least` for a margin that must not be negative."""
-    return in_labels(_NO_MARGIN.sub(" at its least", text))
+def at_its_minimum(text: str) -> str:
+    """Return a limit in labels: `wall of the posts at its minimum` for a margin that must not be negative."""
+    return in_labels(_NO_MARGIN.sub(" at its minimum", text))
 
 
 def axis_label(name: str, unit: str) -> str:

@@ -106,11 +106,11 @@ def print_grid(grid: Grid, console: Console, *, lines: bool = False) -> None:
     """Print a table that has rows, and its note; `lines` between rows of long texts."""
     if not grid.rows:
         return
-    table = Table(title=grid.caption or None, title_justify="left", title_style="bold", pad_edge=False,
-                  show_lines=lines, box=HORIZONTALS if lines else None, padding=(0, 2, 0, 0),
-                  header_style="dim")  # fmt: skip
+    table = Table(title=grid.caption or None, title_justify="left", title_style="bold", padding=(0, 2, 0, 0),
+                  show_lines=lines, box=HORIZONTALS if lines else None, pad_edge=False, header_style="dim")  # fmt: skip
     for i, head in enumerate(grid.heads):
-        table.add_column(head.text, justify="right" if head.right else "left", no_wrap=i == 0 and not lines)
+        table.add_column(head.text, justify="right" if head.right else "left", no_wrap=i == 0 and not lines,
+                         overflow="fold")  # fmt: skip
     for row in grid.rows:
         table.add_row(*(Text(cell.text, style=_STYLES[cell.tone]) for cell in row))
     console.print(table)

@@ -8,7 +8,7 @@ from typing import Any
 from tvimdesign.base.units import pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.choices_tables import choice_text
-from tvimdesign.report.output.numbers import at_its_least, csv_text, finite, label, listed
+from tvimdesign.report.output.numbers import at_its_minimum, csv_text, finite, label, listed
 from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
 from tvimdesign.solve.infeasibility.conflict_set import MARGIN_WORDS, conflict_in_words
 from tvimdesign.solve.nlp.solution import ActiveConstraint, ConflictSet, Side, Start
@@ -39,7 +39,7 @@ def sentences(answer: StudyResult) -> list[str]:
 def _sentence(held: ActiveConstraint) -> str:
     """Return `1 % more spring_stiffness (now >= 5.2 N·m/rad) costs 0.11 % module_mass and saves ...`."""
     more = "more" if ">=" in held.name else "less"
-    subject = f"{held.step} {more} {held.output} (now{at_its_least(held.text).removeprefix(label(held.output))})"
+    subject = f"{held.step} {more} {held.output} (now{at_its_minimum(held.text).removeprefix(label(held.output))})"
     if held.shadow_price > NO_ROOM:
         return f"{subject}: no room."
     if not held.sensitivity:

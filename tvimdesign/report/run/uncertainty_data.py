@@ -182,7 +182,7 @@ def below_yield(answer: StudyResult) -> str:
         return _not_in_time(answer, reached, limit)
     lines = [
         f"{answer.design.name}: no design found with a yield of {percent(reached.target)}; "
-        f"the best has {percent(reached.together)}. Most is lost to"
+        f"the best has {percent(reached.together)}. Most modules are lost to"
     ]
     lines += [f"  {lost_in_words(loss)}" for loss in reached.lost_to]
     ways = lever(reached, table_for(answer.design.mode))
@@ -233,8 +233,8 @@ def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float
 
 def lost_in_words(lost: LostTo) -> str:
     """Return a limit that too many modules violate, and the tolerances that carry its spread."""
-    named = [f"{name} {share:.0%}" for name, share in lost.carriers.items() if share >= _CARRIED]
-    return f"{lost.text}, which {percent(lost.share)} meet{'; its spread is of ' if named else ''}{', '.join(named)}"
+    named = [f"{name} ({100.0 * share:.0f} %)" for name, share in lost.carriers.items() if share >= _CARRIED]
+    return f"{lost.text}, met by {percent(lost.share)}{', spread by ' if named else ''}{', '.join(named)}"
 
 
 def _change(name: str, before: float, after: float, table: Table) -> str:

@@ -126,7 +126,7 @@ def bearing_play(m: Module) -> Scalar:
 
 @quantities.output("rad", headline=True)
 def lost_motion(m: Module) -> Scalar:
-    """Angle the link's end moves to either side of rest without the joint taking notice, all sources at their largest.
+    """Angle the link's end moves to either side of rest before springs or layer resist, all sources at their largest.
 
     Friction on the pins, play of the link on the core, and play of the core in the hub.
     """

@@ -8,7 +8,7 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import table_for
 from tvimdesign.device.core.task import ARM
 from tvimdesign.report.output.numbers import (
-    at_its_least,
+    at_its_minimum,
     in_labels,
     in_unit,
     label,
@@ -128,7 +128,7 @@ def _coldest(value: Values) -> str:
     entry = value.intervals.get("softened_temperature")
     known = entry is not None and None not in (entry["low"], entry["high"])
     ends = range_text({end: round(entry[end]) for end in ("low", "value", "high")}) if known else ""
-    return f"PCL above {reached:.0f} {pretty('degC')}{f' ({ends})' if ends else ''}"
+    return f"PCL heated above {reached:.0f} {pretty('degC')}{f' ({ends})' if ends else ''}"
 
 
 def _stroke(value: Values) -> Fact:
@@ -233,7 +233,7 @@ def _active_constraints(answer: StudyResult) -> list[Fact]:
     worth = f"{held[0].step} of the first is worth {held[0].shadow_price:.2g} % of the {of}"
     note = worth if held[0].shadow_price <= NO_ROOM else f"no room for {held[0].step} of the first"
     title = "Active constraints with margins" if answer.design.study.get("robust") else "Active constraints"
-    return [Fact(title, [at_its_least(constraint.text) for constraint in held], note, listing=True)]
+    return [Fact(title, [at_its_minimum(constraint.text) for constraint in held], note, listing=True)]
 
 
 def _manufacturing(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
@@ -268,11 +268,11 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     missed = [1.0 - met for met in uncertainty["held"].values()]
     each = sum(missed) / (1.0 - uncertainty["ranges_hold"]["share"])  # of the cases that violate any
-    others = f"others violate {each:.2g} of {len(missed)} limits on average"
-    needs = f"it needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
+    others = f"others violate {each:.2g} limits on average"
+    needs = f"needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
     least = share_in_doubt((study.get("robust") or {}).get("plausible"))
     count = sum(1.0 - share < least for share in missed)
-    more = f"{count} limits are each met in under {percent(least)}" if count else ""
+    more = f"{count} limits are each met in under {percent(least)} of these cases" if count else ""
     worst = f"{label(name)} met in {percent(share, 2)}"
     return [Fact("Model", [meet_every_limit(uncertainty)], DOT.join(filter(None, [needs, others, worst, more])))]
 

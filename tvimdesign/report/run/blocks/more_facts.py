@@ -79,8 +79,8 @@ def _cost(value: Values, choices: Mapping[str, str]) -> Iterator[str]:
 def _soft(answer: StudyResult) -> list[str]:
     """Say what soft means, and whether the layer stalls on the way."""
     stalling = stalling_in_words(answer.histories.get("softening"), answer.design.values["softening_time"])
-    notes = ("it counts stiffness and damping", "in a plausible case, of its own at the hot point",
-             "molten slices soften the PCL before its coldest melts")  # fmt: skip
+    notes = ("dynamic stiffness counts damping, too", "plausible cases have their own value at the hot point",
+             "the joint softens as slices of PCL melt, before the coldest has")  # fmt: skip
     return [soft_in_words(answer.design, table_for(answer.design.mode)), *notes, *filter(None, [stalling])]
 
 

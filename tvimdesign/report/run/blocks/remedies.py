@@ -14,7 +14,7 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.record import plain_data
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import Choice, Input, Table, table_for
-from tvimdesign.report.output.numbers import in_labels, with_unit
+from tvimdesign.report.output.numbers import in_labels, label, with_unit
 from tvimdesign.solve.nlp.constraints import advice_of, on_cycle, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult
@@ -85,7 +85,8 @@ class Remedies:
                     return ""
                 if sign * (most.value - limit.limit) > RULE_TOLERANCE:
                     value = with_unit(most.value, self._table.unit(limit.output), 3)
-                    return f"{value} is the {'most' if sign < 0.0 else 'least'} that {held_by(most)} allow"
+                    end = "most" if sign < 0.0 else "least"
+                    return f"{held_by(most)} limit the {label(limit.output)} to at {end} {value}"
         self._study = self._study.model_copy(update={"require": (*self._study.require, *added)})
         return None
 
@@ -100,7 +101,8 @@ class Remedies:
 
 def held_by(extreme: Extreme) -> str:
     """Return the limits and ranges that allow no more, the costliest, in words."""
-    return " and ".join(in_labels(text) for text in extreme.held_by[:_NAMED]) or "the study's limits"
+    texts = [text.removesuffix(" >= 0 mm") for text in extreme.held_by[:_NAMED]]
+    return in_labels(" and ".join(texts)) or "the study's limits"
 
 
 def _changes(entry: Mapping[str, Any], table: Table) -> dict[str, Any]:

@@ -45,7 +45,7 @@ def module_section(answered: AnsweredStudy) -> Section:
     if answer.has_design:
         blocks += [
             tables.points_grid(answer),
-            Folded("Way of the frozen torque", [tables.torque_path_grid(answer)]),
+            Folded("Load path of the frozen torque", [tables.torque_path_grid(answer)]),
             Folded("What the module is", [tables.module_grid(answer)]),
             Folded("Every limit that is active or required", [tables.checks_grid(answer)]),
         ]
@@ -58,7 +58,7 @@ def search_section(answered: AnsweredStudy) -> list[Section]:
     lines = _robustness(answer)
     if answer.solution is not None and answer.has_design:
         at_start = sum(answer.design.study["minimize"].values())
-        lines.insert(0, f"Objective {answer.solution.objective:.5g}, at the study's own start {at_start:.5g}.")
+        lines.insert(0, f"Objective {answer.solution.objective:.5g}; {at_start:.5g} at the study's first values.")
     blocks: list[Block] = [Points(lines)] if lines else []
     choosing, table = answer.solution.choosing if answer.solution else None, table_for(answer.design.mode)
     if choosing is not None and choosing.best:
@@ -78,7 +78,7 @@ def _robustness(answer: StudyResult) -> list[str]:
             "margin they show; `tvimdesign tolerate` checks that on many modules."
         ]
     worst = "; ".join(lost_in_words(lost) for lost in reached.lost_to) if reached else ""
-    return [in_labels(f"Most is lost to {worst}.")] if worst else []
+    return [in_labels(f"Most modules are lost to {worst}.")] if worst else []
 
 
 def reasons_section(answered: AnsweredStudy) -> Section:

@@ -49,7 +49,8 @@ def choices_grid(choosing: Choosing, table: Table) -> Grid:
         worse = (combination.objective / best.objective - 1.0, *shares(combination, best).values())
         rows.append((*choices, *(f"{share:+.1%}" for share in worse)))
     heads = (*best.choices, "objective", *best.values)
-    return grid("The best of what is listed, against the first", heads, rows, right=range(len(heads)), code=())
+    title = "Best combinations of what is listed, without margins, against the first"
+    return grid(title, heads, rows, right=range(len(heads)), code=())
 
 
 def points_grid(answer: StudyResult) -> Grid:
@@ -100,8 +101,8 @@ def torque_path_grid(answer: StudyResult) -> Grid:
         (name, number(torque), number(torque / against, 3) if against else "", table.output(name).description)
         for name, torque in sorted(borne.items(), key=lambda part: part[1])
     ]
-    safety = f"the structure's strengths over `holding_safety`, {number(values['holding_safety'])}"
-    title = f"Way of the frozen torque from link to ground, the weakest first, against {number(against)} N·m, {safety}"
+    safety = f", structure's strengths divided by {number(values['holding_safety'])}, `holding_safety`"
+    title = f"Load path of the frozen torque, weakest part first; safety against {number(against)} N·m{safety}"
     return grid(title, ("part", "bears [N·m]", "safety", "meaning"), rows, right=(1, 2))
 
 
@@ -137,7 +138,7 @@ def checks_grid(answer: StudyResult) -> Grid:
     shown = [check for check in answer.checks
              if check.origin == "require" or check.worst <= NOTHING or is_active(check, answer)]  # fmt: skip
     hidden = len(answer.checks) - len(shown)
-    note = f"{hidden} rules of the machine are not active." if hidden else ""
+    note = f"{hidden} built-in limits that are met and not active are not shown." if hidden else ""
     rows = []
     for check in shown:
         stands = "violated" if not check.met else "active" if is_active(check, answer) else "ok"
@@ -146,7 +147,7 @@ def checks_grid(answer: StudyResult) -> Grid:
         margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least
         value, unit = value_text(answer, check.output, table, rounded=True), pretty(table.unit(check.output))
         rows.append((stands, check.text, value, unit, margin, because))
-    heads = ("", "limit", "value", "unit", "margin", "because")
+    heads = ("", "limit", "value", "unit", "margin", "asked by, or what a violation means")
     return grid("Limits", heads, rows, right=(2, 4), code=(), toned=(0,), note=note)
 
 
@@ -154,12 +155,9 @@ _FAINT = 1e-6  # Share of a range below which a value in it is zero
 
 
 def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
-    """Return the range of each headline and requirement over unmeasured inputs, and what to measure first.
-
-    `for half` counts the fewest inputs to measure for half the width; results.json names them.
-    """
+    """Return the range of each headline and requirement over unmeasured inputs, and what to measure first."""
     measured = any(interval.get("before") for interval in intervals.values())
-    heads: tuple[str, ...] = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    heads: tuple[str, ...] = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "to halve")
     rows = []
     for output, interval in intervals.items():
         if interval["low"] == interval["high"]:
@@ -176,8 +174,9 @@ def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
                      *earlier))  # fmt: skip
     title = "Ranges of outputs over unmeasured inputs (95 %, all together)"
     note = (
-        "From `low` to `high` lie 95 % of cases with all inputs anywhere in their ranges. `one at a time` has one "
-        "input at the very end of its range, however seldom that is, and the others as assumed: it may reach further."
+        "From `low` to `high` lie 95 % of plausible cases, which have each input anywhere in its range. `one at a "
+        "time` has one input at the end of its range and the others as assumed: it may reach further. To know `measure "
+        "first` takes away its `share` of the variance; `to halve` is the number of inputs that halve the range."
     )
     heads += ("before measuring",) if measured else ()
     return grid(title, heads, rows, right=(1, 2, 3, 7), code=(0, 6), note=note)
@@ -225,14 +224,14 @@ def held_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any], least: 
         test = source.partition("test: ")[2] or ("its maker's sheet, or the built part" if source else "the built part")
         name = first if label(first) == first.replace("_", " ") else f"{first}: {label(first)}"
         rows.append((name or "no single input", assumed.get(first, ""), met, test))
-    heads = ("measure first", "assumed (range)", "limits met in a share of cases", "test")
+    heads = ("measure first", "assumed (range)", "limits, met in a share of the cases", "test")
     note = (
         "Before any order: print cad/print/test_pieces.3mf twice and measure it by docs/how-to/my-printer.md; set what "
         "was measured in the study of `tvimdesign new measured.yaml --from FOLDER`, which keeps all chosen sizes, and "
         "run it: a wall or gap redraws what follows from it. Then order springs and heaters, and print the parts. The "
         "others: on the first module, or by the maker's sheet; with `--built` its parts stay as drawn."
     )
-    title = f"Measure first: what decides on limits that are met in under {percent(least)} of the plausible cases"
+    title = f"Measure first: for limits met in under {percent(least)} of {uncertainty['draws']} plausible cases"
     return grid(title, heads, rows, code=(), note=note)
 
 
@@ -243,4 +242,5 @@ def doubts_grid(uncertainty: Mapping[str, Any], table: Table) -> Grid:
         for name, share in least_shares(uncertainty).items()
     ]
     note = "Parts and gaps: cad/views/section.png, a cut through the axis; the module in report.html, which opens."
-    return grid("Limits not met in all cases", ("limit on", "met in", "meaning"), rows, right=(1,), note=note)
+    title = f"Limits not met in all {uncertainty['draws']} plausible cases"
+    return grid(title, ("limit on", "met in", "meaning"), rows, right=(1,), note=note)

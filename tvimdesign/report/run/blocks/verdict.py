@@ -255,6 +255,6 @@ def starts_in_words(answer: StudyResult) -> list[str]:
     if not optima:
         return ["no start converged, a later search did"]
     if started == 1:
-        return ["from 1 start"]
+        return ["1 start tried"]
     agree = answer.solution.reached(optima[0])
     return [f"found by 1 of {started} starts" if agree == 1 else f"{agree} of {started} starts agree"]

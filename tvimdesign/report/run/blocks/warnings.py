@@ -183,11 +183,9 @@ def _of_the_search(answer: StudyResult) -> Iterator[RunWarning]:
     distinct = solution.distinct_optima()  # none if only a search from elsewhere ended in an optimum
     best, others = distinct[:1], distinct[1:]
     if others:
-        count = sum(solution.reached(start) for start in others)
-        yield _other(
-            "another_optimum", count=str(count), all=str(len(solution.free_starts)),
-            objective=f"{others[0].objective:.5g}", best=f"{best[0].objective:.5g}",
-        )  # fmt: skip
+        objective, least = (f"{start.objective:.5g}" for start in (others[0], best[0]))
+        stage = " before margins" if answer.design.study.get("robust") else ""
+        yield _other("another_optimum", objective=objective, best=least, stage=stage)
     for line in endings(solution.free_starts):
         yield _other("not_converged", line=line)
 
