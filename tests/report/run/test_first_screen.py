@@ -381,7 +381,8 @@ def test_a_share_asked_of_each_limit_is_compared_with_the_least():
         (fact,) = _model(uncertainty, {"robust": robust})
         share = max(75, round(100 * (robust or {}).get("plausible", 0)))
         assert (
-            fact.text == f"{meet} · others violate 1.1 limits on average · wall around the cover's screws met in 52 % "
+            fact.text
+            == f"{meet} · the others violate 1.1 limits on average · wall around the cover's screws met in 52 % "
             f"· {more} limits are each met in under {share} % of these cases"
         )
 

@@ -15,7 +15,7 @@ from typing import Any
 from tvimdesign.base.record import own_data
 from tvimdesign.base.units import from_si, pretty, si_unit
 
-_CAPITALS = {"pcl": "PCL"}
+_CAPITALS = {"pcl": "PCL", "youngs": "Young's"}
 _NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^[a-z]+(?= [<>]=)")
 
 
@@ -39,7 +39,7 @@ def in_labels(text: str) -> str:
     return _NAME.sub(lambda match: label(match[0]), text)
 
 
-_NO_MARGIN = re.compile(r" >= 0( [^\s]+)?$")
+_NO_MARGIN = re.compile(r" >= 0( [^\s,]+)?(?=$|,)")
 
 
 def at_its_minimum(text: str) -> str:

@@ -239,7 +239,7 @@ def lost_in_words(lost: LostTo) -> str:
 
 def _change(name: str, before: float, after: float, table: Table) -> str:
     unit = table.unit(name)
-    change = f"{name} {in_unit(before, unit, _DIGITS)} to {with_unit(after, unit, _DIGITS)}"
+    change = f"{label(name)} from {in_unit(before, unit, _DIGITS)} to {with_unit(after, unit, _DIGITS)}"
     if not (math.isfinite(before) and math.isfinite(after) and before):
         return change.rstrip()
     return f"{change.rstrip()} ({100.0 * (after / before - 1.0):+.2g} %)"

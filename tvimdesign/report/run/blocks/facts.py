@@ -111,7 +111,7 @@ def _times(value: Values) -> Iterator[str]:
     """Yield when the joint is soft, and, from the end of heating, when it is stiff and when it may be loaded fully."""
     names = ("response_time", "softening_time", "stiffening_time", "far_face_cooling_time")
     heated, soft, stiff, cold = (value.values[name] for name in names)
-    by_criterion = "" if soft == heated else f"{value('response_time')}, by impedance "
+    by_criterion = "" if soft == heated else f"{value('response_time')}, by stiffness "
     yield "never soft" if math.isinf(soft) else f"softening time {by_criterion}{value('softening_time')}"
     if math.isfinite(stiff):
         loaded = f", full load in {with_unit(cold, 's', DIGITS)}" if stiff < cold < math.inf else ""
@@ -268,7 +268,7 @@ def _model(uncertainty: Mapping[str, Any], study: Mapping[str, Any]) -> list[Fac
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     missed = [1.0 - met for met in uncertainty["held"].values()]
     each = sum(missed) / (1.0 - uncertainty["ranges_hold"]["share"])  # of the cases that violate any
-    others = f"others violate {each:.2g} limits on average"
+    others = f"the others violate {each:.2g} limits on average"
     needs = f"needs {uncertainty['needs']}" if uncertainty.get("needs") else ""
     least = share_in_doubt((study.get("robust") or {}).get("plausible"))
     count = sum(1.0 - share < least for share in missed)

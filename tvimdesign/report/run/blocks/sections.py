@@ -7,7 +7,7 @@ from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
 from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
-from tvimdesign.report.output.numbers import in_labels, percent
+from tvimdesign.report.output.numbers import at_its_minimum, in_labels, percent
 from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
@@ -78,7 +78,7 @@ def _robustness(answer: StudyResult) -> list[str]:
             "margin they show; `tvimdesign tolerate` checks that on many modules."
         ]
     worst = "; ".join(lost_in_words(lost) for lost in reached.lost_to) if reached else ""
-    return [in_labels(f"Most modules are lost to {worst}.")] if worst else []
+    return [at_its_minimum(f"Most modules are lost to {worst}.")] if worst else []
 
 
 def reasons_section(answered: AnsweredStudy) -> Section:
