@@ -113,7 +113,7 @@ def _others(rows: Sequence[Requirement], what: str, met: str, width: int, most: 
     if what == "others" or len(lines) <= most:
         return lines
     return terminal.wrapped(
-        f"{count}; {rows[0].cells[0]} in {_in_share(rows[0])} of plausible cases", width, indent="  "
+        f"{count}; {rows[0].cells[0]} met in {_in_share(rows[0])} of plausible cases", width, indent="  "
     )
 
 

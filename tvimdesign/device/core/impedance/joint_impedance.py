@@ -294,13 +294,13 @@ def set_angle(m: Module) -> Scalar:
 
 @holds.output("rad", per_point=True, headline=True)
 def backlash(m: Module) -> Scalar:
-    """Angle over which only the springs act right after the hold; none where the PCL is bonded to both its faces."""
+    """Angle over which only the springs act after the joint was held off rest; none where both faces bond the PCL."""
     return m.parting_share * m.set_angle
 
 
 @holds.output("1", per_point=True, headline=True)
 def relaxation_loss(m: Module) -> Scalar:
-    """Share of the impedance lost in the hold: of the torque of a quick turn from rest to where the joint was held.
+    """Share of the torque of a quick turn from rest that is lost once the joint was held where the turn ends.
 
     A bonded layer that has relaxed takes the whole torque of such a turn: it starts from the stress it has.
     """

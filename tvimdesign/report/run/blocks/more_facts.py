@@ -201,7 +201,7 @@ def _yield(answer: StudyResult, uncertainty: Mapping[str, Any], table: Table) ->
     if reached is not None:
         cost = ", ".join(changes(answer, reached.nominal, answer.design.values, table))
         parts.append(f"target {percent(reached.target)}, without margins {percent(reached.nominal_together)}")
-        parts.append(f"the margins cost {cost}")
+        parts.append(f"the margins take {cost}")
     elif share is not None and share["share"] < _GOOD and robust.get("share") is None:
         standard = "" if uncertainty["tolerances"] == "study" else "`tolerances: standard` and "
         raise_it = f"to raise it: {standard}`robust: {{yield: 95 %}}`"
