@@ -282,13 +282,14 @@ TO_SIZE = {
     "preload_spring": r"flat wire, [\d.]+ x [\d.]+ x [\d.]+ mm, .* waves, .* free, wound to order",
     "heater": r"to the outline of its STEP file; resistance [\d.]+ ohm each, .* W each, at [\d.]+ V",
     "liner": r"[\d.]+ mm thick, to the outline of its STEP file",
-    "filament": r"of 1\.75 mm", "cover_insert": r"M\d", "link_insert": r"M\d", "insert": r"M\d",
+    "filament": r"of 1\.75 mm",
+    **dict.fromkeys(("cover_insert", "link_insert", "retainer_insert", "adjuster_insert"), r"M\d"),
 }  # fmt: skip
 """Kinds that are made to sizes the bill tells, as no table of a maker was to be read."""
 RATED = {
     "thermal_grease", "heat_conducting_adhesive", "polyimide_film", "thread_locker", "motor_adhesive", "mould_release",
     "supply", "driver", "controller", "controller_supply", "wire_sleeve", "crimp_splice", "grease",
-    "divider_resistor",
+    "divider_resistor", "thread_patch",
 }  # fmt: skip
 """Kinds that any shop has, by a rating that the bill tells."""
 FIGURE = re.compile(r"\d+(\.\d+)? (°C|V|A)\b")

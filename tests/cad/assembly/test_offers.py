@@ -18,7 +18,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.catalog.category import CATEGORIES
 from tvimdesign.catalog.offers import QUOTE, offer_for, offers, total
 
-KINDS = {"thread_locker", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
+KINDS = {"thread_locker", "thread_patch", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
 KINDS |= {"preload_spring", "heater", "thermal_cutout", "controller_supply", "divider_resistor", "heater_wire"}
 KINDS |= {"crimp_splice", "wire_sleeve", "polyimide_film", "thermal_grease", "grease"}
 KINDS |= {"filament", "mould_release", "spreader", "liner", "motor_driver"}

@@ -255,11 +255,14 @@ def _polymer(design: Design, titles: Mapping[str, str]) -> Item:
 
 
 def _glues(design: Design) -> list[Item]:
-    """Return what else holds: the locking of screws in metal, and the motor's bonded parts."""
+    """Return what else holds: the locking of screws in metal and inserts, and the motor's bonded parts."""
     items, bears = [], rating(design, "structure_service_temperature")
     if design.choices["making_method"] == "milled":
         text = f"Thread-locking compound of medium strength for {bears}, for all screws in tapped metal"
         items.append(Item("thread_locker", 1, False, "", text, 0.0, ()))
+    elif design.choices["thread_insert"] != "none":
+        text = f"Nylon patch for {bears} on the threads of all screws in inserts: compounds would crack plastics"
+        items.append(Item("thread_patch", 1, False, "", text, 0.0, ()))
     if design.values.get("drive_height", 0.0) > 0.0:
         text = f"Structural adhesive for {bears}, for the motor's rotor, stator and magnet"
         items.append(Item("motor_adhesive", 1, False, "", text, 0.0, ()))
