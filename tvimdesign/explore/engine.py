@@ -20,11 +20,11 @@ from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study, no
 from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.run.uncertainty_data import Uncertainty
+from tvimdesign.solve.anchored_search import NearOptimum, optimum_near
 from tvimdesign.solve.nlp import constraints
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.optimum_near import NearOptimum, optimum_near
 from tvimdesign.solve.optimizer.refinements import put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import exceeded, is_met, verify_optimum
 from tvimdesign.solve.result import ConstraintCheck

@@ -19,7 +19,6 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import table_for
 from tvimdesign.report.output.numbers import label
-from tvimdesign.report.run.blocks.remedies import Remedies, _changes
 from tvimdesign.report.run.blocks.warnings import (
     RunWarning,
     advice_text,
@@ -34,6 +33,7 @@ from tvimdesign.report.run.first_screen import warning_lines
 from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
 from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.remedies import Bound, Remedies, _changes
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
@@ -195,21 +195,24 @@ def test_a_requirement_is_tried_beside_the_remedies_before_it():
     design = nominal.design.model_copy(update={"study": study.model_dump(mode="json")})
     optimised = replace(nominal, design=design, solution=cast(Solution, SimpleNamespace()))
 
-    def tried(*lines: str) -> list[tuple[bool, str]]:
+    def tried(*lines: str) -> list[tuple[bool, Bound | None]]:
         remedies = Remedies(optimised, NEVER)
         each = [remedies.of(line.partition(":")[0], [f"require: {{{line}}}"]) for line in lines]
-        return [(remedy.tried, remedy.words) for remedy in each]
+        return [(remedy.tried, remedy.bound) for remedy in each]
 
-    ((possible, words),) = tried('layer_strain: "<= 1.6"')
+    ((possible, bound),) = tried('layer_strain: "<= 1.6"')
     assert not possible
-    ends = words.removesuffix(" limit the layer strain to at least 1.66").split(" and ")
-    assert set(ends) == {"the range of PCL thickness", "the range of PCL outer radius"}  # of the same price
-    assert tried('pcl_area: "<= 700 mm^2"') == [(True, "")]
-    thin, (possible, words) = tried('layer_strain: ">= 5.9"', 'pcl_area: "<= 700 mm^2"')
-    assert thin == (True, "")
+    assert bound
+    assert bound[:2] == ("layer_strain", False)
+    assert bound.extreme.value == pytest.approx(1.664)
+    assert set(bound.extreme.held_by[:2]) == {"the range of pcl_thickness", "the range of pcl_outer_radius"}
+    assert tried('pcl_area: "<= 700 mm^2"') == [(True, None)]
+    thin, (possible, bound) = tried('layer_strain: ">= 5.9"', 'pcl_area: "<= 700 mm^2"')
+    assert thin == (True, None)
     assert not possible
-    assert 700.0 < float(words.partition(" to at least ")[2].partition(" ")[0]) < 900.0
-    assert tried('peak_power: "<= 9 W"') == [(False, "")]  # it depends on the switch
+    assert bound
+    assert 700e-6 < bound.extreme.value < 900e-6
+    assert tried('peak_power: "<= 9 W"') == [(False, None)]  # it depends on the switch
 
 
 def test_a_remedy_with_a_unit_is_tried_in_si():

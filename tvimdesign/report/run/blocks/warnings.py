@@ -11,11 +11,11 @@ from tvimdesign.base.record import own_data, plain_data
 from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.cad.assembly.heater_leads import fuse_to_ask_for
 from tvimdesign.device import Table, table_for
-from tvimdesign.report.output.numbers import label
+from tvimdesign.report.output.numbers import held_by, label, with_unit
 from tvimdesign.report.output.terminal import duration
-from tvimdesign.report.run.blocks.remedies import Remedies, Remedy
 from tvimdesign.report.run.reasons import endings
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
+from tvimdesign.solve.remedies import Remedies, Remedy
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.design import Design
 
@@ -115,7 +115,7 @@ def _of_frozen_turn(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarn
     remedy = remedies.of("joint_stiffness_in_play", [filled(hint["mend"], places)])
     say, but = (filled(hint.get(key, ""), places) for key in ("say", "but"))
     cure = _cure(answer, remedy) if answer.solution is not None else ""
-    if cure in ("", remedy.words):  # sizes alone do not cure
+    if not cure or remedy.bound:  # sizes alone do not cure
         cure = "; ".join(filter(None, [cure, hint["else"]]))
     yield RunWarning(say, cure, hint.get("level", ""), but)
 
@@ -125,7 +125,11 @@ def _cure(answer: StudyResult, remedy: Remedy) -> str:
     if answer.solution is None and remedy.line.startswith("require:"):
         return f"{_VARY} {remedy.line}"
     how = "write" if remedy.tried else _OTHER_SIZES if remedy.failed else "may help:"
-    return f"{how} {remedy.line}" if remedy.line else remedy.words
+    if remedy.bound is None:
+        return f"{how} {remedy.line}" if remedy.line else ""
+    output, is_most, (value, limits) = remedy.bound
+    most = with_unit(value, table_for(answer.design.mode).unit(output), 3)
+    return f"{held_by(limits)} limit the {label(output)} to at {'most' if is_most else 'least'} {most}"
 
 
 def _of_advice(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarning]:
